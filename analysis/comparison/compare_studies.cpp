@@ -15,6 +15,8 @@
 #include "analysis/comparison/matching.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
+#include "analysis/goal/goal_text.hpp"
+#include "analysis/goal/question.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/keys/manifest_keys.hpp"
 #include "results/layout/header.hpp"
@@ -218,22 +220,23 @@ constexpr const char* expected_goal = "expected one such as goal: {band: 1, with
 /// The goal of the manifest.
 std::optional<study::Goal> goal_of(const reading::AllTrialsFile& file,
                                    const manifest_text::ManifestValues& values) {
-  const bool has_goal = std::any_of(values.begin(), values.end(),
-                                    [](const auto& value) { return keys::is_within(value.first, "goal"); });
-  return has_goal ? file.study().goal : std::nullopt;
+  const bool has_goal = std::any_of(values.begin(), values.end(), [](const auto& value) {
+    return keys::is_within(value.first, "goal") || keys::is_within(value.first, "goals");
+  });
+  if (!has_goal) return std::nullopt;
+  goal::require_one_goal(file.study(), file.path().string());
+  return file.study().goals.front();
 }
 
 /// The goal as the moves of the file are counted by it.
-/// @throws Failure (bad_data) where the file does not have its error band
+/// @throws Failure (bad_data) where the file does not have what it is judged by
 TrialGoal counted_in(const reading::AllTrialsFile& file, const study::Goal& goal) {
-  const std::span<const std::int64_t> bands = file.features().bands.values();
-  const auto band = std::find(bands.begin(), bands.end(), goal.band);
-  if (band != bands.end()) return {goal, {static_cast<std::size_t>(band - bands.begin()), goal.within}};
-  throw Failure(ExitCode::bad_data,
-                fmt::format("{}: it cannot be judged by the goal of the other: it has no error band of {} "
-                            "counts; expected a study with that band in verdict.bands, or measures without "
-                            "the goal",
-                            file.path().string(), goal.band));
+  if (const auto counted = measures::counted_by(goal, file.features())) return {goal, *counted};
+  throw Failure(
+      ExitCode::bad_data,
+      fmt::format("{}: it cannot be judged by the goal of the other ({}): it lacks its band, tolerance or "
+                  "limits; expected a study that measures them, or measures without the goal",
+                  file.path().string(), goal::goal_sentence(goal)));
 }
 
 /// The goal that a requirement asks for.

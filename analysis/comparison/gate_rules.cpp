@@ -118,7 +118,7 @@ std::vector<RequirableQuantity> requirable_quantities() {
 std::optional<RequirableQuantity> find_requirable(std::string_view name) {
   std::vector<RequirableQuantity> quantities = requirable_quantities();
   if (const std::optional<std::int64_t> band = band_in(name))
-    add_band_quantities(quantities, layout::measure_table({.limits = {*band}, .count = 1}));
+    add_band_quantities(quantities, layout::measure_table({.bands = {.limits = {*band}, .count = 1}}));
   const auto found = find_named(quantities, name);
   return found == quantities.end() ? std::nullopt : std::optional(*found);
 }

@@ -69,7 +69,7 @@ ComparedValues paired_values(const PointTrials& baseline, const PointTrials& cur
 /// The proportion of the moves of each trial that meet the goal, [trial].
 std::vector<double> moves_in_goal(const PointTrials& trials) {
   std::vector<double> met = trials.judged->moves_in_goal;
-  for (double& value : met) value /= static_cast<double>(trials.moves);
+  for (double& value : met) value /= static_cast<double>(trials.judged->asked_moves(trials.moves));
   return met;
 }
 
@@ -81,7 +81,7 @@ std::vector<double> rigs_in_goal(const PointTrials& trials) {
   std::vector<double> moves(rigs, 0.0);
   for (std::size_t trial = 0; trial < goal.moves_in_goal.size(); ++trial) {
     met[trial % rigs] += goal.moves_in_goal[trial];
-    moves[trial % rigs] += static_cast<double>(trials.moves);
+    moves[trial % rigs] += static_cast<double>(goal.asked_moves(trials.moves));
   }
   for (std::size_t rig = 0; rig < rigs; ++rig)
     met[rig] = met[rig] >= goal.goal.moves * moves[rig] ? 1.0 : 0.0;

@@ -26,7 +26,9 @@ void add_goal_times(PointTrials& trials, std::span<const trial::MoveOutcome> out
   std::vector<double>& times = trials.values["goal_settling_time"];
   for (const trial::MoveOutcome& move : outcomes) {
     const double time = measures::settling_time(trials.judged->counted, move);
-    times.push_back(std::isnan(time) ? std::numeric_limits<double>::infinity() : time);
+    times.push_back(!measures::asks(trials.judged->counted, move) ? statistics::unknown
+                    : std::isnan(time)                            ? std::numeric_limits<double>::infinity()
+                                                                  : time);
   }
 }
 

@@ -20,6 +20,9 @@ namespace zerocount::comparison {
 struct TrialGoal {
   study::Goal goal{};
   measures::CountedGoal counted{};
+
+  /// Number of moves of a trial that it is about. @param moves of a trial
+  std::int64_t asked_moves(std::int64_t moves) const { return measures::asked_moves(counted, moves); }
 };
 
 /// The trials of one design point as a goal counts them.

@@ -144,7 +144,7 @@ RequirementSample goal_sample(const PointTrials& trials) {
   sample.events.assign(units, 0.0);
   for (std::size_t trial = 0; trial < counted.moves_in_goal.size(); ++trial) {
     sample.hits[trial % units] += counted.moves_in_goal[trial];
-    sample.events[trial % units] += static_cast<double>(trials.moves);
+    sample.events[trial % units] += static_cast<double>(counted.asked_moves(trials.moves));
   }
   if (!goal.machines) return by_group(std::move(sample), trials.rigs);
   for (std::size_t rig = 0; rig < units; ++rig) {

@@ -14,11 +14,14 @@ namespace zerocount::goal {
 
 using numerics::first_where;
 
-ObservedWorld::ObservedWorld(const study::Goal& goal, measures::MoveCounts counts, std::size_t points)
+ObservedWorld::ObservedWorld(const study::Goal& goal, measures::MoveCounts counts, std::size_t points,
+                             std::size_t parts)
     : goal_(goal),
       counts_(std::move(counts)),
       points_(points),
-      confidence_(statistics::confidence_of_each(goal.confidence, points)),
+      parts_(parts),
+      confidence_low_(statistics::confidence_of_each(goal.confidence, points)),
+      confidence_high_(statistics::confidence_of_each(goal.confidence, points * parts)),
       sums_(measures::clusters_of(counts_)) {
   if (!goal_.machines) {
     const double worth = statistics::effective_events(sums_);
@@ -60,8 +63,8 @@ double ObservedWorld::planned_events(const PlannedSize& planned) const {
                         (between + 1.0 / (moves * static_cast<double>(planned.more_on_each_rig)));
   if (sums_.clusters == sums_.events) return events;
   // The bounds use Student's distribution, because the differences between clusters are estimated.
-  const double t = statistics::student_t_quantile(static_cast<double>(planned.units - 1), confidence_) /
-                   statistics::student_t_quantile(std::max(1.0, events - 1.0), confidence_);
+  const double t = statistics::student_t_quantile(static_cast<double>(planned.units - 1), confidence_high_) /
+                   statistics::student_t_quantile(std::max(1.0, events - 1.0), confidence_high_);
   return std::max(1.0, events / (t * t));
 }
 
@@ -71,7 +74,7 @@ Chances ObservedWorld::of_moves(const PlannedSize& planned) const {
     const auto k = static_cast<double>(hits);
     const measures::MoveCounts counts{
         .moves = n, .met = hits, .of_trials = {n, hits, n, k, k, static_cast<double>(n)}, .rigs = {}};
-    return judge_goal(goal_, counts, points_).status;
+    return judge_goal(goal_, counts, points_, parts_).status;
   };
   const std::int64_t met =
       first_where(0, n + 1, [&](std::int64_t hits) { return status(hits) == Status::met; });
@@ -99,13 +102,16 @@ Chances ObservedWorld::of_machines(const PlannedSize& planned) {
   rig.trials *= planned.more_on_each_rig;
   rig.moves *= planned.more_on_each_rig;
   const std::int64_t rigs = planned.units;
-  const statistics::RigThresholds thresholds =
-      statistics::rig_thresholds(rig, rigs, goal_.moves, *goal_.machines, confidence_);
+  const auto thresholds = [&](double confidence) {
+    return statistics::rig_thresholds(rig, rigs, goal_.moves, *goal_.machines, confidence);
+  };
+  const statistics::RigThresholds of_low = thresholds(confidence_low_);
+  const statistics::RigThresholds of_high = thresholds(confidence_high_);
   const std::int64_t met = first_where(0, rigs + 1, [&](std::int64_t passing) {
-    return statistics::rigs_at_least(thresholds, passing, rigs, confidence_) >= *goal_.machines;
+    return statistics::rigs_at_least(of_low, passing, rigs, confidence_low_) >= *goal_.machines;
   });
   const std::int64_t not_missed = first_where(0, rigs + 1, [&](std::int64_t passing) {
-    return statistics::rigs_at_most(thresholds, passing, rigs, confidence_) >= *goal_.machines;
+    return statistics::rigs_at_most(of_high, passing, rigs, confidence_high_) >= *goal_.machines;
   });
   const auto chance = [&](std::int64_t threshold, std::int64_t passing) {
     if (passing > rigs) return 0.0;
@@ -114,7 +120,7 @@ Chances ObservedWorld::of_machines(const PlannedSize& planned) {
         rigs_passing(threshold, planned.more_on_each_rig) / static_cast<double>(counts_.rigs.size());
     return statistics::binomial_upper_tail(rigs, std::clamp(p, 0.0, 1.0), passing - 1);
   };
-  return {chance(thresholds.low, met), 1.0 - chance(thresholds.high, not_missed)};
+  return {chance(of_low.low, met), 1.0 - chance(of_high.high, not_missed)};
 }
 
 }  // namespace zerocount::goal

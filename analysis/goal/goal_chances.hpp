@@ -35,8 +35,8 @@ struct Chances {
 /// probability.
 class ObservedWorld {
  public:
-  /// @param counts of one world, with moves @param points as of judge_goal()
-  ObservedWorld(const study::Goal& goal, measures::MoveCounts counts, std::size_t points);
+  /// @param counts of one world, with moves @param points, parts as of judge_goal()
+  ObservedWorld(const study::Goal& goal, measures::MoveCounts counts, std::size_t points, std::size_t parts);
 
   Chances chances_of(const PlannedSize& planned);
 
@@ -54,7 +54,8 @@ class ObservedWorld {
   study::Goal goal_;
   measures::MoveCounts counts_;
   std::size_t points_;
-  double confidence_;  ///< of each bound
+  std::size_t parts_;
+  double confidence_low_, confidence_high_;  ///< of the bounds
   statistics::ClusterSums sums_;
   Proportions of_all_moves_{};
   std::map<std::int64_t, std::int64_t>

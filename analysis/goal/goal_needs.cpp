@@ -61,7 +61,8 @@ constexpr std::int64_t max_more_trials = 1024;  ///< times the trials of a rig t
 /// The worlds of a study, or the study itself. Worlds in which the same was observed have the same chances.
 class ObservedStudy {
  public:
-  ObservedStudy(const study::Goal& goal, const std::vector<measures::MoveCounts>& worlds, std::size_t points)
+  ObservedStudy(const study::Goal& goal, const std::vector<measures::MoveCounts>& worlds, std::size_t points,
+                std::size_t parts)
       : worlds_(std::ssize(worlds)) {
     std::map<std::array<double, 3>, std::size_t> known;  // of worlds without rigs
     for (const measures::MoveCounts& world : worlds) {
@@ -71,7 +72,7 @@ class ObservedStudy {
       if (!is_new && world.rigs.empty()) {
         ++different_[at->second].second;
       } else {
-        different_.emplace_back(ObservedWorld(goal, world, points * static_cast<std::size_t>(worlds_)), 1);
+        different_.emplace_back(ObservedWorld(goal, world, points, parts * worlds.size()), 1);
       }
     }
   }
@@ -98,11 +99,11 @@ class ObservedStudy {
 }  // namespace
 
 Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
-               double probability) {
+               double probability, std::size_t parts) {
   const std::vector<measures::MoveCounts> all =
       counts.worlds > 0 ? measures::in_worlds(counts) : std::vector{counts};
   if (std::ranges::any_of(all, [](const measures::MoveCounts& world) { return world.moves == 0; })) return {};
-  ObservedStudy observed(goal, all, points);
+  ObservedStudy observed(goal, all, points, parts);
   const std::int64_t worlds = observed.worlds();
   const auto smallest_with = [&](std::int64_t most, std::int64_t more) {
     return smallest(2, most, [&](std::int64_t units) {
@@ -122,8 +123,7 @@ Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std:
 std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_rigs, std::int64_t moves,
                                     std::size_t points, std::int64_t worlds) {
   if (worlds > 0) {
-    std::vector<Needs> studies =
-        smallest_studies(goal, on_rigs, moves, points * static_cast<std::size_t>(worlds));
+    std::vector<Needs> studies = smallest_studies(goal, on_rigs, moves, points);
     for (Needs& one : studies) one = {one.rigs * worlds, one.trials * worlds};
     return studies;
   }

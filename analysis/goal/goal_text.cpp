@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/text/percent.hpp"
@@ -18,9 +19,30 @@ std::string with_bounds(const BoundedProportion& proportion) {
                      text::percent_at_most(proportion.high));
 }
 
+/// "|error| ≤ 1 count", "|position error| ≤ 1e-08 m".
 std::string band_text(const study::Goal& goal) {
+  if (goal.tolerance) return fmt::format("|position error| ≤ {:g}", *goal.tolerance);
   if (goal.band == 0) return "error 0";
   return fmt::format("|error| ≤ {} count{}", goal.band, goal.band == 1 ? "" : "s");
+}
+
+/// ", overshoot ≤ 200, peak_torque ≤ 45"; empty without limits.
+std::string limits_text(const study::Goal& goal) {
+  std::string text;
+  for (const study::GoalLimit& limit : goal.limits)
+    text += fmt::format(", {} ≤ {:g}", limit.measure, limit.largest);
+  return text;
+}
+
+/// "move 3", "moves 0 and 1"; empty where it is about all.
+std::string moves_text(const study::Goal& goal) {
+  if (goal.on.empty()) return {};
+  return fmt::format("move{} {}", goal.on.size() == 1 ? "" : "s", fmt::join(goal.on, ", "));
+}
+
+/// "large: ", the name of one of several goals.
+std::string name_text(const study::Goal& goal) {
+  return goal.name.empty() ? "" : goal.name + ": ";
 }
 
 std::string_view ending_of(trial::Outcome outcome) {
@@ -45,9 +67,7 @@ std::string_view ending_of(trial::Outcome outcome) {
 std::string readings_of_worlds(const study::Goal& goal, const Verdict& verdict) {
   const std::size_t worst = worst_worlds_first(goal, verdict).front();
   std::string text = fmt::format(
-      "  it must hold in each of {} worlds: met in {}, missed in {}, undecided in {} (each of them with a "
-      "part "
-      "of the error probability)\n",
+      "  it must hold in each of {} worlds: met in {}, missed in {}, undecided in {}\n",
       verdict.worlds.size(), worlds_that(Status::met, verdict).size(),
       worlds_that(Status::missed, verdict).size(), worlds_that(Status::undecided, verdict).size());
   if (goal.machines) {
@@ -63,31 +83,62 @@ std::string readings_of_worlds(const study::Goal& goal, const Verdict& verdict) 
 }  // namespace
 
 std::string goal_sentence(const study::Goal& goal) {
-  const std::string error = band_text(goal);
+  const std::string on = moves_text(goal);
+  const std::string moves = on.empty() ? "the moves" : "the repetitions of " + on;
   const std::string machines =
-      goal.machines ? fmt::format("the moves of at least {} of machines", text::percent(*goal.machines))
-                    : std::string("all moves of all machines");
-  return fmt::format("{} for good after {:.4g} s in at least {} of {}, with {} confidence", error,
-                     goal.within, text::percent(goal.moves), machines, text::percent(goal.confidence));
+      goal.machines
+          ? fmt::format("{} of at least {} of machines", moves, text::percent(*goal.machines))
+          : (on.empty() ? std::string("all moves") : "all repetitions of " + on) + " of all machines";
+  return fmt::format("{}{} for good after {:.4g} s{} in at least {} of {}, with {} confidence",
+                     name_text(goal), band_text(goal), goal.within, limits_text(goal),
+                     text::percent(goal.moves), machines, text::percent(goal.confidence));
+}
+
+std::string claim_sentence(const Question& question) {
+  std::vector<std::string> sentences;
+  for (const JudgedPart& part : question.parts) sentences.push_back(goal_sentence(*part.claim));
+  return fmt::format("{}", fmt::join(sentences, "; "));
 }
 
 std::string question_sentence(const Question& question) {
-  return question.claim() ? "the goal: " + goal_sentence(*question.claim())
-                          : std::string("success: all moves of a trial end at zero counts");
+  if (!question.claim()) return "success: all moves of a trial end at zero counts";
+  return (has_several(question) ? "the goals: " : "the goal: ") + claim_sentence(question);
 }
 
 std::string missing_text(const Question& question) {
   if (!question.claim()) return "does not end at zero counts";
-  return fmt::format("misses the goal: {} for good after {} s", band_text(*question.claim()),
-                     question.claim()->within);
+  if (has_several(question)) return "misses a goal";
+  return fmt::format("misses the goal: {} for good after {} s{}", band_text(*question.claim()),
+                     question.claim()->within, limits_text(*question.claim()));
 }
 
 std::string ending_text(const Question& question, std::span<const trial::MoveOutcome> moves) {
   if (!question.claim()) return std::string(ending_of(trial::worst_outcome(moves)));
+  const auto is_asked = [&](const trial::MoveOutcome& move) {
+    return std::ranges::any_of(question.parts,
+                               [&](const JudgedPart& part) { return measures::asks(part.counted, move); });
+  };
+  const auto asked = std::ranges::count_if(moves, is_asked);
   const auto met = std::ranges::count_if(moves, [&](const trial::MoveOutcome& move) {
-    return meets(question, {&move, 1});
+    return is_asked(move) && meets(question, {&move, 1});
   });
-  return fmt::format("{} of {} move{} the goal", met, moves.size(), moves.size() == 1 ? " meets" : "s meet");
+  return fmt::format("{} of {} move{} the goal{}", met, asked, asked == 1 ? " meets" : "s meet",
+                     has_several(question) ? "s" : "");
+}
+
+std::string goals_text(const Question& question, const measures::PointSummary& point,
+                       const Verdict& verdict) {
+  if (!has_several(question)) return readings_text(*question.claim(), point.goals.front(), verdict);
+  std::string text;
+  for (const JudgedPart& part : question.parts) {
+    const Verdict& one = verdict.goals[part.number];
+    text += fmt::format("  {}{}\n{}", name_text(*part.claim), text_of(one.status),
+                        readings_text(*part.claim, point.goals[part.number], one));
+  }
+  if (const auto all = rigs_meeting_all(question, point))
+    text +=
+        fmt::format("  machines that meet all goals together: {} of {}, as observed\n", all->rigs, all->of);
+  return text;
 }
 
 std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,

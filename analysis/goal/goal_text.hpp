@@ -12,6 +12,9 @@ namespace zerocount::goal {
 /// 95 % confidence".
 std::string goal_sentence(const study::Goal& goal);
 
+/// goal_sentence() of the goal, or of each of several.
+std::string claim_sentence(const Question& question);
+
 /// "the goal: |error| ≤ 1 count …", "success: all moves of a trial end at zero counts".
 std::string question_sentence(const Question& question);
 
@@ -19,6 +22,9 @@ std::string question_sentence(const Question& question);
 /// meet the goal in Goal::moves of their moves, and of rigs without a miss.
 std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,
                           const Verdict& verdict);
+
+/// The readings of the goal, or of each of several with its name and verdict. @param verdict on the point
+std::string goals_text(const Question& question, const measures::PointSummary& point, const Verdict& verdict);
 
 /// What a move does that does not meet the question: "misses the goal: |error| ≤ 1 count for good after 0.05
 /// s", "does not end at zero counts".

@@ -16,14 +16,24 @@ Status status_of(const BoundedProportion& proportion, double wanted) {
   return proportion.high < wanted ? Status::missed : Status::undecided;
 }
 
+/// The confidences of the bounds of one part.
+struct Confidences {
+  double low;   ///< a goal that must hold in every part is met where it is met in each: no correction
+  double high;  ///< it is missed where it is missed in one of the parts (Bonferroni)
+
+  Confidences(const study::Goal& goal, std::size_t points, std::size_t parts)
+      : low(statistics::confidence_of_each(goal.confidence, points)),
+        high(statistics::confidence_of_each(goal.confidence, points * parts)) {}
+};
+
 /// The verdict on one world, or on a study without worlds.
-Verdict judge_world(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
-  const double confidence = statistics::confidence_of_each(goal.confidence, points);
+Verdict judge_world(const study::Goal& goal, const measures::MoveCounts& counts,
+                    const Confidences& confidence) {
   const statistics::ClusterSums clusters = measures::clusters_of(counts);
   Verdict verdict;
   verdict.moves = {statistics::rate(counts.met, counts.moves),
-                   statistics::clustered_at_least(clusters, confidence),
-                   statistics::clustered_at_most(clusters, confidence)};
+                   statistics::clustered_at_least(clusters, confidence.low),
+                   statistics::clustered_at_most(clusters, confidence.high)};
   verdict.rigs_without_miss =
       std::count_if(counts.rigs.begin(), counts.rigs.end(),
                     [](const statistics::RigMoves& rig) { return rig.met == rig.moves; });
@@ -31,19 +41,24 @@ Verdict judge_world(const study::Goal& goal, const measures::MoveCounts& counts,
     verdict.status = status_of(verdict.moves, goal.moves);
     return verdict;
   }
-  const statistics::RigProportion rigs =
-      statistics::rig_proportion(counts.rigs, goal.moves, *goal.machines, confidence);
-  verdict.rigs_meeting = rigs.meeting;
-  verdict.machines = {statistics::rate(rigs.meeting, std::ssize(counts.rigs)), rigs.low, rigs.high};
+  const auto rigs = [&](double one) {
+    return statistics::rig_proportion(counts.rigs, goal.moves, *goal.machines, one);
+  };
+  const statistics::RigProportion low = rigs(confidence.low);
+  const double high = confidence.high == confidence.low ? low.high : rigs(confidence.high).high;
+  verdict.rigs_meeting = low.meeting;
+  verdict.machines = {statistics::rate(low.meeting, std::ssize(counts.rigs)), low.low, high};
   verdict.status = status_of(verdict.machines, *goal.machines);
   return verdict;
 }
 
-Verdict judge_worlds(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
+Verdict judge_worlds(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
+                     std::size_t parts) {
   const std::vector<measures::MoveCounts> worlds = measures::in_worlds(counts);
+  const Confidences confidence(goal, points, parts * worlds.size());
   Verdict verdict;
   for (const measures::MoveCounts& world : worlds) {
-    const Verdict one = judge_world(goal, world, points * worlds.size());
+    const Verdict one = judge_world(goal, world, confidence);
     const bool first = verdict.worlds.empty();
     verdict.moves = first ? one.moves : lowest(verdict.moves, one.moves);
     verdict.machines = first ? one.machines : lowest(verdict.machines, one.machines);
@@ -54,6 +69,29 @@ Verdict judge_worlds(const study::Goal& goal, const measures::MoveCounts& counts
   verdict.status =
       goal.machines ? status_of(verdict.machines, *goal.machines) : status_of(verdict.moves, goal.moves);
   return verdict;
+}
+
+double logit(double proportion) {
+  return std::log(proportion / (1.0 - proportion));
+}
+
+/// How far the lower bound of what the goal claims is above what it asks for.
+double margin_of(const study::Goal& goal, const Verdict& verdict) {
+  return goal.machines ? logit(verdict.machines.low) - logit(*goal.machines)
+                       : logit(verdict.moves.low) - logit(goal.moves);
+}
+
+/// From the worst status to the best.
+int rank_of(Status status) {
+  switch (status) {
+    case Status::missed:
+      return 0;
+    case Status::undecided:
+      return 1;
+    case Status::met:
+      break;
+  }
+  return 2;
 }
 
 }  // namespace
@@ -74,8 +112,28 @@ std::string_view text_of(Status status) {
   return "undecided";
 }
 
-Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points) {
-  return counts.worlds > 0 ? judge_worlds(goal, counts, points) : judge_world(goal, counts, points);
+Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
+                   std::size_t parts) {
+  Verdict verdict = counts.worlds > 0 ? judge_worlds(goal, counts, points, parts)
+                                      : judge_world(goal, counts, {goal, points, parts});
+  verdict.margin = margin_of(goal, verdict);
+  return verdict;
+}
+
+Verdict judge_goals(std::span<const study::Goal> goals, std::span<const measures::MoveCounts> counts,
+                    std::size_t points) {
+  std::vector<Verdict> each;
+  for (std::size_t i = 0; i < goals.size(); ++i)
+    each.push_back(judge_goal(goals[i], counts[i], points, goals.size()));
+  if (each.size() == 1) return each.front();
+  std::size_t worst = 0;
+  const auto place = [&](std::size_t i) { return std::pair(rank_of(each[i].status), each[i].margin); };
+  for (std::size_t i = 1; i < each.size(); ++i)
+    if (place(i) < place(worst)) worst = i;
+  Verdict verdict = each[worst];
+  verdict.goal = worst;
+  verdict.goals = std::move(each);
+  return verdict;
 }
 
 std::vector<std::size_t> worst_worlds_first(const study::Goal& goal, const Verdict& verdict) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -38,9 +39,10 @@ struct WorldVerdict {
 };
 
 /// Verdict on the goal at one design point, for all axes that the manifest describes. With worlds the
-/// proportions are those of the worst world, with bounds that hold for the lowest of all: the lowest of the
-/// bounds of each world, with the confidence 1 − (1 − γ)/worlds (Bonferroni). So the goal is met if it is met
-/// in every world, and missed if it is missed in one.
+/// proportions are those of the worst world: the lowest of all, and of the bounds. A goal is met if it is met
+/// in every world, each at the confidence γ: that a claim must hold in every part needs no correction for
+/// their number (intersection–union test; Berger, Technometrics 24 (1982) 295). It is missed if it is shown
+/// to be missed in one: the upper bounds have the confidence 1 − (1 − γ)/worlds (Bonferroni).
 struct Verdict {
   Status status{Status::undecided};
   BoundedProportion moves;       ///< of all moves of all axes that meet the goal (clustered_proportion.hpp)
@@ -49,12 +51,24 @@ struct Verdict {
   std::int64_t rigs_meeting{0};  ///< rigs that meet it in Goal::moves of their moves, as observed
   std::int64_t rigs_without_miss{0};   ///< rigs all of whose moves meet the goal
   std::vector<WorldVerdict> worlds{};  ///< [world]; empty without worlds
+  double margin{0.0};   ///< logit of the lower bound of what is claimed, minus that of what is asked for
+  std::size_t goal{0};  ///< of several, the worst: the one that all of this is of
+  std::vector<Verdict> goals{};  ///< [goal] each of several; empty of one
 };
 
 /// The verdict by Goal::machines, or by Goal::moves where the goal does not ask for machines.
 /// @param points number of design points from which the point was chosen by its trials; 1 if it was chosen
 /// before. The bounds have the confidence 1 − (1 − γ)/points (Bonferroni).
-Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points);
+/// @param parts that the goal is one of, all of which must be met: goals
+Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
+                   std::size_t parts = 1);
+
+/// The verdict on several goals, all of which must be met, as that of the worst: a missed one before an
+/// undecided one before one that is met; among equals the one whose lower bound is least above what it asks
+/// for, as the difference of the logits. The upper bounds allow for the number of goals (Bonferroni).
+/// @param counts [goal]
+Verdict judge_goals(std::span<const study::Goal> goals, std::span<const measures::MoveCounts> counts,
+                    std::size_t points);
 
 /// The worlds in order of their proportions, the worst first: of machines that meet the goal where it asks
 /// for them, else of moves.
@@ -76,7 +90,7 @@ inline constexpr double probability_of_needs = 0.9;
 /// likely (goal_chances.hpp). With rigs it has at most 10⁵ of them; they get more trials each where those
 /// that they have cannot tell rigs that meet the goal from others.
 Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
-               double probability = probability_of_needs);
+               double probability = probability_of_needs, std::size_t parts = 1);
 
 /// The smallest studies that can meet the goal, if no move misses it: with rigs the fewest rigs for several
 /// numbers of trials on each, without them one study. Empty if none of up to 10⁹ trials, or 10⁵ rigs, can.

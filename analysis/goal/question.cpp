@@ -57,6 +57,13 @@ double lateness(double time) {
   return std::isnan(time) ? std::numeric_limits<double>::infinity() : time;
 }
 
+/// The name of the settling time that a goal is about, or of a statistic of it.
+std::string name_of_settling(const study::Goal& goal, std::string_view statistic) {
+  return goal.tolerance
+             ? layout::name_of_tolerance(fmt::format("tolerance_settling_time{}", statistic), *goal.tolerance)
+             : layout::name_of_band(fmt::format("band_settling_time{}", statistic), goal.band);
+}
+
 /// The trials that succeed, each as one move.
 measures::MoveCounts successes_of(const measures::PointSummary& point) {
   measures::MoveCounts counts{
@@ -77,13 +84,32 @@ measures::MoveCounts successes_of(const measures::PointSummary& point) {
 }  // namespace
 
 Question question_of(const study::Study& study) {
-  return {.parts = {{.claim = study.goal, .counted = measures::asked_of_moves(study)}},
-          .worlds = study.worlds,
-          .stopped = study.stop.has_value()};
+  Question question{.parts = {}, .worlds = study.worlds, .stopped = study.stop.has_value()};
+  const std::vector<measures::CountedGoal> counted = measures::asked_of_moves(study);
+  for (std::size_t i = 0; i < counted.size(); ++i) {
+    question.parts.push_back({.number = i, .counted = counted[i]});
+    if (!study.goals.empty()) question.parts.back().claim = study.goals[i];
+  }
+  return question;
 }
 
-void require_claim(const std::optional<study::Goal>& claim, std::string_view path, std::string_view others) {
-  if (claim) return;
+Question only(const Question& question, std::size_t number) {
+  Question one = question;
+  std::erase_if(one.parts, [number](const JudgedPart& part) { return part.number != number; });
+  return one;
+}
+
+void require_one_goal(const study::Study& study, std::string_view path) {
+  if (study.goals.size() <= 1) return;
+  throw Failure(
+      ExitCode::bad_input,
+      fmt::format("{}: it has {} goals, and this answer is of one; expected one goal (summary, judge, "
+                  "status and report take several)",
+                  path, study.goals.size()));
+}
+
+void require_claim(const study::Study& study, std::string_view path, std::string_view others) {
+  if (!study.goals.empty()) return;
   throw Failure(ExitCode::bad_input,
                 fmt::format("{}: its manifest has no goal; expected one such as goal: {{band: 1, within: "
                             "0.05, moves: 0.99}}{}",
@@ -103,17 +129,16 @@ const QuestionWords& words_of(const Question& question) {
 }
 
 bool meets(const Question& question, std::span<const trial::MoveOutcome> moves) {
-  return std::ranges::all_of(moves, [&](const trial::MoveOutcome& move) {
-    return std::ranges::all_of(question.parts,
-                               [&](const JudgedPart& part) { return measures::meets(part.counted, move); });
-  });
+  return std::ranges::all_of(question.parts,
+                             [&](const JudgedPart& part) { return measures::all_meet(part.counted, moves); });
 }
 
 double settling_time(const Question& question, std::span<const trial::MoveOutcome> moves) {
   double latest = 0.0;
   for (const trial::MoveOutcome& move : moves) {
     for (const JudgedPart& part : question.parts)
-      latest = std::max(latest, lateness(measures::settling_time(part.counted, move)));
+      if (measures::asks(part.counted, move))
+        latest = std::max(latest, lateness(measures::settling_time(part.counted, move)));
   }
   return latest;
 }
@@ -136,19 +161,29 @@ Verdict verdict_on(const Question& question, const measures::MoveCounts& counts,
   return judge_goal(question.claim().value(), counts, points);
 }
 
+Verdict verdict_on(const Question& question, const measures::PointSummary& point, std::size_t points) {
+  std::vector<study::Goal> claims;
+  std::vector<measures::MoveCounts> counts;
+  for (const JudgedPart& part : question.parts) {
+    claims.push_back(part.claim.value());
+    counts.push_back(point.goals.at(part.number));
+  }
+  return judge_goals(claims, counts, points);
+}
+
 measures::MoveCounts counts_of(const Question& question, const measures::PointSummary& point) {
-  return question.claim() ? point.goal.value() : successes_of(point);
+  if (!question.claim()) return successes_of(point);
+  return point.goals.at(question.parts[has_several(question) ? verdict_on(question, point).goal : 0].number);
 }
 
 const measures::MeasureStatistics& settling_of(const Question& question,
                                                const measures::PointSummary& point) {
-  return question.claim() ? measures::of_band(point, "band_settling_time", question.claim()->band)
+  return question.claim() ? measures::named(point, settling_measure(question))
                           : point.of(&trial::MoveOutcome::settling_time);
 }
 
 std::string settling_measure(const Question& question) {
-  return question.claim() ? layout::name_of_band("band_settling_time", question.claim()->band)
-                          : "settling_time";
+  return question.claim() ? name_of_settling(*question.claim(), "") : "settling_time";
 }
 
 statistics::Quantile measures::MeasureStatistics::*settling_quantile(const Question& question) {
@@ -156,20 +191,28 @@ statistics::Quantile measures::MeasureStatistics::*settling_quantile(const Quest
 }
 
 std::string settling_statistic(const Question& question) {
-  return question.claim() ? layout::name_of_band("band_settling_time_p95", question.claim()->band)
-                          : "settling_time_median";
+  return question.claim() ? name_of_settling(*question.claim(), "_p95") : "settling_time_median";
 }
 
 std::vector<double> merits_of(const Question& question, const measures::PointSummary& point) {
-  std::vector<double> merits;
-  if (question.claim()) {
-    const Verdict verdict = verdict_on(question, *point.goal);
-    if (is_of_machines(question)) merits.push_back(verdict.machines.value);
-    merits.push_back(verdict.moves.value);
-  } else {
-    merits.push_back(statistics::rate(point.outcomes.zero_count, point.trials));
+  if (!question.claim()) {
+    return {statistics::rate(point.outcomes.zero_count, point.trials),
+            -lateness((settling_of(question, point).*settling_quantile(question)).value)};
   }
-  merits.push_back(-lateness((settling_of(question, point).*settling_quantile(question)).value));
+  const Verdict verdict = verdict_on(question, point);
+  std::vector<double> merits;
+  if (has_several(question)) {
+    const auto is_met = [](const Verdict& one) { return one.status == Status::met; };
+    merits = {static_cast<double>(std::ranges::count_if(verdict.goals, is_met)), verdict.margin};
+  }
+  if (question.parts[verdict.goal].claim->machines) merits.push_back(verdict.machines.value);
+  merits.push_back(verdict.moves.value);
+  double latest = 0.0;
+  for (const JudgedPart& part : question.parts) {
+    const Question one = only(question, part.number);
+    latest = std::max(latest, lateness(settling_of(one, point).p95.value) / part.claim->within);
+  }
+  merits.push_back(-latest);
   return merits;
 }
 
@@ -179,20 +222,40 @@ QuestionRate rate_of(const Question& question, const measures::PointSummary& poi
     return {point.success_rate().value, bounds_of_chosen(point, points, question.stopped, confidence),
             point.outcomes.zero_count, point.trials};
   }
-  const Verdict verdict = verdict_on(question, *point.goal, points);
+  const Verdict verdict = verdict_on(question, point, points);
+  const JudgedPart& worst = question.parts[verdict.goal];
+  const measures::MoveCounts& all = point.goals[worst.number];
   const measures::MoveCounts shown =
-      point.goal->worlds > 0
-          ? measures::in_worlds(*point.goal)[worst_worlds_first(*question.claim(), verdict).front()]
-          : *point.goal;
+      all.worlds > 0 ? measures::in_worlds(all)[worst_worlds_first(*worst.claim, verdict).front()] : all;
   return {verdict.moves.value, {verdict.moves.low, verdict.moves.high}, shown.met, shown.moves};
 }
 
 RigsWithoutFailure rigs_without_failure(const Question& question, const measures::PointSummary& point) {
   if (!question.claim())
     return {std::llround(point.rigs.without_failure * static_cast<double>(point.rigs.n)), point.rigs.n};
-  const auto without = std::ranges::count_if(
-      point.goal->rigs, [](const statistics::RigMoves& rig) { return rig.met == rig.moves; });
-  return {without, std::ssize(point.goal->rigs)};
+  const auto rigs = static_cast<std::int64_t>(point.goals.front().rigs.size());
+  RigsWithoutFailure without{0, rigs};
+  for (std::int64_t rig = 0; rig < rigs; ++rig) {
+    without.rigs += std::ranges::all_of(question.parts, [&](const JudgedPart& part) {
+      const statistics::RigMoves& moves = point.goals[part.number].rigs[static_cast<std::size_t>(rig)];
+      return moves.met == moves.moves;
+    });
+  }
+  return without;
+}
+
+std::optional<RigsWithoutFailure> rigs_meeting_all(const Question& question,
+                                                   const measures::PointSummary& point) {
+  const auto on_machines = [](const JudgedPart& part) { return part.claim && part.claim->machines; };
+  if (std::ranges::count_if(question.parts, on_machines) < 2) return std::nullopt;
+  RigsWithoutFailure meeting{0, std::ssize(point.goals.front().rigs)};
+  for (std::size_t rig = 0; rig < point.goals.front().rigs.size(); ++rig) {
+    meeting.rigs += std::ranges::all_of(question.parts, [&](const JudgedPart& part) {
+      const statistics::RigMoves& moves = point.goals[part.number].rigs[rig];
+      return !part.claim->machines || statistics::rate(moves.met, moves.moves) >= part.claim->moves;
+    });
+  }
+  return meeting;
 }
 
 const BoundedProportion& judged_rate(const Question& question, const WorldVerdict& world) {

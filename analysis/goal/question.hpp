@@ -19,28 +19,38 @@
 /// rigs, worlds and design points takes from here what they are judged by, and what it is called.
 namespace zerocount::goal {
 
-/// One thing that is asked of every move.
+/// One thing that is asked of moves.
 struct JudgedPart {
+  std::size_t number{0};               ///< of the goal in the study
   std::optional<study::Goal> claim{};  ///< what the manifest claims of all axes; nothing: success, unclaimed
   measures::CountedGoal counted{};     ///< the moves that meet it
 };
 
-/// The criteria by which a study is judged. All parts must be met; a study has exactly one part.
+/// The criteria by which a study is judged. All parts must be met: one for each goal of the study, or one
+/// for success.
 struct Question {
   std::vector<JudgedPart> parts{JudgedPart{}};
   std::int64_t worlds{0};  ///< in each of which it is asked; 0: the study has no worlds
   bool stopped{false};     ///< the outcomes decided the number of trials (`stop`)
 
-  /// The claim that is judged; nothing where success is not claimed.
+  /// The claim that is judged, the first of several; nothing where success is not claimed.
   const std::optional<study::Goal>& claim() const { return parts.front().claim; }
   const measures::CountedGoal& counted() const { return parts.front().counted; }
 };
 
 Question question_of(const study::Study& study);
+/// Whether the study has several goals.
+inline bool has_several(const Question& question) {
+  return question.parts.size() > 1;
+}
+/// Its part with this number alone, to judge a point by its worst goal (Verdict::goal).
+Question only(const Question& question, std::size_t number);
+/// @throws Failure (bad_input) for a study with several goals, where answers are of one. @param path of the
+/// manifest or file
+void require_one_goal(const study::Study& study, std::string_view path);
 /// @throws Failure (bad_input) without a claim. @param path of the manifest or file @param others what may be
 /// given in its place: ", or --success"
-void require_claim(const std::optional<study::Goal>& claim, std::string_view path,
-                   std::string_view others = "");
+void require_claim(const study::Study& study, std::string_view path, std::string_view others = "");
 /// @throws Failure (bad_input) for a study of torque levels, of which nothing is asked. @param path its name
 void require_targets(const study::Study& study, std::string_view path);
 /// Success in place of the goal.
@@ -83,13 +93,18 @@ double settling_time(const Question& question, std::span<const trial::MoveOutcom
 using Badness = std::array<double, 4>;
 Badness badness_of(const Question& question, std::span<const trial::MoveOutcome> moves);
 
-/// The verdict on the claim. @param counts of the moves that meet it @param points as of judge_goal()
+/// The verdict on the claim of a question of one part. @param counts of the moves that meet it @param points
+/// as of judge_goal()
 Verdict verdict_on(const Question& question, const measures::MoveCounts& counts, std::size_t points = 1);
+/// The verdict on all claims at a point.
+Verdict verdict_on(const Question& question, const measures::PointSummary& point, std::size_t points = 1);
 
-/// The moves of a point (without a claim its trials, each as one move) that meet the question.
+/// The moves of a point (without a claim its trials, each as one move) that meet the question; of several
+/// goals those of the worst.
 measures::MoveCounts counts_of(const Question& question, const measures::PointSummary& point);
 
-/// The statistics of the settling time by which points are compared: of the goal's band, or of the arrival.
+/// The statistics of the settling time by which points are compared: of the goal's band or tolerance, the
+/// first of several goals, or of the arrival.
 const measures::MeasureStatistics& settling_of(const Question& question, const measures::PointSummary& point);
 
 /// The name of that measure: "band_settling_time[2]", "settling_time".
@@ -131,6 +146,11 @@ std::string_view judged_meeting(const Question& question);
 inline bool is_of_machines(const Question& question) {
   return question.claim() && question.claim()->machines;
 }
+
+/// Rigs of a point that meet every goal on machines in its proportion of moves, and all that were judged;
+/// nothing unless several goals are on machines.
+std::optional<RigsWithoutFailure> rigs_meeting_all(const Question& question,
+                                                   const measures::PointSummary& point);
 
 /// Whether rates are those of the worst world.
 inline bool is_of_worst_world(const Question& question) {

@@ -63,7 +63,7 @@ std::vector<RunValue> goal_values(const summary::StudySummary& summary, const me
   if (!question.claim()) return {};
   study::Goal both_sides = *question.claim();
   both_sides.confidence = 0.5 * (1.0 + summary.confidence);
-  const goal::Verdict verdict = goal::judge_goal(both_sides, *point.goal, 1);
+  const goal::Verdict verdict = goal::judge_goal(both_sides, point.goals.front(), 1);
   std::vector<RunValue> values{
       proportion_value(label, "goal_rate", verdict.moves, rate_of(question, point).events)};
   if (goal::is_of_machines(question)) {
@@ -142,6 +142,7 @@ RunRecord record_of(const reading::AllTrialsFile& file) {
                 header.provenance.zerocount_version,
                 header.provenance.git_commit,
                 header.provenance.created};
+  goal::require_one_goal(file.study(), file.path().string());
   run.values = values_of(summary);
   if (run.values.empty() || summary.features.open_loop) fail_without_values(name);
   return run;

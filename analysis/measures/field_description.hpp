@@ -68,43 +68,70 @@ void add_fields(document::Description<Row>& description,
   }
 }
 
-/// An error band, and what its numbers are of.
+/// An error band, or a tolerance, and what its numbers are of.
 template <class Subject>
-struct BandReading {
+struct LimitReading {
   const Subject& subject;
-  std::size_t band;  ///< in the order of the bands
+  std::size_t limit;  ///< in rising order
 };
 
-/// Adds the fields of error bands: in JSON the list "bands", in CSV columns by flat_name().
+/// A list of an answer with a row for each error band, or tolerance.
+struct LimitList {
+  document::Item list;   ///< "bands"
+  document::Item limit;  ///< of a row: "band", its largest error
+};
+
+inline LimitList list_of_bands() {
+  return {{.key = "bands", .meaning = "statistics by error band", .shown = document::Shown::in_json},
+          {.key = "band", .meaning = "largest error of the band", .unit = "count"}};
+}
+inline LimitList list_of_tolerances(parameters::AxisKind axis) {
+  return {{.key = "tolerances",
+           .meaning = "statistics by tolerance of the position error",
+           .shown = document::Shown::in_json},
+          {.key = "tolerance",
+           .meaning = "largest position error within the tolerance",
+           .unit = parameters::unit_on(axis, "rad")}};
+}
+
+/// Adds the fields of error bands, or of tolerances: in JSON a list, in CSV columns by flat_name().
 template <class Row, class Subject, class Get>
-void add_bands(document::Description<Row>& description, const std::vector<text::ReportField<Subject>>& fields,
-               parameters::AxisKind axis, Get subject_of) {
-  using Reading = BandReading<Subject>;
-  std::map<std::int64_t, std::vector<text::ReportField<Subject>>> by_limit;
-  for (const text::ReportField<Subject>& field : fields) by_limit[field.band.value()].push_back(field);
+void add_by_limit(document::Description<Row>& description,
+                  const std::vector<text::ReportField<Subject>>& fields, LimitList list,
+                  parameters::AxisKind axis, Get subject_of) {
+  using Reading = LimitReading<Subject>;
+  std::map<double, std::vector<text::ReportField<Subject>>> by_limit;
+  for (const text::ReportField<Subject>& field : fields)
+    by_limit[text::limit_of(field).value()].push_back(field);
   if (by_limit.empty()) return;
-  const auto bands =
-      std::make_shared<const std::vector<std::pair<std::int64_t, std::vector<text::ReportField<Subject>>>>>(
+  const auto limits =
+      std::make_shared<const std::vector<std::pair<double, std::vector<text::ReportField<Subject>>>>>(
           by_limit.begin(), by_limit.end());
   std::vector<text::ReportField<Reading>> columns;
-  for (std::size_t i = 0; i < bands->front().second.size(); ++i) {
-    const text::ReportField<Subject>& first = bands->front().second[i];
+  for (std::size_t i = 0; i < limits->front().second.size(); ++i) {
+    const text::ReportField<Subject>& first = limits->front().second[i];
     columns.push_back({first.group, first.name, first.unit, first.long_name, first.whole,
-                       [bands, i](const Reading& reading) {
-                         return (*bands)[reading.band].second.at(i).value(reading.subject);
+                       [limits, i](const Reading& reading) {
+                         return (*limits)[reading.limit].second.at(i).value(reading.subject);
                        }});
   }
   document::Description<Reading> row;
-  row.value({.key = "band", .meaning = "largest error of the band", .unit = "count"},
-            [bands](const Reading& reading) { return (*bands)[reading.band].first; });
+  if (fields.front().band) {
+    row.value(std::move(list.limit), [limits](const Reading& reading) {
+      return static_cast<std::int64_t>((*limits)[reading.limit].first);
+    });
+  } else {
+    row.value(std::move(list.limit),
+              [limits](const Reading& reading) { return (*limits)[reading.limit].first; });
+  }
   add_fields(row, columns, axis, [](const Reading& reading) -> const Reading& { return reading; });
-  description.table(
-      {.key = "bands", .meaning = "statistics by error band", .shown = document::Shown::in_json},
-      std::move(row), [number = bands->size(), subject_of](const Row& of) {
-        std::vector<Reading> readings;
-        for (std::size_t band = 0; band < number; ++band) readings.push_back({subject_of(of), band});
-        return readings;
-      });
+  description.table(std::move(list.list), std::move(row),
+                    [number = limits->size(), subject_of](const Row& of) {
+                      std::vector<Reading> readings;
+                      for (std::size_t limit = 0; limit < number; ++limit)
+                        readings.push_back({subject_of(of), limit});
+                      return readings;
+                    });
   for (const text::ReportField<Subject>& field : fields)
     add_field(description, field, text::flat_name(field), axis, document::Shown::in_csv, subject_of);
 }

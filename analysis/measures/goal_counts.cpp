@@ -1,21 +1,81 @@
 #include "analysis/measures/goal_counts.hpp"
 
-#include <algorithm>
+#include <cmath>
+
+#include "core/trial/named_measures.hpp"
+#include "results/layout/layout.hpp"
 
 namespace zerocount::measures {
+namespace {
 
-std::optional<CountedGoal> counted_goal(const study::Study& study) {
-  if (!study.goal) return std::nullopt;
-  const std::span<const std::int64_t> bands = study.features.bands.values();
-  const auto band = std::find(bands.begin(), bands.end(), study.goal->band);
-  return CountedGoal{static_cast<std::size_t>(band - bands.begin()), study.goal->within};
+/// The place of a value in a list.
+template <class Value>
+std::optional<std::size_t> slot_of(std::span<const Value> values, Value value) {
+  const auto place = std::ranges::find(values, value);
+  if (place == values.end()) return std::nullopt;
+  return static_cast<std::size_t>(place - values.begin());
+}
+
+std::optional<CountedLimit> counted_limit(const study::GoalLimit& limit,
+                                          const study::StudyFeatures& features) {
+  for (const trial::NamedMeasure& measure : trial::named_measures()) {
+    if (measure.name != limit.measure) continue;
+    const bool is_measured =
+        (!measure.of_motion || features.motion) && (!measure.of_position || features.position_error);
+    return is_measured ? std::optional(CountedLimit{measure.value, limit.largest}) : std::nullopt;
+  }
+  const trial::ErrorBands& bands = features.bands;
+  for (const trial::NamedBandMeasure& measure : trial::named_band_measures()) {
+    for (std::size_t slot = 0; slot < bands.count; ++slot) {
+      if (layout::name_of_band(measure.name, bands.limits[slot]) != limit.measure) continue;
+      return CountedLimit{
+          [slot, value = measure.value](const trial::MoveOutcome& move) { return move.bands[slot].*value; },
+          limit.largest};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<CountedGoal> counted_by(const study::Goal& goal, const study::StudyFeatures& features) {
+  CountedGoal counted{.within = goal.within, .on = goal.on};
+  if (goal.tolerance) {
+    counted.tolerance = slot_of(features.tolerances.values(), *goal.tolerance);
+  } else {
+    counted.slot = slot_of(features.bands.values(), goal.band);
+  }
+  if (!counted.slot && !counted.tolerance) return std::nullopt;
+  for (const study::GoalLimit& limit : goal.limits) {
+    const auto of_file = counted_limit(limit, features);
+    if (!of_file) return std::nullopt;
+    counted.limits.push_back(*of_file);
+  }
+  return counted;
+}
+
+std::vector<CountedGoal> counted_goals(const study::Study& study) {
+  std::vector<CountedGoal> counted;
+  for (const study::Goal& goal : study.goals) counted.push_back(counted_by(goal, study.features).value());
+  return counted;
+}
+
+std::vector<CountedGoal> asked_of_moves(const study::Study& study) {
+  return study.goals.empty() ? std::vector{CountedGoal{}} : counted_goals(study);
+}
+
+bool meets(const CountedGoal& goal, const trial::MoveOutcome& move) {
+  if (!goal.slot && !goal.tolerance) return trial::is_success(move.outcome);
+  if (!(settling_time(goal, move) <= latest(goal))) return false;  // or NaN
+  return std::ranges::all_of(
+      goal.limits, [&](const CountedLimit& limit) { return std::abs(limit.value(move)) <= limit.largest; });
 }
 
 void count_moves(MoveCounts& counts, const CountedGoal& goal, std::int64_t trial, std::int64_t rigs,
                  std::span<const trial::MoveOutcome> moves) {
-  const std::int64_t met = std::count_if(moves.begin(), moves.end(),
-                                         [&](const trial::MoveOutcome& move) { return meets(goal, move); });
-  counts.add(trial, rigs, std::ssize(moves), met);
+  const auto met = std::ranges::count_if(
+      moves, [&](const trial::MoveOutcome& move) { return asks(goal, move) && meets(goal, move); });
+  counts.add(trial, rigs, asked_moves(goal, std::ssize(moves)), met);
 }
 
 }  // namespace zerocount::measures

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "analysis/measures/move_counts.hpp"
 #include "core/trial/outcome.hpp"
@@ -10,17 +13,37 @@
 
 namespace zerocount::measures {
 
-/// What is asked of a move: to be within an error band for good in time, or to succeed (end at zero counts).
-struct CountedGoal {
-  std::optional<std::size_t> slot{};  ///< of the band, in MoveOutcome::bands; nothing: the move succeeds
-  double within{0.0};                 ///< s; of a band
+/// A limit of a goal: the magnitude of this value of a move is at most `largest`.
+struct CountedLimit {
+  std::function<double(const trial::MoveOutcome&)> value{};
+  double largest{0.0};
 };
 
-/// The goal of the study as it is counted; nothing without one.
-std::optional<CountedGoal> counted_goal(const study::Study& study);
-/// The goal of the study, or success where it has none.
-inline CountedGoal asked_of_moves(const study::Study& study) {
-  return counted_goal(study).value_or(CountedGoal{});
+/// What is asked of a move: to be within an error band, or a tolerance, for good in time and to keep the
+/// limits; or to succeed (end at zero counts).
+struct CountedGoal {
+  std::optional<std::size_t> slot{};       ///< of the band, in MoveOutcome::bands
+  std::optional<std::size_t> tolerance{};  ///< in MoveOutcome::tolerance_settling_times. Neither: it succeeds
+  double within{0.0};                      ///< s; of a band or a tolerance
+  std::vector<std::int64_t> on{};          ///< the moves that are asked, rising; empty: all
+  std::vector<CountedLimit> limits{};
+};
+
+/// The goal as moves with these features are counted; nothing where they lack its band, tolerance or limits.
+std::optional<CountedGoal> counted_by(const study::Goal& goal, const study::StudyFeatures& features);
+/// The goals of the study as they are counted, [goal]; empty without one.
+std::vector<CountedGoal> counted_goals(const study::Study& study);
+/// The goals of the study, or success where it has none.
+std::vector<CountedGoal> asked_of_moves(const study::Study& study);
+
+/// Number of moves of a trial that the goal asks. @param moves of a trial
+inline std::int64_t asked_moves(const CountedGoal& goal, std::int64_t moves) {
+  return goal.on.empty() ? moves : std::ssize(goal.on);
+}
+
+/// Whether the goal is about this move.
+inline bool asks(const CountedGoal& goal, const trial::MoveOutcome& move) {
+  return goal.on.empty() || std::ranges::binary_search(goal.on, move.number);
 }
 
 /// The latest time in time, s: a sample at the very end is, although k·T may be rounded up.
@@ -29,20 +52,24 @@ inline double latest(const CountedGoal& goal) {
   return goal.within * rounding;
 }
 
-/// When the error of the move is within the goal's band for good, or has arrived (of success), s; NaN if
+/// When the move is within the goal's band, or tolerance, for good, or has arrived (of success), s; NaN if
 /// never.
 inline double settling_time(const CountedGoal& goal, const trial::MoveOutcome& move) {
+  if (goal.tolerance) return move.tolerance_settling_times[*goal.tolerance];
   return goal.slot ? move.bands[*goal.slot].settling_time : move.settling_time;
 }
 
-/// Whether the move is within the goal's band for good in time, or succeeds.
-inline bool meets(const CountedGoal& goal, const trial::MoveOutcome& move) {
-  if (!goal.slot) return trial::is_success(move.outcome);
-  return settling_time(goal, move) <= latest(goal);  // false for NaN
+/// Whether the move does what is asked. @param move that is asked
+bool meets(const CountedGoal& goal, const trial::MoveOutcome& move);
+
+/// Whether all moves that the goal asks meet it.
+inline bool all_meet(const CountedGoal& goal, std::span<const trial::MoveOutcome> moves) {
+  return std::ranges::all_of(
+      moves, [&](const trial::MoveOutcome& move) { return !asks(goal, move) || meets(goal, move); });
 }
 
-/// Adds the moves of a trial to those that meet the goal. @param rigs number of rigs; 0: no trials share a
-/// rig
+/// Adds the moves of a trial that the goal asks to those that meet it. @param rigs number of rigs; 0: no
+/// trials share a rig
 void count_moves(MoveCounts& counts, const CountedGoal& goal, std::int64_t trial, std::int64_t rigs,
                  std::span<const trial::MoveOutcome> moves);
 

@@ -7,13 +7,16 @@
 
 namespace zerocount::measures {
 
+const MeasureStatistics& named(const StatisticsOfMeasures& statistics, std::string_view name) {
+  for (const layout::Measure& measure : *statistics.table) {
+    if (measure.field.column.name == name) return statistics.of(measure);
+  }
+  throw std::invalid_argument(fmt::format("there are no statistics of {}", name));
+}
+
 const MeasureStatistics& of_band(const StatisticsOfMeasures& statistics, std::string_view name,
                                  std::int64_t band) {
-  const std::string wanted = layout::name_of_band(name, band);
-  for (const layout::Measure& measure : *statistics.table) {
-    if (measure.field.column.name == wanted) return statistics.of(measure);
-  }
-  throw std::invalid_argument(fmt::format("there are no statistics of {}", wanted));
+  return named(statistics, layout::name_of_band(name, band));
 }
 
 std::span<const StatisticKind> statistic_kinds() {

@@ -74,6 +74,10 @@ struct StatisticsOfMeasures {
   }
 };
 
+/// The statistics of the measure with this name, such as "band_settling_time[1]".
+/// @throws std::invalid_argument where the table has none
+const MeasureStatistics& named(const StatisticsOfMeasures& statistics, std::string_view name);
+
 /// The statistics of a measure of an error band.
 /// @throws std::invalid_argument where the table has no such measure of the band.
 const MeasureStatistics& of_band(const StatisticsOfMeasures& statistics, std::string_view name,

@@ -1,5 +1,6 @@
 #include "analysis/measures/move_event.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -34,9 +35,22 @@ double value_of(const layout::Measure& measure, const trial::MoveOutcome& move) 
   return std::isnan(value) && measure.values.nan_is_late ? std::numeric_limits<double>::infinity() : value;
 }
 
+/// The settling time of a goal; of several the largest, as a proportion of the time allowed.
+double lateness_of(const MoveEvent& event, const trial::MoveOutcome& move) {
+  double latest = event.goals.size() > 1 ? 0.0 : statistics::unknown;
+  for (const CountedGoal& goal : event.goals) {
+    if (!asks(goal, move)) continue;
+    if (event.goals.size() == 1) return settling_time(goal, move);
+    const double time = settling_time(goal, move);
+    if (std::isnan(time)) return time;
+    latest = std::max(latest, time / goal.within);
+  }
+  return latest;
+}
+
 layout::Measure measure_named(const study::Study& study, std::string_view text, std::string_view name) {
   std::vector<std::string> names;
-  for (const layout::Measure& measure : layout::measure_table(study.features.bands)) {
+  for (const layout::Measure& measure : layout::measure_table(study.features)) {
     if (!layout::is_in_file(measure, layout::format_version, study.features)) continue;
     names.push_back(measure.field.column.name);
     if (names.back() == name) return measure;
@@ -50,7 +64,7 @@ layout::Measure measure_named(const study::Study& study, std::string_view text, 
 
 MoveEvent missed_question(const study::Study& study) {
   MoveEvent event;
-  event.goal = asked_of_moves(study);
+  event.goals = asked_of_moves(study);
   return event;
 }
 
@@ -74,7 +88,9 @@ MoveEvent parse_event(const study::Study& study, std::string_view text) {
 }
 
 bool happens(const MoveEvent& event, const trial::MoveOutcome& move) {
-  if (event.text.empty()) return !meets(event.goal, move);
+  if (event.text.empty())
+    return std::ranges::any_of(
+        event.goals, [&](const CountedGoal& goal) { return asks(goal, move) && !meets(goal, move); });
   const double value = value_of(event.measure, move);
   if (std::isnan(value) && trial::was_run(move) && move.outcome == trial::Outcome::nonfinite)
     return event.above;
@@ -86,7 +102,10 @@ std::string name_of(MoveScore score, const MoveEvent& event) {
   switch (score) {
     case MoveScore::event:
       if (!event.text.empty()) return event.measure.field.column.name;
-      return event.goal.slot ? "settling time in the band" : "time until arrival";
+      if (event.goals.size() > 1) return "settling time as a proportion of what a goal allows";
+      return event.goals.front().tolerance ? "settling time in the tolerance"
+             : event.goals.front().slot    ? "settling time in the band"
+                                           : "time until arrival";
     case MoveScore::peak_torque:
       return "largest torque";
     case MoveScore::final_error:
@@ -100,7 +119,7 @@ std::string name_of(MoveScore score, const MoveEvent& event) {
 double score_of(MoveScore score, const MoveEvent& event, const trial::MoveOutcome& move) {
   switch (score) {
     case MoveScore::event:
-      if (event.text.empty()) return settling_time(event.goal, move);
+      if (event.text.empty()) return lateness_of(event, move);
       return event.above ? value_of(event.measure, move) : -value_of(event.measure, move);
     case MoveScore::peak_torque:
       return move.peak_torque;

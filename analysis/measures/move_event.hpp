@@ -14,12 +14,12 @@ namespace zerocount::measures {
 
 /// An event of a move: it misses what is asked of it, or a measure of it is beyond a limit.
 struct MoveEvent {
-  std::string text;           ///< "settling_time > 0.5"; empty: it misses the goal, or does not succeed
-  CountedGoal goal{};         ///< used if text is empty
-  layout::Measure measure{};  ///< used otherwise
-  bool above{true};           ///< the event is a value above the limit; otherwise below
-  bool inclusive{false};      ///< the limit itself is the event too
-  double limit{0.0};          ///< in the measure's unit
+  std::string text;  ///< "settling_time > 0.5"; empty: it misses the goal, or does not succeed
+  std::vector<CountedGoal> goals{};  ///< used if text is empty
+  layout::Measure measure{};         ///< used otherwise
+  bool above{true};                  ///< the event is a value above the limit; otherwise below
+  bool inclusive{false};             ///< the limit itself is the event too
+  double limit{0.0};                 ///< in the measure's unit
 };
 
 /// The event that a move misses the goal of the study or, without a goal, that it does not succeed.

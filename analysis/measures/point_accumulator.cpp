@@ -73,7 +73,7 @@ MoveKind move_kind(const study::Study& study, std::int64_t version) {
   return {.open_loop = study.open_loop,
           .version = version,
           .rigs = study.rigs,
-          .goal = counted_goal(study),
+          .goals = counted_goals(study),
           .worlds = study.worlds};
 }
 
@@ -123,7 +123,9 @@ std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome) {
 PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTable& table,
                                    std::int64_t first_trial)
     : kind_(kind), first_trial_(first_trial), table_(&table), trial_settling_times_(kind.rigs) {
-  for (MoveCounts* counts : {&goal_, &worlds_.succeeded, &worlds_.meeting}) counts->worlds = kind.worlds;
+  goals_.resize(kind.goals.size());
+  for (MoveCounts& counts : goals_) counts.worlds = kind.worlds;
+  for (MoveCounts* counts : {&worlds_.succeeded, &worlds_.meeting}) counts->worlds = kind.worlds;
   for (const layout::Measure& measure : table) measures_.emplace_back(measure, measure.point, kind);
 }
 
@@ -184,7 +186,8 @@ void PointAccumulator::add_moves(std::span<const trial::MoveOutcome> moves) {
   ++(counted_.outcomes.*counter_of(trial::worst_outcome(moves)));
   if (kind_.open_loop) return;
   if (kind_.rigs > 0) add_to_rig(moves);
-  if (kind_.goal) count_moves(goal_, *kind_.goal, first_trial_ + counted_.trials, kind_.rigs, moves);
+  for (std::size_t i = 0; i < goals_.size(); ++i)
+    count_moves(goals_[i], kind_.goals[i], first_trial_ + counted_.trials, kind_.rigs, moves);
   if (kind_.worlds > 0) add_to_world(moves);
   add_trial_settling_time(moves);
 }
@@ -192,9 +195,9 @@ void PointAccumulator::add_moves(std::span<const trial::MoveOutcome> moves) {
 void PointAccumulator::add_to_world(std::span<const trial::MoveOutcome> moves) {
   const std::int64_t trial = first_trial_ + counted_.trials;
   worlds_.succeeded.add(trial, kind_.rigs, 1, trial::succeeded(moves) ? 1 : 0);
-  if (!kind_.goal) return;
-  const bool meeting = std::all_of(moves.begin(), moves.end(),
-                                   [&](const trial::MoveOutcome& move) { return meets(*kind_.goal, move); });
+  if (kind_.goals.empty()) return;
+  const bool meeting =
+      std::ranges::all_of(kind_.goals, [&](const CountedGoal& goal) { return all_meet(goal, moves); });
   worlds_.meeting.add(trial, kind_.rigs, 1, meeting ? 1 : 0);
 }
 
@@ -279,7 +282,7 @@ PointAccumulator& PointAccumulator::operator+=(const PointAccumulator& next) {
   }
   if (rigs_.size() < next.rigs_.size()) rigs_.resize(next.rigs_.size());
   add_each(rigs_, next.rigs_);
-  goal_ += next.goal_;
+  add_each(goals_, next.goals_);
   worlds_.succeeded += next.worlds_.succeeded;
   worlds_.meeting += next.worlds_.meeting;
   trial_settling_times_ += next.trial_settling_times_;
@@ -295,8 +298,10 @@ PointAccumulator& PointAccumulator::operator+=(const PointAccumulator& next) {
 
 template <class Self, class Archive>
 void PointAccumulator::transfer(Self& self, Archive& archive) {
-  archive(self.counted_, self.rigs_, self.goal_, self.trial_settling_times_, self.jerks_,
-          self.jerk_intervals_, self.jerk_slowing_, self.interval_trend_, self.one_count_jerks_);
+  archive(self.counted_, self.rigs_);
+  for (auto& counts : self.goals_) archive(counts);
+  archive(self.trial_settling_times_, self.jerks_, self.jerk_intervals_, self.jerk_slowing_,
+          self.interval_trend_, self.one_count_jerks_);
   if constexpr (!std::is_const_v<Self>) {
     while (self.kind_.open_loop && self.levels_.size() < self.counted_.by_move.size())
       self.add_level_accumulators();
@@ -317,7 +322,9 @@ bool PointAccumulator::is_valid(std::int64_t moves) const {
   };
   if (!has_valid_counts(moves) || !has_valid_jerks() || !has_valid_rigs() || !has_valid_worlds())
     return false;
-  if (kind_.goal && !goal_.is_valid(counted_.trials, moves, kind_.rigs)) return false;
+  for (std::size_t i = 0; i < goals_.size(); ++i) {
+    if (!goals_[i].is_valid(counted_.trials, asked_moves(kind_.goals[i], moves), kind_.rigs)) return false;
+  }
   for (std::size_t level = 0; level < levels_.size(); ++level) {
     const std::int64_t lost = lost_in_levels_[level];
     if (lost < 0 || lost > counted_.trials || !are_valid(levels_[level], counted_.trials - lost, 1))
@@ -367,7 +374,7 @@ bool PointAccumulator::has_valid_worlds() const {
   if (kind_.worlds == 0 || kind_.open_loop) return true;
   return worlds_.succeeded.is_valid(counted_.trials, 1, kind_.rigs) &&
          worlds_.succeeded.met == counted_.outcomes.zero_count &&
-         (!kind_.goal || worlds_.meeting.is_valid(counted_.trials, 1, kind_.rigs));
+         (kind_.goals.empty() || worlds_.meeting.is_valid(counted_.trials, 1, kind_.rigs));
 }
 
 statistics::State PointAccumulator::state() const {
@@ -424,7 +431,7 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
   if (kind_.rigs > 0 && result.judged > 0)
     result.rigs = statistics::rig_statistics(rigs_, options.confidence);
   result.claim = claim(result, options);
-  if (kind_.goal) result.goal = goal_;
+  result.goals = goals_;
   if (kind_.worlds > 0 && result.judged > 0) result.worlds = worlds_;
   if (options.stopped_by_outcomes)
     result.rigs.tolerance = {};  // it takes a number of trials that was fixed beforehand

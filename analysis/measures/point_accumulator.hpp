@@ -22,7 +22,7 @@ struct MoveKind {
   bool open_loop{false};                         ///< torque levels in place of targets
   std::int64_t version{layout::format_version};  ///< of the layout of the results file
   std::int64_t rigs{0};  ///< number of rigs, trial i on rig i mod rigs; 0: no trials share a rig
-  std::optional<CountedGoal> goal{};
+  std::vector<CountedGoal> goals{};
   std::int64_t worlds{0};  ///< trial i in world i mod worlds; 0: none
 };
 
@@ -167,7 +167,7 @@ class PointAccumulator {
   std::vector<std::vector<MeasureAccumulator>> levels_;  ///< [move][row of the table]
   std::vector<std::int64_t> lost_in_levels_;             ///< [move] trials whose motion was lost
   std::vector<statistics::RigTrials> rigs_;              ///< [rig], of those that have trials
-  MoveCounts goal_;                                      ///< empty without a goal
+  std::vector<MoveCounts> goals_;                        ///< [goal]
   WorldTrials worlds_;                                   ///< empty without worlds
   statistics::TrialClusters trial_settling_times_;       ///< of each trial: of its slowest move
   std::int64_t jerks_{0};

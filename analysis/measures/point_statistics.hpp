@@ -91,7 +91,7 @@ struct PointCounts {
 /// Trials of a design point, each as one move, told apart by worlds (in_worlds).
 struct WorldTrials {
   MoveCounts succeeded;  ///< all their moves ended at zero error
-  MoveCounts meeting;    ///< all their moves meet the goal; empty without one
+  MoveCounts meeting;    ///< all moves meet the goals about them; empty without one
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
@@ -114,7 +114,7 @@ struct PointSummary : StatisticsOfMeasures, PointCounts {
   double jerk_agreement{statistics::unknown};        ///< jerks_agreeing / jerks
   double jerk_one_count_share{statistics::unknown};  ///< jerks of magnitude 1 / jerks
   UndecidedMoves undecided;                          ///< only off_target is known without the study
-  std::optional<MoveCounts> goal;                    ///< of a study with a goal
+  std::vector<MoveCounts> goals;                     ///< [goal] moves that meet it
   std::optional<WorldTrials> worlds;                 ///< of a study with worlds and targets
   std::vector<LevelStatistics> levels;               ///< [move] in an open-loop study, otherwise empty
 

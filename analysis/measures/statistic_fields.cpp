@@ -97,7 +97,7 @@ void add_measure(std::vector<text::ReportField<Subject>>& fields, const layout::
            fmt::format(fmt::runtime(text.long_name), meaning_of(kind), kind.bound), kind.whole,
            [row = static_cast<std::size_t>(&measure - measures.data()),
             value = kind.value](const Subject& subject) { return value(subject.measures.at(row)); },
-           measure.band});
+           measure.band, measure.tolerance});
     }
   }
 }

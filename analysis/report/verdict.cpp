@@ -115,16 +115,18 @@ void add_sentences(std::vector<std::string>& lines, const std::string& text) {
 
 void add_goal(std::vector<std::string>& lines, const ReportedStudy& reported,
               const summary::JudgedPoint& judged) {
-  const study::Goal& goal = *reported.summary.question.claim();
-  lines.push_back(fmt::format("The goal: {}.", goal::goal_sentence(goal)));
-  add_sentences(lines,
-                goal::readings_text(goal, *point_of(reported, judged.chosen.point).goal, judged.verdict));
+  const goal::Question& question = reported.summary.question;
+  lines.push_back(fmt::format("{}: {}.", has_several(question) ? "The goals" : "The goal",
+                              goal::claim_sentence(question)));
+  add_sentences(lines, goal::goals_text(question, point_of(reported, judged.chosen.point), judged.verdict));
   if (const auto worlds = summary::worlds_of_point(reported.summary, judged.chosen.point))
     add_sentences(lines, summary::bad_worlds_sentence(
                              *worlds, summary::world_inputs_of(reported.summary, judged.chosen.point),
                              reported.summary.question));
   if (judged.needs)
-    lines.push_back(goal::needs_sentence(goal, *judged.needs, reported.summary.features.rigs) + ".");
+    lines.push_back(goal::needs_sentence(*question.parts[judged.verdict.goal].claim, *judged.needs,
+                                         reported.summary.features.rigs) +
+                    ".");
 }
 
 void add_success(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
@@ -226,9 +228,12 @@ std::string median_bounds_text(const ReportedStudy& reported, const statistics::
 void add_goal_times(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const measures::PointSummary& point = point_of(reported, best);
   const measures::MeasureStatistics& settling = settling_of(question_of(reported), point);
-  const std::int64_t band = question_of(reported).claim()->band;
-  lines.push_back(fmt::format("Within ±{} count{} for good{}: {}, {}{}.", band, band == 1 ? "" : "s",
-                              at_point(reported, best),
+  const study::Goal& goal = *question_of(reported).claim();
+  const std::string within =
+      goal.tolerance
+          ? fmt::format("{:g} {}", *goal.tolerance, parameters::unit_on(reported.study.units.axis, "rad"))
+          : fmt::format("{} count{}", goal.band, goal.band == 1 ? "" : "s");
+  lines.push_back(fmt::format("Within ±{} for good{}: {}, {}{}.", within, at_point(reported, best),
                               within_text(point, "half of all moves", settling.median.value),
                               within_text(point, "95 % of them", settling.p95.value),
                               question_of(reported).worlds > 0 ? ", on average over the worlds" : ""));

@@ -107,14 +107,18 @@ ChosenPoint choose_point(const StudySummary& summary, std::optional<std::int64_t
   chosen.point = point ? *point : order.empty() ? 0 : order.front();
   if (!point) chosen.chosen_from = std::max<std::int64_t>(1, std::ssize(order));
   if (summary.features.open_loop) return chosen;
-  const auto counts = [&](std::int64_t one) {
-    return goal::counts_of(summary.question, point_of(summary, one));
+  const measures::PointSummary& best = point_of(summary, chosen.point);
+  const auto is_worse = [&](std::int64_t other) {
+    return std::ranges::any_of(summary.question.parts, [&](const goal::JudgedPart& part) {
+      const goal::Question question = only(summary.question, part.number);
+      return is_shown_worse(question, goal::counts_of(question, best),
+                            goal::counts_of(question, point_of(summary, other)));
+    });
   };
-  const measures::MoveCounts of_chosen = counts(chosen.point);
   for (const std::int64_t other : order) {
     if (other == chosen.point) continue;
     if (!chosen.runner_up) chosen.runner_up = other;
-    if (!is_shown_worse(summary.question, of_chosen, counts(other))) chosen.as_good.push_back(other);
+    if (!is_worse(other)) chosen.as_good.push_back(other);
   }
   std::ranges::sort(chosen.as_good);
   if (!order.empty() && chosen.point == order.front()) chosen.ends = ends_at(summary, chosen.point);

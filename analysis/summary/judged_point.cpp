@@ -8,8 +8,13 @@
 namespace zerocount::summary {
 namespace {
 
-const measures::MoveCounts& counts_of(const StudySummary& summary, std::int64_t point) {
-  return summary.points[static_cast<std::size_t>(point)].goal.value();
+const measures::PointSummary& statistics_of(const StudySummary& summary, std::int64_t point) {
+  return summary.points[static_cast<std::size_t>(point)];
+}
+
+/// The goal that the verdict is of.
+const study::Goal& worst_goal(const StudySummary& summary, const goal::Verdict& verdict) {
+  return *summary.question.parts[verdict.goal].claim;
 }
 
 std::size_t points_of(const ChosenPoint& chosen) {
@@ -33,32 +38,47 @@ std::string_view verdict_words(goal::Status status) {
 JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen) {
   JudgedPoint judged{chosen, {}, {}};
   const std::size_t points = points_of(chosen);
-  const measures::MoveCounts& counts = counts_of(summary, chosen.point);
-  judged.verdict = verdict_on(summary.question, counts, points);
+  const measures::PointSummary& statistics = statistics_of(summary, chosen.point);
+  judged.verdict = verdict_on(summary.question, statistics, points);
   if (judged.verdict.status == goal::Status::undecided)
-    judged.needs = goal::needs_of(*summary.question.claim(), counts, points);
+    judged.needs = goal::needs_of(worst_goal(summary, judged.verdict),
+                                  goal::counts_of(only(summary.question, judged.verdict.goal), statistics),
+                                  points, goal::probability_of_needs, summary.question.parts.size());
   return judged;
 }
 
 std::string judgement_headline(const StudySummary& summary, const JudgedPoint& judged) {
-  return fmt::format("{}: {}", name_of_chosen(summary, judged.chosen), verdict_words(judged.verdict.status));
+  const std::string name = name_of_chosen(summary, judged.chosen);
+  if (!has_several(summary.question))
+    return fmt::format("{}: {}", name, verdict_words(judged.verdict.status));
+  const std::string& worst = worst_goal(summary, judged.verdict).name;
+  switch (judged.verdict.status) {
+    case goal::Status::met:
+      return fmt::format("{}: all {} goals are met, '{}' by the least", name, summary.question.parts.size(),
+                         worst);
+    case goal::Status::missed:
+      return fmt::format("{}: the goal '{}' is missed", name, worst);
+    case goal::Status::undecided:
+      break;
+  }
+  return fmt::format("{}: it is undecided whether the goal '{}' is met", name, worst);
 }
 
 std::string judgement_details(const StudySummary& summary, const JudgedPoint& judged) {
   const ChosenPoint& chosen = judged.chosen;
-  const study::Goal& goal = *summary.question.claim();
-  std::string text = goal::readings_text(goal, counts_of(summary, chosen.point), judged.verdict);
+  std::string text = goal::goals_text(summary.question, statistics_of(summary, chosen.point), judged.verdict);
   if (chosen.chosen_from > 1) text += "  the bounds allow for the choice of the point by these trials\n";
   if (const auto worlds = worlds_of_point(summary, chosen.point, points_of(chosen)))
     text += fmt::format(
         "  {}\n", bad_worlds_sentence(*worlds, world_inputs_of(summary, chosen.point), summary.question));
   if (judged.needs)
-    text += fmt::format("  {}\n", goal::needs_sentence(goal, *judged.needs, summary.features.rigs));
+    text += fmt::format("  {}\n", goal::needs_sentence(worst_goal(summary, judged.verdict), *judged.needs,
+                                                       summary.features.rigs));
   return text + competition_text(summary, chosen);
 }
 
 std::string judgement_text(const StudySummary& summary, const JudgedPoint& judged) {
-  return fmt::format("goal: {}\n{}\n{}", goal::goal_sentence(*summary.question.claim()),
+  return fmt::format("goal: {}\n{}\n{}", goal::claim_sentence(summary.question),
                      judgement_headline(summary, judged), judgement_details(summary, judged));
 }
 

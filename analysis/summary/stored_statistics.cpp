@@ -35,7 +35,7 @@ layout::WorldCounts world_counts(std::span<const measures::PointSummary> points,
   for (const measures::PointSummary& point : points) {
     counts.trials.push_back(of_worlds(point.worlds, &WorldTrials::succeeded, &MoveCounts::moves));
     counts.success.push_back(of_worlds(point.worlds, &WorldTrials::succeeded, &MoveCounts::met));
-    if (study.goal)
+    if (!study.goals.empty())
       counts.goal_met.push_back(of_worlds(point.worlds, &WorldTrials::meeting, &MoveCounts::met));
   }
   return counts;

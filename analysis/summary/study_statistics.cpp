@@ -125,7 +125,7 @@ void StudyAccumulator::add(const reading::AllTrialsFile& file, layout::RowRange 
 }
 
 void StudyAccumulator::add(const reading::ResultsFile& file, std::int64_t number) {
-  point(number, layout::format_version, layout::measure_table(study_.features.bands)) +=
+  point(number, layout::format_version, layout::measure_table(study_.features)) +=
       restored_point(file, study_, number);
 }
 

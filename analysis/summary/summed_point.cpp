@@ -33,8 +33,7 @@ SummedPoint::SummedPoint(const study::Study& study, std::int64_t point, std::int
     : study_(&study), point_(point), trials_(measures::move_kind(study, version), table, first_trial) {}
 
 SummedPoint::SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial)
-    : SummedPoint(study, point, first_trial, layout::format_version,
-                  layout::measure_table(study.features.bands)) {}
+    : SummedPoint(study, point, first_trial, layout::format_version, layout::measure_table(study.features)) {}
 
 void SummedPoint::add(std::int64_t row, const trial::TrialOutcome& outcome,
                       std::span<const trial::Jerk> jerks) {

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "analysis/goal/goal_description.hpp"
@@ -22,16 +24,21 @@ auto at_point(goal::BoundedProportion goal::Verdict::*proportion) {
 
 std::string goal_legend(const summary::StudySummary& summary) {
   return fmt::format(
-      "in goal: {}{}; one-sided {} bounds of each point alone, in %",
-      goal::goal_sentence(*summary.question.claim()),
+      "in goal: {}{}; one-sided {} bounds of each point alone, in %", goal::claim_sentence(summary.question),
       summary.question.worlds > 0 ? ", in the worst world; bounds of the worst of all worlds" : "",
       text::percent(summary.question.claim()->confidence));
 }
 
 }  // namespace
 
-document::Description<goal::Verdict> verdict_description(const study::Goal& goal, bool on_rigs) {
+document::Description<goal::Verdict> verdict_description(const goal::Question& question, bool on_rigs) {
   document::Description<goal::Verdict> description;
+  const bool has_machines = std::ranges::any_of(
+      question.parts, [](const goal::JudgedPart& part) { return part.claim->machines.has_value(); });
+  if (has_several(question))
+    description.value(
+        {.key = "name", .meaning = "name of the goal: of several the worst, which all of this is of"},
+        [question](Verdict v) { return question.parts[v.goal].claim->name; });
   description
       .value({.key = "status", .meaning = "verdict on the goal", .words = goal::status_words()},
              [](Verdict v) { return goal::text_of(v.status); })
@@ -40,20 +47,36 @@ document::Description<goal::Verdict> verdict_description(const study::Goal& goal
                          "worst world",
               .unit = "1"},
              [](Verdict v) { return goal::bounded(v.moves); });
-  if (goal.machines)
+  if (has_machines)
     description.value({.key = "machines",
                        .meaning = "proportion of machines that meet the goal, with one-sided bounds; with "
-                                  "worlds of the worst world",
+                                  "worlds of the worst world; null where the goal is not on machines",
                        .unit = "1"},
-                      [](Verdict v) { return goal::bounded(v.machines); });
+                      [question](Verdict v) -> std::optional<document::Bounded> {
+                        if (!question.parts[v.goal].claim->machines) return std::nullopt;
+                        return goal::bounded(v.machines);
+                      });
   if (on_rigs)
     description.value({.key = "rigs_without_miss", .meaning = "rigs all of whose moves meet the goal"},
                       &goal::Verdict::rigs_without_miss);
   return description;
 }
 
+document::Description<goal::Verdict> goals_description(const goal::Question& question, bool on_rigs) {
+  document::Description<goal::Verdict> goals;
+  for (const goal::JudgedPart& part : question.parts) {
+    const std::size_t number = part.number;
+    goals.object({.key = part.claim->name, .meaning = goal::goal_sentence(*part.claim)},
+                 verdict_description(only(question, number), on_rigs),
+                 [number](Verdict v) { return v.goals.at(number); });
+  }
+  return goals;
+}
+
 void add_goal(PointDescription& point, const summary::StudySummary& summary) {
   if (!summary.question.claim()) return;
+  const goal::Question& question = summary.question;
+  const bool several = has_several(question);
   const std::string where = summary.question.worlds > 0 ? " (worst world)" : "";
   const auto column = [&](const std::string& of) {
     return document::Item{.heading = of + " in goal" + where,
@@ -65,10 +88,34 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
       .object({.key = "goal",
                .meaning = "whether the point meets the goal, with bounds of this point alone",
                .shown = Shown::in_data},
-              verdict_description(*summary.question.claim(), summary.features.rigs), &PointReading::verdict)
+              verdict_description(question, summary.features.rigs), &PointReading::verdict)
       .value({.heading = "goal", .meaning = goal_legend(summary), .shown = Shown::to_people},
              [](const PointReading& p) { return p.verdict ? goal::text_of(p.verdict->status) : "–"; });
-  if (summary.question.claim()->machines) point.value(column("machines"), at_point(&goal::Verdict::machines));
+  if (several) {
+    point
+        .value({.heading = "worst goal",
+                .meaning = "the goal that the next columns are of",
+                .shown = Shown::to_people},
+               [question](const PointReading& p) {
+                 return p.verdict ? question.parts[p.verdict->goal].claim->name : "–";
+               })
+        .object({.key = "goals", .meaning = "each of the goals, by name", .shown = Shown::in_data},
+                goals_description(question, summary.features.rigs), &PointReading::verdict)
+        .value({.key = "machines_together",
+                .meaning =
+                    "proportion of rigs that meet all goals on machines, as observed; nothing unless several "
+                    "goals are on machines",
+                .unit = "1",
+                .shown = Shown::in_data},
+               [question](const PointReading& p) -> std::optional<double> {
+                 const auto all = goal::rigs_meeting_all(question, p.statistics());
+                 if (!all) return std::nullopt;
+                 return statistics::rate(all->rigs, all->of);
+               });
+  }
+  const bool has_machines = std::ranges::any_of(
+      question.parts, [](const goal::JudgedPart& part) { return part.claim->machines.has_value(); });
+  if (has_machines) point.value(column("machines"), at_point(&goal::Verdict::machines));
   point.value(column("moves"), at_point(&goal::Verdict::moves));
 }
 

@@ -66,7 +66,7 @@ std::vector<std::reference_wrapper<const PointReading>> points_that(const Summar
 PointDescription labelled_points(const summary::StudySummary& summary);
 
 void add_goal(PointDescription& point, const summary::StudySummary& summary);
-document::Description<goal::Verdict> verdict_description(const study::Goal& goal, bool on_rigs);
+document::Description<goal::Verdict> verdict_description(const goal::Question& question, bool on_rigs);
 
 /// Whether the counts on the real rig are consistent with the simulated trials.
 void add_observed(PointDescription& point, const summary::StudySummary& summary);

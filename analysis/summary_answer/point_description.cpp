@@ -27,14 +27,17 @@ const measures::PointSummary& statistics_of(Point p) {
 }
 
 void add_statistics(PointDescription& point, const summary::StudySummary& summary) {
-  std::vector<measures::StatisticField> fields, of_bands;
+  std::vector<measures::StatisticField> fields, of_bands, of_tolerances;
   for (std::vector<measures::StatisticField> all :
        {measures::statistic_fields(summary.features, summary.table()),
         measures::mean_bound_fields(summary.features, summary.table())}) {
-    for (measures::StatisticField& field : all) (field.band ? of_bands : fields).push_back(std::move(field));
+    for (measures::StatisticField& field : all)
+      (field.band ? of_bands : field.tolerance ? of_tolerances : fields).push_back(std::move(field));
   }
   measures::add_fields(point, fields, summary.features.axis, statistics_of);
-  measures::add_bands(point, of_bands, summary.features.axis, statistics_of);
+  const parameters::AxisKind axis = summary.features.axis;
+  measures::add_by_limit(point, of_bands, measures::list_of_bands(), axis, statistics_of);
+  measures::add_by_limit(point, of_tolerances, measures::list_of_tolerances(axis), axis, statistics_of);
 }
 
 /// A move of the trials of a point.

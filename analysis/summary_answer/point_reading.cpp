@@ -17,7 +17,7 @@ PointReading read_point(const summary::StudySummary& summary, std::int64_t point
   PointReading reading{summary, point};
   const measures::PointSummary& statistics = reading.statistics();
   if (summary.question.claim() && statistics.trials > 0)
-    reading.verdict = goal::verdict_on(summary.question, *statistics.goal);
+    reading.verdict = goal::verdict_on(summary.question, statistics);
   if (summary.question.worlds > 0) reading.worlds = summary::worlds_of_point(summary, point);
   if (const auto counts = summary.observed_counts.find(reading.label());
       counts != summary.observed_counts.end())

@@ -42,9 +42,9 @@ struct Confirmation {
   std::int64_t point{0};
   std::uint64_t seed{0};
   std::int64_t trials{0};
-  std::int64_t rigs{0};                        ///< 0: no trials share one that they were drawn for
-  std::int64_t successes{0};                   ///< trials all of whose moves ended at zero error
-  std::optional<measures::MoveCounts> goal{};  ///< of a study with a goal
+  std::int64_t rigs{0};                       ///< 0: no trials share one that they were drawn for
+  std::int64_t successes{0};                  ///< trials all of whose moves ended at zero error
+  std::vector<measures::MoveCounts> goals{};  ///< [goal]
 };
 
 /// How a summary is shown.

@@ -76,15 +76,21 @@ void count_goal(StudySummary& summary, const reading::AllTrialsFile& file, const
       const auto begin = times.begin() + i * file.moves();
       const std::int64_t met = std::count_if(begin, begin + file.moves(),
                                              [&](double time) { return time <= measures::latest(counted); });
-      summary.points[static_cast<std::size_t>((first + i) / study.trials)].goal->add(
+      summary.points[static_cast<std::size_t>((first + i) / study.trials)].goals.front().add(
           (first + i) % study.trials, study.rigs, static_cast<std::int64_t>(moves), met);
     }
   }
 }
 
+/// Whether more than the settling times of all moves is asked.
+bool needs_outcomes(const measures::CountedGoal& goal) {
+  return !goal.on.empty() || !goal.limits.empty() || goal.tolerance;
+}
+
 /// What points are compared by, of all points; nothing where the file does not store it.
 bool outline_points(StudySummary& summary, const reading::AllTrialsFile& file, const study::Study& study,
                     const layout::MeasureTable& table) {
+  if (has_several(summary.question) || needs_outcomes(summary.question.counted())) return false;
   const std::optional<std::vector<double>> successes = stored_statistic(file, "zero_count");
   const std::optional<std::vector<double>> times =
       stored_statistic(file, goal::settling_statistic(summary.question));
@@ -94,7 +100,7 @@ bool outline_points(StudySummary& summary, const reading::AllTrialsFile& file, c
   outline.measures.assign(table.size(), {});
   outline.measures.shrink_to_fit();
   outline.trials = outline.judged = study.trials;
-  if (summary.question.claim()) outline.goal.emplace();
+  if (summary.question.claim()) outline.goals.emplace_back();
   summary.points.assign(summary.labels.size(), outline);
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     measures::PointSummary& point = summary.points[i];

@@ -57,7 +57,7 @@ std::string headline(Summary s) {
 std::string details(Summary s) {
   if (s.summary.features.open_loop) return {};
   if (s.summary.question.claim())
-    return fmt::format("goal: {}\n{}", goal::goal_sentence(*s.summary.question.claim()),
+    return fmt::format("goal: {}\n{}", goal::claim_sentence(s.summary.question),
                        summary::judgement_details(s.summary, summary::judge_point(s.summary, s.chosen)));
   const bool allows = s.chosen.chosen_from > 1 && !s.summary.features.dependent_trials;
   return (allows ? "  the bound allows for the choice of the point by these trials\n" : "") +
@@ -139,6 +139,12 @@ struct ConfirmationReading {
   const StudySummary& summary;
   const Confirmation& confirmed;
 
+  /// The new trials as those of a point.
+  measures::PointSummary point() const {
+    measures::PointSummary point;
+    point.goals = confirmed.goals;
+    return point;
+  }
   bool has_one_trial_per_rig() const { return confirmed.rigs == confirmed.trials; }
   double rate() const { return statistics::rate(confirmed.successes, confirmed.trials); }
   /// Clopper–Pearson bounds, where the trials are independent: unless they share rigs, in a study with a
@@ -148,8 +154,8 @@ struct ConfirmationReading {
     return statistics::clopper_pearson(confirmed.successes, confirmed.trials, summary.confidence);
   }
   std::optional<goal::Verdict> verdict() const {
-    if (!confirmed.goal) return std::nullopt;
-    return goal::verdict_on(summary.question, *confirmed.goal);
+    if (confirmed.goals.empty()) return std::nullopt;
+    return goal::verdict_on(summary.question, point());
   }
 };
 using Confirmed = const ConfirmationReading&;
@@ -169,7 +175,7 @@ std::string confirmation_text(Summary s) {
       confirmed.seed);
   if (const std::optional<goal::Verdict> verdict = reading->verdict())
     text += fmt::format("  goal: {}\n{}", goal::text_of(verdict->status),
-                        goal::readings_text(*s.summary.question.claim(), *confirmed.goal, *verdict));
+                        goal::goals_text(s.summary.question, reading->point(), *verdict));
   text += fmt::format("  {} of {} trials{} succeeded{}, {}", confirmed.successes, confirmed.trials,
                       confirmed.rigs == 0                ? ""
                       : reading->has_one_trial_per_rig() ? ", each on a rig of its own,"
@@ -205,7 +211,7 @@ document::Description<ConfirmationReading> confirmation_description(const StudyS
              &ConfirmationReading::has_one_trial_per_rig);
   if (summary.question.claim())
     description.object({.key = "goal", .meaning = "whether the new trials meet the goal"},
-                       verdict_description(*summary.question.claim(), summary.features.rigs),
+                       verdict_description(summary.question, summary.features.rigs),
                        &ConfirmationReading::verdict);
   return description;
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 namespace zerocount::text {
 
 /// One reported number of a summary. Lists of fields are the single source of the names in the JSON and CSV
@@ -19,13 +21,21 @@ struct ReportField {
   bool whole{false};      ///< a whole number
   std::function<double(const Subject&)> value;  ///< in `unit`; NaN if undefined
   std::optional<std::int64_t> band{};  ///< error band that it is of, counts; its group is in that of the band
+  std::optional<double> tolerance{};   ///< of the position error that it is of, rad; likewise
 };
 
+/// The largest error within the field's band, or tolerance; nothing of another field.
+template <class Subject>
+std::optional<double> limit_of(const ReportField<Subject>& field) {
+  return field.band ? static_cast<double>(*field.band) : field.tolerance;
+}
+
 /// "group_name", or "name" without a group: the field's name in flat formats. That of an error band is
-/// "band_group_name[1]".
+/// "band_group_name[1]", that of a tolerance "tolerance_group_name[1e-08]".
 template <class Subject>
 std::string flat_name(const ReportField<Subject>& field) {
   const std::string name = field.group.empty() ? field.name : field.group + "_" + field.name;
+  if (field.tolerance) return fmt::format("tolerance_{}[{}]", name, *field.tolerance);
   return field.band ? "band_" + name + "[" + std::to_string(*field.band) + "]" : name;
 }
 

@@ -68,13 +68,14 @@ RatesOfWorlds rates_of_worlds(const measures::MoveCounts& counts, double confide
   return rates;
 }
 
-PointWorlds point_worlds(const measures::PointSummary& point, const goal::Question& question,
+PointWorlds point_worlds(const measures::PointSummary& point, const goal::Question& all,
                          std::span<const WorldInput> inputs, std::uint64_t seed, double confidence,
                          std::size_t points) {
   PointWorlds result;
   const measures::MoveCounts& succeeded = point.worlds.value().succeeded;
   result.success = rates_of_worlds(succeeded, confidence);
-  if (question.claim()) result.goal = verdict_on(question, *point.goal, points);
+  if (all.claim()) result.goal = verdict_on(all, point, points);
+  const goal::Question question = result.goal ? only(all, result.goal->goal) : all;
   result.asked = result.goal ? judged_rates(question, *result.goal) : result.success;
   result.bad = bad_worlds(question, result, succeeded, confidence);
   std::vector<double> rates;

@@ -40,7 +40,7 @@ struct PointWorlds {
 /// bad if its rate of success is shown to be below the median.
 /// @param point of a study with worlds @param inputs what differs between them there @param seed of the study
 /// @param points that the point was chosen from, as of goal::judge_goal()
-PointWorlds point_worlds(const measures::PointSummary& point, const goal::Question& question,
+PointWorlds point_worlds(const measures::PointSummary& point, const goal::Question& all,
                          std::span<const WorldInput> inputs, std::uint64_t seed, double confidence,
                          std::size_t points = 1);
 

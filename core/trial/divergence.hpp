@@ -24,10 +24,12 @@ inline bool diverged(const VerdictParameters& verdict, std::int64_t first_error,
 }
 
 /// The outcome of a move after one that was ended. It was not run, because its initial state is unknown. It
-/// counts as oscillating and stopped; real measures are NaN, whole ones 0.
-inline MoveOutcome move_not_run() {
+/// counts as oscillating and stopped; real measures are NaN, whole ones 0. @param number of the move in its
+/// trial
+inline MoveOutcome move_not_run(std::size_t number = 0) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   MoveOutcome move;
+  move.number = static_cast<std::int64_t>(number);
   move.outcome = Outcome::oscillating;
   move.stopped = true;
   move.travel_time = none;

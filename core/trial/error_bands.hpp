@@ -17,4 +17,15 @@ struct ErrorBands {
   std::span<const std::int64_t> values() const { return std::span(limits).first(count); }
 };
 
+/// Maximum number of tolerances of a study.
+inline constexpr std::size_t max_tolerances = 8;
+
+/// Tolerances of the position error for which settling is measured: |ε| ≤ tolerance (see PositionError).
+struct Tolerances {
+  std::array<double, max_tolerances> limits{};  ///< rad; increasing
+  std::size_t count{0};
+
+  std::span<const double> values() const { return std::span(limits).first(count); }
+};
+
 }  // namespace zerocount::trial

@@ -56,13 +56,15 @@ MoveTiming move_timing(const TrialParameters& parameters, std::size_t move) {
           samples_in(parameters.verdict.dwell, rate),
           samples_in(parameters.verdict.window, rate),
           parameters.command.torque.levels.empty(),
-          parameters.verdict.bands};
+          parameters.verdict.bands,
+          static_cast<std::int64_t>(move)};
 }
 
 MoveOutcome outcome_of_move(const MoveTiming& timing, const RunningMeasures<double>& m,
                             std::span<const BandMeasures<double>> bands, const Jerks& jerks,
                             const LastHalf& last_half, const MoveEnd& end) {
   MoveOutcome outcome;
+  outcome.number = timing.number;
   outcome.stopped = end.stopped;
   outcome.broke_away = end.broke_away;
   outcome.saturated = m.saturated != 0.0;

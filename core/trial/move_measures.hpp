@@ -20,6 +20,7 @@ struct MoveTiming {
   std::int64_t window{100};    ///< W, last samples that decide the outcome
   bool judged{true};           ///< false if the move has a torque level in place of a target
   ErrorBands bands{};
+  std::int64_t number{0};  ///< of the move in its trial
 };
 
 /// The measures of a band before the first sample.

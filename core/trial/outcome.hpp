@@ -62,8 +62,16 @@ struct BandOutcome {
   double exits{std::numeric_limits<double>::quiet_NaN()};
 };
 
+/// No settling times.
+constexpr std::array<double, max_tolerances> filled_with_nan() {
+  std::array<double, max_tolerances> times{};
+  times.fill(std::numeric_limits<double>::quiet_NaN());
+  return times;
+}
+
 /// Measures of one move.
 struct MoveOutcome {
+  std::int64_t number{0};  ///< of the move in its trial, from 0
   Outcome outcome{Outcome::nonfinite};
   bool arrived{false};     ///< the error was 0 for the whole dwell
   bool stable{false};      ///< arrived, and |e| ≤ 1 count from then to the end
@@ -105,6 +113,14 @@ struct MoveOutcome {
   double jerk_agreement{std::numeric_limits<double>::quiet_NaN()};  ///< proportion of jerks towards
                                                                     ///< sgn(holding_torque); NaN if none
   std::array<BandOutcome, max_error_bands> bands{};                 ///< [band] of VerdictParameters
+
+  // Measures of the position error ε, where they are wanted (see PositionError); NaN of a move that was
+  // stopped or lost its motion.
+  /// [tolerance] of VerdictParameters: k·T with the smallest k such that |ε_k|, …, |ε_{N−1}| ≤ tolerance, s;
+  /// NaN where |ε_{N−1}| is larger.
+  std::array<double, max_tolerances> tolerance_settling_times = filled_with_nan();
+  /// The largest −ε_k·sgn(r − target before), at least 0, rad.
+  double true_overshoot{std::numeric_limits<double>::quiet_NaN()};
 
   // Measures of the true motion, where they are wanted (see MotionMeasures); NaN where there is none.
   /// From the first sample of the dwell within the rest band to the end: rms and peak to peak of the true

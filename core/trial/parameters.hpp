@@ -32,6 +32,9 @@ struct CommandParameters {
   double hold{1.0};  ///< s: of each target, from the move's start; of each torque level, once it is reached
   loop::ReferenceProfile profile{};
   TorqueCommand torque{};
+  /// Targets before rounding to counts, from the start of the trial, rad, one per move; empty: those in
+  /// counts.
+  std::vector<double> exact_targets{};
 };
 
 /// Initial state of the hook. `slide` is arrival from sliding: the hook slides at t = 0, and the spring had
@@ -67,8 +70,10 @@ struct VerdictParameters {
   bool stop{false};      ///< a move that diverges is ended there, and the trial with it (see divergence.hpp)
   double limit{1000.0};  ///< |error| beyond that of the move's first sample that counts as diverged, counts
   ErrorBands bands{};
-  bool motion{false};     ///< the true motion is measured too (see MotionMeasures)
-  double rest_band{0.0};  ///< |e| within which a move is at rest, for these measures, counts
+  Tolerances tolerances{};
+  bool position_error{false};  ///< settling within the tolerances and true overshoot are measured
+  bool motion{false};          ///< the true motion is measured too (see MotionMeasures)
+  double rest_band{0.0};       ///< |e| within which a move is at rest, for these measures, counts
 };
 
 /// Everything that determines a trial: two equal sets give the same trial, bit for bit.

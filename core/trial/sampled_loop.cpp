@@ -14,6 +14,7 @@ SampledLoop::SampledLoop(const TrialParameters& p, const loop::Measurement& meas
       converter_(p.dac),
       resolution_(measurement.fine_resolution()) {
   if (p.verdict.motion) motion_.emplace(p, resolution_);
+  if (p.verdict.position_error) position_error_.emplace(p, resolution_);
 }
 
 void SampledLoop::start_move(std::size_t number) {
@@ -22,6 +23,7 @@ void SampledLoop::start_move(std::size_t number) {
   reference_.emplace(p_.command.profile, from, target_, resolution_);
   phase_changes_before_ = controller_.phase_changes();
   if (motion_) motion_->start_move(target_, samples_of_move(p_, number));
+  if (position_error_) position_error_->start_move(number);
 }
 
 SampledLoop::Decision SampledLoop::decide(std::int64_t k, std::int64_t i, const loop::EncoderReading& reading,
@@ -43,6 +45,7 @@ SampledLoop::Decision SampledLoop::decide(std::int64_t k, std::int64_t i, const 
     output_ = converter_.convert(failed_ ? 0.0 : torque);
   }
   if (motion_) motion_->add({i, target - reading.fine, theta, output_.torque}, *reference_);
+  if (position_error_) position_error_->add(i, theta, *reference_);
   return {reference, target, output_, runs, t >= reference_->duration()};
 }
 
@@ -51,6 +54,7 @@ void SampledLoop::finish(MoveOutcome& outcome) {
   outcome.phase_changes = controller_.phase_changes() - phase_changes_before_;
   outcome.controller_failed = failed_;
   if (motion_) motion_->finish(outcome);
+  if (position_error_) position_error_->finish(outcome);
 }
 
 }  // namespace zerocount::trial

@@ -12,6 +12,7 @@
 #include "core/trial/motion_measures.hpp"
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
+#include "core/trial/position_error.hpp"
 
 namespace zerocount::trial {
 
@@ -23,7 +24,7 @@ namespace zerocount::trial {
 ///   decide(i):      r ← reference at i·T
 ///                   if the controller runs:  code ← convert(controller(r, counts) + dither)
 ///                   else:                    code as at the sample before, 0 at first
-///   finish(m):      travel time, changes of the phase, measures of the true motion
+///   finish(m):      travel time, changes of the phase, measures of the position error and the true motion
 class SampledLoop {
  public:
   /// @param measurement by whose encoders the counts are read.
@@ -60,6 +61,7 @@ class SampledLoop {
   double resolution_;  // of the fine encoder, rad
   std::optional<loop::Reference> reference_{};
   std::optional<MotionMeasures> motion_{};
+  std::optional<PositionError> position_error_{};
   std::int64_t target_{0};
   std::optional<std::int64_t> last_target_{};  // at the last sample at which the controller ran
   loop::DacOutput output_{};                   // of that sample

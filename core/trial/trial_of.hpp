@@ -100,7 +100,8 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
     stopped = move.stopped;
     first += timing.samples;
   }
-  outcome.moves.resize(p.command.targets.size(), move_not_run());
+  while (outcome.moves.size() < p.command.targets.size())
+    outcome.moves.push_back(move_not_run(outcome.moves.size()));
   return outcome;
 }
 

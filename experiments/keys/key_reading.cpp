@@ -81,7 +81,7 @@ std::optional<double> default_of(const GeneralKey& key) {
   study::Study study;
   plan.sequence.emplace();
   study.stop.emplace();
-  study.goal.emplace();
+  study.goals.emplace_back();
   study.tuning.emplace();
   Reading reading{problems, plan, study, 0};
   const auto value = key.get(reading);

@@ -50,7 +50,7 @@ constexpr numerics::Interval margin{.low = 0.0, .high = 1e6, .low_included = tru
 template <class Part>
 Part& part_of(Reading& reading) {
   if constexpr (std::is_same_v<Part, study::Study>) return reading.study;
-  if constexpr (std::is_same_v<Part, study::Goal>) return reading.study.goal.value();
+  if constexpr (std::is_same_v<Part, study::Goal>) return reading.study.goals.back();
   if constexpr (std::is_same_v<Part, study::StoppingRule>) return reading.study.stop.value();
   if constexpr (std::is_same_v<Part, study::Tuning>) return reading.study.tuning.value();
   if constexpr (std::is_same_v<Part, study::LoopMargins>) return reading.study.tuning.value().margins;
@@ -160,15 +160,25 @@ std::span<const GeneralKey> general_keys() {
            "what the axis must achieve: {band: 1, within: 0.05, moves: 0.99, machines: 0.99, confidence: "
            "0.95}: the error is within 1 count for good after 0.05 s in at least 99 % of the moves of at "
            "least 99 % of the machines, claimed with 95 % confidence; without `machines` (which needs rigs) "
-           "in at least 99 % of all moves; default band 0, confidence 0.95"},
+           "in at least 99 % of all moves; default band 0, confidence 0.95; `tolerance` (rad) in place of "
+           "band: the "
+           "position error itself stays within it; on: [0, 1]: the moves that it is about (default all); "
+           "limits: {overshoot: 200, peak_torque: 45}: largest values of measures of a move"},
           "goal: {band: 1, within: 0.05, moves: 0.99}",
           {whole({"band"}, 0, max_band, &study::Goal::band),
+           real({"tolerance"}, numerics::above(0), &study::Goal::tolerance),
            real({"within", "", "the time, s, after which the error stays within the band"},
                 numerics::above(0), &study::Goal::within),
            real({"moves", "", "the proportion of the moves that meet it, between 0 and 1"}, open_unit,
                 &study::Goal::moves),
            real({"machines"}, open_unit, &study::Goal::machines),
+           {"on"},
+           {"limits"},
            real({"confidence"}, open_unit, &study::Goal::confidence)}),
+      {"goals",
+       "several goals, all of which must be met, by their names: {large: {on: [0, 1], tolerance: 1.0e-8, "
+       "within: 0.03, moves: 0.99}, small: {on: [2, 3], band: 1, within: 0.02, moves: 0.99}}; `goal` is for "
+       "one"},
       map({"tune",
            "what zerocount tune may change and must keep: {free: {controller.ki: {log: [5.0e+3, 3.0e+5]}, "
            "controller.kp: [0, 1000]}, minimise: band_settling_time.p95, margins: {gain: 6, phase: 30, "

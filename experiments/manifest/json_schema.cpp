@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/trial/named_measures.hpp"
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/keys/draw_level.hpp"
 #include "experiments/keys/key_reading.hpp"
@@ -263,6 +264,21 @@ Json free_parameters_schema() {
           {"additionalProperties", {{"anyOf", {ends, object_of({{"log", ends}}, {"log"})}}}}};
 }
 
+// The limits of a goal, by measure.
+Json limits_schema() {
+  const Json largest = number_in(numerics::at_least(0));
+  Json measures = Json::object();
+  for (const trial::NamedMeasure& measure : trial::named_measures())
+    measures[std::string(measure.name)] = largest;
+  Json of_bands = Json::object();
+  for (const trial::NamedBandMeasure& measure : trial::named_band_measures())
+    of_bands[fmt::format("^{}\\[[0-9]+\\]$", measure.name)] = largest;
+  Json schema = object_of(std::move(measures));
+  schema["patternProperties"] = std::move(of_bands);
+  schema["minProperties"] = 1;
+  return schema;
+}
+
 // The schemas of general keys in forms of their own, by name.
 Json own_schemas() {
   const Json text{{"type", "string"}};
@@ -275,6 +291,12 @@ Json own_schemas() {
            {{"trials",
              {{"type", "array"}, {"items", {{"type", "integer"}, {"minimum", 0}}}, {"uniqueItems", true}}}})},
       {"free", free_parameters_schema()},
+      {"on",
+       {{"type", "array"},
+        {"items", {{"type", "integer"}, {"minimum", 0}}},
+        {"minItems", 1},
+        {"uniqueItems", true}}},
+      {"limits", limits_schema()},
       {"correlation",
        {{"type", "array"},
         {"items",
@@ -327,7 +349,14 @@ Json map_schema(const std::vector<keys::GeneralKey>& keys) {
   return object_of(std::move(properties), std::move(required));
 }
 
+Json form_schema(const keys::GeneralKey& key);
+
 Json own_schema(std::string_view name) {
+  if (name == "goals") {
+    return {{"type", "object"},
+            {"minProperties", 1},
+            {"additionalProperties", form_schema(*keys::find_general_key("goal"))}};
+  }
   static const Json schemas = own_schemas();
   const std::string key(name);
   return schemas.contains(key) ? schemas[key] : elements_schema(*parameters::find_element_list(name));

@@ -274,7 +274,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version,
   sections::read_correlations(m.root, m.reading);
   read_retained(m);
   if (const auto field = yaml::find_field(m.root, "stop")) sections::read_stop(*field, m.reading);
-  if (const auto field = yaml::find_field(m.root, "goal")) sections::read_goal(*field, m.reading);
+  sections::read_goals(m.root, m.reading);
   if (const auto field = yaml::find_field(m.root, "tune")) sections::read_tuning(*field, m.reading);
   check_trial_count(m);
   check_rigs(m);

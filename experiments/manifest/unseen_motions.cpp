@@ -15,9 +15,10 @@ namespace {
 
 /// A motion that a trial commands.
 struct Motion {
-  std::size_t slot{0};      ///< of the value that commands it
-  std::size_t previous{0};  ///< of the value to which it is relative; `slot` if there is none
-  std::string unseen{};     ///< why the encoder does not see it; empty if it does
+  std::size_t slot{0};          ///< of the value that commands it
+  std::size_t previous{0};      ///< of the value to which it is relative; `slot` if there is none
+  bool judged_in_counts{true};  ///< a band of the encoder judges it, or success does
+  std::string unseen{};         ///< why the encoder does not see it; empty if it does
 };
 
 /// The motions of a study's trials.
@@ -66,12 +67,20 @@ class Motions {
     return target < 0 ? overrun_ : plan_.list.first + static_cast<std::size_t>(target);
   }
 
+  /// A tolerance judges the position itself.
+  bool is_judged_in_counts(std::size_t move) const {
+    const auto number = static_cast<std::int64_t>(move);
+    return study_.goals.empty() || std::ranges::any_of(study_.goals, [number](const study::Goal& goal) {
+             return !goal.tolerance && (goal.on.empty() || std::ranges::binary_search(goal.on, number));
+           });
+  }
+
   Motion to_target(const study::StudyTrial& trial, std::size_t move, double count) const {
     const std::vector<std::int64_t>& counts = trial.parameters.command.targets;
     const bool is_first = move == 0;
     const double to = trial.target_positions[move];
     const double from = is_first ? 0.0 : trial.target_positions[move - 1];
-    Motion motion{slot_of_move(move), slot_of_move(is_first ? 0 : move - 1)};
+    Motion motion{slot_of_move(move), slot_of_move(is_first ? 0 : move - 1), is_judged_in_counts(move)};
     if (to != from && counts[move] == (is_first ? 0 : counts[move - 1]))
       motion.unseen = fmt::format(
           "the target {:.6g} {} and the position before it, {:.6g} {}, are the same count of {:.6g} {}", to,
@@ -80,7 +89,7 @@ class Motions {
   }
 
   Motion sine(double amplitude, double count) const {
-    Motion motion{amplitude_, amplitude_};
+    Motion motion{amplitude_, amplitude_, is_judged_in_counts(0)};
     if (std::llround(amplitude / count) == 0)
       motion.unseen = fmt::format("a sine of {:.6g} {} is less than half a count of {:.6g} {}", amplitude,
                                   unit_, count, unit_);
@@ -165,7 +174,7 @@ void check_unseen_motions(const study::Study& study, const keys::PlanPlaces& pla
       const yaml::Place place = place_of_fault(places, plan, motions.involved(motion), point).place;
       const std::string_view path = plan.table.rows[motion.slot].name;
       constexpr const char* expected = "motions of a count or more, or a finer encoder";
-      if (count == trials && !is_recorded) {
+      if (count == trials && motion.judged_in_counts && !is_recorded) {
         reading.problems.add(place, path, what, expected);
       } else {
         reading.warnings.push_back(

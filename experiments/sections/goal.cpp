@@ -2,25 +2,31 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "core/trial/named_measures.hpp"
 #include "experiments/keys/key_reading.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "experiments/yaml/nearest_name.hpp"
 
 namespace zerocount::sections {
 namespace {
 
-// Adds the band where it belongs, unless it is there already. False if there are too many.
-bool add_band(trial::ErrorBands& bands, std::int64_t band) {
-  const auto begin = bands.limits.begin();
-  const auto end = begin + static_cast<std::ptrdiff_t>(bands.count);
-  const auto place = std::lower_bound(begin, end, band);
-  if (place != end && *place == band) return true;
-  if (bands.count == bands.limits.size()) return false;
+/// Adds the number where it belongs among rising ones, unless it is there already. False if there are too
+/// many.
+template <class Limits>
+bool add_limit(Limits& limits, decltype(+limits.limits[0]) limit) {
+  const auto begin = limits.limits.begin();
+  const auto end = begin + static_cast<std::ptrdiff_t>(limits.count);
+  const auto place = std::lower_bound(begin, end, limit);
+  if (place != end && *place == limit) return true;
+  if (limits.count == limits.limits.size()) return false;
   std::move_backward(place, end, end + 1);
-  *place = band;
-  ++bands.count;
+  *place = limit;
+  ++limits.count;
   return true;
 }
 
@@ -52,6 +58,117 @@ void check_within(const yaml::Field& field, double within, const study::StudyPla
                  "a time in s, at most command.hold");
 }
 
+std::int64_t move_count(const study::StudyPlan& plan) {
+  const auto listed = static_cast<std::int64_t>(plan.list.count);
+  return plan.sequence ? std::ssize(study::sequence_moves(*plan.sequence, listed)) : listed;
+}
+
+/// Reads the moves that a goal is about.
+void read_moves(const yaml::Field& field, const study::StudyPlan& plan, std::vector<std::int64_t>& on,
+                yaml::Problems& problems) {
+  const std::string expected = "a list of moves of a trial, from 0, each once, such as [0, 1]";
+  if (!yaml::check_list(field, expected, problems)) return;
+  if (field.node->items.empty()) problems.add(field, "found an empty list", expected);
+  const std::int64_t moves = move_count(plan);
+  for (std::size_t i = 0; i < field.node->items.size(); ++i) {
+    const yaml::Field item = yaml::item_of(field, i);
+    const auto move = yaml::read_whole(item, 0, std::max<std::int64_t>(moves - 1, 0), problems);
+    if (!move) continue;
+    const auto place = std::ranges::lower_bound(on, *move);
+    if (place != on.end() && *place == *move) {
+      problems.add(item, fmt::format("move {} stands twice", *move), expected);
+    } else {
+      on.insert(place, *move);
+    }
+  }
+}
+
+/// The names of the measures that a limit can be of, in this study.
+std::vector<std::string> limited_measures(const study::StudyPlan& plan) {
+  std::vector<std::string> names;
+  for (const trial::NamedMeasure& measure : trial::named_measures()) names.emplace_back(measure.name);
+  for (const trial::NamedBandMeasure& measure : trial::named_band_measures())
+    for (const std::int64_t band : plan.common.verdict.bands.values())
+      names.push_back(fmt::format("{}[{}]", measure.name, band));
+  return names;
+}
+
+bool measures_motion(const study::StudyPlan& plan) {
+  return !study::holds_somewhere(plan, "verdict.motion",
+                                 [](const study::ValueLimits& motion) { return motion.can_be_zero; });
+}
+
+void read_limits(const yaml::Field& of_goal, keys::Reading& reading, study::Goal& goal) {
+  const auto limits = yaml::find_field(of_goal, "limits");
+  if (!limits) return;
+  const yaml::Field& field = *limits;
+  const char* const expected = "a map of measures of a move and largest values, such as {overshoot: 200}";
+  if (!yaml::check_map(field, expected, reading.problems)) return;
+  if (field.node->entries.empty()) reading.problems.add(field, "found no measure", expected);
+  const std::vector<std::string> known = limited_measures(reading.plan);
+  for (const yaml::YamlEntry& entry : field.node->entries) {
+    const yaml::Field item = yaml::entry_of(field, entry);
+    if (std::ranges::find(known, entry.key) == known.end()) {
+      const std::string_view nearest = yaml::nearest_name(entry.key, known);
+      reading.problems.add(item, "no measure of a move of this study has this name",
+                           nearest.empty() ? "a measure of a move, such as overshoot or peak_torque"
+                                           : fmt::format("'{}'?", nearest));
+      continue;
+    }
+    const auto named = std::ranges::find(trial::named_measures(), entry.key, &trial::NamedMeasure::name);
+    if (named != trial::named_measures().end()) {
+      if (named->of_motion && !measures_motion(reading.plan))
+        reading.problems.add(item, "the true motion is not measured", "verdict.motion: true");
+      if (named->of_position) reading.plan.common.verdict.position_error = true;
+    }
+    if (const auto largest = yaml::read_real(item, numerics::at_least(0), reading.problems))
+      goal.limits.push_back({entry.key, *largest});
+  }
+}
+
+/// Lets the trials measure what the goal is judged by.
+void measure_for(const yaml::Field& field, const study::Goal& goal, keys::Reading& reading) {
+  trial::VerdictParameters& verdict = reading.plan.common.verdict;
+  if (!goal.tolerance) {
+    if (!add_limit(verdict.bands, goal.band))
+      reading.problems.add(
+          field, fmt::format("the band of {} counts is one too many", goal.band),
+          fmt::format("at most {} error bands with those of the goals", verdict.bands.limits.size()));
+    return;
+  }
+  if (const auto band = yaml::find_field(field, "band"))
+    reading.problems.add(*band, "the goal has a tolerance too", "one of them");
+  verdict.position_error = true;
+  if (!add_limit(verdict.tolerances, *goal.tolerance))
+    reading.problems.add(field, "its tolerance is one too many",
+                         fmt::format("at most {} different tolerances", verdict.tolerances.limits.size()));
+}
+
+/// Reads one goal, and adds its band, or its tolerance, to those of the plan.
+void read_goal(const yaml::Field& field, std::string_view name, keys::Reading& reading) {
+  study::Study& study = reading.study;
+  yaml::Problems& problems = reading.problems;
+  study::Goal& goal = study.goals.emplace_back();
+  goal.name = name;
+  keys::read_key(field, *keys::find_general_key("goal"), reading);
+  if (field.node->kind != yaml::YamlNode::Kind::map) return study.goals.pop_back();
+  if (const auto within = yaml::find_field(field, "within"))
+    check_within(*within, goal.within, reading.plan, problems);
+  if (const auto on = yaml::find_field(field, "on")) read_moves(*on, reading.plan, goal.on, problems);
+  const auto machines = yaml::find_field(field, "machines");
+  if (machines && study.rigs == 0)
+    problems.add(*machines, "without rigs no trials share a machine",
+                 "`rigs`, the number of machines, or the key left out");
+  if (study.stop)
+    problems.add(field, "its bounds need a number of trials that does not depend on the outcomes",
+                 "no `stop`, or no goal");
+  if (study.design == study::Design::saltelli)
+    problems.add(field, "its bounds need trials that share no numbers", "another design, or no goal");
+  if (reading.plan.open_loop)
+    problems.add(field, "torque levels have no target", "command.targets, or no goal");
+  measure_for(field, goal, reading);
+}
+
 }  // namespace
 
 void read_bands(const yaml::Field& field, trial::ErrorBands& bands, yaml::Problems& problems) {
@@ -77,29 +194,28 @@ void read_bands(const yaml::Field& field, trial::ErrorBands& bands, yaml::Proble
   bands = read;
 }
 
-void read_goal(const yaml::Field& field, keys::Reading& reading) {
-  study::Study& study = reading.study;
-  trial::ErrorBands& bands = reading.plan.common.verdict.bands;
-  yaml::Problems& problems = reading.problems;
-  const study::Goal& goal = study.goal.emplace();
-  keys::read_key(field, *keys::find_general_key("goal"), reading);
-  if (field.node->kind != yaml::YamlNode::Kind::map) return study.goal.reset();
-  if (const auto within = yaml::find_field(field, "within"))
-    check_within(*within, goal.within, reading.plan, problems);
-  const auto machines = yaml::find_field(field, "machines");
-  if (machines && study.rigs == 0)
-    problems.add(*machines, "without rigs no trials share a machine",
-                 "`rigs`, the number of machines, or the key left out");
-  if (study.stop)
-    problems.add(field, "its bounds need a number of trials that does not depend on the outcomes",
-                 "no `stop`, or no goal");
-  if (study.design == study::Design::saltelli)
-    problems.add(field, "its bounds need trials that share no numbers", "another design, or no goal");
-  if (reading.plan.open_loop)
-    problems.add(field, "torque levels have no target", "command.targets, or no goal");
-  if (!add_band(bands, goal.band))
-    problems.add(field, fmt::format("the band of {} counts is one too many", goal.band),
-                 fmt::format("at most {} error bands with that of the goal", bands.limits.size()));
+void read_goals(const yaml::Field& root, keys::Reading& reading) {
+  const auto one = yaml::find_field(root, "goal");
+  const auto several = yaml::find_field(root, "goals");
+  if (one && several) {
+    reading.problems.add(*several, "`goal` is there too", "one of them");
+    return;
+  }
+  if (one) {
+    read_goal(*one, "", reading);
+    if (!reading.study.goals.empty()) read_limits(*one, reading, reading.study.goals.front());
+  }
+  if (!several) return;
+  if (!yaml::check_map(*several,
+                       "a map of goals by their names, such as {large: {within: 0.03, moves: 0.99}}",
+                       reading.problems))
+    return;
+  if (several->node->entries.empty()) reading.problems.add(*several, "found no goal", "at least one");
+  for (const yaml::YamlEntry& entry : several->node->entries)
+    read_goal(yaml::entry_of(*several, entry), entry.key, reading);
+  // A limit can be of the band of any goal.
+  for (study::Goal& goal : reading.study.goals)
+    read_limits(yaml::find_field(*several, goal.name).value(), reading, goal);
 }
 
 void read_stop(const yaml::Field& field, keys::Reading& reading) {

@@ -7,9 +7,9 @@ namespace zerocount::sections {
 /// Reads `verdict.bands`, the error bands of the study.
 void read_bands(const yaml::Field& field, trial::ErrorBands& bands, yaml::Problems& problems);
 
-/// Reads the goal of the study. Adds its band to those of the plan. The study's rigs and all parameters must
-/// be read already.
-void read_goal(const yaml::Field& field, keys::Reading& reading);
+/// Reads `goal`, or `goals`, of the manifest. Adds their bands and tolerances to those of the plan. The
+/// study's rigs and all parameters must be read already.
+void read_goals(const yaml::Field& root, keys::Reading& reading);
 
 /// Reads the stopping rule `stop`. The manifest's `trials` become the size of a block, and the study's number
 /// of trials becomes the maximum.

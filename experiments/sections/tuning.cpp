@@ -106,7 +106,7 @@ void read_tuning(const yaml::Field& field, keys::Reading& reading) {
   if (field.node->kind != yaml::YamlNode::Kind::map) return tuning.reset();
   if (const auto free = yaml::find_field(field, "free"))
     read_free(*free, reading.plan, *tuning, reading.problems);
-  if (!reading.study.goal)
+  if (reading.study.goals.empty())
     reading.problems.add(field, "without a goal there is nothing to meet",
                          "goal: {band: 1, within: 0.05, moves: 0.99}");
 }

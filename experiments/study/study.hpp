@@ -115,7 +115,9 @@ struct StudyFeatures {
   /// The design is saltelli: the trials of a row share most of their numbers, and bounds for independent
   /// trials are too narrow.
   bool dependent_trials{false};
-  trial::ErrorBands bands{};  ///< bands of the error whose entry and settling are measured
+  trial::ErrorBands bands{};       ///< bands of the error whose entry and settling are measured
+  trial::Tolerances tolerances{};  ///< of the position error, for which settling is measured
+  bool position_error{false};      ///< the true overshoot, and settling within the tolerances, are measured
   bool rigs{false};  ///< trials share rigs: the bounds account for the correlation of the trials of a rig
   /// The design spreads the trials more evenly than chance (latin_hypercube, sobol): bounds are wider than
   /// needed.
@@ -133,14 +135,27 @@ struct StoppingRule {
   std::int64_t max_trials{1};  ///< trials per point at which the study ends in any case
 };
 
-/// The goal of a study (`goal`). A move meets it if its error is within the band for good after `within` at
-/// the latest (BandOutcome::settling_time). The goal is a claim about all axes that the manifest
+/// A limit of a goal: the largest magnitude of a measure of a move that meets it.
+struct GoalLimit {
+  std::string measure;  ///< of trial::named_measures(), or of a band: "band_exits[2]"
+  double largest{0.0};  ///< in the measure's unit
+};
+
+/// A goal of a study (`goal`, `goals`). A move meets it if its error is within the band for good after
+/// `within` at the latest (BandOutcome::settling_time). The goal is a claim about all axes that the manifest
 /// describes, one-sided, with this confidence:
 ///   without `machines`: at least the proportion `moves` of all their moves meets it;
 ///   with `machines`: at least the proportion `machines` of them meets it in at least `moves` of its moves.
+///
+/// With a tolerance the position error |ε| stays within it (MoveOutcome::tolerance_settling_times) in place
+/// of the band. A move also misses the goal if a measure of `limits` is larger than allowed, or NaN.
 struct Goal {
-  std::int64_t band{0};  ///< counts; one of StudyFeatures::bands
-  double within{1.0};    ///< s from the start of the move
+  std::string name{};                 ///< of `goals`; empty where the study has one goal
+  std::int64_t band{0};               ///< counts; one of StudyFeatures::bands; not used with a tolerance
+  std::optional<double> tolerance{};  ///< rad; one of StudyFeatures::tolerances
+  double within{1.0};                 ///< s from the start of the move
+  std::vector<std::int64_t> on{};     ///< moves of a trial that it is about, rising; empty: all
+  std::vector<GoalLimit> limits{};
   double moves{0.99};
   std::optional<double> machines{};
   double confidence{0.95};
@@ -202,7 +217,7 @@ struct Study {
   std::vector<Correlation> correlations;  ///< of drawn parameters; all others are independent
   std::optional<JointSamples> samples;    ///< joint draws of several parameters
   std::optional<StoppingRule> stop;       ///< set for sequential stopping
-  std::optional<Goal> goal{};
+  std::vector<Goal> goals{};              ///< all of which must be met; empty: the study has none
   std::optional<Tuning> tuning{};
   std::map<std::string, std::string>
       observed;  ///< point label → observation on the real rig (the text of a case for all its points)
@@ -234,6 +249,11 @@ struct StudyTrial {
   std::vector<double> inputs;  ///< [input column], in that column's unit; for profiles and values drawn per
                                ///< contact the value at the start
 };
+
+/// The goal, the first of several; null where the study has none.
+inline const Goal* first_goal(const Study& study) {
+  return study.goals.empty() ? nullptr : &study.goals.front();
+}
 
 /// Whether some of the drawn parameters depend on each other: `correlation` or `samples`.
 inline bool has_dependent_parameters(const Study& study) {

@@ -104,6 +104,8 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
   features.reversals = features.motion && has_sine;
   features.dependent_trials = study.design == Design::saltelli;
   features.bands = plan.common.verdict.bands;
+  features.tolerances = plan.common.verdict.tolerances;
+  features.position_error = plan.common.verdict.position_error;
   features.rigs = study.rigs > 0 && closed_loop;
   features.spread_trials = is_spread(study.design);
   return features;

@@ -164,6 +164,8 @@ void round_targets(StudyTrial& trial) {
   const double count = loop::fine_resolution(trial.parameters.encoder);
   for (std::size_t move = 0; move < trial.target_positions.size(); ++move)
     trial.parameters.command.targets[move] = std::llrint(trial.target_positions[move] / count);
+  if (trial.parameters.verdict.position_error)
+    trial.parameters.command.exact_targets = trial.target_positions;
 }
 
 void check_exists(const Study& study, std::int64_t point, std::int64_t index) {

@@ -56,7 +56,8 @@ std::vector<RecordField<trial::MoveOutcome>> move_fields(std::int64_t version,
                                                          const MeasureTable& measures) {
   std::vector<RecordField<trial::MoveOutcome>> fields;
   for (const Measure& measure : measures) {
-    if (!measure.band && is_in_file(measure, version, features)) fields.push_back(measure.field);
+    if (!measure.band && !measure.tolerance && is_in_file(measure, version, features))
+      fields.push_back(measure.field);
   }
   return fields;
 }
@@ -74,6 +75,16 @@ const std::vector<RecordField<trial::BandOutcome>>& band_fields() {
                &B::settling_time, a_time_or_nan),
       field<B>("band_exits", "1", "times that the error left the band after the first dwell within it",
                &B::exits, {.expected = "a count, or NaN", .nan = true})};
+  return fields;
+}
+
+const std::vector<RecordField<ToleranceRecord>>& tolerance_fields() {
+  static const std::vector<RecordField<ToleranceRecord>> fields{field<ToleranceRecord>(
+      "tolerance_settling_time", "s",
+      "time from which the position error is within the tolerance to the end, from the start of the move, "
+      "NaN "
+      "if it ends outside",
+      &ToleranceRecord::settling_time, {.expected = "a finite time, not negative, or NaN", .nan = true})};
   return fields;
 }
 

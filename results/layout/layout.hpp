@@ -53,7 +53,7 @@ std::string value_text(const Column& column, std::int64_t value);
 /// The last dimension of the columns of a table, if its scale stands in the root.
 struct RootDimension {
   Column scale;
-  std::vector<std::int64_t> values;
+  std::vector<double> values;  ///< stored as the scale's element
 };
 
 /// A group of columns that share their first dimension, and the dimension scales that stand in it.
@@ -89,8 +89,13 @@ struct RecordField {
 struct Measure;
 /// The measures of a move, in the order of the file (see measure_table.hpp).
 using MeasureTable = std::vector<Measure>;
-/// The measures of this program, with those of these error bands.
-const MeasureTable& measure_table(const trial::ErrorBands& bands = {});
+/// The measures of this program, with those of the error bands and tolerances of these features.
+const MeasureTable& measure_table(const study::StudyFeatures& features = {});
+
+/// What is measured of one tolerance of a move.
+struct ToleranceRecord {
+  double settling_time{0.0};  ///< MoveOutcome::tolerance_settling_times
+};
 
 /// A jerk, and the trial it belongs to.
 struct JerkRecord : trial::Jerk {
@@ -106,7 +111,7 @@ struct TraceRecord : trial::SampleRecord {
 std::vector<RecordField<trial::MoveOutcome>> outcome_fields(std::int64_t version = format_version,
                                                             const study::StudyFeatures& features = {},
                                                             const MeasureTable& measures = measure_table());
-/// Those of them that are columns of outcome_table(): all but the measures of error bands.
+/// Those of them that are columns of outcome_table(): all but the measures of error bands and tolerances.
 std::vector<RecordField<trial::MoveOutcome>> move_fields(std::int64_t version,
                                                          const study::StudyFeatures& features,
                                                          const MeasureTable& measures);
@@ -116,8 +121,13 @@ const std::vector<RecordField<JerkRecord>>& jerk_fields();
 /// The columns of a sample record; those of `features` come last.
 std::vector<RecordField<TraceRecord>> trace_fields(const study::StudyFeatures& features);
 
+/// The columns of tolerance_table(): of one tolerance.
+const std::vector<RecordField<ToleranceRecord>>& tolerance_fields();
+
 /// "band_settling_time_p95[1]": the name of a number of an error band.
 std::string name_of_band(std::string_view name, std::int64_t band);
+/// "tolerance_settling_time_p95[1e-08]": the name of a number of a tolerance.
+std::string name_of_tolerance(std::string_view name, double tolerance);
 
 /// One number per design point, made when a study is complete. In files, columns whose names differ only in
 /// the error band at their end, as in "band_settling_time_p95[1]", are one dataset [point, band].
@@ -176,8 +186,8 @@ std::int64_t profile_angles_of_rig(std::size_t harmonics, std::int64_t rigs);
 
 Table point_table(const std::vector<study::SweepAxis>& axes, const std::vector<PointColumn>& statistics);
 Column statistic_column(const PointColumn& statistic);
-/// Statistics of the design points for each error band: [point, band]. It has no columns yet.
-Table band_statistic_table(const trial::ErrorBands& bands);
+/// Statistics of the design points for each error band, or tolerance: [point, band]. It has no columns yet.
+Table limit_statistic_table(RootDimension limits);
 Table trial_table(const std::vector<study::InputColumn>& inputs);
 Table outcome_table(std::int64_t version = format_version, const study::StudyFeatures& features = {},
                     const MeasureTable& measures = measure_table());
@@ -185,6 +195,10 @@ Table outcome_table(std::int64_t version = format_version, const study::StudyFea
 Table band_table(const trial::ErrorBands& bands);
 /// The dimension of error bands, with its scale.
 RootDimension band_dimension(const trial::ErrorBands& bands);
+/// The measures of tolerances: [trial, move, tolerance].
+Table tolerance_table(const trial::Tolerances& tolerances);
+/// The dimension of tolerances, with its scale.
+RootDimension tolerance_dimension(const trial::Tolerances& tolerances);
 /// The table of outcomes with the verdicts alone.
 Table verdict_table();
 Table jerk_table();

@@ -144,6 +144,17 @@ MeasureTable all_measures() {
                  {{{n}, "moves with a target, of which the overshoots are"},
                   {{mean, max}, "{0} overshoot of the moves"}}},
        .output = {{"overshoot", "largest excursion beyond a target"}}},
+      {.field = field<M>("true_overshoot", "rad",
+                         "largest position error beyond the target in the direction of the move, at least 0, "
+                         "NaN of a move that was stopped or lost its motion",
+                         &M::true_overshoot, an_error_or_nan),
+       .file = {.only_with = &study::StudyFeatures::position_error},
+       .values = {.needs_target = true},
+       .reduction = MoveReduction::largest,
+       .point = {"true_overshoot",
+                 {{{n}, "moves that have a true overshoot, of which its statistics are"},
+                  {{mean, p95, max}, "{0} of the true overshoot over the moves"}}},
+       .output = {{"true_overshoot", "largest position error beyond a target"}}},
       {.field = field<M>("holding_torque", "N m", "$torque decided at the last sample", &M::holding_torque),
        .point = {"holding_torque",
                  {{{n}, "moves with a finite holding $torque, of which these are"},
@@ -490,11 +501,57 @@ std::vector<Measure> measures_of_band(const trial::ErrorBands& bands, std::size_
   return measures;
 }
 
-MeasureTable measures_with(const trial::ErrorBands& bands) {
+template <std::size_t Tolerance>
+double value_of_tolerance(const M& move) {
+  return move.tolerance_settling_times[Tolerance];
+}
+
+/// [tolerance] the functions of a move that give its settling time.
+constexpr auto values_of_tolerances() {
+  return []<std::size_t... Tolerance>(std::index_sequence<Tolerance...>) {
+    return std::array<double (*)(const M&), sizeof...(Tolerance)>{&value_of_tolerance<Tolerance>...};
+  }
+  (std::make_index_sequence<trial::max_tolerances>());
+}
+
+Measure measure_of_tolerance(const trial::Tolerances& tolerances, std::size_t slot) {
+  const double tolerance = tolerances.values()[slot];
+  const RecordField<ToleranceRecord>& field = tolerance_fields().front();
+  Column column = field.column;
+  const std::string name = name_of_tolerance(column.name, tolerance);
+  column.name = name;
+  return {
+      .field = {std::move(column), values_of_tolerances()[slot], field.valid},
+      .tolerance = tolerance,
+      .values = {.needs_target = true, .nan_is_late = true},
+      .reduction = MoveReduction::largest,
+      .point = {"settling_time",
+                {{{n}, "moves that ended within the tolerance, of which mean, min and max are"},
+                 {{all}, "moves with a target, of which the quantiles are"},
+                 {{mean, min, max},
+                  "{0} time until the position error is within the tolerance for good, of the moves that "
+                  "ended within it"},
+                 {{p05, p25, median, p75, p95, median_low, median_high, p95_low, p95_high},
+                  "{0} of the time until the position error is within the tolerance for good, of all moves "
+                  "with a target, NaN if not within the hold"},
+                 {{bootstrap_low, bootstrap_high},
+                  "{1} of the mean settling time: Student and studentised bootstrap"}}},
+      .summary = {.columns = {{fmt::format("within ±{:g} p95 (s)", tolerance), p95, CellText::settling_time}},
+                  .legend = slot > 0 ? ""
+                                     : "within ±t: the position error stays within the tolerance t from "
+                                       "then to the end of the move; p95 of all moves\n"},
+      .output = {{name,
+                  "time until the position error is within the tolerance for good, the longest of the "
+                  "trial's moves; a move that ends outside counts with its duration"}}};
+}
+
+MeasureTable measures_with(const trial::ErrorBands& bands, const trial::Tolerances& tolerances) {
   MeasureTable measures = all_measures();
   for (std::size_t slot = 0; slot < bands.count; ++slot) {
     for (Measure& measure : measures_of_band(bands, slot)) measures.push_back(std::move(measure));
   }
+  for (std::size_t slot = 0; slot < tolerances.count; ++slot)
+    measures.push_back(measure_of_tolerance(tolerances, slot));
   return measures;
 }
 
@@ -520,18 +577,27 @@ std::vector<std::string_view> first_of(ReportOrder order) {
 
 }  // namespace
 
-const MeasureTable& measure_table(const trial::ErrorBands& bands) {
-  // References into a map stay valid. Programs use few different bands.
+const MeasureTable& measure_table(const study::StudyFeatures& features) {
+  // References into a map stay valid. Programs use few different limits.
+  using Limits = std::pair<std::vector<std::int64_t>, std::vector<double>>;
   static std::mutex mutex;
-  static std::map<std::vector<std::int64_t>, MeasureTable> tables;
+  static std::map<Limits, MeasureTable> tables;
   const std::lock_guard lock(mutex);
-  const std::vector<std::int64_t> limits(bands.values().begin(), bands.values().end());
+  const trial::ErrorBands& bands = features.bands;
+  const trial::Tolerances& tolerances = features.tolerances;
+  const Limits limits{{bands.values().begin(), bands.values().end()},
+                      {tolerances.values().begin(), tolerances.values().end()}};
   const auto found = tables.find(limits);
-  return found != tables.end() ? found->second : tables.emplace(limits, measures_with(bands)).first->second;
+  return found != tables.end() ? found->second
+                               : tables.emplace(limits, measures_with(bands, tolerances)).first->second;
 }
 
 std::string name_of_band(std::string_view name, std::int64_t band) {
   return fmt::format("{}[{}]", name, band);
+}
+
+std::string name_of_tolerance(std::string_view name, double tolerance) {
+  return fmt::format("{}[{}]", name, tolerance);
 }
 
 bool is_in_file(const Measure& measure, std::int64_t version, const study::StudyFeatures& features) {

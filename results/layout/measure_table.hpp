@@ -13,7 +13,7 @@
 /// The table of the measures of a move. A measure is one row: its column in the results file with the valid
 /// values, its statistics at a point and at a torque level, its columns in the summary, its output in the
 /// sensitivity analysis, and its judgement by the gate. What computes its value is in core/trial; measures of
-/// error bands have one row for all bands.
+/// error bands, and of tolerances, have one row for all of them.
 namespace zerocount::layout {
 
 /// The treatment of a measure in files without its column.
@@ -138,6 +138,7 @@ struct GatedMeasure {
 struct Measure {
   RecordField<trial::MoveOutcome> field;
   std::optional<std::int64_t> band{};  ///< of a measure of an error band: its limit, counts
+  std::optional<double> tolerance{};   ///< of a measure of a tolerance of the position error: it, rad
   FileHistory file{};
   CountedValues values{};
   MoveReduction reduction{MoveReduction::last};

@@ -22,14 +22,14 @@ std::vector<PointColumn> described_columns(const hdf5::Group& group, const Stati
   return columns;
 }
 
-/// The name of a number of an error band without the band; empty for other names.
-std::string_view name_before_band(std::string_view name) {
+/// The name of a number of an error band, or a tolerance, without it; empty for other names.
+std::string_view name_before_limit(std::string_view name) {
   return name.ends_with(']') ? name.substr(0, name.find('[')) : std::string_view();
 }
 
-/// Makes one column [point, band] of those of successive error bands.
-PointColumn joined_bands(std::span<const PointColumn> columns) {
-  PointColumn joined{std::string(name_before_band(columns.front().name)),
+/// Makes one column [point, band] of those of successive error bands, or tolerances.
+PointColumn joined_limits(std::span<const PointColumn> columns) {
+  PointColumn joined{std::string(name_before_limit(columns.front().name)),
                      columns.front().unit,
                      columns.front().long_name,
                      {}};
@@ -42,7 +42,7 @@ PointColumn joined_bands(std::span<const PointColumn> columns) {
 }  // namespace
 
 void write_point_columns(hdf5::File& file, const Table& points, std::span<const PointColumn> columns,
-                         const trial::ErrorBands& bands, RowRange rows) {
+                         const study::StudyFeatures& features, RowRange rows) {
   TableIo io = TableIo::open(file, points);
   hdf5::Group group = file.open_group(points.group);
   const auto write = [&](TableIo& table, const PointColumn& column) {
@@ -52,22 +52,29 @@ void write_point_columns(hdf5::File& file, const Table& points, std::span<const 
       group.open_dataset(column.name).write(rows.first, rows.count, column.values.data());
     }
   };
-  std::map<std::string_view, std::vector<PointColumn>> of_bands;
+  std::map<std::string_view, std::vector<PointColumn>> of_limits;
   for (const PointColumn& column : columns) {
     if (std::ssize(column.values) != rows.count) {
       throw std::invalid_argument(
           fmt::format("the statistic '{}' needs one value per design point", column.name));
     }
-    const std::string_view of_band = name_before_band(column.name);
-    if (of_band.empty()) {
+    const std::string_view before_limit = name_before_limit(column.name);
+    if (before_limit.empty()) {
       write(io, column);
     } else {
-      of_bands[of_band].push_back(column);
+      of_limits[before_limit].push_back(column);
     }
   }
-  if (of_bands.empty()) return;
-  TableIo with_bands = TableIo::create(file, band_statistic_table(bands), io.rows(), 1);
-  for (const auto& [name, all] : of_bands) write(with_bands, joined_bands(all));
+  const auto write_all = [&](RootDimension limits, bool of_tolerances) {
+    if (limits.values.empty()) return;
+    TableIo table =
+        TableIo::create(file, on_axis(limit_statistic_table(std::move(limits)), features.axis), io.rows(), 1);
+    for (const auto& [name, all] : of_limits)
+      if (name.starts_with("tolerance_") == of_tolerances) write(table, joined_limits(all));
+  };
+  if (of_limits.empty()) return;
+  write_all(band_dimension(features.bands), false);
+  write_all(tolerance_dimension(features.tolerances), true);
 }
 
 void write_statistic_table(hdf5::File& file, const StatisticTable& table, std::int64_t points,

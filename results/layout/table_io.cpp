@@ -81,7 +81,12 @@ TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows
   if (table.last) {
     const std::int64_t last = std::ssize(table.last->values);
     io.last_scale_ = make_scale(root, table.last->scale, last);
-    io.last_scale_->write(0, last, table.last->values.data());
+    if (table.last->scale.element == hdf5::Element::int64) {
+      const std::vector<std::int64_t> whole(table.last->values.begin(), table.last->values.end());
+      io.last_scale_->write(0, last, whole.data());
+    } else {
+      io.last_scale_->write(0, last, table.last->values.data());
+    }
     io.add_dimension(last);
   }
   for (const Column& column : table.columns) io.add(column);

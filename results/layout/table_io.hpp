@@ -117,7 +117,7 @@ std::vector<Record> read_records(const TableIo& io, const std::vector<RecordFiel
 /// one dataset [point, band] (see PointColumn). The first points create the datasets, for all points.
 /// @throws std::invalid_argument where a column has not one value per design point.
 void write_point_columns(hdf5::File& file, const Table& points, std::span<const PointColumn> columns,
-                         const trial::ErrorBands& bands, RowRange rows);
+                         const study::StudyFeatures& features, RowRange rows);
 
 /// Writes a table of statistics of the design points `rows` to its group, which the first of them create for
 /// `points` design points.

@@ -50,8 +50,8 @@ Column statistic_column(const PointColumn& statistic) {
   return {statistic.name, statistic.unit, statistic.long_name, hdf5::Element::float64, {}, "statistic"};
 }
 
-Table band_statistic_table(const trial::ErrorBands& bands) {
-  return {"point", whole_numbers("point", "index of the design point"), {}, {}, band_dimension(bands)};
+Table limit_statistic_table(RootDimension limits) {
+  return {"point", whole_numbers("point", "index of the design point"), {}, {}, std::move(limits)};
 }
 
 Table point_table(const std::vector<study::SweepAxis>& axes, const std::vector<PointColumn>& statistics) {
@@ -98,6 +98,17 @@ RootDimension band_dimension(const trial::ErrorBands& bands) {
 Table band_table(const trial::ErrorBands& bands) {
   return {"outcome", whole_numbers("trial", "global row of the trial"),
           whole_numbers("move", "index of the move"), columns_of(band_fields()), band_dimension(bands)};
+}
+
+RootDimension tolerance_dimension(const trial::Tolerances& tolerances) {
+  return {{"tolerance", "rad", "largest position error within the tolerance", hdf5::Element::float64},
+          {tolerances.values().begin(), tolerances.values().end()}};
+}
+
+Table tolerance_table(const trial::Tolerances& tolerances) {
+  return {"outcome", whole_numbers("trial", "global row of the trial"),
+          whole_numbers("move", "index of the move"), columns_of(tolerance_fields()),
+          tolerance_dimension(tolerances)};
 }
 
 Table verdict_table() {

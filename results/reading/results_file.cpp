@@ -62,20 +62,33 @@ std::vector<std::pair<std::string, hdf5::Dataset>> point_columns(const hdf5::Fil
   return columns;
 }
 
-/// Appends a column for each error band of the dataset [point, band].
-void append_bands(const hdf5::File& file, const layout::PointColumn& column, const hdf5::Dataset& dataset,
-                  std::vector<layout::PointColumn>& columns) {
+/// The names of the numbers of this dataset [point, band] or [point, tolerance].
+std::vector<std::string> names_by_limit(const hdf5::File& file, const std::string& name) {
+  std::vector<std::string> names;
+  if (name.starts_with("tolerance_")) {
+    const trial::Tolerances tolerances = read_tolerances(file);
+    for (const double one : tolerances.values()) names.push_back(layout::name_of_tolerance(name, one));
+  } else {
+    const trial::ErrorBands bands = read_bands(file);
+    for (const std::int64_t band : bands.values()) names.push_back(layout::name_of_band(name, band));
+  }
+  return names;
+}
+
+/// Appends a column for each error band, or tolerance, of the dataset [point, band].
+void append_limits(const hdf5::File& file, const layout::PointColumn& column, const hdf5::Dataset& dataset,
+                   std::vector<layout::PointColumn>& columns) {
   require_numbers(dataset, 2);
-  const trial::ErrorBands bands = read_bands(file);
+  const std::vector<std::string> names = names_by_limit(file, column.name);
   const std::size_t points = dataset.extent()[0];
-  if (dataset.extent()[1] != bands.count) dataset.fail("its size differs from that of its axes");
-  std::vector<double> values(points * bands.count);
+  if (dataset.extent()[1] != names.size()) dataset.fail("its size differs from that of its axes");
+  std::vector<double> values(points * names.size());
   dataset.read(0, static_cast<std::int64_t>(points), values.data());
-  for (std::size_t slot = 0; slot < bands.count; ++slot) {
+  for (std::size_t slot = 0; slot < names.size(); ++slot) {
     layout::PointColumn& one = columns.emplace_back(column);
-    one.name = layout::name_of_band(column.name, bands.values()[slot]);
+    one.name = names[slot];
     for (std::size_t point = 0; point < points; ++point)
-      one.values.push_back(values[point * bands.count + slot]);
+      one.values.push_back(values[point * names.size() + slot]);
   }
 }
 
@@ -159,7 +172,7 @@ std::vector<layout::PointColumn> ResultsFile::statistics() const {
   for (const auto& [name, dataset] : point_columns(file_, header_.points, "statistic")) {
     const layout::PointColumn column{name, dataset.text("units"), dataset.text("long_name"), {}};
     if (dataset.extent().size() == 2) {
-      append_bands(file_, column, dataset, statistics);
+      append_limits(file_, column, dataset, statistics);
     } else {
       statistics.push_back(column);
       statistics.back().values = read_doubles(dataset);

@@ -24,6 +24,7 @@ study::StudyFeatures read_features(const hdf5::File& file, const layout::Measure
   const hdf5::Group outcome = file.open_group("outcome");
   study::StudyFeatures features;
   features.bands = read_bands(file);
+  features.tolerances = read_tolerances(file);
   if (outcome.open_dataset("final_position").text("units") ==
       parameters::unit_on(parameters::AxisKind::linear, "rad"))
     features.axis = parameters::AxisKind::linear;
@@ -67,6 +68,23 @@ trial::ErrorBands read_bands(const hdf5::File& file) {
   return bands;
 }
 
+trial::Tolerances read_tolerances(const hdf5::File& file) {
+  const std::string scale = layout::tolerance_dimension({}).scale.name;
+  if (!file.contains(scale)) return {};
+  const hdf5::Dataset dataset = file.open_dataset(scale);
+  const std::vector<hdf5::Size> extent = dataset.extent();
+  trial::Tolerances tolerances;
+  if (dataset.element() != hdf5::Element::float64 || extent.size() != 1 ||
+      extent[0] > tolerances.limits.size())
+    dataset.fail(fmt::format("it should be at most {} numbers", tolerances.limits.size()));
+  tolerances.count = static_cast<std::size_t>(extent[0]);
+  dataset.read(0, std::ssize(tolerances.values()), tolerances.limits.data());
+  if (tolerances.count == 0 || !(tolerances.limits[0] > 0.0) ||
+      !std::is_sorted(tolerances.values().begin(), tolerances.values().end(), std::less_equal()))
+    dataset.fail("its numbers should rise from above 0");
+  return tolerances;
+}
+
 std::vector<study::InputColumn> read_input_columns(const hdf5::Group& table) {
   std::vector<study::InputColumn> inputs;
   if (!table.contains("input")) return inputs;
@@ -83,7 +101,7 @@ TrialTables::TrialTables(const hdf5::File& file, const layout::FileHeader& heade
     : features_(read_features(file, table != nullptr ? *table : layout::measure_table())),
       inputs_(read_input_columns(file.open_group("trial"))),
       trials_(layout::TableIo::open(file, layout::trial_table(inputs_))),
-      table_(table != nullptr ? table : &layout::measure_table(features_.bands)),
+      table_(table != nullptr ? table : &layout::measure_table(features_)),
       measures_(layout::outcome_fields(header.version, features_, *table_)),
       move_fields_(layout::move_fields(header.version, features_, *table_)),
       outcomes_(layout::TableIo::open(file, layout::outcome_table(header.version, features_, *table_))),
@@ -93,7 +111,10 @@ TrialTables::TrialTables(const hdf5::File& file, const layout::FileHeader& heade
   if (first_row_ && trials_.rows() != header.rows.count)
     trials_.row_scale().fail("its size differs from the attribute 'trial_count'");
   if (features_.bands.count > 0) bands_ = layout::TableIo::open(file, layout::band_table(features_.bands));
-  if (outcomes_.rows() != trials_.rows() || (bands_ && bands_->rows() != trials_.rows()))
+  if (features_.tolerances.count > 0)
+    tolerances_ = layout::TableIo::open(file, layout::tolerance_table(features_.tolerances));
+  if (outcomes_.rows() != trials_.rows() || (bands_ && bands_->rows() != trials_.rows()) ||
+      (tolerances_ && tolerances_->rows() != trials_.rows()))
     outcomes_.row_scale().fail("its size differs from that of the trials");
   validate_numbering(header, trials_, jerks_);
 }
@@ -124,7 +145,10 @@ std::vector<trial::MoveOutcome> TrialTables::outcomes(layout::RowRange positions
   std::vector<trial::MoveOutcome> moves =
       layout::read_records(outcomes_, move_fields_, positions.first, positions.count);
   validate_outcomes(outcomes_, move_fields_, number_of(positions.first), moves);
+  for (std::size_t i = 0; i < moves.size(); ++i)
+    moves[i].number = static_cast<std::int64_t>(i) % outcomes_.width();
   if (bands_) read_bands_of(positions, moves);
+  if (tolerances_) read_tolerances_of(positions, moves);
   return moves;
 }
 
@@ -137,6 +161,16 @@ void TrialTables::read_bands_of(layout::RowRange positions, std::span<trial::Mov
     const auto first = std::exchange(next, next + static_cast<std::ptrdiff_t>(features_.bands.count));
     std::copy(first, next, move.bands.begin());
   }
+}
+
+void TrialTables::read_tolerances_of(layout::RowRange positions, std::span<trial::MoveOutcome> moves) const {
+  const std::vector<layout::ToleranceRecord> records =
+      layout::read_records(*tolerances_, layout::tolerance_fields(), positions.first, positions.count);
+  validate_tolerances(*tolerances_, number_of(positions.first), records);
+  std::size_t next = 0;
+  for (trial::MoveOutcome& move : moves)
+    for (std::size_t i = 0; i < features_.tolerances.count; ++i)
+      move.tolerance_settling_times[i] = records[next++].settling_time;
 }
 
 std::vector<double> TrialTables::measure(std::string_view name, layout::RowRange positions) const {

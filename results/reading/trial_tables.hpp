@@ -74,6 +74,7 @@ class TrialTables {
  private:
   /// Reads the measures of the error bands of the trials at these positions into their moves.
   void read_bands_of(layout::RowRange positions, std::span<trial::MoveOutcome> moves) const;
+  void read_tolerances_of(layout::RowRange positions, std::span<trial::MoveOutcome> moves) const;
   /// In messages about values: a global row, or a position where failures are kept.
   std::int64_t number_of(std::int64_t position) const { return first_row_.value_or(0) + position; }
 
@@ -85,13 +86,16 @@ class TrialTables {
   std::vector<layout::RecordField<trial::MoveOutcome>> measures_;
   std::vector<layout::RecordField<trial::MoveOutcome>> move_fields_;  ///< the columns of outcomes_
   layout::TableIo outcomes_;
-  std::optional<layout::TableIo> bands_;  ///< if the file has error bands
+  std::optional<layout::TableIo> bands_;       ///< if the file has error bands
+  std::optional<layout::TableIo> tolerances_;  ///< if the file has error tolerances
   layout::TableIo jerks_;
   std::optional<layout::TableIo> trace_;
 };
 
 /// The error bands of the file; none in a file of an earlier version.
 trial::ErrorBands read_bands(const hdf5::File& file);
+/// The tolerances of the file; none if it has none.
+trial::Tolerances read_tolerances(const hdf5::File& file);
 
 /// The columns of the group `input` of /trial or /rig; none without such a group.
 std::vector<study::InputColumn> read_input_columns(const hdf5::Group& table);

@@ -149,6 +149,14 @@ void validate_bands(const layout::TableIo& table, std::int64_t first_row,
     require_valid(table, layout::band_fields(), field, bands, row_of);
 }
 
+void validate_tolerances(const layout::TableIo& table, std::int64_t first_row,
+                         std::span<const layout::ToleranceRecord> records) {
+  const auto row_of = [first_row, width = table.width()](std::int64_t at) {
+    return fmt::format("trial {}, tolerance {} of its moves", first_row + at / width, at % width);
+  };
+  require_valid(table, layout::tolerance_fields(), layout::tolerance_fields().front(), records, row_of);
+}
+
 void validate_measure(const layout::TableIo& outcomes,
                       const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,
                       std::string_view name, std::int64_t first_row,

@@ -31,6 +31,10 @@ void validate_outcomes(const layout::TableIo& outcomes,
 void validate_bands(const layout::TableIo& table, std::int64_t first_row,
                     std::span<const trial::BandOutcome> bands);
 
+/// Requires possible values of the measures of tolerances.
+void validate_tolerances(const layout::TableIo& table, std::int64_t first_row,
+                         std::span<const layout::ToleranceRecord> records);
+
 /// Checks the measure `name` only; the others of `moves` are unknown.
 void validate_measure(const layout::TableIo& outcomes,
                       const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,

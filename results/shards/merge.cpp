@@ -135,7 +135,7 @@ hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const stu
   const bool sparse = layout::has_sums(study.retention);
   if (layout::has_trials(study.retention)) {
     const layout::MeasureTable& measures =
-        options.measures != nullptr ? *options.measures : layout::measure_table(study.features.bands);
+        options.measures != nullptr ? *options.measures : layout::measure_table(study.features);
     const auto first_row = sparse ? std::nullopt : std::optional(rows.first);
     join(layout::trial_table(study.columns.inputs), 1, first_row);
     join(layout::on_axis(layout::outcome_table(layout::format_version, study.features, measures),
@@ -143,6 +143,9 @@ hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const stu
          study.moves, first_row);
     join(layout::on_axis(layout::band_table(study.features.bands), study.units.axis), study.moves,
          std::nullopt);
+    if (study.features.tolerances.count > 0)
+      join(layout::on_axis(layout::tolerance_table(study.features.tolerances), study.units.axis), study.moves,
+           std::nullopt);
     join(layout::jerk_table(), 1, 0, options.renumber);
     if (sparse) number_kept_trials(file, study);
   }
@@ -159,7 +162,7 @@ void write_point_statistics(hdf5::File& file, const study::Study& study,
   std::vector<layout::PointColumn> columns;
   for (const layout::PointColumn& column : statistics.points)
     columns.push_back(layout::on_axis(column, study.units.axis));
-  layout::write_point_columns(file, layout::point_table(study.points.axes, {}), columns, study.features.bands,
+  layout::write_point_columns(file, layout::point_table(study.points.axes, {}), columns, study.features,
                               points);
 }
 

@@ -94,6 +94,16 @@ std::vector<const trial::BandOutcome*> band_outcomes(std::span<const trial::Move
   return outcomes;
 }
 
+/// [move][tolerance], flattened.
+std::vector<layout::ToleranceRecord> tolerance_records(std::span<const trial::MoveOutcome* const> moves,
+                                                       const trial::Tolerances& tolerances) {
+  std::vector<layout::ToleranceRecord> records;
+  records.reserve(moves.size() * tolerances.count);
+  for (const trial::MoveOutcome* move : moves)
+    for (std::size_t i = 0; i < tolerances.count; ++i) records.push_back({move->tolerance_settling_times[i]});
+  return records;
+}
+
 std::vector<layout::JerkRecord> jerk_records(std::span<const TrialResult> results) {
   std::vector<layout::JerkRecord> jerks;
   for (const TrialResult& result : results) {
@@ -131,7 +141,7 @@ void write_trial_tables(hdf5::File& file, const study::Study& study, std::span<c
   const hdf5::Compression compression = options.compression;
   const study::StudyFeatures& features = study.features;
   const layout::MeasureTable& measures =
-      options.measures != nullptr ? *options.measures : layout::measure_table(features.bands);
+      options.measures != nullptr ? *options.measures : layout::measure_table(features);
   write_trials(file, study, trials, compression);
   const std::vector<const trial::MoveOutcome*> moves = move_outcomes(trials);
   layout::TableIo outcomes = write_table(
@@ -140,6 +150,11 @@ void write_trial_tables(hdf5::File& file, const study::Study& study, std::span<c
   write_row_numbers(outcomes, trials);
   write_table(file, layout::band_table(features.bands), layout::band_fields(),
               band_outcomes(moves, features.bands), study.moves, compression);
+  if (features.tolerances.count > 0) {
+    const auto records = tolerance_records(moves, features.tolerances);
+    write_table(file, layout::tolerance_table(features.tolerances), layout::tolerance_fields(),
+                layout::pointers_to(records), study.moves, compression);
+  }
   const std::vector<layout::JerkRecord> jerks = jerk_records(trials);
   write_table(file, layout::jerk_table(), layout::jerk_fields(), layout::pointers_to(jerks), 1, compression)
       .number_rows(0);

@@ -85,6 +85,7 @@ study::Study planned_study(const command_line::Arguments& arguments) {
   const std::string& manifest = arguments.operands()[0];
   study::Study study = commands::load_study(manifest, arguments);
   plugins::require_no_hidden_state(study);
+  goal::require_one_goal(study, manifest);
   const auto refuse = [&](const char* what) {
     throw Failure(ExitCode::bad_input, fmt::format("{}: {}", manifest, what));
   };
@@ -104,7 +105,8 @@ comparison::PointTrials run_point(const study::Study& study, std::int64_t point,
   comparison::AlsoRead also;
   also.rigs = also.goal_rigs = study.rigs;
   also.worlds = study.worlds;
-  if (study.goal) also.judged = {*study.goal, *measures::counted_goal(study)};
+  if (study::first_goal(study))
+    also.judged = {*study::first_goal(study), measures::counted_goals(study).front()};
   return comparison::gather_trials(outcomes, std::ssize(outcomes) / trials, also);
 }
 
@@ -144,7 +146,7 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   plan.rules = rules_of(arguments);
   plan.power = command_line::probability_option(arguments, "power").value_or(plan.power);
   const study::Study study = planned_study(arguments);
-  if (!study.goal && comparison::names_goal_measure(plan.rules)) {
+  if (!study::first_goal(study) && comparison::names_goal_measure(plan.rules)) {
     throw Failure(
         ExitCode::bad_input,
         fmt::format("{}: its manifest has no goal, by whose measures it is to be planned; expected one "

@@ -43,6 +43,7 @@ ExaminedPoint point_to_examine(const command_line::Arguments& arguments) {
   study::Study study =
       commands::is_results_file(path) ? study_in_file(arguments) : commands::load_study(path, arguments);
   goal::require_targets(study, path);
+  goal::require_one_goal(study, path);
   const std::int64_t point = named_point(arguments, study);
   return {std::move(study), point};
 }

@@ -64,7 +64,7 @@ document::AnswerDescription<GoalPlans> goal_answer() {
       {.name = "plan-goal", .meaning = "the smallest studies that can meet the goal of a manifest"}, {}};
   answer.items.headline(smallest_headline)
       .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
-             [](const GoalPlans& plans) { return goal::goal_sentence(*plans.study.goal); })
+             [](const GoalPlans& plans) { return goal::goal_sentence(*study::first_goal(plans.study)); })
       .value(in_data("worlds", "worlds; 0 without worlds"),
              [](const GoalPlans& plans) { return plans.study.worlds; })
       .table(in_data("plans", "studies, if no move misses the goal"), goal::needs_description(),
@@ -87,7 +87,7 @@ document::AnswerDescription<Pilot> pilot_answer() {
       {}};
   answer.items.headline([](const Pilot& p) { return summary::judgement_headline(p.summary, p.judged); })
       .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
-             [](const Pilot& p) { return goal::goal_sentence(*p.summary.question.claim()); })
+             [](const Pilot& p) { return goal::claim_sentence(p.summary.question); })
       .value(with_words(in_data("status", "verdict on the goal"), goal::status_words()),
              [](const Pilot& p) { return goal::text_of(p.judged.verdict.status); })
       .sentence([](const Pilot& p) { return summary::judgement_details(p.summary, p.judged); })
@@ -99,17 +99,24 @@ document::AnswerDescription<Pilot> pilot_answer() {
   return answer;
 }
 
+/// Number of moves of a trial that the goal is about.
+std::int64_t asked_moves(const study::Study& study) {
+  return measures::asked_moves(measures::asked_of_moves(study).front(), study.moves);
+}
+
 document::Answer plan_of_manifest(const command_line::Arguments& arguments) {
   const std::string& path = arguments.operands()[0];
   const study::Study study = commands::load_study(path, arguments);
-  goal::require_claim(study.goal, path, other_plans);
-  return goal_answer().of({study, goal::smallest_studies(*study.goal, study.rigs > 0, study.moves,
-                                                         study.points.labels.size(), study.worlds)});
+  goal::require_claim(study, path, other_plans);
+  goal::require_one_goal(study, path);
+  return goal_answer().of(
+      {study, goal::smallest_studies(*study::first_goal(study), study.rigs > 0, asked_moves(study),
+                                     study.points.labels.size(), study.worlds)});
 }
 
 document::Answer plan_of_pilot(const std::string& path) {
   const summary::StudySummary summary = summary::summarise_file(path);
-  goal::require_claim(summary.question.claim(), path, other_plans);
+  if (!summary.question.claim()) goal::require_claim({}, path, other_plans);
   return pilot_answer().of({summary, summary::judge_point(summary, summary::choose_point(summary))});
 }
 

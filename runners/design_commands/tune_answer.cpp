@@ -173,7 +173,7 @@ std::string unproven_headline(const TuneAnswer& answer) {
 
 std::string tune_headline(Of tuning) {
   if (!tuning.answer.proof) return unproven_headline(tuning.answer);
-  const std::optional<double> machines = tuning.study.goal->machines;
+  const std::optional<double> machines = study::first_goal(tuning.study)->machines;
   const goal::Verdict& verdict = tuning.answer.proof->verdict;
   switch (tuning.answer.status) {
     case goal::Status::met:
@@ -183,7 +183,8 @@ std::string tune_headline(Of tuning) {
           "unreachable in these ranges: at the best values found {:.4g} % of the {}, and at least {:g} % are "
           "wanted",
           100.0 * (machines ? verdict.machines.value : verdict.moves.value),
-          rated_words(goal::question_of(tuning.study)), 100.0 * machines.value_or(tuning.study.goal->moves));
+          rated_words(goal::question_of(tuning.study)),
+          100.0 * machines.value_or(study::first_goal(tuning.study)->moves));
     case goal::Status::undecided:
       break;
   }
@@ -247,13 +248,14 @@ std::string proof_sentence(Of tuning) {
       study.rigs > 0 ? fmt::format(" on {} machines", proof.study.rigs) : std::string(),
       study.worlds > 0 ? fmt::format("in the worst of {} new worlds ", study.worlds) : std::string(),
       100.0 * proof.verdict.moves.value, 100.0 * proof.verdict.moves.low);
-  if (study.goal->machines)
+  if (study::first_goal(study)->machines)
     lines += fmt::format("at least {:.5g} % of machines meet it in {:g} % of their moves\n",
-                         100.0 * proof.verdict.machines.low, 100.0 * study.goal->moves);
+                         100.0 * proof.verdict.machines.low, 100.0 * study::first_goal(study)->moves);
   if (!proof.verdict.worlds.empty()) lines += worlds_line(proof.verdict);
   if (proof.attempts > 1)
     lines += fmt::format("it is attempt {}: the bounds allow for all of them\n", proof.attempts);
-  if (proof.needs) lines += goal::needs_sentence(*study.goal, *proof.needs, study.rigs > 0) + '\n';
+  if (proof.needs)
+    lines += goal::needs_sentence(*study::first_goal(study), *proof.needs, study.rigs > 0) + '\n';
   return lines;
 }
 
@@ -277,8 +279,9 @@ std::string late_sentence(Of tuning) {
   if (!tuning.answer.proof || tuning.answer.status == goal::Status::met ||
       !tuning.study.tuning->minimise.starts_with("band_settling_time"))
     return "";
-  const std::string moves = fmt::format("{:g} % of the moves{}", 100.0 * tuning.study.goal->moves,
-                                        tuning.study.worlds > 0 ? " of all worlds together" : "");
+  const std::string moves =
+      fmt::format("{:g} % of the moves{}", 100.0 * study::first_goal(tuning.study)->moves,
+                  tuning.study.worlds > 0 ? " of all worlds together" : "");
   if (!std::isfinite(tuning.answer.late_limit))
     return fmt::format("  fewer than {} are within the band for good at the end of the hold", moves);
   return fmt::format("  {} are within the band for good after {} s", moves,
@@ -322,7 +325,7 @@ Description<Tuning> proof_description() {
                      "lower bound of the proportion of machines that meet the goal, if it is about machines",
                      "1"),
              [](Of t) -> std::optional<double> {
-               if (!t.study.goal->machines) return {};
+               if (!study::first_goal(t.study)->machines) return {};
                return t.answer.proof->verdict.machines.low;
              })
       .value(in_data("rigs", "machines; 0 without rigs"), [](Of t) { return t.answer.proof->study.rigs; })
@@ -342,7 +345,7 @@ Description<Tuning> proof_description() {
 void add_proven(Description<Tuning>& items) {
   items.headline(tune_headline)
       .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
-             [](Of t) { return goal::goal_sentence(*t.study.goal); })
+             [](Of t) { return goal::goal_sentence(*study::first_goal(t.study)); })
       .value(with_words(in_data("status", "whether the goal is met; unreachable: not in the ranges"),
                         tune_statuses()),
              [](Of t) { return tune_status(t.answer.status); })
@@ -377,9 +380,9 @@ void add_proven(Description<Tuning>& items) {
 
 std::string wider_band_sentence(Of tuning) {
   if (!tuning.answer.wider_band_rate) return "";
-  return fmt::format("within ±{} counts {:.4g} % of the {} would meet the goal", tuning.study.goal->band + 1,
-                     100.0 * *tuning.answer.wider_band_rate,
-                     tuning.study.goal->machines ? "machines" : "moves");
+  return fmt::format("within ±{} counts {:.4g} % of the {} would meet the goal",
+                     study::first_goal(tuning.study)->band + 1, 100.0 * *tuning.answer.wider_band_rate,
+                     study::first_goal(tuning.study)->machines ? "machines" : "moves");
 }
 
 std::string delay_sentence(Of tuning) {
@@ -395,8 +398,9 @@ std::string delay_sentence(Of tuning) {
 /// What the rates of the tables are proportions of, where it is not the moves of all machines.
 std::string rates_sentence(Of tuning) {
   const study::Study& study = tuning.study;
-  if (tuning.answer.limits.empty() || !(study.goal->machines || study.worlds > 0)) return "";
-  return fmt::format("the rate of the goal, below, is of {}{}", study.goal->machines ? "machines" : "moves",
+  if (tuning.answer.limits.empty() || !(study::first_goal(study)->machines || study.worlds > 0)) return "";
+  return fmt::format("the rate of the goal, below, is of {}{}",
+                     study::first_goal(study)->machines ? "machines" : "moves",
                      study.worlds > 0 ? " in the worst world" : "");
 }
 

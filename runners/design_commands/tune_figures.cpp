@@ -115,8 +115,8 @@ Figure frontier_figure(const TuneAnswer& answer, const study::Study& study) {
   std::erase_if(tried, [](const TriedPoint& one) { return !std::isfinite(one.estimate.criterion); });
   TriedPoint tuned{answer.gains, {}};
   tuned.estimate.criterion = answer.criterion;
-  tuned.estimate.rate =
-      study.goal->machines ? answer.proof->verdict.machines.value : answer.proof->verdict.moves.value;
+  tuned.estimate.rate = study::first_goal(study)->machines ? answer.proof->verdict.machines.value
+                                                           : answer.proof->verdict.moves.value;
   Figure figure = report::figure_of(
       "tuning-frontier", "tuning-frontier", "Success and speed",
       "The points that the search tried, with a finite criterion. The line joins those that no other point "

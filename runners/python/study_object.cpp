@@ -143,9 +143,9 @@ py::dict trace(const study::Study& study, std::int64_t point, std::int64_t index
   result["inputs"] = traced_trial.inputs;
   result["samples"] = columns_of(layout::trace_fields(study.features), traced_trial.samples);
   result["jerks"] = columns_of(layout::jerk_fields(), traced_trial.jerks);
-  result["outcome"] = columns_of(layout::outcome_fields(layout::format_version, study.features,
-                                                        layout::measure_table(study.features.bands)),
-                                 traced_trial.outcome.moves);
+  result["outcome"] = columns_of(
+      layout::outcome_fields(layout::format_version, study.features, layout::measure_table(study.features)),
+      traced_trial.outcome.moves);
   return result;
 }
 
@@ -173,10 +173,10 @@ py::dict descriptions(const study::Study& study) {
   result["jerks"] = descriptions_of(layout::jerk_fields(), axis);
   py::dict measures;
   std::set<std::string> names;
-  for (const auto& field : layout::outcome_fields(layout::format_version, study.features,
-                                                  layout::measure_table(study.features.bands)))
+  for (const auto& field :
+       layout::outcome_fields(layout::format_version, study.features, layout::measure_table(study.features)))
     names.insert(field.column.name);
-  for (const layout::Measure& measure : layout::measure_table(study.features.bands)) {
+  for (const layout::Measure& measure : layout::measure_table(study.features)) {
     if (!names.contains(measure.field.column.name)) continue;
     py::dict description = description_of(measure.field.column, axis);
     description["of_trial"] = std::string(name_of(measure.reduction));
@@ -191,16 +191,40 @@ std::vector<std::int64_t> bands_of(const study::Study& study) {
   return {values.begin(), values.end()};
 }
 
+std::vector<double> tolerances_of(const study::Study& study) {
+  const auto values = study.features.tolerances.values();
+  return {values.begin(), values.end()};
+}
+
+py::dict described_goal(const study::Goal& goal, const measures::CountedGoal& counted) {
+  py::dict described;
+  described["name"] = goal.name;
+  described["band"] = goal.tolerance ? py::object(py::none()) : py::object(py::int_(goal.band));
+  described["tolerance"] = goal.tolerance;
+  described["within"] = goal.within;
+  described["moves"] = goal.moves;
+  described["machines"] = goal.machines;
+  described["confidence"] = goal.confidence;
+  described["on"] = goal.on;
+  py::dict limits;
+  for (const study::GoalLimit& limit : goal.limits) limits[py::str(limit.measure)] = limit.largest;
+  described["limits"] = limits;
+  described["latest"] = measures::latest(counted);
+  return described;
+}
+
+std::vector<py::dict> goals_of(const study::Study& study) {
+  std::vector<py::dict> goals;
+  const std::vector<measures::CountedGoal> counted = measures::counted_goals(study);
+  for (std::size_t i = 0; i < counted.size(); ++i)
+    goals.push_back(described_goal(study.goals[i], counted[i]));
+  return goals;
+}
+
+/// The only goal; nothing where there is none, or several.
 py::object goal_of(const study::Study& study) {
-  if (!study.goal) return py::none();
-  py::dict goal;
-  goal["band"] = study.goal->band;
-  goal["within"] = study.goal->within;
-  goal["moves"] = study.goal->moves;
-  goal["machines"] = study.goal->machines;
-  goal["confidence"] = study.goal->confidence;
-  goal["latest"] = measures::latest(*measures::counted_goal(study));
-  return goal;
+  if (study.goals.size() != 1) return py::none();
+  return goals_of(study).front();
 }
 
 }  // namespace
@@ -239,7 +263,9 @@ void register_study(py::module_& module) {
       .def_property_readonly("axes", &axes_of)
       .def_property_readonly("inputs", &inputs_of)
       .def_property_readonly("bands", &bands_of)
+      .def_property_readonly("tolerances", &tolerances_of)
       .def_property_readonly("goal", &goal_of)
+      .def_property_readonly("goals", &goals_of)
       .def_property_readonly("descriptions", &descriptions)
       .def("trace", &trace, py::arg("point"), py::arg("trial"), py::arg("law") = py::none());
   register_sampling(object);

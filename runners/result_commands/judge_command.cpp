@@ -39,7 +39,7 @@ struct Judgement {
 
   const std::string& label() const { return summary.labels[static_cast<std::size_t>(judged.chosen.point)]; }
   std::optional<double> of_machines(double bound) const {
-    return summary.question.claim()->machines ? std::optional(bound) : std::nullopt;
+    return summary.question.parts[judged.verdict.goal].claim->machines ? std::optional(bound) : std::nullopt;
   }
   std::optional<summary::WorldsReading> worlds_reading() const {
     if (!worlds) return {};
@@ -58,7 +58,7 @@ document::AnswerDescription<Judgement> judge_answer() {
       .value({.key = "label", .meaning = "label of the design point", .shown = Shown::in_data},
              &Judgement::label)
       .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
-             [](Of j) { return goal::goal_sentence(*j.summary.question.claim()); })
+             [](Of j) { return goal::claim_sentence(j.summary.question); })
       .value({.key = "status",
               .meaning = "verdict on the goal",
               .shown = Shown::in_data,
@@ -101,7 +101,7 @@ void require_judgeable(const command_line::Arguments& arguments) {
   }
   const study::Study study = commands::described_study(path);
   command_line::point_option(arguments, study.points.labels);
-  goal::require_claim(study.goal, path.string());
+  goal::require_claim(study, path.string());
 }
 
 ExitCode judge(const command_line::Arguments& arguments) {

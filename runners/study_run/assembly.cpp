@@ -30,7 +30,7 @@ void write_summed(shards::MergedFile& file, const study::Study& study, layout::R
   file.write_sums(sums);
   if (!file.is_whole()) return;
   file.write_statistics(
-      summary::stored_statistics(points, study, predictions, layout::measure_table(study.features.bands)));
+      summary::stored_statistics(points, study, predictions, layout::measure_table(study.features)));
 }
 
 /// Writes the statistics of all trials in the file.

@@ -29,7 +29,8 @@ study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
                               "a study with targets",
                               file.path().string()));
   }
-  const std::int64_t each = recorded.goal && recorded.rigs > 0 ? recorded.trials / recorded.rigs : 1;
+  const std::int64_t each =
+      !recorded.goals.empty() && recorded.rigs > 0 ? recorded.trials / recorded.rigs : 1;
   const std::int64_t least = std::max<std::int64_t>(recorded.worlds, 2);
   const std::int64_t per_world = std::max<std::int64_t>(recorded.worlds, 1);
   const std::int64_t rigs = std::max(least, trials / each / per_world * per_world);
@@ -49,12 +50,14 @@ study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
 /// Counts the successes, and the moves that meet the goal, of the trials from `first` on.
 summary_answer::Confirmation counted_in(const study::Study& study, std::int64_t first,
                                         std::span<const trial::TrialOutcome> outcomes) {
-  const std::optional<measures::CountedGoal> goal = measures::counted_goal(study);
+  const std::vector<measures::CountedGoal> goals = measures::counted_goals(study);
   summary_answer::Confirmation counts;
-  if (goal) counts.goal.emplace().worlds = study.worlds;
+  counts.goals.resize(goals.size());
+  for (measures::MoveCounts& goal : counts.goals) goal.worlds = study.worlds;
   for (const trial::TrialOutcome& outcome : outcomes) {
     counts.successes += trial::succeeded(outcome.moves) ? 1 : 0;
-    if (goal) measures::count_moves(*counts.goal, *goal, first, study.rigs, outcome.moves);
+    for (std::size_t i = 0; i < goals.size(); ++i)
+      measures::count_moves(counts.goals[i], goals[i], first, study.rigs, outcome.moves);
     ++first;
   }
   return counts;
@@ -83,7 +86,8 @@ summary_answer::Confirmation confirm_point(const reading::ResultsFile& file, std
   summary_answer::Confirmation confirmation = std::move(blocks.front());
   for (std::size_t i = 1; i < blocks.size(); ++i) {
     confirmation.successes += blocks[i].successes;
-    if (confirmation.goal) *confirmation.goal += *blocks[i].goal;
+    for (std::size_t goal = 0; goal < confirmation.goals.size(); ++goal)
+      confirmation.goals[goal] += blocks[i].goals[goal];
   }
   confirmation.point = point;
   confirmation.seed = study.seed;

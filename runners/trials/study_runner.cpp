@@ -151,7 +151,7 @@ double memory_of_statistics(const study::Study& study) {
   constexpr double all_statistics = 4e6;  // of the few points that have them all; measured
   constexpr double copies = 2.0;          // as they grow and as they are written
   const auto columns =
-      measures::statistic_fields(study.features, layout::measure_table(study.features.bands)).size();
+      measures::statistic_fields(study.features, layout::measure_table(study.features)).size();
   const double of_point = 8.0 * copies *
                           static_cast<double>(std::ssize(study.points.axes) + std::int64_t(columns) +
                                               study.rigs + 3 * study.worlds);

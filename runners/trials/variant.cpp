@@ -29,7 +29,7 @@ std::optional<study::Study> with_values(const study::Study& study, std::span<con
   if (!rules::refusal_of(edit).empty()) return std::nullopt;
   // A goal that the hold of the study has time for must keep it (manifest/goal).
   const auto has_time = [&](const study::PointEdit& at) {
-    return !study.goal || at.limits("command.hold").low >= study.goal->within;
+    return !study::first_goal(study) || at.limits("command.hold").low >= study::first_goal(study)->within;
   };
   if (!has_time(edit) && has_time(study::PointEdit(study, 0))) return std::nullopt;
   return edit.study();

@@ -38,8 +38,10 @@ std::optional<double> delay_lost(const TunedStudy& tuned, double delay) {
   return std::nullopt;
 }
 
-double rate_in_wider_band(const TunedStudy& tuned) {
-  const std::size_t slot = measures::asked_of_moves(tuned.study).slot.value();
+std::optional<double> rate_in_wider_band(const TunedStudy& tuned) {
+  const std::optional<std::size_t> wanted = measures::asked_of_moves(tuned.study).front().slot;
+  if (!wanted) return std::nullopt;  // the goal is a tolerance
+  const std::size_t slot = *wanted;
   const Change wider = [slot](trial::TrialParameters& p) {
     for (std::size_t b = slot; b < p.verdict.bands.count; ++b) ++p.verdict.bands.limits[b];
   };

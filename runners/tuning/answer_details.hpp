@@ -33,7 +33,7 @@ struct Room {
 std::optional<double> delay_lost(const TunedStudy& tuned, double delay);
 
 /// Rate of the goal if its band were one count wider.
-double rate_in_wider_band(const TunedStudy& tuned);
+std::optional<double> rate_in_wider_band(const TunedStudy& tuned);
 
 std::vector<Room> room_of(const TunedStudy& tuned);
 

@@ -22,6 +22,11 @@
 namespace zerocount::tuning {
 namespace {
 
+/// Number of moves of a trial that the goal is about.
+std::int64_t asked_moves(const study::Study& study) {
+  return measures::asked_moves(measures::asked_of_moves(study).front(), study.moves);
+}
+
 constexpr std::int64_t usual_units = 500;  // at least, where the effort is enough for them
 
 /// The fewest units that can meet the goal.
@@ -29,13 +34,13 @@ std::int64_t min_units_of(const study::Study& study, std::int64_t each, std::siz
   std::int64_t least = std::max<std::int64_t>(study.worlds, 1);
   if (study.rigs == 0) {
     for (const goal::Needs& one :
-         goal::smallest_studies(*study.goal, false, study.moves, points, study.worlds))
+         goal::smallest_studies(*study::first_goal(study), false, asked_moves(study), points, study.worlds))
       least = std::max(least, one.trials);
     return least;
   }
   std::int64_t fewest = 0;
   for (const goal::Needs& one :
-       goal::smallest_studies(*study.goal, true, study.moves, points, study.worlds)) {
+       goal::smallest_studies(*study::first_goal(study), true, asked_moves(study), points, study.worlds)) {
     if (one.trials <= each * one.rigs && (fewest == 0 || one.rigs < fewest)) fewest = one.rigs;
   }
   return std::max(least, fewest);
@@ -143,7 +148,7 @@ std::int64_t proof_units(const study::Study& study, const measures::MoveCounts& 
   const std::int64_t most = std::max<std::int64_t>(max_trials / each / worlds, 1) * worlds;
   const std::int64_t least = std::max(usual_units, min_units_of(study, each, points));
   // Half as many more are taken below.
-  const goal::Needs needs = goal::needs_of(*study.goal, counts, points, 0.5);
+  const goal::Needs needs = goal::needs_of(*study::first_goal(study), counts, points, 0.5);
   const std::int64_t wanted = needs.trials == 0 ? most / 8 : (study.rigs > 0 ? needs.rigs : needs.trials);
   return trials::in_equal_worlds(study, std::clamp(wanted + wanted / 2, std::min(least, most), most));
 }

@@ -36,7 +36,7 @@ bool lie_in_ranges(const Values& values, std::span<const study::FreeParameter> f
 }  // namespace
 
 std::int64_t trials_of_machine(const study::Study& study) {
-  if (!study.goal->machines) return 1;
+  if (!study::first_goal(study)->machines) return 1;
   return std::max<std::int64_t>(study.trials / study.rigs, 10);
 }
 

@@ -200,7 +200,7 @@ class Tuner {
     const std::int64_t each = trials_of_machine(study_);
     ProofRun run;
     ProofProblem problem;
-    problem.goal = *study_.goal;
+    problem.goal = *study::first_goal(study_);
     for (const Estimate& one : result_.estimates)
       problem.promising.push_back(seems_to_meet(aim_of(study_), one));
     problem.first_units = [&](std::size_t finalist, std::size_t correction) {
@@ -251,7 +251,7 @@ class Tuner {
     answer_.proof = Proof{std::move(run.study), proven.verdict, {}, proven.attempt.number};
     if (proven.verdict.status == goal::Status::undecided) {
       answer_.proof->needs =
-          goal::needs_of(*study_.goal, proven.counts, correction_of(proven.attempt.number));
+          goal::needs_of(*study::first_goal(study_), proven.counts, correction_of(proven.attempt.number));
     }
     const Candidate by_proof{candidate.place, candidate.values, std::move(run.results)};
     Aim aim = aim_of(study_);
@@ -385,7 +385,8 @@ class Tuner {
     for (const std::string& one : trials::overrides_for(study, units)) fresh.push_back(one);
     const Candidate candidate{
         {}, values, results_of(trials::variant_of(study, fresh), units, units.count, nullptr, effort)};
-    alternative.verdict = goal::judge_goal(*study.goal, counts_of(study, units, candidate.units), 1);
+    alternative.verdict =
+        goal::judge_goal(*study::first_goal(study), counts_of(study, units, candidate.units), 1);
     alternative.criterion = estimate_of(aim_of(study), candidate, units.count).criterion;
   }
 

@@ -36,10 +36,11 @@ double value_of(const Criterion& criterion, const trial::MoveOutcome& move) {
 class TrialCounter {
  public:
   explicit TrialCounter(const study::Study& study)
-      : goal_(measures::asked_of_moves(study)), criterion_(criterion_of(study)) {}
+      : goal_(measures::asked_of_moves(study).front()), criterion_(criterion_of(study)) {}
 
   void add(std::span<const trial::MoveOutcome> moves, UnitResult& result) const {
     for (const trial::MoveOutcome& move : moves) {
+      if (!measures::asks(goal_, move)) continue;
       ++result.moves;
       result.met += measures::meets(goal_, move) ? 1 : 0;
       result.values.push_back(value_of(criterion_, move));
@@ -102,18 +103,18 @@ std::optional<double> quantile_of(std::string_view name) {
   return name == "p99" ? std::optional(0.99) : std::nullopt;
 }
 
-/// A quantile of a measure of the true motion, such as rest_torque_noise.p95.
+/// A quantile of a measure of the true motion or the position error, such as rest_torque_noise.p95.
 std::optional<Criterion> motion_criterion(const study::Study& study, std::string_view text) {
   const auto dot = text.rfind('.');
   if (dot == std::string_view::npos) return std::nullopt;
   const std::optional<double> quantile = quantile_of(text.substr(dot + 1));
   if (!quantile) return std::nullopt;
-  for (const layout::Measure& measure : layout::measure_table(study.features.bands)) {
+  for (const layout::Measure& measure : layout::measure_table(study.features)) {
     bool study::StudyFeatures::*const use = measure.file.only_with;
     const bool is_motion = use == &study::StudyFeatures::motion || use == &study::StudyFeatures::following ||
                            use == &study::StudyFeatures::reversals;
-    if (measure.field.column.name == text.substr(0, dot) && is_motion && study.features.*use)
-      return Criterion{&measure, *quantile};
+    if (measure.field.column.name != text.substr(0, dot)) continue;
+    if (measure.tolerance || (is_motion && study.features.*use)) return Criterion{&measure, *quantile};
   }
   return std::nullopt;
 }
@@ -121,14 +122,16 @@ std::optional<Criterion> motion_criterion(const study::Study& study, std::string
 }  // namespace
 
 Criterion criterion_of(const study::Study& study) {
+  const std::string default_text = study::Tuning{}.minimise;
+  const std::string of_goal = goal::settling_measure(goal::question_of(study)) + ".p95";
   const std::string text =
-      study.tuning ? study.tuning->minimise : goal::settling_measure(goal::question_of(study)) + ".p95";
+      study.tuning && study.tuning->minimise != default_text ? study.tuning->minimise : of_goal;
   if (const std::optional<Criterion> criterion = motion_criterion(study, text)) return *criterion;
   const auto dot = text.rfind('.');
   const std::string name = text.substr(0, dot);
-  const std::string with_band = name.starts_with("band_") && !name.ends_with("]") && dot != std::string::npos
-                                    ? fmt::format("{}[{}]{}", name, study.goal->band, text.substr(dot))
-                                    : text;
+  const bool lacks_band = name.starts_with("band_") && !name.ends_with("]") && dot != std::string::npos;
+  const std::string with_band =
+      lacks_band ? fmt::format("{}[{}]{}", name, study::first_goal(study)->band, text.substr(dot)) : text;
   const auto quantity = comparison::find_requirable(with_band);
   if (!quantity || quantity->kind != comparison::RequirementKind::quantile) {
     throw Failure(ExitCode::bad_input,
@@ -138,7 +141,7 @@ Criterion criterion_of(const study::Study& study) {
                               study.name, text));
   }
   const layout::Measure& wanted = *quantity->measure.measure;
-  for (const layout::Measure& measure : layout::measure_table(study.features.bands)) {
+  for (const layout::Measure& measure : layout::measure_table(study.features)) {
     if (measure.field.column.name == wanted.field.column.name && measure.band == wanted.band)
       return {&measure, quantity->probability};
   }
@@ -149,7 +152,7 @@ Criterion criterion_of(const study::Study& study) {
 }
 
 Aim aim_of(const study::Study& study) {
-  const study::Goal claim = study.goal.value_or(study::Goal{.moves = 1.0});
+  const study::Goal claim = study.goals.empty() ? study::Goal{.moves = 1.0} : study.goals.front();
   return {claim.moves, claim.machines, criterion_of(study).quantile, study.worlds};
 }
 

@@ -42,7 +42,7 @@ struct BoxPoint {
 
 /// A time beyond any that matters, s: ten times that of the goal, or the hold of a move.
 double late_time(const study::Study& study, std::int64_t point) {
-  if (study.goal) return study.goal->within * 10.0;
+  if (study::first_goal(study)) return study::first_goal(study)->within * 10.0;
   return study::study_trial(study, point, 0).parameters.command.hold;
 }
 

@@ -43,6 +43,8 @@ std::vector<layout::Table> tables_of(const reading::ResultsFile& file, const stu
               layout::on_axis(layout::outcome_table(header.version, features, file.trials()->table()), axis),
               layout::jerk_table()};
     if (features.bands.count > 0) tables.push_back(layout::on_axis(layout::band_table(features.bands), axis));
+    if (features.tolerances.count > 0)
+      tables.push_back(layout::on_axis(layout::tolerance_table(features.tolerances), axis));
     if (!study.retained_trials.empty())
       tables.push_back(layout::on_axis(layout::trace_table(features), axis));
   }

@@ -221,7 +221,8 @@ std::optional<Figure> band_figure(const ReportedStudy& reported) {
   encoding["x"]["title"] = "within the band for good from (s)";
   figure.specification["layer"][0]["encoding"]["y"]["title"] = "proportion of moves";
   if (reported.study.worlds > 0) figure.caption += "It is an average over the worlds. ";
-  if (question_of(reported).claim()) add_goal(figure, question_of(reported));
+  for (const goal::JudgedPart& part : question_of(reported).parts)
+    if (part.claim && !part.claim->tolerance) add_goal(figure, only(question_of(reported), part.number));
   return figure;
 }
 

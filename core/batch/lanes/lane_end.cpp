@@ -99,7 +99,9 @@ LaneSet end_moves(RunningBatch& run) {
 void stop_diverged(RunningBatch& run, int lane) {
   LaneTrial& trial = run.trial_of(lane);
   record_move(run, lane, trial, true);
-  trial.outcome->moves.resize(trial.parameters->command.targets.size(), trial::move_not_run());
+  std::vector<trial::MoveOutcome>& moves = trial.outcome->moves;
+  while (moves.size() < trial.parameters->command.targets.size())
+    moves.push_back(trial::move_not_run(moves.size()));
   start_next_trial(run, lane);
 }
 

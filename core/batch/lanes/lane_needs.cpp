@@ -81,7 +81,7 @@ std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMo
 }
 
 std::string_view lacking(const trial::CommandParameters& command) {
-  [[maybe_unused]] const auto& [targets, hold, profile, torque] = command;
+  [[maybe_unused]] const auto& [targets, hold, profile, torque, exact_targets] = command;
   if (!torque.levels.empty()) return "torque levels";
   return targets.empty() ? "no moves" : "";
 }
@@ -139,9 +139,15 @@ bool needs_lane_drive(const trial::TrialParameters& p) {
          !d.ripple.empty() || !d.vibration.empty() || !d.spectra.empty();
 }
 
+/// Whether the position itself is measured at every sample, whatever the encoder reads.
+bool measures_position(const trial::VerdictParameters& verdict) {
+  return verdict.motion || verdict.position_error;
+}
+
 bool needs_lane_loop(const trial::TrialParameters& p) {
-  return !is_certain(p) || p.verdict.motion || p.controller.missed > 0.0 || loop::has_errors(p.dac) ||
-         loop::has_coarse_phase(p.controller) || p.controller.encoder != loop::EncoderChoice::fine ||
+  return !is_certain(p) || measures_position(p.verdict) || p.controller.missed > 0.0 ||
+         loop::has_errors(p.dac) || loop::has_coarse_phase(p.controller) ||
+         p.controller.encoder != loop::EncoderChoice::fine ||
          p.command.profile.shape != loop::ReferenceShape::step || p.controller.user.plugin ||
          p.controller.blocks.filters.size() > max_lane_filters;
 }
@@ -152,7 +158,7 @@ bool is_steady_at_zero(const trial::TrialParameters& p) {
     return b.hold.enter >= 0.0 || b.standstill.band >= 0.0;
   };
   const bool all_fine = c.encoder == loop::EncoderChoice::fine && c.coarse.encoder == c.encoder;
-  return is_certain(p) && !p.verdict.motion && !c.user.plugin && all_fine && !remembers(p) &&
+  return is_certain(p) && !measures_position(p.verdict) && !c.user.plugin && all_fine && !remembers(p) &&
          !has_dwell(c.blocks) && (!loop::has_coarse_phase(c) || !blocks_remember(c.coarse.blocks));
 }
 

@@ -207,7 +207,7 @@ class Results:
         wanted += [name for name in everything if name == "rigs_without_failure"]
         table = everything[["label", *axes, *wanted]].astype({"trials": int})
         table.attrs = {kind: {name: of[name] for name in table} for kind, of in everything.attrs.items()}
-        if self.checked.goal is not None:
+        if self.checked.goals:
             goals = [point["goal"] for point in self.summary["points"]]
             for place, (name, key) in enumerate(zip(_GOAL, ("status", "rate", "rate_low", "rate_high"))):
                 table.insert(1 + len(axes) + place, name, [goal[key] for goal in goals])

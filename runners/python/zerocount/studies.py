@@ -336,8 +336,16 @@ class Study:
 
     @property
     def goal(self) -> dict[str, Any] | None:
-        """The goal: ``band`` (counts), ``within`` (s), ``moves``, ``machines`` and ``confidence``; or None."""
+        """The only goal: ``band`` (counts) or ``tolerance``, ``within`` (s), ``moves``, ``machines``, ``confidence``, ``on``, ``limits``.
+
+        None where there is no goal, or several: see `goals`.
+        """
         return self.checked.goal
+
+    @property
+    def goals(self) -> list[dict[str, Any]]:
+        """All goals, each as `goal` with its ``name``; all of them must be met."""
+        return self.checked.goals
 
     def command(
         self,

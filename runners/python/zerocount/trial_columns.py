@@ -59,22 +59,39 @@ class TrialColumns:
         """The columns, those with a dimension of error bands as one column for each of them."""
         result = {}
         for name, column in columns.items():
-            if column.dimensions[-1] != "band":
+            limits = {"band": self.study.bands, "tolerance": self.study.tolerances}.get(column.dimensions[-1])
+            if limits is None:
                 result[name] = column
                 continue
-            for place, band in enumerate(self.study.bands):
+            for place, band in enumerate(limits):
                 values = column.values[..., place]
                 result[f"{name}[{band}]"] = dataclasses.replace(column, values=values, dimensions=column.dimensions[:-1])
         return result
 
     def meets(self, outcome: Mapping[str, Column]) -> dict[str, Column]:
-        """[trial, move] whether each move meets the goal of the manifest, if there is one."""
-        goal = self.study.goal
-        times = outcome.get(f"band_settling_time[{goal['band']}]") if goal is not None else None
-        if goal is None or times is None:
+        """[trial, move] whether each move meets the goals of the manifest that are about it, if there are any."""
+        if not self.study.goals:
             return {}
+        of_goals = [self.meets_goal(goal, outcome) for goal in self.study.goals]
+        if any(met is None for met in of_goals):
+            return {}
+        any_measure = next(iter(outcome.values()))
+        values = np.logical_and.reduce(of_goals)
+        meaning = "it meets the goal of the manifest" if len(of_goals) == 1 else "it meets the goals about it"
+        return {"goal_met": dataclasses.replace(any_measure, values=values, unit="1", meaning=meaning)}
+
+    def meets_goal(self, goal: Mapping[str, Any], outcome: Mapping[str, Column]) -> np.ndarray | None:
+        """[trial, move] whether each move meets a goal, or it is not about the move; None where it cannot be told."""
+        key = "band_settling_time[{band}]" if goal["tolerance"] is None else "tolerance_settling_time[{tolerance}]"
+        times = outcome.get(key.format(**goal))
+        if times is None or any(measure not in outcome for measure in goal["limits"]):
+            return None
         met = times.values <= goal["latest"]  # not where it is NaN
-        return {"goal_met": dataclasses.replace(times, values=met, unit="1", meaning="it meets the goal of the manifest")}
+        for measure, largest in goal["limits"].items():
+            met &= np.abs(outcome[measure].values.astype(float)) <= largest
+        if goal["on"]:
+            met[:, [move for move in range(met.shape[1]) if move not in goal["on"]]] = True
+        return met
 
     def of_trials(self, columns: Mapping[str, Column]) -> dict[str, Column]:
         """[trial] from [trial, move]."""

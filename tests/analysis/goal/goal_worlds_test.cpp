@@ -48,13 +48,14 @@ TEST(GoalInWorlds, IsMetIfItIsMetInEachAndMissedIfItIsMissedInOne) {
   EXPECT_EQ(status({990, 900, 950}), Status::missed);
 }
 
-// Clopper and Pearson's bounds of the worst world, with the confidence that each of three must have.
+// Clopper and Pearson's bounds of the worst world: the lower one without correction, the upper one with the
+// confidence that each of three must have.
 TEST(GoalInWorlds, HasBoundsOfTheWorstWorld) {
   const study::Goal goal{.within = 0.05, .moves = 0.95, .confidence = 0.9};
   const double each = 1.0 - 0.1 / 3.0;
   const Verdict verdict = judge_goal(goal, counts_in_worlds({990, 940, 970}, 1000), 1);
   EXPECT_EQ(verdict.moves.value, 0.94);
-  EXPECT_NEAR(verdict.moves.low, statistics::proportion_at_least(940, 1000, each), 1e-9);
+  EXPECT_NEAR(verdict.moves.low, statistics::proportion_at_least(940, 1000, 0.9), 1e-9);
   EXPECT_NEAR(verdict.moves.high, statistics::proportion_at_most(940, 1000, each), 1e-9);
   EXPECT_EQ(worst_worlds_first(goal, verdict), (std::vector<std::size_t>{1, 2, 0}));
 }
@@ -105,7 +106,7 @@ TEST_EACH_SEED(RatesInWorlds, AreJudgedAsTheLowestOfSoManyStudies) {
   std::vector<std::size_t> met_in;
   std::vector<std::size_t> missed_in;
   for (std::size_t world = 0; world < alone.size(); ++world) {
-    const Verdict one = judge_goal(goal, alone[world], points * alone.size());
+    const Verdict one = judge_goal(goal, alone[world], points, alone.size());
     EXPECT_EQ(verdict.worlds[world].status, one.status);
     expect_equal_bounds(verdict.worlds[world].moves, one.moves);
     expect_equal_bounds(verdict.worlds[world].machines, one.machines);

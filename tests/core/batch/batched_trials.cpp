@@ -68,6 +68,9 @@ void compare(Differences& d, const trial::MoveOutcome& a, const trial::MoveOutco
   d.expect_same("rest_torque_noise", a.rest_torque_noise, b.rest_torque_noise);
   d.expect_same("following_error_rms", a.following_error_rms, b.following_error_rms);
   d.expect_same("reversal_spike", a.reversal_spike, b.reversal_spike);
+  d.expect_same("true_overshoot", a.true_overshoot, b.true_overshoot);
+  for (std::size_t i = 0; i < trial::max_tolerances; ++i)
+    d.expect_same("tolerance_settling_time", a.tolerance_settling_times[i], b.tolerance_settling_times[i]);
   d.expect_same("step_motion", a.step_motion, b.step_motion);
 }
 

@@ -28,13 +28,13 @@ TEST(Bands, ReachTheTrials) {
 
 TEST(Goal, HasADefaultForBandAndConfidence) {
   const study::Study study = study_of(minimal_manifest("goal: {within: 0.1, moves: 0.9}"));
-  ASSERT_TRUE(study.goal);
-  EXPECT_EQ(study.goal->band, 0);
-  EXPECT_EQ(study.goal->within, 0.1);
-  EXPECT_EQ(study.goal->moves, 0.9);
-  EXPECT_FALSE(study.goal->machines);
-  EXPECT_EQ(study.goal->confidence, 0.95);
-  EXPECT_FALSE(study_of(minimal_manifest()).goal);
+  ASSERT_EQ(study.goals.size(), 1U);
+  EXPECT_EQ(study.goals[0].band, 0);
+  EXPECT_EQ(study.goals[0].within, 0.1);
+  EXPECT_EQ(study.goals[0].moves, 0.9);
+  EXPECT_FALSE(study.goals[0].machines);
+  EXPECT_EQ(study.goals[0].confidence, 0.95);
+  EXPECT_TRUE(study_of(minimal_manifest()).goals.empty());
 }
 
 TEST(Goal, AddsItsBandInOrder) {
@@ -44,6 +44,34 @@ TEST(Goal, AddsItsBandInOrder) {
             (std::vector<std::int64_t>{1, 2, 5}));
   EXPECT_EQ(bands_of(study_of(minimal_manifest(goal + "verdict: {bands: [2]}"))),
             (std::vector<std::int64_t>{2}));
+}
+
+TEST(Goals, HaveNamesMovesAndLimits) {
+  const study::Study study =
+      study_of(minimal_manifest("goals:\n"
+                                "  large: {on: [0], tolerance: 2.0e-6, within: 0.1, moves: 0.9, limits: "
+                                "{overshoot: 20, band_exits[3]: 1}}\n"
+                                "  small: {band: 3, within: 0.05, moves: 0.8}\n"));
+  ASSERT_EQ(study.goals.size(), 2U);
+  EXPECT_EQ(study.goals[0].name, "large");
+  EXPECT_EQ(study.goals[0].on, (std::vector<std::int64_t>{0}));
+  EXPECT_EQ(study.goals[0].tolerance, 2.0e-6);
+  ASSERT_EQ(study.goals[0].limits.size(), 2U);
+  EXPECT_EQ(study.goals[0].limits[1].measure, "band_exits[3]");  // the band of the other goal
+  EXPECT_EQ(study.goals[1].name, "small");
+  EXPECT_EQ(bands_of(study), (std::vector<std::int64_t>{0, 1, 3}));
+  EXPECT_EQ(study.features.tolerances.count, 1U);
+  EXPECT_TRUE(study.features.position_error);
+}
+
+TEST(Goals, MeasureThePositionOnlyWhereItIsAskedFor) {
+  const auto measures_position = [](const char* goal) {
+    const study::Study study = study_of(minimal_manifest(goal));
+    return study::study_trial(study, 0, 0).parameters.verdict.position_error;
+  };
+  EXPECT_FALSE(measures_position("goal: {within: 0.1, moves: 0.9, limits: {overshoot: 3}}"));
+  EXPECT_TRUE(measures_position("goal: {within: 0.1, moves: 0.9, limits: {true_overshoot: 3}}"));
+  EXPECT_TRUE(measures_position("goal: {tolerance: 1.0e-6, within: 0.1, moves: 0.9}"));
 }
 
 struct GoalRefusal {
@@ -74,6 +102,22 @@ INSTANTIATE_TEST_SUITE_P(
         GoalRefusal{"verdict: {bands: [0, 1, 2, 3, 4, 5, 6, 7, 8]}", "6:18: verdict.bands | a list of 9"},
         GoalRefusal{"verdict: {bands: [0, 1, 2, 3, 4, 5, 6, 7]}\ngoal: {band: 9, within: 0.1, moves: 0.9}",
                     "7:7: goal | one too many"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9}\ngoals: {a: {within: 0.1, moves: 0.9}}",
+                    "7:8: goals | `goal`"},
+        GoalRefusal{"goals: {}", "6:8: goals | no goal"},
+        GoalRefusal{"goals: {a: {within: 0.1, moves: 2}}", "6:33: goals.a.moves | '2'"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, tolerance: 0}", "6:44: goal.tolerance | '0'"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, tolerance: 1.0e-6, band: 1}",
+                    "6:58: goal.band | tolerance"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, on: [7]}", "6:38: goal.on.0 | '7'"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, on: [0, 0]}", "6:41: goal.on.1 | twice"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, on: []}", "6:37: goal.on | empty"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {overshot: 1}}",
+                    "6:52: goal.limits.overshot | no measure"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {rest_error_rms: 1}}",
+                    "6:58: goal.limits.rest_error_rms | not measured"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {overshoot: -1}}",
+                    "6:53: goal.limits.overshoot | '-1'"},
         GoalRefusal{"sweep: {grid: {verdict.bands: [[0], [1]]}}", "6:16: sweep.grid.verdict.bands | swept"}));
 
 }  // namespace

@@ -19,16 +19,16 @@ namespace zerocount::trials {
 namespace {
 
 const char* const manifests[] = {
-    "zerocount: 1\nname: rotary\nseed: 4\ntrials: 8\ncommand: {targets: [12], hold: 0.2}\n"
-    "friction: {k1: {lognormal: {median: 110, cv: 0.2}}}\ncontroller: {ki: 3.85e-5, delay: 1}\n"
-    "goal: {band: 1, within: 0.15, moves: 0.9}\n",
-    "zerocount: 1\nname: si\nseed: 5\ntrials: 8\nrigs: 4\ncommand: {targets: [500], hold: 0.2}\n"
-    "plant: {presliding_damping: 0.2, sliding_damping: 1.0e-3}\n"
-    "friction: {model: lugre, alpha: {uniform: [0.5, 2]}}\n"
-    "controller: {units: si, sample_rate: 4000, kp: 3.0, ki: 40, kd: 0.02}\n"
-    "encoder: {fine_errors: {noise: 0.1}}\n",
-    "zerocount: 1\nname: two phases\nseed: 6\ntrials: 8\ncommand: {targets: [200], hold: 0.2}\n"
-    "controller: {ki: 2.0e-5, coarse: {coarse_beyond: 40, fine_within: 10, kp: 1.0e-4, ki: 2.0e-5}}\n",
+    ("zerocount: 1\nname: rotary\nseed: 4\ntrials: 8\ncommand: {targets: [12], hold: 0.2}\n"
+     "friction: {k1: {lognormal: {median: 110, cv: 0.2}}}\ncontroller: {ki: 3.85e-5, delay: 1}\n"
+     "goal: {band: 1, within: 0.15, moves: 0.9}\n"),
+    ("zerocount: 1\nname: si\nseed: 5\ntrials: 8\nrigs: 4\ncommand: {targets: [500], hold: 0.2}\n"
+     "plant: {presliding_damping: 0.2, sliding_damping: 1.0e-3}\n"
+     "friction: {model: lugre, alpha: {uniform: [0.5, 2]}}\n"
+     "controller: {units: si, sample_rate: 4000, kp: 3.0, ki: 40, kd: 0.02}\n"
+     "encoder: {fine_errors: {noise: 0.1}}\n"),
+    ("zerocount: 1\nname: two phases\nseed: 6\ntrials: 8\ncommand: {targets: [200], hold: 0.2}\n"
+     "controller: {ki: 2.0e-5, coarse: {coarse_beyond: 40, fine_within: 10, kp: 1.0e-4, ki: 2.0e-5}}\n"),
 };
 
 /// The study whose manifest has these values; nothing where they are refused.

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/loop/reference.hpp"
+#include "core/trial/outcome.hpp"
+#include "core/trial/parameters.hpp"
+
+namespace zerocount::trial {
+
+/// Measures of the position error of each move,
+///
+///   ε_k = (r + ½ − encoder_phase)·Δx − θ_k,
+///
+/// r the target in counts before rounding, of a sine the reference at t_k, and θ of the rotor, or of the load
+/// where the encoder is there. They do not depend on what the encoder reads.
+class PositionError {
+ public:
+  /// @param resolution Δx of the fine encoder, rad.
+  PositionError(const TrialParameters& parameters, double resolution);
+
+  /// Starts the next move. @param number of the move, in order
+  void start_move(std::size_t number);
+
+  /// Takes sample k of the move. @param theta rad
+  void add(std::int64_t k, double theta, const loop::Reference& reference);
+
+  /// Adds the measures of the move to its outcome, whose other measures are final.
+  void finish(MoveOutcome& outcome) const;
+
+ private:
+  /// Target of the move, rad, before rounding; 0 before the first.
+  double exact_target(std::size_t number) const;
+
+  const TrialParameters& p_;
+  double resolution_;
+  double offset_;          // (½ − encoder_phase)·Δx, rad
+  double target_{0.0};     // rad
+  double direction_{0.0};  // of the move: −1, 0 or 1
+  double overshoot_{0.0};  // so far, rad
+  std::int64_t last_{-1};  // sample
+  std::array<std::int64_t, max_tolerances> last_outside_{};
+};
+
+}  // namespace zerocount::trial

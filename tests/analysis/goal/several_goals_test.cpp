@@ -1,0 +1,126 @@
+// The verdict by several goals: all have to be met.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "analysis/goal/goal_verdict.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/each_seed.hpp"
+
+namespace zerocount::goal {
+namespace {
+
+double logit(double p) {
+  return std::log(p / (1.0 - p));
+}
+
+/// Two to four goals on random counts.
+struct SeveralGoals {
+  static constexpr unsigned seeds = 200;
+
+  explicit SeveralGoals(unsigned seed) : draws(seed) {
+    for (std::int64_t i = 0; i < number; ++i) {
+      goals.push_back({.within = 0.05, .moves = draws.uniform(0.7, 0.97), .machines = {}, .confidence = 0.9});
+      if (rigs > 0 && draws.chance(0.5)) goals.back().machines = draws.uniform(0.5, 0.9);
+      const double rate = draws.uniform(0.7, 1.0);
+      measures::MoveCounts& of_goal = counts.emplace_back();
+      for (std::int64_t trial = 0; trial < trials; ++trial) of_goal.add(trial, rigs, 1, draws.chance(rate));
+    }
+  }
+
+  testing::Draws draws;
+  std::int64_t number{draws.integer(2, 4)};
+  std::int64_t rigs{draws.chance(0.5) ? 0 : draws.integer(10, 40)};
+  std::int64_t trials{rigs > 0 ? rigs* draws.integer(2, 20) : draws.integer(50, 400)};
+  std::vector<study::Goal> goals;
+  std::vector<measures::MoveCounts> counts;
+};
+
+TEST_EACH_SEED(SeveralGoals, AreMetIfEachIsMetAtItsConfidence) {
+  const Verdict verdict = judge_goals(goals, counts, 1);
+  bool all_met = true, one_missed = false;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const Verdict alone = judge_goal(goals[i], counts[i], 1);
+    // Bonferroni's correction is of the points from which one is chosen too: of the upper bound alone.
+    const Verdict corrected = judge_goal(goals[i], counts[i], goals.size());
+    EXPECT_EQ(verdict.goals[i].moves.low, alone.moves.low);
+    EXPECT_EQ(verdict.goals[i].moves.high, corrected.moves.high);
+    all_met = all_met && alone.status == Status::met;
+    one_missed = one_missed || corrected.status == Status::missed;
+  }
+  EXPECT_EQ(verdict.status == Status::met, all_met);
+  EXPECT_EQ(verdict.status == Status::missed, one_missed);
+}
+
+TEST_EACH_SEED(SeveralGoals, AreJudgedByTheWorst) {
+  const Verdict verdict = judge_goals(goals, counts, 1);
+  const auto rank = [](Status status) {
+    return status == Status::missed ? 0 : status == Status::undecided ? 1 : 2;
+  };
+  const auto margin = [&](std::size_t i) {
+    const Verdict& one = verdict.goals[i];
+    return goals[i].machines ? logit(one.machines.low) - logit(*goals[i].machines)
+                             : logit(one.moves.low) - logit(goals[i].moves);
+  };
+  const std::size_t worst = verdict.goal;
+  EXPECT_EQ(verdict.status, verdict.goals[worst].status);
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    EXPECT_GE(rank(verdict.goals[i].status), rank(verdict.status));
+    if (verdict.goals[i].status == verdict.status) {
+      EXPECT_LE(margin(worst), margin(i));
+    }
+  }
+}
+
+/// Three standard deviations above a wrong claim in 5 % of the studies.
+double largest_number(int studies) {
+  return studies * 0.05 + 3.0 * std::sqrt(studies * 0.05 * 0.95);
+}
+
+/// The verdicts on studies of 300 trials, or 60 rigs of 20 moves, whose goals are met with these rates.
+std::vector<Verdict> verdicts_on(const std::vector<study::Goal>& goals, const std::vector<double>& rates,
+                                 std::int64_t rigs, int studies) {
+  testing::Draws draws(9);
+  std::vector<Verdict> verdicts;
+  for (int study = 0; study < studies; ++study) {
+    std::vector<measures::MoveCounts> counts(goals.size());
+    for (std::size_t i = 0; i < goals.size(); ++i) {
+      for (std::int64_t trial = 0; trial < (rigs > 0 ? rigs * 20 : 300); ++trial)
+        counts[i].add(trial, rigs, 1, draws.chance(rates[i]));
+    }
+    verdicts.push_back(judge_goals(goals, counts, 1));
+  }
+  return verdicts;
+}
+
+// One goal is exactly at what it asks for, the others are met by far: the hardest case of the test.
+TEST(SeveralGoals, AreRarelyClaimedToBeMetWhereOneIsAtItsLimit) {
+  constexpr int studies = 800;
+  for (const std::int64_t rigs : {0, 60}) {
+    for (const std::size_t number : {2U, 4U}) {
+      const std::vector<study::Goal> goals(number, {.within = 0.05, .moves = 0.9, .machines = {}});
+      std::vector<double> rates(number, 0.999);
+      rates.back() = 0.9;
+      const std::vector<Verdict> verdicts = verdicts_on(goals, rates, rigs, studies);
+      const auto claimed =
+          std::ranges::count_if(verdicts, [](const Verdict& one) { return one.status == Status::met; });
+      EXPECT_LE(static_cast<double>(claimed), largest_number(studies)) << rigs << " rigs, " << number;
+    }
+  }
+}
+
+// All goals are exactly at what they ask for: some are often seen below.
+TEST(SeveralGoals, AreRarelyClaimedToBeMissedWhereAllAreAtTheirLimits) {
+  constexpr int studies = 800;
+  const std::vector<study::Goal> goals(4, {.within = 0.05, .moves = 0.9, .machines = {}});
+  const std::vector<Verdict> verdicts = verdicts_on(goals, std::vector<double>(4, 0.9), 0, studies);
+  const auto claimed =
+      std::ranges::count_if(verdicts, [](const Verdict& one) { return one.status == Status::missed; });
+  EXPECT_LE(static_cast<double>(claimed), largest_number(studies));
+}
+
+}  // namespace
+}  // namespace zerocount::goal

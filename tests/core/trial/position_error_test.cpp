@@ -1,0 +1,95 @@
+// The measures of the position error, from the samples of random trials by their definitions, in both
+// engines.
+#include "core/trial/position_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/loop/encoder.hpp"
+#include "core/trial/trial.hpp"
+#include "tests/core/batch/batched_trials.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/each_seed.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+/// A random trial whose position error is measured, with targets between the counts or on them.
+struct TrialsWithTolerances {
+  static constexpr unsigned seeds = 60;
+
+  explicit TrialsWithTolerances(unsigned seed) : draws(seed) {
+    constexpr TrialKind kinds[] = {TrialKind::calm, TrialKind::ringing, TrialKind::breaking_away};
+    p = trial_for_lanes(kinds[seed % 3], seed);
+    count = loop::fine_resolution(p.encoder);
+    for (const std::int64_t target : p.command.targets)
+      targets.push_back((static_cast<double>(target) + (between ? draws.uniform(-0.5, 0.5) : 0.0)) * count);
+    if (between) p.command.exact_targets = targets;
+    p.verdict.position_error = true;
+    p.verdict.tolerances = {{0.3 * count, 1.2 * count, 40.0 * count}, 3};
+  }
+
+  testing::Draws draws;
+  bool between{draws.chance(0.5)};
+  trial::TrialParameters p;
+  double count{0.0};
+  std::vector<double> targets;  ///< [move] rad
+};
+
+TEST_EACH_SEED(TrialsWithTolerances, SettleWhereTheErrorIsWithinForGood) {
+  std::vector<double> theta;
+  trial::TrialObservers observers;
+  observers.sample = [&](const trial::SampleRecord& r) { theta.push_back(r.theta); };
+  const trial::TrialOutcome outcome = trial::run_trial(p, observers);
+  std::size_t first = 0;
+  for (std::size_t move = 0; move < targets.size(); ++move) {
+    const auto samples = static_cast<std::size_t>(trial::samples_of_move(p, move));
+    const trial::MoveOutcome& measured = outcome.moves[move];
+    EXPECT_EQ(measured.number, static_cast<std::int64_t>(move));
+    if (measured.outcome == trial::Outcome::nonfinite || measured.stopped) {
+      EXPECT_TRUE(std::isnan(measured.true_overshoot));
+      return;
+    }
+    const double step = targets[move] - (move == 0 ? 0.0 : targets[move - 1]);
+    double overshoot = 0.0;
+    std::vector<std::size_t> settled(3, 0);
+    for (std::size_t k = 0; k < samples; ++k) {
+      const double error = targets[move] + (0.5 - p.initial.encoder_phase) * count - theta[first + k];
+      if (step != 0.0) overshoot = std::max(overshoot, step > 0.0 ? -error : error);
+      for (std::size_t i = 0; i < settled.size(); ++i)
+        if (std::abs(error) > p.verdict.tolerances.limits[i]) settled[i] = k + 1;
+    }
+    EXPECT_NEAR(measured.true_overshoot, overshoot, 1e-9 * count + 1e-12 * std::abs(targets[move]));
+    for (std::size_t i = 0; i < settled.size(); ++i) {
+      const double time = measured.tolerance_settling_times[i];
+      if (settled[i] == samples) {
+        EXPECT_TRUE(std::isnan(time));
+      } else {
+        EXPECT_DOUBLE_EQ(time, static_cast<double>(settled[i]) / p.controller.sample_rate);
+      }
+    }
+    first += samples;
+  }
+}
+
+TEST_EACH_SEED(TrialsWithTolerances, AreMeasuredAlikeInLanes) {
+  const trial::TrialOutcome one = trial::run_trial(p);
+  const trial::TrialOutcome other = run_batch({p}).front().outcome;
+  for (std::size_t move = 0; move < one.moves.size(); ++move) {
+    if (one.moves[move].broke_away) return;  // motions after a slide may part
+    EXPECT_EQ(one.moves[move].number, other.moves[move].number);
+    EXPECT_NEAR(one.moves[move].true_overshoot, other.moves[move].true_overshoot, 1e-5 * count);
+    for (std::size_t i = 0; i < p.verdict.tolerances.count; ++i) {
+      const double a = one.moves[move].tolerance_settling_times[i];
+      const double b = other.moves[move].tolerance_settling_times[i];
+      EXPECT_TRUE((std::isnan(a) && std::isnan(b)) || a == b) << a << " and " << b;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -235,6 +235,12 @@ std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
   return rules;
 }
 
+std::vector<ValueFault> longer_than_the_move(double within, const study::ValueLimits& hold) {
+  if (!(hold.low < within)) return {};
+  return {{fmt::format("{} s is longer than the hold of a move, {} s", within, hold.low),
+           "a time in s, at most command.hold"}};
+}
+
 std::string first_fault(const study::StudyPlan& plan, std::size_t point) {
   for (const ValueRule& rule : value_rules(plan)) {
     if (rule.warn_only) continue;

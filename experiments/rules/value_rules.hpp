@@ -44,6 +44,9 @@ std::vector<ValueRule> plugin_rules(const study::StudyPlan& plan);
 /// All rules for a plan of this kind.
 std::vector<ValueRule> value_rules(const study::StudyPlan& plan);
 
+/// The rule of a goal: a time `within` (s) that a move of this hold does not have could never be kept.
+std::vector<ValueFault> longer_than_the_move(double within, const study::ValueLimits& hold);
+
 /// The first inconsistency between the values of a design point that is an error, "path: what; expected …";
 /// empty if there is none.
 std::string first_fault(const study::StudyPlan& plan, std::size_t point);

@@ -9,6 +9,7 @@
 
 #include "core/trial/named_measures.hpp"
 #include "experiments/keys/key_reading.hpp"
+#include "experiments/rules/value_rules.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 
@@ -45,17 +46,15 @@ void check_order(const yaml::Field& map, const study::StoppingRule& rule, yaml::
   }
 }
 
-// A longer time could never be reached.
 void check_within(const yaml::Field& field, double within, const study::StudyPlan& plan,
                   yaml::Problems& problems) {
-  double shortest = within;
+  study::ValueLimits shortest{.low = within};
   study::holds_somewhere(plan, "command.hold", [&shortest](const study::ValueLimits& hold) {
-    if (hold.low < shortest) shortest = hold.low;
+    if (hold.low < shortest.low) shortest = hold;
     return false;
   });
-  if (shortest < within)
-    problems.add(field, fmt::format("{} s is longer than the hold of a move, {} s", within, shortest),
-                 "a time in s, at most command.hold");
+  for (const rules::ValueFault& fault : rules::longer_than_the_move(within, shortest))
+    problems.add(field, fault.what, fault.expected);
 }
 
 std::int64_t move_count(const study::StudyPlan& plan) {

@@ -1,5 +1,6 @@
 #include "runners/trials/variant.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "core/random/random_numbers.hpp"
@@ -27,11 +28,10 @@ std::optional<study::Study> with_values(const study::Study& study, std::span<con
   study::PointEdit edit(study, 0);
   for (std::size_t i = 0; i < parameters.size(); ++i) edit.set(parameters[i], values[i]);
   if (!rules::refusal_of(edit).empty()) return std::nullopt;
-  // A goal that the hold of the study has time for must keep it (manifest/goal).
-  const auto has_time = [&](const study::PointEdit& at) {
-    return !study::first_goal(study) || at.limits("command.hold").low >= study::first_goal(study)->within;
+  const auto has_no_time = [&edit](const study::Goal& goal) {
+    return !rules::longer_than_the_move(goal.within, edit.limits("command.hold")).empty();
   };
-  if (!has_time(edit) && has_time(study::PointEdit(study, 0))) return std::nullopt;
+  if (std::ranges::any_of(study.goals, has_no_time)) return std::nullopt;
   return edit.study();
 }
 

@@ -11,8 +11,8 @@
 #include "results/reading/first_difference.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
+#include "results/storage/temporary_folder.hpp"
 #include "runners/study_run/assembly.hpp"
-#include "runners/verification/temporary_folder.hpp"
 
 namespace zerocount::verification {
 namespace {
@@ -49,8 +49,8 @@ void check_rebuilt(CheckReport& report, const reading::ResultsFile& file, const 
       check.detail = fmt::format("format version {} had others", file.header().version);
       return;
     }
-    const verification::TemporaryFolder folder;
-    const std::filesystem::path rebuilt = folder.path() / "rebuilt.h5";
+    const storage::TemporaryFolder folder;
+    const std::filesystem::path rebuilt = folder / "rebuilt.h5";
     const std::array<shards::ShardInfo, 1> trials{{{file.path(), file.rows()}}};
     make(trials, study, rebuilt, file.rows(), report.stop);
     const reading::ResultsFile other(rebuilt, reading::Require::unfinished);

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "results/storage/temporary_folder.hpp"
+
 namespace zerocount::testing {
 
 /// The whole contents of a file; empty where it cannot be read.
@@ -11,21 +13,10 @@ std::string read_bytes(const std::filesystem::path& path);
 void write_bytes(const std::filesystem::path& path, const std::string& bytes);
 
 /// A fresh folder, removed at the end of its life with all it holds.
-class TemporaryFolder {
+class TemporaryFolder : public storage::TemporaryFolder {
  public:
-  TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder();
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
   std::filesystem::path write(const std::string& name, const std::string& bytes) const;
   std::string read(const std::string& name) const;
-
- private:
-  std::filesystem::path path_;
 };
 
 }  // namespace zerocount::testing

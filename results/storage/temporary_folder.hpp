@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-namespace zerocount::verification {
+namespace zerocount::storage {
 
 /// A temporary folder; the destructor removes it with its contents.
 class TemporaryFolder {
@@ -14,9 +14,10 @@ class TemporaryFolder {
   ~TemporaryFolder();
 
   const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::filesystem::path& name) const { return path_ / name; }
 
  private:
   std::filesystem::path path_;
 };
 
-}  // namespace zerocount::verification
+}  // namespace zerocount::storage

@@ -1,4 +1,4 @@
-#include "runners/verification/temporary_folder.hpp"
+#include "results/storage/temporary_folder.hpp"
 
 #include <cerrno>
 #include <cstdlib>
@@ -7,14 +7,14 @@
 
 #include "results/storage/durable_file.hpp"
 
-namespace zerocount::verification {
+namespace zerocount::storage {
 
 TemporaryFolder::TemporaryFolder() {
   std::error_code error;
   const std::filesystem::path place = std::filesystem::temp_directory_path(error);
-  if (error) storage::fail_with("the folder for temporary files (TMPDIR)", "find it", error.value());
+  if (error) fail_with("the folder for temporary files (TMPDIR)", "find it", error.value());
   std::string pattern = (place / "zerocount-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) == nullptr) storage::fail_with(pattern, "make the folder", errno);
+  if (::mkdtemp(pattern.data()) == nullptr) fail_with(pattern, "make the folder", errno);
   path_ = pattern;
 }
 
@@ -23,4 +23,4 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-}  // namespace zerocount::verification
+}  // namespace zerocount::storage

@@ -96,25 +96,19 @@ std::vector<std::string> overrides_of(std::span<const study::FreeParameter> free
 
 namespace {
 
-/// The probability of a quantile by its name.
-std::optional<double> quantile_of(std::string_view name) {
-  if (name == "median") return 0.5;
-  if (name == "p95") return 0.95;
-  return name == "p99" ? std::optional(0.99) : std::nullopt;
-}
-
 /// A quantile of a measure of the true motion or the position error, such as rest_torque_noise.p95.
 std::optional<Criterion> motion_criterion(const study::Study& study, std::string_view text) {
   const auto dot = text.rfind('.');
   if (dot == std::string_view::npos) return std::nullopt;
-  const std::optional<double> quantile = quantile_of(text.substr(dot + 1));
-  if (!quantile) return std::nullopt;
+  const auto quantile = std::ranges::find(comparison::quantile_names, text.substr(dot + 1),
+                                          &std::pair<std::string_view, double>::first);
+  if (quantile == comparison::quantile_names.end()) return std::nullopt;
   for (const layout::Measure& measure : layout::measure_table(study.features)) {
     bool study::StudyFeatures::*const use = measure.file.only_with;
     const bool is_motion = use == &study::StudyFeatures::motion || use == &study::StudyFeatures::following ||
                            use == &study::StudyFeatures::reversals;
     if (measure.field.column.name != text.substr(0, dot)) continue;
-    if (measure.tolerance || (is_motion && study.features.*use)) return Criterion{&measure, *quantile};
+    if (measure.tolerance || (is_motion && study.features.*use)) return Criterion{&measure, quantile->second};
   }
   return std::nullopt;
 }

@@ -1,10 +1,10 @@
 #include "runners/tuning/answer_details.hpp"
 
 #include <cmath>
-#include <functional>
 #include <optional>
 
 #include "analysis/measures/goal_counts.hpp"
+#include "core/numerics/bisection.hpp"
 #include "runners/tuning/limits.hpp"
 
 namespace zerocount::tuning {
@@ -14,13 +14,10 @@ bool seems_met(const TunedStudy& tuned, const study::Study& study, const Change*
   return rate_of(study, tuned.units, tuned.count, change, tuned.effort) >= wanted_rate(aim_of(study));
 }
 
-/// The place in [kept, lost], or [lost, kept], where `holds` ends.
-double bisect(double kept, double lost, int steps, const std::function<bool(double)>& holds) {
-  for (int i = 0; i < steps; ++i) {
-    const double middle = 0.5 * (kept + lost);
-    (holds(middle) ? kept : lost) = middle;
-  }
-  return kept;
+/// The last place from `kept` towards `lost` where the condition still holds, to 2^−halvings of the way.
+template <class Condition>
+double last_kept(double kept, double lost, int halvings, const Condition& holds) {
+  return numerics::bisect({kept, lost}, holds, numerics::after_halvings(halvings)).holds;
 }
 
 }  // namespace
@@ -33,7 +30,7 @@ std::optional<double> delay_lost(const TunedStudy& tuned, double delay) {
   constexpr double step = 0.25;
   constexpr double most = 5.0;
   for (double more = step; more <= most; more += step) {
-    if (!holds(delay + more)) return bisect(delay + more - step, delay + more, 3, holds);
+    if (!holds(delay + more)) return last_kept(delay + more - step, delay + more, 3, holds);
   }
   return std::nullopt;
 }
@@ -69,7 +66,7 @@ std::vector<Room> room_of(const TunedStudy& tuned) {
       double kept = place[i];
       for (int step = 1; step <= steps; ++step) {
         const double next = place[i] + (to - place[i]) * step / steps;
-        if (!holds(next)) return bisect(kept, next, 4, holds);
+        if (!holds(next)) return last_kept(kept, next, 4, holds);
         kept = next;
       }
       return to;

@@ -11,6 +11,7 @@
 #include "core/friction/law.hpp"
 #include "core/friction/parameters.hpp"
 #include "core/loop/controller/controller.hpp"
+#include "core/numerics/bisection.hpp"
 #include "core/theory/margins.hpp"
 #include "core/trial/trial.hpp"
 
@@ -118,11 +119,7 @@ double delay_margin(const trial::TrialParameters& p, const MachineLoops& machine
     lost += 0.25;
     if (kept >= longest_delay) return longest_delay;
   }
-  while (lost - kept > 0.01) {
-    const double middle = 0.5 * (kept + lost);
-    (bears(middle) ? kept : lost) = middle;
-  }
-  return kept;
+  return numerics::bisect({kept, lost}, bears, numerics::within(0.01)).holds;
 }
 
 /// Whether the drawn quantities change nothing of the loops but the stiffness of a spring.

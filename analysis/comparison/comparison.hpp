@@ -143,7 +143,7 @@ struct StudyComparison {
   std::string first_difference;  ///< first dataset that differs, with the place; empty if not searched for
   std::vector<manifest_text::ManifestDifference> manifest_differences;
   std::vector<std::string> changed_inputs;  ///< drawn parameters whose values differ on the same draws
-  double confidence{0.95};                  ///< of each bound
+  double confidence{statistics::summary_confidence};  ///< of each bound
   double false_discovery_rate{0.05};
   std::int64_t tests{0};  ///< over which the false discoveries are controlled
   std::vector<PointComparison> points;

@@ -8,6 +8,7 @@
 
 #include "analysis/comparison/judged_sample.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/statistics/proportion.hpp"
 #include "analysis/two_samples/continuation.hpp"
 
 /// How many trials would decide a comparison, by simulation of the comparison with more trials.
@@ -66,11 +67,12 @@ class ForecastSamples {
 };
 
 struct ForecastOptions {
-  double confidence{0.95};            ///< of each bound
-  double false_discovery_rate{0.05};  ///< over all measures at all points
-  double failing_confidence{0.95};    ///< with which a requirement must be contradicted
-  double probability{0.8};            ///< with which the number of trials decides
-  int simulations{400};               ///< of each number of trials
+  double confidence{statistics::summary_confidence};  ///< of each bound
+  double false_discovery_rate{0.05};                  ///< over all measures at all points
+  double failing_confidence{
+      statistics::summary_confidence};  ///< with which a requirement must be contradicted
+  double probability{0.8};              ///< with which the number of trials decides
+  int simulations{400};                 ///< of each number of trials
   double min_factor{1.0};    ///< the fewest trials that are tried, as a multiple of those that there are
   double max_factor{100.0};  ///< the most trials that are tried, as such a multiple
 };

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/statistics/proportion.hpp"
 #include "results/layout/measure_table.hpp"
 
 /// The judged measures, their margins, and the absolute requirements.
@@ -99,9 +100,9 @@ struct Requirement {
 constexpr std::int64_t default_compared_moves = 1'000'000;
 
 struct GateRules {
-  double confidence{0.95};            ///< of every bound, one-sided
-  double false_discovery_rate{0.05};  ///< over all measures at all points
-  bool changed_fails{false};          ///< of every measure, a change for the better fails too
+  double confidence{statistics::summary_confidence};  ///< of every bound, one-sided
+  double false_discovery_rate{0.05};                  ///< over all measures at all points
+  bool changed_fails{false};                          ///< of every measure, a change for the better fails too
   std::vector<std::string> measures;  ///< that are judged; empty: judged_measures() says which
   /// Trials of each point that are compared, the first ones; default: default_compared_moves / moves of each.
   std::optional<std::int64_t> max_trials;

@@ -13,7 +13,8 @@ struct ConfidenceInterval {
   double half_width() const { return 0.5 * (high - low); }
 };
 
-/// Default confidence of the bounds in a summary, and confidence of all bounds in a results file.
+/// Confidence of the bounds of every answer that is not asked for another, and of all bounds in a results
+/// file.
 inline constexpr double summary_confidence = 0.95;
 
 /// @throws Failure (bad_input) unless 0 < value < 1; `what` names it in the message.

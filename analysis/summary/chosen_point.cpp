@@ -18,8 +18,6 @@
 namespace zerocount::summary {
 namespace {
 
-constexpr double confidence_of_worse = 0.95;
-
 const measures::PointSummary& point_of(const StudySummary& summary, std::int64_t point) {
   return summary.points[static_cast<std::size_t>(point)];
 }
@@ -40,8 +38,8 @@ bool differ(std::span<const double> better, std::span<const double> worse) {
   for (std::size_t i = 0; i < better.size(); ++i) differences.add(better[i] - worse[i]);
   const auto rigs = static_cast<double>(better.size());
   if (better.size() < 2) return false;
-  return differences.mean >
-         statistics::student_t_quantile(rigs - 1.0, confidence_of_worse) * differences.sd() / std::sqrt(rigs);
+  return differences.mean > statistics::student_t_quantile(rigs - 1.0, statistics::summary_confidence) *
+                                differences.sd() / std::sqrt(rigs);
 }
 
 /// A rate of independent events, with one more event of each kind.
@@ -74,7 +72,7 @@ bool is_shown_worse(const goal::Question& question, const measures::MoveCounts& 
   if (!of_best.empty() && of_best.size() == of_other.size()) return differ(of_best, of_other);
   const AdjustedRate a(measures::clusters_of(best)), b(measures::clusters_of(other));
   return a.value - b.value >
-         statistics::normal_quantile(confidence_of_worse) * std::sqrt(a.variance + b.variance);
+         statistics::normal_quantile(statistics::summary_confidence) * std::sqrt(a.variance + b.variance);
 }
 
 std::vector<EndOfRange> ends_at(const StudySummary& summary, std::int64_t point) {

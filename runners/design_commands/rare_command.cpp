@@ -27,7 +27,6 @@
 namespace zerocount::design_commands {
 namespace {
 
-constexpr double usual_confidence = 0.95;
 constexpr std::int64_t usual_trials = 1'000'000;
 
 constexpr const char* rare_help =
@@ -79,7 +78,8 @@ measures::MoveEvent event_to_ask(const command_line::Arguments& arguments, const
 rare::RareSettings settings_of(const command_line::Arguments& arguments) {
   rare::RareSettings settings;
   settings.output = command_line::output_place(arguments);
-  settings.confidence = command_line::probability_option(arguments, "confidence").value_or(usual_confidence);
+  settings.confidence =
+      command_line::probability_option(arguments, "confidence").value_or(settings.confidence);
   settings.ratio = command_line::number_option(arguments, "ratio", 1.0).value_or(settings.ratio);
   const command_line::Budget budget = command_line::budget_option(arguments);
   settings.max_trials = budget.trials;

@@ -43,7 +43,7 @@ struct EstimatorState {
 struct EstimatorSettings {
   TrialSpace space{};
   std::size_t scores{1};
-  double confidence{0.95};
+  double confidence{statistics::summary_confidence};
   double ratio{2.0};  ///< wanted of the bounds, high / low
   std::uint64_t seed{0};
 };

@@ -15,7 +15,7 @@ namespace zerocount::rare {
 
 struct RareSettings {
   std::filesystem::path output;
-  double confidence{0.95};
+  double confidence{statistics::summary_confidence};
   double ratio{2.0};                       ///< wanted of the bounds, high / low
   std::optional<std::int64_t> max_trials;  ///< of this run
   std::optional<double> seconds;           ///< of this run
@@ -24,7 +24,7 @@ struct RareSettings {
 };
 
 struct RareAnswer {
-  double confidence{0.95};
+  double confidence{statistics::summary_confidence};
   std::optional<std::int64_t> max_trials{};  ///< RareSettings::max_trials
   std::optional<double> max_seconds{};       ///< RareSettings::seconds
   EstimatorState state;

@@ -179,24 +179,6 @@ class Description {
     return add_rows(std::move(item), std::move(parts), std::move(get));
   }
 
-  /// Objects by name: a table whose rows have names. `get` returns a range of pairs of a name and a Part.
-  template <class Part, class Get>
-  Description& objects_by_name(Item item, Description<Part> parts, Get get) {
-    item.kind = Kind::map;
-    Item element{.kind = Kind::object};
-    element.members = parts.items();
-    item.members = {std::move(element)};
-    return add(
-        std::move(item),
-        [parts = std::move(parts), get = std::move(get)](const Row& row, Audience audience) -> Content {
-          Named named;
-          auto&& found = std::invoke(get, row);
-          for (const auto& [name, part] : found)
-            named.values.emplace_back(name, Content{parts.members_of(part, audience)});
-          return {std::move(named)};
-        });
-  }
-
   /// The items of `parts` beside the others. `get` returns a Part, an optional one, or a pointer to one;
   /// where there is none they are empty.
   template <class Part, class Get>

@@ -68,13 +68,6 @@ class StateReader {
     (read(fields), ...);
   }
 
-  /// Reads the elements of a vector that is as long as it must be.
-  template <class Element>
-  void of_same_size(std::vector<Element>& elements) {
-    if (next_size() != elements.size()) fail();
-    for (Element& element : elements) read(element);
-  }
-
   static void require(bool possible) {
     if (!possible) fail();
   }

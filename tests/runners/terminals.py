@@ -70,14 +70,15 @@ class Terminals(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory(prefix="zerocount-terminals-")
         self.addCleanup(self.folder.cleanup)
         (pathlib.Path(self.folder.name) / "axis.yaml").write_text(MANIFEST)
+        (pathlib.Path(self.folder.name) / "short.yaml").write_text(MANIFEST.replace("400000", "60"))
 
     def piped(self, *words, **environment):
         clean = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
         return subprocess.run([PROGRAM, *words], cwd=self.folder.name, env={**clean, **environment}, capture_output=True, text=True)
 
     def test_everything_for_people_fits(self):
-        commands = [["check", "axis.yaml"], ["check", "--help"], ["verify", "--help"], ["--help"], ["parameters"], ["new", "--list"],
-                    ["plan", "axis.yaml"], ["plan", "axis.yaml", "--success", "0.99"], ["parameters", "--guides"],
+        commands = [["check", "short.yaml"], ["check", "--help"], ["verify", "--help"], ["--help"], ["parameters"], ["new", "--list"],
+                    ["plan", "short.yaml"], ["plan", "short.yaml", "--success", "0.99"], ["parameters", "--guides"],
                     ["run", "axis.yaml", "--treads", "3"], ["check", "nowhere.yaml"], ["new"], []]
         for width in (40, 80, 120):
             for words in commands:
@@ -96,7 +97,7 @@ class Terminals(unittest.TestCase):
                 self.assertEqual(sorted(shown.split()), sorted((result.stderr + result.stdout).split()))
 
     def test_what_is_piped_follows_columns_where_that_is_set(self):
-        for words in (["check", "axis.yaml"], ["parameters"]):
+        for words in (["check", "short.yaml"], ["parameters"]):
             free = self.piped(*words)
             self.assertGreater(max(map(columns, (free.stdout + free.stderr).splitlines())), 100)
             fitted = self.piped(*words, COLUMNS="60")

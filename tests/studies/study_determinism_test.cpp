@@ -72,7 +72,7 @@ std::string open_loop(int trials) {
 struct RandomStudy {
   const char* name;
   std::string (*manifest)(int trials);
-  int trials;  ///< for a run of half a second or so
+  int trials;  ///< for a run of a quarter of a second or so
 };
 
 void PrintTo(const RandomStudy& study, std::ostream* out) {
@@ -95,21 +95,14 @@ class StudyDeterminism : public ::testing::TestWithParam<RandomStudy> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Random, StudyDeterminism,
-                         ::testing::Values(RandomStudy{"closed loop", closed_loop, 60},
-                                           RandomStudy{"open loop", open_loop, 100}));
+                         ::testing::Values(RandomStudy{"closed loop", closed_loop, 30},
+                                           RandomStudy{"open loop", open_loop, 50}));
 
-TEST_P(StudyDeterminism, DatasetsDoNotDependOnTheNumberOfThreads) {
-  write(24);
-  complete("one.h5", {"--threads", "1"});
-  complete("three.h5", {"--threads", "3"});
-  expect_same_datasets(folder_ / "one.h5", folder_ / "three.h5");
-}
-
-TEST_P(StudyDeterminism, DatasetsDoNotDependOnPartsOrTheirOrder) {
+TEST_P(StudyDeterminism, DatasetsDoNotDependOnThreadsPartsOrTheirOrder) {
   write(16);
-  complete("whole.h5");
+  complete("whole.h5", {"--threads", "1"});
   for (const char* part : {"1/3", "2/3", "3/3"}) {
-    complete(std::string("part") + part[0] + ".h5", {"--shard", part});
+    complete(std::string("part") + part[0] + ".h5", {"--threads", "3", "--shard", part});
   }
   ASSERT_EQ(run({"merge", "part2.h5", "part3.h5", "part1.h5", "-o", "merged.h5"}).code, 0);
   expect_same_datasets(folder_ / "whole.h5", folder_ / "merged.h5");
@@ -119,7 +112,7 @@ TEST_P(StudyDeterminism, InterruptedAndKilledRunsGoOnToTheSameDatasets) {
   write(GetParam().trials);
   complete("whole.h5");
   std::mt19937 random(8);
-  std::uniform_int_distribution<int> moment(30, 250);
+  std::uniform_int_distribution<int> moment(30, 150);
   for (const int signal : {SIGINT, SIGKILL}) {
     const std::string name = "hit" + std::to_string(signal) + ".h5";
     for (int time = 0; time < 2; ++time) {
@@ -138,7 +131,7 @@ TEST_P(StudyDeterminism, ATrialThatIsReplayedIsTheRecordedOne) {
   write(5);
   complete("out.h5");
   for (const char* point : {"0", "1"}) {
-    for (const char* trial : {"0", "1", "4"}) {
+    for (const char* trial : {"0", "4"}) {
       const ProgramResult replay = run({"trace", "out.h5", "--point", point, "--trial", trial});
       EXPECT_EQ(replay.code, 0) << replay.err;
       EXPECT_EQ(run({"trace", "study.yaml", "--point", point, "--trial", trial}).out, replay.out);

@@ -117,7 +117,7 @@ TEST(ExperimentDesign, EachImprovementIsOne) {
 // The widths of the linear theory are those that `identify` reports of simulated records.
 TEST(ExperimentDesign, IdentifyReportsTheExpectedWidths) {
   const ExperimentDesign& design = quick_design();
-  for (const Machine& machine : drawn_machines(study_of(manifest_with()), 0, 5)) {
+  for (const Machine& machine : drawn_machines(study_of(manifest_with()), 0, 3)) {
     const SimulatedRecord record = simulate(machine, design.protocol);
     const Widths widths = expected_widths(machine, design.protocol, record);
     const auto found = identified(machine, design.protocol, record, {});
@@ -169,7 +169,6 @@ TEST(ExperimentDesign, ASecondExperimentFollowsFromTheFirst) {
       "initial: {encoder_phase: {uniform: [0, 1]}}\nencoder: {fine_errors: {noise: 0.2}}\n" +
       found.fragment);
   DesignSettings settings = quick_settings();
-  settings.search.max_protocols = 10;
   const ExperimentDesign second = design_experiment(told, settings);
   const auto spread = [&](const ExperimentDesign& design) {
     const SimulatedRecord of_truth = simulate(truth, design.protocol);

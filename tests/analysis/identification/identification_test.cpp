@@ -180,7 +180,7 @@ TEST(Identification, LeavesOpenWhatARecordDoesNotShow) {
   TestInstrument coarse;
   coarse.counts_per_revolution = 2e5;
   const identification::Identification found =
-      identification::identify({simulated_test({}, one_level, coarse, random)});
+      identification::identify({simulated_test({}, one_level, coarse, random)}, {{}, 200});
   EXPECT_TRUE(finds(found, "inertia", 5.54e-4, 0.2));
   EXPECT_TRUE(finds(found, "k1", 110.0, 0.1));
   EXPECT_TRUE(finds(found, "alpha", 0.5, 0.1));
@@ -198,7 +198,7 @@ TEST(Identification, LeavesOpenWhatARecordDoesNotShow) {
   exact.torque_step = 0.0;
   exact.counts_per_revolution = 4e5;
   const identification::Identification quiet =
-      identification::identify({simulated_test(no_creep_at_all, slow, exact, random)});
+      identification::identify({simulated_test(no_creep_at_all, slow, exact, random)}, {{}, 200});
   EXPECT_TRUE(finds(quiet, "k1", 110.0, 0.01));
   EXPECT_TRUE(is_open(quiet, "inertia"))
       << estimate_of(quiet, "inertia").low << ", " << estimate_of(quiet, "inertia").high;
@@ -206,6 +206,11 @@ TEST(Identification, LeavesOpenWhatARecordDoesNotShow) {
   EXPECT_TRUE(is_open(quiet, "alpha"));
   EXPECT_NE(estimate_of(quiet, "alpha").reason.find("never held"), std::string::npos);
   EXPECT_TRUE(std::isnan(estimate_of(quiet, "alpha").value));
+  // Nor do they show a time offset: it keeps the given value.
+  const identification::ParameterEstimate& offset = estimate_of(quiet, "time_offset");
+  EXPECT_EQ(offset.status, identification::EstimateStatus::kept);
+  EXPECT_EQ(offset.value, 0.0);
+  EXPECT_NE(offset.reason.find("too slowly"), std::string::npos) << offset.reason;
 }
 
 TorqueProgramme steps_and_ramps() {
@@ -253,7 +258,7 @@ TEST(Identification, ASlowRotorIsIdentifiedLikeAFastOne) {
   std::mt19937_64 random(56);
   identification::TestRecord record = simulated_test({}, steps_and_ramps(), {}, random);
   record.sample_time *= 1e3;
-  EXPECT_TRUE(is_near(identification::identify({record}), "inertia", 5.54e2, 0.01));
+  EXPECT_TRUE(is_near(identification::identify({record}, {{}, 100}), "inertia", 5.54e2, 0.01));
 }
 
 // The equations of a linear axis are the same with other units, so the same record in them gives the same
@@ -261,13 +266,13 @@ TEST(Identification, ASlowRotorIsIdentifiedLikeAFastOne) {
 TEST(Identification, NoMagnitudeIsSpecial) {
   std::mt19937_64 random(58);
   const identification::TestRecord rotary = simulated_test({}, steps_and_ramps(), {}, random);
-  const identification::Identification found = identification::identify({rotary});
+  const identification::Identification found = identification::identify({rotary}, {{}, 100});
   const double lever = 1e-4;  // m
   identification::TestRecord linear = rotary;
   linear.axis = parameters::AxisKind::linear;
   linear.unit *= lever;
   for (motion::TorqueCourse& force : linear.torque) force = motion::constant_torque(force.now / lever);
-  const identification::Identification other = identification::identify({linear});
+  const identification::Identification other = identification::identify({linear}, {{}, 100});
   EXPECT_TRUE(other.checks.passed);
   EXPECT_EQ(estimate_of(other, "k1").unit, "N/m");
   const auto factor = [&](const std::string& name) {
@@ -293,7 +298,7 @@ TEST(Identification, ExactAnglesAreNoLackOfFit) {
   for (double& reading : record.reading) reading *= record.unit / 1e-6;
   record.unit = 1e-6;
   record.counted = false;
-  const identification::Identification found = identification::identify({record});
+  const identification::Identification found = identification::identify({record}, {{}, 100});
   EXPECT_TRUE(found.checks.passed);
   EXPECT_TRUE(is_near(found, "k1", 110.0, 1e-5));
 }
@@ -329,7 +334,7 @@ void expect_time_offset(double skew) {
   // Held at 0 instead, half a sample moves the inertia out of its interval.
   if (skew != 0.5) return;
   const identification::Identification held =
-      identification::identify({record}, {{{identification::time_offset, 0.0}}, 300});
+      identification::identify({record}, {{{identification::time_offset, 0.0}}, 100, 0, few_starts});
   EXPECT_EQ(estimate_of(held, "time_offset").status, identification::EstimateStatus::known);
   EXPECT_FALSE(finds(held, "inertia", truth.plant.inertia, 0.05));
   EXPECT_FALSE(held.checks.passed);
@@ -355,22 +360,6 @@ TEST(Identification, FindsADelayOfTwoSamplesThatWasNotGiven) {
 TEST(Identification, DISABLED_FindsOtherTimeOffsets) {
   expect_time_offset(0.1);
   expect_time_offset(1.0);
-}
-
-// Slow ramps do not show a time offset: it keeps the given value.
-TEST(Identification, KeepsATimeOffsetThatTheRecordDoesNotShow) {
-  std::mt19937_64 random(59);
-  TorqueProgramme slow(2e-3);
-  slow.ramp(0.08, 0.02).ramp(-0.08, 0.02).ramp(0.08, 0.02);
-  TestInstrument coarse;
-  coarse.counts_per_revolution = 2e5;
-  coarse.torque_step = 0.0;
-  const identification::Identification found =
-      identification::identify({simulated_test({}, slow, coarse, random)}, {{}, 200});
-  const identification::ParameterEstimate& offset = estimate_of(found, "time_offset");
-  EXPECT_EQ(offset.status, identification::EstimateStatus::kept);
-  EXPECT_EQ(offset.value, 0.0);
-  EXPECT_NE(offset.reason.find("too slowly"), std::string::npos) << offset.reason;
 }
 
 TEST(Identification, TakesWhatIsKnown) {
@@ -400,7 +389,7 @@ TEST(Identification, TooFewReversalsAreRefused) {
   never.ramp(0.1, 0.4).hold(0.5);
   for (const TorqueProgramme& programme : {once, never}) {
     try {
-      identification::identify({simulated_test({}, programme, {}, random)});
+      identification::identify({simulated_test({}, programme, {}, random)}, {{}, 100, 0, few_starts});
       FAIL();
     } catch (const Failure& failure) {
       EXPECT_EQ(failure.code(), ExitCode::bad_data);

@@ -65,20 +65,18 @@ class Rare : public ProgramTest {
   }
 };
 
-// Bounds of 95 % hold in all of six repetitions with a probability of 0.74 at least; here they do.
+// Bounds of 95 % hold in all of three repetitions with a probability of 0.86 at least; here they do.
 TEST_F(Rare, BoundsHoldWhereASpringSaturatesItsConverter) {
   for (const double probability : {1e-4, 1e-6, 1e-8}) {
     folder_.write("spring.yaml", spring(probability));
-    for (const char* seed : {"seed=1", "seed=2"}) {
-      const Json answer = answer_to({"rare", "spring.yaml", "-o", "rare.h5", "--force", "--set", seed});
-      EXPECT_EQ(answer["status"], "estimated");
-      EXPECT_LE(answer["low"].get<double>(), probability) << answer;
-      EXPECT_GE(answer["high"].get<double>(), probability) << answer;
-      EXPECT_LE(answer["high"].get<double>(), 2.0 * answer["low"].get<double>());
-      EXPECT_LT(answer["trials"].get<std::int64_t>(), 150'000);
-      EXPECT_EQ(answer["inputs"][0]["parameter"], "friction.k1");
-      EXPECT_GT(answer["inputs"][0]["shift"].get<double>(), 3.0);
-    }
+    const Json answer = answer_to({"rare", "spring.yaml", "-o", "rare.h5", "--force"});
+    EXPECT_EQ(answer["status"], "estimated");
+    EXPECT_LE(answer["low"].get<double>(), probability) << answer;
+    EXPECT_GE(answer["high"].get<double>(), probability) << answer;
+    EXPECT_LE(answer["high"].get<double>(), 2.0 * answer["low"].get<double>());
+    EXPECT_LT(answer["trials"].get<std::int64_t>(), 150'000);
+    EXPECT_EQ(answer["inputs"][0]["parameter"], "friction.k1");
+    EXPECT_GT(answer["inputs"][0]["shift"].get<double>(), 3.0);
   }
 }
 
@@ -131,14 +129,14 @@ TEST_F(Rare, AnEventIsAskedByAMeasure) {
 TEST_F(Rare, IsUndecidedWhereNothingFails) {
   folder_.write("spring.yaml", spring(1e-4));
   const Json answer = answer_to(
-      {"rare", "spring.yaml", "-o", "rare.h5", "--event", "holding_torque < -1", "--budget", "200000"}, 3);
+      {"rare", "spring.yaml", "-o", "rare.h5", "--event", "holding_torque < -1", "--budget", "100000"}, 3);
   EXPECT_EQ(answer["status"], "undecided");
   EXPECT_TRUE(answer["probability"].is_null());
   EXPECT_EQ(answer["low"], 0.0);
   const double plain = answer["plain"]["trials"];
-  EXPECT_GE(plain, 10'000);  // the search for failures takes the others
+  EXPECT_GE(plain, 3'000);  // the search for failures takes the others
   EXPECT_LT(answer["high"].get<double>(), 10.0 / plain);
-  EXPECT_EQ(answer["budget"]["trials"], 200000);
+  EXPECT_EQ(answer["budget"]["trials"], 100000);
 }
 
 // Of 12 000 loads in a list one takes more torque than the converter has. Its neighbours in the list are like
@@ -151,15 +149,13 @@ TEST_F(Rare, TriesEveryEntryOfAChoice) {
                          i == 8345 ? -0.05 : 1e-11 * static_cast<double>(i * 7919 % entries));
   folder_.write("listed.yaml", spring(1e-7) + "disturbance: {torque: {choice: [" + loads + "]}}\n");
   const double probability = 1.0 / static_cast<double>(entries) + 1e-7;
-  for (const char* seed : {"seed=1", "seed=2"}) {
-    const Json answer = answer_to({"rare", "listed.yaml", "-o", "rare.h5", "--force", "--set", seed});
-    EXPECT_LE(answer["low"].get<double>(), probability) << answer;
-    EXPECT_GE(answer["high"].get<double>(), probability) << answer;
-    ASSERT_EQ(answer["values"].size(), 1U) << answer;
-    EXPECT_EQ(answer["values"][0]["parameter"], "disturbance.torque");
-    EXPECT_EQ(answer["values"][0]["value"], "-0.05");
-  }
-  const ProgramResult text = program({"rare", "listed.yaml", "-o", "rare.h5", "--set", "seed=2"});  // goes on
+  const Json answer = answer_to({"rare", "listed.yaml", "-o", "rare.h5"});
+  EXPECT_LE(answer["low"].get<double>(), probability) << answer;
+  EXPECT_GE(answer["high"].get<double>(), probability) << answer;
+  ASSERT_EQ(answer["values"].size(), 1U) << answer;
+  EXPECT_EQ(answer["values"][0]["parameter"], "disturbance.torque");
+  EXPECT_EQ(answer["values"][0]["value"], "-0.05");
+  const ProgramResult text = program({"rare", "listed.yaml", "-o", "rare.h5"});  // goes on
   EXPECT_EQ(text.code, 0) << text.err;
   EXPECT_NE(text.out.find("single values at which failures are frequent"), std::string::npos) << text.out;
 }

@@ -122,7 +122,7 @@ TEST_F(Tune, DoesNotDependOnTheNumberOfThreads) {
 TEST_F(Tune, GoesOnAfterAnInterruption) {
   write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
   const std::vector<std::string> command{"tune",     "axis.yaml", "-o",       "tuned.h5",
-                                         "--format", "json",      "--budget", "10000"};
+                                         "--format", "json",      "--budget", "5000"};
   const auto answer_of = [](const std::string& text) {
     Json json = Json::parse(text);
     json["searched"].erase("seconds");
@@ -133,10 +133,10 @@ TEST_F(Tune, GoesOnAfterAnInterruption) {
   EXPECT_EQ(program(command).code, 2) << "the file is there";
   std::filesystem::remove(folder_.path() / "tuned.h5");
   int interruptions = 0;
-  for (const int milliseconds : {400, 500, 700, 1000}) {
+  for (const int milliseconds : {200, 300, 500}) {
     RunningProgram running(command, folder_.path());
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
-    running.send(milliseconds % 200 == 0 ? SIGINT : SIGKILL);
+    running.send(milliseconds == 300 ? SIGINT : SIGKILL);
     if (running.wait() == 0) break;
     ++interruptions;
   }
@@ -159,7 +159,7 @@ TEST_F(Tune, HoldsItsBudgetOfTrialsInAllThatItRuns) {
   const std::string machines = "goal: {band: 1, within: 0.06, moves: 0.9, machines: 0.8}\n";
   const std::string missed = "goal: {band: 0, within: 0.004, moves: 0.9}\n";
   const std::string worlds = "worlds: 5\n" + moves;
-  for (const std::string& kind : {moves, machines, missed, worlds}) {
+  for (const std::string& kind : {machines, missed, worlds}) {
     std::int64_t last = 0;
     for (const std::int64_t budget : {1500, 6000}) {
       write_axis(kind + std::string(two_gains));
@@ -181,7 +181,6 @@ TEST_F(Tune, HoldsItsBudgetOfTrialsInAllThatItRuns) {
   }
 }
 
-// What a budget must be for the search and the proof is what it says.
 // The margins that are missing, and by how much, in the text, the JSON and the page.
 TEST_F(Tune, WithoutAPointThatKeepsTheMarginsNamesTheNearest) {
   const auto write = [this](const std::string& margins) {
@@ -207,6 +206,7 @@ TEST_F(Tune, WithoutAPointThatKeepsTheMarginsNamesTheNearest) {
   EXPECT_FALSE(Json::parse(tune({}, "3000").out)["gains"].empty());
 }
 
+// What a budget must be for the search and the proof is what it says.
 TEST_F(Tune, RefusesABudgetThatIsTooSmallWithWhatItNeeds) {
   write_axis("goal: {band: 1, within: 0.06, moves: 0.97}\n" + std::string(two_gains));
   const ProgramResult refused = tune({}, "100");
@@ -223,13 +223,11 @@ TEST_F(Tune, RefusesABudgetThatIsTooSmallWithWhatItNeeds) {
 
 TEST_F(Tune, HoldsItsBudgetOfTime) {
   write_axis("goal: {band: 1, within: 0.06, moves: 0.9}\n" + std::string(two_gains));
-  for (const double seconds : {2.0, 3.0}) {
-    const auto start = std::chrono::steady_clock::now();
-    const ProgramResult result = tune({}, std::to_string(seconds) + "s");
-    const double taken = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    EXPECT_LE(taken, 1.1 * seconds + 0.5) << "half a second for a busy machine";
-    EXPECT_LE(Json::parse(result.out)["searched"]["seconds"], 1.1 * seconds);
-  }
+  const auto start = std::chrono::steady_clock::now();
+  const ProgramResult result = tune({}, "2s");
+  const double taken = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_LE(taken, 1.1 * 2.0 + 0.5) << "half a second for a busy machine";
+  EXPECT_LE(Json::parse(result.out)["searched"]["seconds"], 1.1 * 2.0);
   const ProgramResult none = tune({}, "0.06s");
   EXPECT_EQ(none.code, 3);
   EXPECT_NE(none.err.find("s are not enough"), std::string::npos) << none.err;
@@ -358,7 +356,7 @@ TEST_F(Tune, MinimisesTheTorqueNoiseAtRest) {
   std::vector<double> noise;
   for (const char* criterion : {"band_settling_time.p95", "rest_torque_noise.p95"}) {
     write_axis(goal + std::string(two_gains) + "  minimise: " + criterion + "\n");
-    const ProgramResult result = tune({}, "5000");
+    const ProgramResult result = tune({}, "3500");
     ASSERT_EQ(result.code, 0) << result.err;
     const Json summary = Json::parse(program({"summary", "tuned.h5", "--format", "json"}).out);
     noise.push_back(summary["points"][0]["rest_torque_noise"]["mean"].get<double>());

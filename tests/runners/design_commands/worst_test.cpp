@@ -66,25 +66,17 @@ TEST_F(Worst, IsRepeatedByItsManifest) {
     std::vector<std::string> words{};
   };
   const std::vector<Case> cases{
-      {"rigs", machines + k1_per_rig + "}\n"},
-      {"trials", goal + "trials: 30\ndesign: sobol\nfriction: {k1: {uniform: [90, 150]}}\n"},
       {"rows",
        goal + "rigs: 6\ntrials: 24\nsamples: {file: machines.csv, per: rig}\nfriction: {alpha: {uniform: "
               "[0.1, 1]}}\n",
        {"--set", "initial={encoder_phase: {uniform: [0, 1]}}"}},
-      {"rows of trials",
-       goal + "trials: 30\nsamples: {file: machines.csv, per: trial}\n",
-       {"--set", "initial={encoder_phase: {uniform: [0, 1]}}"}},
       {"worlds", machines + "worlds: 3\n" + k1_per_rig + ", n: {uniform: [1.5, 2.5], per: world}}\n"},
-      {"profiles", machines + k1_per_rig +
-                       ", k2: {profile: {mean: {uniform: [500, 900]}, cv: 0.3, "
-                       "correlation_length: 0.5}, per: rig}}\n"},
       {"a profile", goal + "trials: 24\nfriction: {k1: {profile: {mean: {uniform: [100, 140]}, cv: 0.2, "
                            "correlation_length: 1}}, "
                            "k2: {uniform: [500, 900]}}\ndesign: latin_hypercube\n"},
       {"contacts", machines + k1_per_rig + ", breakaway: {uniform: [0.25, 0.35], per: contact}}\n"},
       {"correlation",
-       goal + "trials: 30\nfriction: {k1: {uniform: [90, 150]}, k2: {uniform: [500, 900]}}\n"
+       goal + "trials: 30\ndesign: sobol\nfriction: {k1: {uniform: [90, 150]}, k2: {uniform: [500, 900]}}\n"
               "correlation: [[friction.k1, friction.k2, 0.6], [friction.k2, initial.preload, 0.3]]\n"},
       {"a sweep",
        goal + "trials: 30\nsweep: {cases: {a: {friction.k1: 120}, b: {friction.k1: {uniform: [80, 110]}, "

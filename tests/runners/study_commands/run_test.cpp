@@ -86,13 +86,13 @@ TEST_F(Run, GivesTheSameDatasetsInParts) {
 }
 
 TEST_F(Run, SurvivesBeingKilledAtRandomMoments) {
-  folder_.write("study.yaml", small_manifest(1500));
+  folder_.write("study.yaml", small_manifest(1000));
   complete("study.yaml", "whole.h5");
   std::mt19937 random(6);
   std::uniform_int_distribution<int> moment(5, 400);
   for (const int signal : {SIGKILL, SIGINT, SIGTERM}) {
     const std::string name = "hit" + std::to_string(signal) + ".h5";
-    for (int kill = 0; kill < 6; ++kill) {
+    for (int kill = 0; kill < 3; ++kill) {
       RunningProgram running({"run", "study.yaml", "-o", name, "--threads", "2"}, folder_.path());
       std::this_thread::sleep_for(std::chrono::milliseconds(moment(random)));
       running.send(signal);

@@ -227,7 +227,8 @@ class Goal(Record):
     rate_high : float or None
         Upper bound.
     machines : float or None
-        Proportion of machines that meet the goal, with one-sided bounds; with worlds of the worst world.
+        Proportion of machines that meet the goal, with one-sided bounds; with worlds of the worst world; null where the
+        goal is not on machines.
     machines_low : float or None
         Lower bound.
     machines_high : float or None

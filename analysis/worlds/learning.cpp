@@ -137,24 +137,31 @@ std::vector<Learned> what_to_learn(const std::vector<WorldInput>& inputs, const 
 }
 
 std::string_view record_of(std::string_view parameter) {
-  static constexpr std::array<RecordedParameter, 18> records{{{"friction.k1", loading},
-                                                              {"friction.k2", loading},
-                                                              {"friction.beta", loading},
-                                                              {"plant.inertia", step},
-                                                              {"plant.presliding_damping", step},
-                                                              {"friction.alpha", creep},
-                                                              {"friction.lambda", creep},
-                                                              {"friction.n", creep},
-                                                              {"friction.measured.creep.torque", creep},
-                                                              {"friction.measured.creep.extension", creep},
-                                                              {"friction.measured.creep.rate", creep},
-                                                              {"friction.measured.creep.exponent", creep},
-                                                              {"plant.sliding_damping", sliding},
-                                                              {"friction.breakaway", sliding},
-                                                              {"friction.coulomb_ratio", sliding},
-                                                              {"friction.stribeck_velocity", sliding},
-                                                              {"friction.sigma0", other_laws},
-                                                              {"friction.sigma1", other_laws}}};
+  static constexpr std::array<RecordedParameter, 24> records{
+      {{"friction.k1", loading},
+       {"friction.k2", loading},
+       {"friction.beta", loading},
+       {"plant.inertia", step},
+       {"plant.presliding_damping", step},
+       {"friction.alpha", creep},
+       {"friction.lambda", creep},
+       {"friction.n", creep},
+       {"friction.measured.initial_stiffness", loading},
+       {"friction.measured.secant_stiffness", loading},
+       {"friction.measured.secant_travel", loading},
+       {"friction.measured.final_stiffness", loading},
+       {"friction.measured.breakaway", sliding},
+       {"friction.measured.breakaway_travel", sliding},
+       {"friction.measured.creep.torque", creep},
+       {"friction.measured.creep.extension", creep},
+       {"friction.measured.creep.rate", creep},
+       {"friction.measured.creep.exponent", creep},
+       {"plant.sliding_damping", sliding},
+       {"friction.breakaway", sliding},
+       {"friction.coulomb_ratio", sliding},
+       {"friction.stribeck_velocity", sliding},
+       {"friction.sigma0", other_laws},
+       {"friction.sigma1", other_laws}}};
   const auto derived = std::ranges::find(derived_quantities(), parameter, &DerivedQuantity::name);
   if (derived != derived_quantities().end()) parameter = derived->parameter;
   const auto found = std::ranges::find(records, parameter, &RecordedParameter::parameter);

@@ -47,15 +47,18 @@ struct ProfiledParameter {
 };
 
 /// A friction parameter that is drawn anew for every contact of a trial. Contact 0, at t = 0, has its value
-/// in FrictionAlongRotor::uniform. Contact k ≥ 1, which forms at the k-th re-stick, has quantile(u), u being
-/// random number k of the trial (random_bits_at). A contact therefore depends only on its number, not on the
-/// course of the trial.
+/// in FrictionAlongRotor::uniform. Contact k ≥ 1 forms at the k-th re-stick. It depends on its number alone,
+/// not on the course of the trial.
 struct ContactParameter {
   double FrictionParameters::*parameter{nullptr};
-  std::function<double(double u)> quantile;  ///< in the parameter's unit, 0 < u < 1
-  random::RandomStream stream;
-  std::uint64_t trial{0};  ///< counter word of the random numbers
+  std::function<double(std::uint64_t contact)> value;  ///< in the parameter's unit
 };
+
+/// The random number, in (0, 1), of contact `contact` of trial `trial`.
+inline double contact_uniform(const random::RandomStream& stream, std::uint64_t trial,
+                              std::uint64_t contact) {
+  return random::open_uniform(random::random_bits_at(stream, trial, contact));
+}
 
 /// Friction along the rotor: `uniform` everywhere, except the parameters that have a profile or differ from
 /// contact to contact. A parameter is in at most one of the two lists.
@@ -80,9 +83,7 @@ inline FrictionParameters friction_at(const FrictionAlongRotor& friction, double
   FrictionParameters contact = friction.uniform;
   for (const ContactParameter& entry : friction.per_contact) {
     if (contact_number == 0) continue;
-    const std::uint64_t bits =
-        random::random_bits_at(entry.stream, entry.trial, static_cast<std::uint64_t>(contact_number));
-    contact.*entry.parameter = entry.quantile(random::open_uniform(bits));
+    contact.*entry.parameter = entry.value(static_cast<std::uint64_t>(contact_number));
   }
   for (const ProfiledParameter& entry : friction.profiled) {
     contact.*entry.parameter = value_at(*entry.profile, angle);

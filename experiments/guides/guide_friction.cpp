@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/friction/presliding/measured_spring.hpp"
 #include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::guides {
@@ -30,16 +31,22 @@ bool is_parameter(const GuideNumber& number) {
   return number.quantity.find('.') != std::string_view::npos;
 }
 
-/// The parameters of a guide whose friction grows with the load, in terms of the quantities of its table.
-std::vector<GuideNumber> computed_parameters(const Guide& guide, const GuideLoad& load) {
+/// The spring of a guide, and what other parameters depend on.
+struct GuideSpring {
+  double force{0.0};              ///< breakaway, N
+  double travel{0.0};             ///< up to breakaway, m
+  double initial_stiffness{0.0};  ///< k1 + k2, N/m
+  std::vector<GuideNumber> parameters;
+};
+
+/// The spring of a guide whose friction grows with the load, in terms of the quantities of its table.
+GuideSpring loaded_spring(const Guide& guide, const GuideLoad& load) {
   const double normal_force = load.preload + gravity * load.mass;
   const GuideNumber& coefficient = number_of(guide, friction_coefficient);
   const GuideNumber& constant = number_of(guide, constant_resistance);
   const GuideNumber& travel = number_of(guide, presliding_travel);
   const GuideNumber& softening = number_of(guide, softening_length);
   const GuideNumber& early = number_of(guide, early_part);
-  const GuideNumber& creep = number_of(guide, creep_part);
-  const GuideNumber& damping = number_of(guide, damping_ratio);
 
   const GuideNumber breakaway{
       "friction.breakaway",
@@ -63,15 +70,55 @@ std::vector<GuideNumber> computed_parameters(const Guide& guide, const GuideLoad
   const GuideNumber beta{"friction.beta",      "1/m",
                          1.0 / softening.high, 1.0 / softening.low,
                          softening.origin,     from("1 / softening length", softening)};
-  const double creep_modulus = numerics::pow(force, centre(number_of(guide, "friction.n"))) / centre(travel);
+  return {force, centre(travel), centre(k1) + centre(k2), {k1, k2, beta, breakaway}};
+}
+
+GuideSpring measured_spring(const MeasuredSpring& measured, parameters::AxisKind axis) {
+  const double highest = highest_final_stiffness(measured);
+  const GuideNumber final{
+      "friction.measured.final_stiffness",
+      "N m/rad",
+      0.1 * highest,
+      0.9 * highest,
+      Origin::assumed,
+      fmt::format("0.1 to 0.9 of {:.4g} {}, with which the spring would break away on the line "
+                  "from the secant's end",
+                  highest, parameters::unit_on(axis, "N m/rad"))};
+  const friction::VirginPoint first{measured.secant_travel,
+                                    measured.secant_stiffness * measured.secant_travel};
+  const double k2 =
+      friction::softening_through(first, {measured.travel, measured.breakaway}, centre(final)).value().k2;
+  const auto given = [](std::string_view quantity, std::string_view unit, double number,
+                        std::string_view option) {
+    return GuideNumber{quantity, unit, number, number, Origin::measured, std::string(option)};
+  };
+  return {measured.breakaway,
+          measured.travel,
+          centre(final) + k2,
+          {given("friction.measured.secant_stiffness", "N m/rad", measured.secant_stiffness, "--secant"),
+           given("friction.measured.secant_travel", "rad", measured.secant_travel, "--secant"),
+           given("friction.measured.breakaway", "N m", measured.breakaway, "--breakaway"),
+           given("friction.measured.breakaway_travel", "rad", measured.travel, "--travel"), final}};
+}
+
+/// The parameters of a guide with a spring of this load or measurement.
+std::vector<GuideNumber> computed_parameters(const Guide& guide, const GuideLoad& load,
+                                             const GuideSpring& spring) {
+  const GuideNumber& creep = number_of(guide, creep_part);
+  const GuideNumber& damping = number_of(guide, damping_ratio);
+  const double creep_modulus =
+      numerics::pow(spring.force, centre(number_of(guide, "friction.n"))) / spring.travel;
   const GuideNumber lambda{
       "friction.lambda",         "N^n/m",         creep_modulus / creep.high,
       creep_modulus / creep.low, Origin::assumed, from("breakaway^n / (creep part·travel)", creep)};
-  const double critical = 2.0 * std::sqrt((centre(k1) + centre(k2)) * load.mass);
+  const double critical = 2.0 * std::sqrt(spring.initial_stiffness * load.mass);
   const GuideNumber presliding_damping{
       "plant.presliding_damping", "N s/m",         damping.low * critical,
       damping.high * critical,    Origin::assumed, from("2·damping ratio·sqrt((k1 + k2)·mass)", damping)};
-  return {presliding_damping, k1, k2, beta, lambda, breakaway};
+  std::vector<GuideNumber> all{presliding_damping};
+  all.insert(all.end(), spring.parameters.begin(), spring.parameters.end());
+  all.insert(all.end() - 1, lambda);
+  return all;
 }
 
 }  // namespace
@@ -80,9 +127,32 @@ GuideLoad usual_load(const Guide& guide) {
   return {.mass = guide.mass, .preload = guide.preload};
 }
 
-std::vector<GuideNumber> guide_parameters(const Guide& guide, const GuideLoad& load) {
+std::string fault_of(const MeasuredSpring& m) {
+  const double carried = m.secant_stiffness * m.secant_travel;
+  if (!(m.secant_travel < m.travel))
+    return fmt::format("the secant's travel of {:g} is not below the travel up to breakaway, {:g}",
+                       m.secant_travel, m.travel);
+  if (!(carried < m.breakaway))
+    return fmt::format("the secant of {:g} over {:g} carries {:g}, which is not below the breakaway of {:g}",
+                       m.secant_stiffness, m.secant_travel, carried, m.breakaway);
+  if (!(m.breakaway < m.secant_stiffness * m.travel))
+    return fmt::format(
+        "the secant stiffness of {:g} is not above breakaway over travel, {:g}/{:g} = {:g}: a "
+        "friction spring softens",
+        m.secant_stiffness, m.breakaway, m.travel, m.breakaway / m.travel);
+  return "";
+}
+
+double highest_final_stiffness(const MeasuredSpring& m) {
+  return (m.breakaway - m.secant_stiffness * m.secant_travel) / (m.travel - m.secant_travel);
+}
+
+std::vector<GuideNumber> guide_parameters(const Guide& guide, const GuideLoad& load,
+                                          const std::optional<MeasuredSpring>& measured) {
   std::vector<GuideNumber> parameters;
-  if (has_load(guide)) parameters = computed_parameters(guide, load);
+  if (has_load(guide))
+    parameters = computed_parameters(
+        guide, load, measured ? measured_spring(*measured, guide.axis) : loaded_spring(guide, load));
   std::copy_if(guide.numbers.begin(), guide.numbers.end(), std::back_inserter(parameters), is_parameter);
   return parameters;
 }

@@ -24,9 +24,11 @@ struct Lowest {
 Lowest lowest_of(const std::vector<GuideNumber>& parameters) {
   Lowest lowest;
   for (const GuideNumber& number : parameters) {
-    if (number.quantity == "friction.k1") lowest.k1 = number.low;
+    if (number.quantity == "friction.k1" || number.quantity == "friction.measured.final_stiffness")
+      lowest.k1 = number.low;
     if (number.quantity == "plant.presliding_damping") lowest.damping = number.low;
-    if (number.quantity == "friction.breakaway") lowest.highest_breakaway = number.high;
+    if (number.quantity == "friction.breakaway" || number.quantity == "friction.measured.breakaway")
+      lowest.highest_breakaway = number.high;
   }
   return lowest;
 }
@@ -37,21 +39,30 @@ std::string written(double number) {
 
 /// Over a factor of more than 2 every order of magnitude is as likely as the next.
 std::string distribution(const GuideNumber& number) {
+  if (number.origin == Origin::measured) return fmt::format("{}", number.low);
   if (number.low == number.high) return written(number.low);
   const char* const form = number.high > 2.0 * number.low ? "log_uniform" : "uniform";
   return fmt::format("{{{}: [{}, {}]}}", form, written(number.low), written(number.high));
 }
 
-/// The parameters of a section, each below its origin.
-std::string section(const std::vector<GuideNumber>& parameters, std::string_view prefix) {
+/// The parameters of a section, each below its origin; those of a section in it are left out.
+std::string section(const std::vector<GuideNumber>& parameters, std::string_view prefix, AxisKind axis,
+                    std::string_view indent = "  ") {
   std::string text;
   for (const GuideNumber& number : parameters) {
     if (!number.quantity.starts_with(prefix)) continue;
-    text +=
-        fmt::format("  # {}: {}\n  {}: {}   # {}\n", origin_labels[static_cast<std::size_t>(number.origin)],
-                    number.source, number.quantity.substr(prefix.size()), distribution(number), number.unit);
+    const std::string_view key = number.quantity.substr(prefix.size());
+    if (key.find('.') != std::string_view::npos) continue;
+    text += fmt::format("{0}# {1}: {2}\n{0}{3}: {4}   # {5}\n", indent,
+                        origin_labels[static_cast<std::size_t>(number.origin)], number.source, key,
+                        distribution(number), parameters::unit_on(axis, number.unit));
   }
   return text;
+}
+
+std::string friction_text(const std::vector<GuideNumber>& parameters, AxisKind axis) {
+  const std::string measured = section(parameters, "friction.measured.", axis, "    ");
+  return section(parameters, "friction.", axis) + (measured.empty() ? "" : "  measured:\n" + measured);
 }
 
 std::string controller(double mass, const Lowest& lowest, int sample_rate) {
@@ -88,6 +99,7 @@ std::string hardware(const Guide& guide, const GuideAxis& axis, const Lowest& lo
 
 std::string load_text(const Guide& guide, const GuideAxis& axis) {
   if (!has_load(guide)) return "";
+  if (axis.spring) return fmt::format("# For a mass of {} kg.\n", written(axis.load.mass));
   return fmt::format("# For a preload of {} N and a mass of {} kg.\n", written(axis.load.preload),
                      written(axis.load.mass));
 }
@@ -95,16 +107,15 @@ std::string load_text(const Guide& guide, const GuideAxis& axis) {
 }  // namespace
 
 std::string guide_manifest(const Guide& guide, const GuideAxis& axis) {
-  const std::vector<GuideNumber> parameters = guide_parameters(guide, axis.load);
-  const std::string friction = section(parameters, "friction.");
+  const std::vector<GuideNumber> parameters = guide_parameters(guide, axis.load, axis.spring);
   return fmt::format(
-      "# A starting point: {}. Nothing here was measured on your axis.\n"
-      "# Replace the friction by what zerocount identify finds in your records, and the loop by yours.\n"
+      "# A starting point: {}. {} measured on your axis.\n"
+      "# Replace {} by what zerocount identify finds in your records, and the loop by yours.\n"
       "{}"
       "# Each of the rigs draws its friction once from these ranges. Sources: zerocount parameters --guides\n"
       "zerocount: 1\n"
       "name: {}\n"
-      "description: An unmeasured axis, {}\n"
+      "description: {}, {}\n"
       "axis: {}\n"
       "seed: 1\n"
       "rigs: 50\n"
@@ -118,10 +129,12 @@ std::string guide_manifest(const Guide& guide, const GuideAxis& axis) {
       "{}"
       "command: {{targets: [{{integers: [1, 30]}}, 0], hold: 0.5}}   # counts; s per move\n"
       "initial: {{encoder_phase: {{uniform: [0, 1]}}}}\n",
-      guide.description, load_text(guide, axis), guide.name, guide.description,
+      guide.description, axis.spring ? "Only its spring and breakaway were" : "Nothing here was",
+      axis.spring ? "the rest of the friction" : "the friction", load_text(guide, axis), guide.name,
+      axis.spring ? "An axis with a measured spring" : "An unmeasured axis", guide.description,
       parameters::axis_labels[static_cast<std::size_t>(guide.axis)], written(axis.load.mass),
-      parameters::unit_on(guide.axis, "kg m^2"), section(parameters, "plant."), guide.model, friction,
-      hardware(guide, axis, lowest_of(parameters)));
+      parameters::unit_on(guide.axis, "kg m^2"), section(parameters, "plant.", guide.axis), guide.model,
+      friction_text(parameters, guide.axis), hardware(guide, axis, lowest_of(parameters)));
 }
 
 }  // namespace zerocount::guides

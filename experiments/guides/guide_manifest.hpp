@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "experiments/guides/guide_friction.hpp"
@@ -9,7 +10,8 @@ namespace zerocount::guides {
 /// The axis of a new study.
 struct GuideAxis {
   GuideLoad load;
-  double resolution{1e-8};  ///< m per count; of a linear axis
+  double resolution{1e-8};                 ///< m per count; of a linear axis
+  std::optional<MeasuredSpring> spring{};  ///< in place of that of the guide
 };
 
 /// A manifest of an axis on this guide, for machines that each draw their friction from its ranges. Every

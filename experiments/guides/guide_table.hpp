@@ -14,9 +14,13 @@ namespace zerocount::guides {
 
 /// Where a number comes from. Of a published number the value is; its spread may be assumed, as its source
 /// then says.
-enum class Origin : std::uint8_t { published, assumed };
+enum class Origin : std::uint8_t {
+  published,
+  assumed,
+  measured  ///< by the user
+};
 
-inline constexpr std::array<std::string_view, 2> origin_labels{"published", "assumed"};
+inline constexpr std::array<std::string_view, 3> origin_labels{"published", "assumed", "measured"};
 
 /// One quantity of a guide and the range in which that of an unknown axis is expected.
 struct GuideNumber {

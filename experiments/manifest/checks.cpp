@@ -179,6 +179,18 @@ void check_effects(Checking& c) {
   }
 }
 
+/// The slots, each followed by those from which its value follows.
+std::vector<std::size_t> with_sources(const study::StudyPlan& plan, std::span<const std::size_t> slots) {
+  std::vector<std::size_t> all;
+  for (const std::size_t slot : slots) {
+    all.push_back(slot);
+    if (plan.base[slot].kind != study::Value::Kind::following) continue;
+    const std::vector<std::uint32_t>& from = plan.following[plan.base[slot].index].from;
+    all.insert(all.end(), from.begin(), from.end());
+  }
+  return all;
+}
+
 }  // namespace
 
 bool is_given_everywhere(const keys::PlanPlaces& places, const study::StudyPlan& plan, std::size_t slot) {
@@ -209,7 +221,8 @@ std::optional<yaml::Place> given_place(const keys::PlanPlaces& places, const stu
 }
 
 FaultPlace place_of_fault(const keys::PlanPlaces& places, const study::StudyPlan& plan,
-                          std::span<const std::size_t> slots, std::size_t point) {
+                          std::span<const std::size_t> involved, std::size_t point) {
+  const std::vector<std::size_t> slots = with_sources(plan, involved);
   for (const std::size_t slot : slots) {
     if (const auto place = swept_place(places, plan, slot, point)) return {*place, slot};
   }

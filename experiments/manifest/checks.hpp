@@ -30,10 +30,10 @@ struct FaultPlace {
   std::size_t slot{0};  ///< whose value is there
 };
 
-/// Place in the manifest of one of the values that a fault at a design point involves: a swept one, otherwise
-/// one that the manifest gives, otherwise the first.
+/// Place in the manifest of one of the values that a fault at a design point involves, or from which they
+/// follow: a swept one, otherwise one that the manifest gives, otherwise the first.
 FaultPlace place_of_fault(const keys::PlanPlaces& places, const study::StudyPlan& plan,
-                          std::span<const std::size_t> slots, std::size_t point);
+                          std::span<const std::size_t> involved, std::size_t point);
 
 /// Lets the parameters that follow from measured ones (parameters/measured_parameters.hpp) do so, where the
 /// study gives the measured ones. Reports a group that is not complete, and one beside parameters that follow
@@ -42,6 +42,11 @@ void let_follow_from_measured(const keys::PlanPlaces& places, keys::Reading& rea
 
 /// Reports measured values from which nothing allowed follows.
 void check_what_follows(const keys::PlanPlaces& places, keys::Reading& reading);
+
+/// Reports draws of measured values that are those of no machine (study/measured_machines.hpp): of each
+/// trial, rig or world of the assembled study, and of all values between the ends of `tune`'s ranges.
+void check_measured_machines(const study::Study& study, const keys::PlanPlaces& places,
+                             keys::Reading& reading);
 
 /// Checks that the encoder sees each commanded motion of the assembled study. The loop does not notice a
 /// motion of less than a count, and its move would be perfect: a target in SI units that lies on the same

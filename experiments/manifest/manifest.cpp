@@ -291,6 +291,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version,
   if (problems.empty()) warn_of_equal_worlds(m);
   study.plugin = plan->plugin;
   study.plan = plan;
+  if (problems.empty()) check_measured_machines(study, m.places, m.reading);
   if (problems.empty()) check_unseen_motions(study, m.places, m.reading);
   study.warnings = std::move(m.reading.warnings);
   return study;

@@ -1,58 +1,76 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include <fmt/format.h>
 
 #include "experiments/manifest/checks.hpp"
 #include "experiments/parameters/measured_parameters.hpp"
+#include "experiments/study/measured_machines.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study_table.hpp"
+#include "experiments/study/tuning.hpp"
 
 namespace zerocount::manifest {
 namespace {
+
+using parameters::MeasuredParameters;
 
 std::vector<std::uint32_t> slots_of(const study::StudyTable& table, std::span<const std::string_view> names) {
   const std::vector<std::size_t> slots = study::slots_named(table, names);
   return {slots.begin(), slots.end()};
 }
 
+/// The first of the parameters that the manifest gives.
+std::optional<std::uint32_t> first_given(std::span<const std::string_view> names,
+                                         const keys::PlanPlaces& places, const study::StudyPlan& plan) {
+  for (const std::uint32_t slot : slots_of(plan.table, names))
+    if (given_place(places, plan, slot)) return slot;
+  return std::nullopt;
+}
+
+std::optional<std::uint32_t> first_own_given(const MeasuredParameters& group, const keys::PlanPlaces& places,
+                                             const study::StudyPlan& plan) {
+  return first_given(std::span(group.names).first(group.own), places, plan);
+}
+
+/// The other group of the same section; null if there is none.
+const MeasuredParameters* alternative_to(const MeasuredParameters& group) {
+  const auto all = parameters::measured_parameters();
+  const auto other = std::ranges::find_if(
+      all, [&](const MeasuredParameters& one) { return one.section == group.section && &one != &group; });
+  return other == all.end() ? nullptr : &*other;
+}
+
+/// Whether the manifest says these parameters by this group. Keys that two groups have count for the first,
+/// and so does a manifest that gives both.
+bool is_chosen(const MeasuredParameters& group, const keys::PlanPlaces& places,
+               const study::StudyPlan& plan) {
+  const MeasuredParameters* const other = alternative_to(group);
+  const bool is_first = other == nullptr || &group < other;
+  const bool gives_other = other != nullptr && first_own_given(*other, places, plan);
+  if (first_own_given(group, places, plan)) return is_first || !gives_other;
+  return is_first && !gives_other && first_given(group.names, places, plan);
+}
+
 /// Reports the measured values that are missing at some point.
-void require_all(const parameters::MeasuredParameters& group, std::span<const std::uint32_t> slots,
-                 const yaml::Place& first, const keys::PlanPlaces& places, keys::Reading& reading) {
+void require_all(const study::MeasuredSlots& measured, const yaml::Place& first,
+                 const keys::PlanPlaces& places, keys::Reading& reading) {
   const study::StudyPlan& plan = reading.plan;
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    if (is_given_everywhere(places, plan, slots[i])) continue;
+  const MeasuredParameters* const other = alternative_to(*measured.group);
+  for (std::size_t i = 0; i < measured.slots.size(); ++i) {
+    if (is_given_everywhere(places, plan, measured.slots[i])) continue;
+    const bool has_other = other != nullptr && i < measured.group->own;
     reading.problems.add_missing(
-        first, group.names[i],
-        fmt::format("its value in {}, beside the other keys of {}",
-                    parameters::unit_of(plan.table.rows[slots[i]], plan.units), group.section));
+        first, measured.group->names[i],
+        fmt::format("its value in {}, beside the other keys of {}{}",
+                    parameters::unit_of(plan.table.rows[measured.slots[i]], plan.units),
+                    measured.group->section, has_other ? fmt::format(", or {}", other->names.front()) : ""));
   }
 }
 
-bool is_drawn_per_contact(const study::StudyPlan& plan, std::uint32_t slot) {
-  return std::ranges::any_of(study::values_of(plan, slot), [](const study::Value* value) {
-    return value->kind == study::Value::Kind::distribution && value->level == study::DrawLevel::contact;
-  });
-}
-
-/// A contact has one random number for each parameter of the law.
-void check_contacts(const parameters::FollowingParameter& parameter, std::span<const std::uint32_t> from,
-                    const keys::PlanPlaces& places, keys::Reading& reading) {
-  const study::StudyPlan& plan = reading.plan;
-  std::vector<std::uint32_t> drawn;
-  std::ranges::copy_if(from, std::back_inserter(drawn),
-                       [&](std::uint32_t slot) { return is_drawn_per_contact(plan, slot); });
-  if (drawn.size() < 2) return;
-  reading.problems.add(given_place(places, plan, drawn[1]).value(), plan.table.rows[drawn[1]].name,
-                       fmt::format("{} is drawn at each contact too, and {} follows from both",
-                                   plan.table.rows[drawn[0]].name, parameter.name),
-                       "per: contact at one of them");
-}
-
 /// Reports a parameter that is given although it follows from measured ones.
-bool check_not_given(const parameters::MeasuredParameters& group, std::uint32_t slot,
-                     const keys::PlanPlaces& places, keys::Reading& reading) {
+bool check_not_given(const MeasuredParameters& group, std::uint32_t slot, const keys::PlanPlaces& places,
+                     keys::Reading& reading) {
   const auto place = given_place(places, reading.plan, slot);
   if (place)
     reading.problems.add(*place, reading.plan.table.rows[slot].name,
@@ -61,30 +79,135 @@ bool check_not_given(const parameters::MeasuredParameters& group, std::uint32_t 
   return !place;
 }
 
-void let_follow(const parameters::MeasuredParameters& group, const keys::PlanPlaces& places,
-                keys::Reading& reading) {
+/// Reports keys of another group, which stand for the same parameters.
+bool check_alone(const MeasuredParameters& group, const keys::PlanPlaces& places, keys::Reading& reading) {
+  const study::StudyPlan& plan = reading.plan;
+  const MeasuredParameters* const other = alternative_to(group);
+  const auto own_of_other = other == nullptr ? std::nullopt : first_own_given(*other, places, plan);
+  if (!own_of_other) return true;
+  reading.problems.add(given_place(places, plan, *own_of_other).value(), plan.table.rows[*own_of_other].name,
+                       fmt::format("the manifest gives {} too", group.names.front()), "one or the other");
+  return false;
+}
+
+void let_follow(const MeasuredParameters& group, const keys::PlanPlaces& places, keys::Reading& reading) {
   study::StudyPlan& plan = reading.plan;
-  const std::vector<std::uint32_t> measured = slots_of(plan.table, group.names);
-  const auto first = std::ranges::find_if(
-      measured, [&](std::uint32_t slot) { return given_place(places, plan, slot).has_value(); });
-  if (first == measured.end()) return;
-  require_all(group, measured, given_place(places, plan, *first).value(), places, reading);
+  const study::MeasuredSlots measured{&group, slots_of(plan.table, group.names)};
+  const std::uint32_t first = first_given(group.names, places, plan).value();
+  if (check_alone(group, places, reading))
+    require_all(measured, given_place(places, plan, first).value(), places, reading);
+  plan.measured.push_back(measured);
   for (const parameters::FollowingParameter& parameter : group.following) {
     const std::uint32_t slot = slots_of(plan.table, {&parameter.name, 1}).front();
-    const std::vector<std::uint32_t> from = slots_of(plan.table, parameter.from);
     if (!check_not_given(group, slot, places, reading)) continue;
-    check_contacts(parameter, from, places, reading);
     plan.base[slot] = {.kind = study::Value::Kind::following,
                        .index = static_cast<std::uint32_t>(plan.following.size())};
-    plan.following.push_back({from, parameter.value});
+    plan.following.push_back({slots_of(plan.table, parameter.from), parameter.value});
   }
+}
+
+/// The draws of a group of measured values.
+class MeasuredDraws {
+ public:
+  MeasuredDraws(const study::Study& study, const study::MeasuredSlots& measured)
+      : study_(study), plan_(*study.plan), measured_(measured) {}
+
+  /// Whether no draw of a design point can be that of no machine.
+  bool are_safe(std::size_t point) const {
+    return !study::fault_of_machine(plan_, point, measured_, [&](std::uint32_t slot) {
+      return free_ends(slot).value_or(study::extremes_of(plan_, *study::value_at_point(plan_, slot, point)));
+    });
+  }
+
+  std::optional<study::MeasuredFault> fault_of(std::size_t point, std::int64_t index) const {
+    const std::vector<double> numbers =
+        study::drawn_numbers(study_, static_cast<std::int64_t>(point), index, measured_.slots);
+    return study::fault_of_machine(plan_, point, measured_, [&](std::uint32_t slot) {
+      const auto i = std::ranges::find(measured_.slots, slot) - measured_.slots.begin();
+      const double number = numbers[static_cast<std::size_t>(i)];
+      return free_ends(slot).value_or(std::pair(number, number));
+    });
+  }
+
+  /// How often the values of a point are drawn anew.
+  study::DrawLevel level_at(std::size_t point) const {
+    study::DrawLevel level = study::DrawLevel::study;
+    for (const std::uint32_t slot : measured_.slots) {
+      const study::Value& value = *study::value_at_point(plan_, slot, point);
+      if (value.kind == study::Value::Kind::distribution && !study::is_drawn_per_contact(value))
+        level = std::max(level, value.level);
+    }
+    return level;
+  }
+
+  /// The number of different draws, which are those of the first trials.
+  std::int64_t count_at(std::size_t point) const {
+    switch (level_at(point)) {
+      case study::DrawLevel::world:
+        return study_.worlds;
+      case study::DrawLevel::rig:
+        return study_.rigs;
+      case study::DrawLevel::trial:
+        return study_.trials;
+      case study::DrawLevel::study:
+      case study::DrawLevel::contact:
+        break;
+    }
+    return 1;
+  }
+
+ private:
+  /// The range that `tune` gives a parameter.
+  std::optional<std::pair<double, double>> free_ends(std::uint32_t slot) const {
+    if (!study_.tuning) return std::nullopt;
+    const auto free =
+        std::ranges::find(study_.tuning->free, plan_.table.rows[slot].name, &study::FreeParameter::name);
+    return free == study_.tuning->free.end() ? std::nullopt : std::optional(std::pair(free->low, free->high));
+  }
+
+  const study::Study& study_;
+  const study::StudyPlan& plan_;
+  const study::MeasuredSlots& measured_;
+};
+
+std::string_view name_of(study::DrawLevel level) {
+  return keys::draw_level_labels[static_cast<std::size_t>(level)];
+}
+
+/// Reports the first draw of the point that is that of no machine, and how many there are.
+bool check_draws(const MeasuredDraws& draws, std::size_t point, const study::Study& study,
+                 const keys::PlanPlaces& places, keys::Reading& reading) {
+  const std::int64_t count = draws.count_at(point);
+  std::optional<study::MeasuredFault> first;
+  std::int64_t first_index = 0;
+  std::int64_t faulty = 0;
+  for (std::int64_t index = 0; index < count; ++index) {
+    auto fault = draws.fault_of(point, index);
+    if (fault && faulty++ == 0) {
+      first = std::move(fault);
+      first_index = index;
+    }
+  }
+  if (!first) return true;
+  const std::string_view unit = name_of(draws.level_at(point));
+  const std::string of = count == 1 ? "" : fmt::format("{} {}: ", unit, first_index);
+  const std::string how_many = faulty > 1 ? fmt::format(" ({} of {} {}s)", faulty, count, unit) : "";
+  const std::string at = study::point_count(study) == 1
+                             ? ""
+                             : fmt::format(" at point {} ({})", point, study.points.labels[point]);
+  const std::vector<std::size_t> slots(first->slots.begin(), first->slots.end());
+  const FaultPlace place = place_of_fault(places, *study.plan, slots, point);
+  reading.problems.add(place.place, study.plan->table.rows[place.slot].name,
+                       fmt::format("{}{}{}{}", of, first->what, at, how_many), first->expected);
+  return false;
 }
 
 }  // namespace
 
 void let_follow_from_measured(const keys::PlanPlaces& places, keys::Reading& reading) {
-  for (const parameters::MeasuredParameters& group : parameters::measured_parameters())
-    let_follow(group, places, reading);
+  for (const MeasuredParameters& group : parameters::measured_parameters()) {
+    if (is_chosen(group, places, reading.plan)) let_follow(group, places, reading);
+  }
 }
 
 void check_what_follows(const keys::PlanPlaces& places, keys::Reading& reading) {
@@ -92,14 +215,15 @@ void check_what_follows(const keys::PlanPlaces& places, keys::Reading& reading) 
   for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
     if (plan.base[slot].kind != study::Value::Kind::following) continue;
     const parameters::Parameter& row = plan.table.rows[slot];
-    const std::vector<std::uint32_t>& from = plan.following[plan.base[slot].index].from;
+    const study::FollowingValue& following = plan.following[plan.base[slot].index];
+    if (following.value == nullptr) continue;  // it has the range of its source
     study::visit_points(plan, {&slot, 1}, [&](std::size_t point) {
       const study::ValueLimits limits = study::limits_of_slot(plan, slot, point);
       const numerics::Interval range = parameters::range_of(row, plan.units);
-      const bool is_allowed = std::isnan(limits.low) ||  // reported already
+      const bool is_allowed = std::isnan(limits.low) ||  // reported already, or by check_measured_machines()
                               numerics::contains(range, numerics::closed(limits.low, limits.high));
       if (is_allowed && !std::isinf(limits.high)) return true;
-      const std::vector<std::size_t> sources(from.begin(), from.end());
+      const std::vector<std::size_t> sources(following.from.begin(), following.from.end());
       reading.problems.add(
           place_of_fault(places, plan, sources, point).place, row.name,
           limits.low == limits.high
@@ -108,6 +232,27 @@ void check_what_follows(const keys::PlanPlaces& places, keys::Reading& reading) 
           fmt::format("measured values with which it is {}", numerics::range_text(range)));
       return false;
     });
+  }
+}
+
+void check_measured_machines(const study::Study& study, const keys::PlanPlaces& places,
+                             keys::Reading& reading) {
+  constexpr std::size_t max_reported = 20;
+  std::size_t reported = 0;
+  for (const study::MeasuredSlots& measured : study.plan->measured) {
+    const MeasuredDraws draws(study, measured);
+    const auto check = [&](std::size_t point) {
+      if (draws.are_safe(point)) return true;
+      if (!check_draws(draws, point, study, places, reading)) ++reported;
+      return reported < max_reported;
+    };
+    const std::vector<std::size_t> slots(measured.slots.begin(), measured.slots.end());
+    if (!study.independent_points) {
+      study::visit_points(*study.plan, slots, check);
+      continue;
+    }
+    for (std::size_t point = 0; point < study.points.labels.size() && check(point); ++point) {
+    }
   }
 }
 

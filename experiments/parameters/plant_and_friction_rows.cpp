@@ -4,6 +4,7 @@ namespace zerocount::parameters {
 namespace {
 
 constexpr std::size_t max_gms_elements = 16;
+constexpr std::string_view instead_of_spring = "in place of k1, k2, beta and breakaway";
 constexpr std::string_view instead_of_creep = "in place of alpha, lambda and n";
 
 template <double friction::FrictionParameters::*field>
@@ -90,6 +91,21 @@ std::vector<Parameter> friction_rows() {
                        "1; default on a rotary axis: 0.9875, 0.0009, 0.0032, 0.0084",
                        "required", {.low = 0, .high = 1, .high_included = true}),
               [](auto& p, std::size_t i) { return &p.friction.gms_elements[i].weight; }),
+      real_row("friction.measured.initial_stiffness", beyond_moves(272), "N m/rad",
+               "stiffness k1 + k2 with which the friction spring begins", instead_of_spring,
+               numerics::above(0)),
+      real_row("friction.measured.secant_stiffness", beyond_moves(273), "N m/rad",
+               "$torque over travel of the virgin curve at secant_travel; in place of initial_stiffness",
+               instead_of_spring, numerics::above(0)),
+      real_row("friction.measured.secant_travel", beyond_moves(274), "rad",
+               "travel over which secant_stiffness was measured", instead_of_spring, numerics::above(0)),
+      real_row("friction.measured.final_stiffness", beyond_moves(275), "N m/rad",
+               "stiffness k1 to which the friction spring softens", instead_of_spring, numerics::above(0)),
+      real_row("friction.measured.breakaway", beyond_moves(276), "N m",
+               "$torque at which the hook starts to slide", instead_of_spring, numerics::above(0)),
+      real_row("friction.measured.breakaway_travel", beyond_moves(277), "rad",
+               "travel of the virgin curve up to breakaway, the pre-sliding range", instead_of_spring,
+               numerics::above(0)),
       real_row("friction.measured.creep.torque", beyond_moves(268), "N m",
                "$torque under which creep was measured; with extension in place of friction.lambda",
                instead_of_creep, numerics::above(0)),

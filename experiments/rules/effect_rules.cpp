@@ -284,6 +284,17 @@ EffectRule with_models(const std::function<bool(const friction::LawTraits&)>& pr
           .warn_only = true};
 }
 
+/// An error, because no other key says what these models have instead.
+EffectRule of_measured_spring() {
+  EffectRule rule =
+      with_models([](const friction::LawTraits& law) { return uses(law, &friction::FrictionParameters::k1); },
+                  {"friction.measured"});
+  rule.except = {"friction.measured.creep"};
+  rule.expected = "friction.model: presliding or spring, or the constants of the model";
+  rule.warn_only = false;
+  return rule;
+}
+
 std::vector<EffectRule> rules_of_the_model() {
   using friction::LawTraits;
   std::vector<EffectRule> rules{
@@ -294,6 +305,7 @@ std::vector<EffectRule> rules_of_the_model() {
                   {"initial.preload", "initial.history"}),
       with_models([](const LawTraits& law) { return uses(law, &friction::FrictionParameters::alpha); },
                   {"initial.hardening", "friction.measured.creep"}),
+      of_measured_spring(),
       with_models(
           [](const LawTraits& law) { return uses(law, &friction::FrictionParameters::gms_attraction); },
           {"friction.gms.stiffness", "friction.gms.weight"}),

@@ -30,23 +30,28 @@ LowEnd low_end_of(const distributions::Distribution& distribution) {
   return {LowEnd::Kind::support, distributions::support(distribution).low};
 }
 
-}  // namespace
-
-LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter) {
-  const StudyPlan& plan = *study.plan;
-  const std::size_t slot = parameters::find_parameter(parameter).value();
-  const Value& value = *value_at_point(plan, slot, static_cast<std::size_t>(point));
+LowEnd low_end_of_slot(const StudyPlan& plan, std::size_t point, std::size_t slot) {
+  const Value& value = *value_at_point(plan, slot, point);
   switch (value.kind) {
     case Value::Kind::number:
       return {LowEnd::Kind::number, value.number};
     case Value::Kind::distribution:
       return low_end_of(plan.distributions[value.index]);
     case Value::Kind::following:
-      return {LowEnd::Kind::support, limits_of_slot(plan, slot, static_cast<std::size_t>(point)).low};
+      if (const FollowingValue& following = plan.following[value.index]; following.value == nullptr)
+        return low_end_of_slot(plan, point, following.from.front());
+      return {LowEnd::Kind::support, limits_of_slot(plan, slot, point).low};
     case Value::Kind::profile:
       break;
   }
   return {LowEnd::Kind::profile, 0.0};
+}
+
+}  // namespace
+
+LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter) {
+  return low_end_of_slot(*study.plan, static_cast<std::size_t>(point),
+                         parameters::find_parameter(parameter).value());
 }
 
 }  // namespace zerocount::study

@@ -10,6 +10,7 @@
 #include "core/plugin/controller_plugin.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/distributions/distribution.hpp"
+#include "experiments/parameters/measured_parameters.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "experiments/study/copula.hpp"
 #include "experiments/study/draws.hpp"
@@ -34,10 +35,21 @@ struct Value {
   double number{0.0};                 ///< if kind is number
 };
 
+inline bool is_drawn_per_contact(const Value& value) {
+  return value.kind == Value::Kind::distribution && value.level == DrawLevel::contact;
+}
+
 /// A value that follows from those of other slots, which are numbers or distributions.
 struct FollowingValue {
-  std::vector<std::uint32_t> from;                ///< slots
-  double (*value)(std::span<const double> from);  ///< monotonic in each of them
+  std::vector<std::uint32_t> from;  ///< slots
+  /// NaN where nothing follows from these numbers; null: the same number as that of its only source.
+  double (*value)(std::span<const double> from){nullptr};
+};
+
+/// The slots of a group of measured parameters, in the order of its names.
+struct MeasuredSlots {
+  const parameters::MeasuredParameters* group{nullptr};
+  std::vector<std::uint32_t> slots;
 };
 
 /// A value that one option of an axis gives to a slot.
@@ -98,6 +110,7 @@ struct StudyPlan {
   std::vector<distributions::Distribution> distributions;
   std::vector<std::shared_ptr<const Rotors>> profiles;
   std::vector<FollowingValue> following;
+  std::vector<MeasuredSlots> measured;         ///< of the groups that the study gives
   std::optional<GaussianCopula> copula;        ///< of correlated values
   std::vector<std::uint32_t> sampled_slots;    ///< slots whose values share one random number: `samples`
   std::vector<SlotRandomness> randomness;      ///< [slot]
@@ -127,7 +140,7 @@ template <class NumberOf>
 double following_value(const FollowingValue& following, NumberOf number) {
   std::vector<double> from;
   for (const std::uint32_t slot : following.from) from.push_back(number(slot));
-  return following.value(from);
+  return following.value == nullptr ? from.front() : following.value(from);
 }
 
 /// The features of a study whose other members are set, from the limits of the parameters in its plan.

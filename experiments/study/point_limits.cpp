@@ -1,6 +1,7 @@
 #include "experiments/study/point_limits.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -12,6 +13,8 @@
 namespace zerocount::study {
 namespace {
 
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
 bool can_be_zero(const distributions::Distribution& distribution) {
   if (const auto* choice = std::get_if<distributions::Choice>(&distribution)) {
     return std::find(choice->values.begin(), choice->values.end(), 0.0) != choice->values.end();
@@ -19,34 +22,74 @@ bool can_be_zero(const distributions::Distribution& distribution) {
   return numerics::contains(distributions::support(distribution), 0.0);
 }
 
-/// The lowest and the highest number that are drawn, which unlike the ends of a support are finite.
-std::pair<double, double> extremes_of(const StudyPlan& plan, const Value& value) {
-  if (value.kind == Value::Kind::number) return {value.number, value.number};
-  const distributions::Distribution& distribution = plan.distributions[value.index];
-  return {distributions::quantile(distribution, 0x1p-53),
-          distributions::quantile(distribution, 1.0 - 0x1p-53)};
+/// Adds a value that can follow, unless nothing follows.
+void add_number(double number, std::vector<double>& numbers) {
+  if (!std::isnan(number)) numbers.push_back(number);
 }
 
-/// At the corners of the box of its sources, because the value is monotonic in each of them.
-ValueLimits limits_of_following(const StudyPlan& plan, const FollowingValue& following, std::size_t point) {
-  const auto value_of = [&](std::size_t slot) -> const Value& { return *value_at_point(plan, slot, point); };
-  ValueLimits limits{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+/// What follows at the corners of the box of the sources.
+std::vector<double> numbers_at_corners(const StudyPlan& plan, const FollowingValue& following,
+                                       std::size_t point) {
+  std::vector<double> numbers;
   for (std::size_t corner = 0; corner < (std::size_t{1} << following.from.size()); ++corner) {
     std::size_t sides = corner;
-    const double number = following_value(following, [&](std::uint32_t slot) {
-      const auto [low, high] = extremes_of(plan, value_of(slot));
-      const bool is_high = sides % 2 == 1;
-      sides /= 2;
-      return is_high ? high : low;
-    });
-    if (std::isnan(number)) return {number, number, false, number};
-    limits.low = std::min(limits.low, number);
-    limits.high = std::max(limits.high, number);
+    add_number(following_value(following,
+                               [&](std::uint32_t slot) {
+                                 const auto [low, high] =
+                                     extremes_of(plan, *value_at_point(plan, slot, point));
+                                 const bool is_high = sides % 2 == 1;
+                                 sides /= 2;
+                                 return is_high ? high : low;
+                               }),
+               numbers);
   }
-  limits.can_be_zero = limits.low <= 0.0;
-  limits.typical =
-      following_value(following, [&](std::uint32_t slot) { return limits_of(plan, value_of(slot)).typical; });
-  return limits;
+  return numbers;
+}
+
+/// What follows at evenly spread quantiles of the sources (a Kronecker sequence), the first of which are the
+/// medians.
+std::vector<double> numbers_inside(const StudyPlan& plan, const FollowingValue& following,
+                                   std::size_t point) {
+  constexpr std::array<double, 5> primes{2.0, 3.0, 5.0, 7.0, 11.0};
+  constexpr int spread = 512;
+  const std::vector<std::uint32_t>& sampled = plan.sampled_slots;
+  std::vector<double> numbers;
+  for (int i = 0; i < spread; ++i) {
+    std::size_t source = 0;
+    add_number(following_value(following,
+                               [&](std::uint32_t slot) {
+                                 const bool of_row = std::ranges::find(sampled, slot) != sampled.end();
+                                 const double step =
+                                     std::sqrt(primes.at(of_row ? 0 : source % primes.size()));
+                                 ++source;
+                                 const Value& value = *value_at_point(plan, slot, point);
+                                 return value.kind == Value::Kind::number
+                                            ? value.number
+                                            : distributions::quantile(plan.distributions[value.index],
+                                                                      std::fmod(0.5 + i * step, 1.0));
+                               }),
+               numbers);
+  }
+  return numbers;
+}
+
+/// At the corners of the box of its sources; where nothing follows from some of them, at places inside it as
+/// well.
+ValueLimits limits_of_following(const StudyPlan& plan, const FollowingValue& following, std::size_t point) {
+  if (following.value == nullptr)
+    return limits_of(plan, *value_at_point(plan, following.from.front(), point));
+  std::vector<double> numbers = numbers_at_corners(plan, following, point);
+  double typical = following_value(following, [&](std::uint32_t slot) {
+    return limits_of(plan, *value_at_point(plan, slot, point)).typical;
+  });
+  if (numbers.size() < (std::size_t{1} << following.from.size())) {
+    const std::vector<double> inside = numbers_inside(plan, following, point);
+    numbers.insert(numbers.end(), inside.begin(), inside.end());
+    if (std::isnan(typical) && !inside.empty()) typical = inside.front();
+  }
+  if (numbers.empty() || std::isnan(typical)) return {nothing, nothing, false, nothing};
+  const auto [low, high] = std::ranges::minmax(numbers);
+  return {low, high, low <= 0.0, typical};
 }
 
 bool assigns_any(const PlanAxis& axis, const std::vector<bool>& wanted) {
@@ -55,6 +98,13 @@ bool assigns_any(const PlanAxis& axis, const std::vector<bool>& wanted) {
 }
 
 }  // namespace
+
+std::pair<double, double> extremes_of(const StudyPlan& plan, const Value& value) {
+  if (value.kind == Value::Kind::number) return {value.number, value.number};
+  const distributions::Distribution& distribution = plan.distributions[value.index];
+  return {distributions::quantile(distribution, 0x1p-53),
+          distributions::quantile(distribution, 1.0 - 0x1p-53)};
+}
 
 ValueLimits limits_of(const StudyPlan& plan, const Value& value) {
   if (value.kind == Value::Kind::number)

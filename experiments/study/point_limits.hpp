@@ -3,6 +3,7 @@
 #include <functional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "experiments/study/plan.hpp"
@@ -18,6 +19,10 @@ struct ValueLimits {
   bool can_be_zero{false};
   double typical{0.0};  ///< the number, the median of the distribution, or the mean of the profile
 };
+
+/// The lowest and the highest number that are drawn, which unlike the ends of a support are finite. For a
+/// number or a distribution.
+std::pair<double, double> extremes_of(const StudyPlan& plan, const Value& value);
 
 /// The limits of a value that does not follow from others.
 ValueLimits limits_of(const StudyPlan& plan, const Value& value);

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 #include <span>
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "experiments/designs/saltelli.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/machine_inputs.hpp"
+#include "experiments/study/measured_machines.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study.hpp"
 
@@ -83,17 +86,17 @@ double uniform_of(const TrialDraws& draws, std::uint32_t slot, DrawLevel level) 
                         [&](std::size_t j) { return drawn_uniform(draws, copula->slots[j], copula->level); });
 }
 
-friction::ContactParameter contact_parameter(const TrialDraws& draws, std::uint32_t slot,
-                                             const Value& value) {
-  const SlotRandomness& randomness = draws.plan().randomness[slot];
+/// The value of a slot that is drawn at each contact, by the contact's number.
+std::function<double(std::uint64_t contact)> value_per_contact(const TrialDraws& draws, std::uint32_t slot,
+                                                               const Value& value) {
   const std::uint64_t trial =
       draws.study.design == Design::saltelli && !draws.given.number ? source_trial(draws, slot) : draws.index;
+  const random::RandomStream stream{.key = draws.plan().randomness[slot].contacts, .stream = draws.stream};
   const std::shared_ptr<const StudyPlan> plan = draws.study.plan;  // the trial may outlive the study
-  const std::size_t index = value.index;
-  return {draws.plan().table.rows[slot].profiled,
-          [plan, index](double u) { return distributions::quantile(plan->distributions[index], u); },
-          {.key = randomness.contacts, .stream = draws.stream},
-          trial};
+  return [plan, stream, trial, index = value.index](std::uint64_t contact) {
+    return distributions::quantile(plan->distributions[index],
+                                   friction::contact_uniform(stream, trial, contact));
+  };
 }
 
 std::int64_t rotor_of(const TrialDraws& draws, const Value& profile) {
@@ -179,21 +182,21 @@ void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
   }
 }
 
+/// A number, or that of a distribution.
+double drawn_number(const TrialDraws& draws, std::uint32_t slot, const Value& value) {
+  return value.kind == Value::Kind::distribution
+             ? distributions::quantile(draws.plan().distributions[value.index],
+                                       uniform_of(draws, slot, value.level))
+             : value.number;
+}
+
 /// The value of the slot outside the sweep, which is not a profile.
 double base_number(const TrialDraws& draws, std::uint32_t slot) {
-  const StudyPlan& plan = draws.plan();
-  const Value& value = plan.base[slot];
-  switch (value.kind) {
-    case Value::Kind::distribution:
-      return distributions::quantile(plan.distributions[value.index], uniform_of(draws, slot, value.level));
-    case Value::Kind::following:
-      return following_value(plan.following[value.index],
-                             [&](std::uint32_t source) { return base_number(draws, source); });
-    case Value::Kind::number:
-    case Value::Kind::profile:
-      break;
-  }
-  return value.number;
+  const Value& value = draws.plan().base[slot];
+  return value.kind == Value::Kind::following
+             ? following_value(draws.plan().following[value.index],
+                               [&](std::uint32_t source) { return base_number(draws, source); })
+             : drawn_number(draws, slot, value);
 }
 
 /// The inputs that all trials of one rig (or world) share, of its first trial, which has its index.
@@ -232,30 +235,37 @@ struct TrialInProgress {
   }
 };
 
-/// The source of a following value that is drawn anew at each contact, if any; there is at most one.
-std::optional<std::uint32_t> contact_source(const TrialDraws& draws, const FollowingValue& following,
-                                            std::int64_t point) {
-  const auto source = std::ranges::find_if(following.from, [&](std::uint32_t slot) {
-    const Value& value = value_of(draws.plan(), slot, point);
-    return value.kind == Value::Kind::distribution && value.level == DrawLevel::contact;
-  });
-  return source == following.from.end() ? std::nullopt : std::optional(*source);
-}
-
 /// Sets the value that follows from those of other slots, which are set.
 void set_following(const TrialDraws& draws, std::int64_t point, std::uint32_t slot, TrialInProgress& t) {
   const FollowingValue& following = t.plan.following[value_of(t.plan, slot, point).index];
   t.set(slot, following_value(following, [&](std::uint32_t source) { return t.numbers[source]; }));
-  const auto source = contact_source(draws, following, point);
-  if (!source) return;
-  friction::ContactParameter contact = contact_parameter(draws, *source, value_of(t.plan, *source, point));
-  contact.parameter = t.plan.table.rows[slot].profiled;
-  contact.quantile = [of_source = std::move(contact.quantile), following, numbers = t.numbers,
-                      source = *source](double u) {
-    return following_value(following,
-                           [&](std::uint32_t from) { return from == source ? of_source(u) : numbers[from]; });
-  };
-  t.trial.parameters.friction.per_contact.push_back(std::move(contact));
+  std::map<std::uint32_t, std::function<double(std::uint64_t)>> per_contact;  // by source
+  for (const std::uint32_t source : following.from) {
+    const Value& value = value_of(t.plan, source, point);
+    if (is_drawn_per_contact(value)) per_contact.emplace(source, value_per_contact(draws, source, value));
+  }
+  if (per_contact.empty()) return;
+  t.trial.parameters.friction.per_contact.push_back(
+      {t.plan.table.rows[slot].profiled,
+       [following, per_contact, numbers = t.numbers](std::uint64_t contact) {
+         return following_value(following, [&](std::uint32_t source) {
+           const auto drawn = per_contact.find(source);
+           return drawn == per_contact.end() ? numbers[source] : drawn->second(contact);
+         });
+       }});
+}
+
+/// Refuses measured values that are those of no machine: a draw that no check has seen.
+void require_machine(std::int64_t point, const TrialInProgress& t) {
+  for (const MeasuredSlots& measured : t.plan.measured) {
+    const auto fault =
+        fault_of_machine(t.plan, static_cast<std::size_t>(point), measured,
+                         [&](std::uint32_t slot) { return std::pair(t.numbers[slot], t.numbers[slot]); });
+    if (fault)
+      throw Failure(ExitCode::bad_input,
+                    fmt::format("{}: a draw is that of no machine: {}; expected {}",
+                                t.plan.table.rows[fault->slots.front()].name, fault->what, fault->expected));
+  }
 }
 
 /// With all values but those of profiles.
@@ -272,12 +282,14 @@ TrialInProgress begin_trial(const TrialDraws& draws, std::int64_t point) {
       t.set(slot,
             distributions::quantile(plan.distributions[value.index], uniform_of(draws, slot, value.level)));
       if (value.level == DrawLevel::contact && plan.table.rows[slot].profiled != nullptr)
-        t.trial.parameters.friction.per_contact.push_back(contact_parameter(draws, slot, value));
+        t.trial.parameters.friction.per_contact.push_back(
+            {plan.table.rows[slot].profiled, value_per_contact(draws, slot, value)});
     }
   }
   for (const std::uint32_t slot : plan.input_slots) {
     if (value_of(plan, slot, point).kind == Value::Kind::following) set_following(draws, point, slot, t);
   }
+  require_machine(point, t);
   return t;
 }
 
@@ -329,6 +341,16 @@ StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t inde
   complete_trial(study.units, trial.parameters);
   round_targets(trial);
   return trial;
+}
+
+std::vector<double> drawn_numbers(const Study& study, std::int64_t point, std::int64_t index,
+                                  std::span<const std::uint32_t> slots, const GivenDraws& given) {
+  const TrialDraws draws = draws_of(study, point, index, given);
+  std::vector<double> numbers;
+  numbers.reserve(slots.size());
+  for (const std::uint32_t slot : slots)
+    numbers.push_back(drawn_number(draws, slot, value_of(draws.plan(), slot, point)));
+  return numbers;
 }
 
 std::vector<double> drawn_quantiles(const Study& study, std::int64_t point, std::int64_t index,

@@ -27,17 +27,23 @@ constexpr const char* new_help =
     "--list prints the names and questions of these manifests, and the guides.\n"
     "With --guide it writes a manifest of an axis on that guide instead, whose friction nobody has measured\n"
     "yet: each value has a range and its source (zerocount parameters --guides). It is a starting point, to\n"
-    "be replaced by what zerocount identify finds.\n"
+    "be replaced by what zerocount identify finds. --breakaway, --travel and --secant say what was measured\n"
+    "of its friction spring: the force at which it slides, the travel up to there, and the force over "
+    "travel\n"
+    "at a shorter one. The stiffness to which it softens is drawn within what these allow.\n"
     "\n"
     "Examples:\n"
     "  zerocount new --list\n"
     "  zerocount new paper-gains -o my-axis.yaml\n"
-    "  zerocount new --guide ball-rail --preload 800 --mass 12 -o my-axis.yaml\n";
+    "  zerocount new --guide ball-rail --preload 800 --mass 12 -o my-axis.yaml\n"
+    "  zerocount new --guide crossed-roller --breakaway 4 --travel 10e-6 --secant 1.5e6@2e-6\n";
 
 // Beyond them a number is a mistake, of units for example.
 constexpr double max_mass = 1e5;         // kg
 constexpr double max_preload = 1e6;      // N
 constexpr double max_resolution = 1e-3;  // m
+constexpr double max_travel = 1.0;       // m
+constexpr double max_stiffness = 1e12;   // N/m
 
 std::vector<std::string> manifest_names() {
   std::vector<std::string> stems;
@@ -73,6 +79,15 @@ void print_list() {
     standard_output::print("{:<{}} {}\n", guide.name, width, guide.description);
 }
 
+double positive_number(const command_line::Arguments& arguments, std::string_view option,
+                       std::string_view text, double high) {
+  const std::optional<double> number = text::parse_number<double>(text);
+  if (!number || !(*number > 0.0) || !(*number <= high))
+    arguments.refuse(
+        fmt::format("option '--{}': '{}'; expected a number above 0 and at most {:g}", option, text, high));
+  return *number;
+}
+
 /// A positive option of --guide; nothing if it is missing.
 /// @param applies whether it has an effect on this guide
 std::optional<double> guide_option(const command_line::Arguments& arguments, std::string_view option,
@@ -80,11 +95,34 @@ std::optional<double> guide_option(const command_line::Arguments& arguments, std
   const std::optional<std::string> text = arguments.value(option);
   if (!text) return std::nullopt;
   if (!applies) arguments.refuse(fmt::format("option '--{}' has no effect on {}", option, guide.name));
-  const std::optional<double> number = text::parse_number<double>(*text);
-  if (!number || !(*number > 0.0) || !(*number <= high))
+  return positive_number(arguments, option, *text, high);
+}
+
+/// What was measured of the spring; nothing without the options that say it.
+std::optional<guides::MeasuredSpring> measured_spring(const command_line::Arguments& arguments,
+                                                      const guides::Guide& guide) {
+  const bool applies = guides::has_load(guide);
+  const auto breakaway = guide_option(arguments, "breakaway", guide, applies, max_preload);
+  const auto travel = guide_option(arguments, "travel", guide, applies, max_travel);
+  const std::optional<std::string> secant = arguments.value("secant");
+  if (!breakaway && !travel && !secant) return std::nullopt;
+  if (!breakaway || !travel || !secant)
     arguments.refuse(
-        fmt::format("option '--{}': '{}'; expected a number above 0 and at most {:g}", option, *text, high));
-  return number;
+        fmt::format("option '--{}' is missing; a measured spring has --breakaway, --travel and --secant",
+                    !breakaway ? "breakaway"
+                    : !travel  ? "travel"
+                               : "secant"));
+  if (!applies) arguments.refuse(fmt::format("option '--secant' has no effect on {}", guide.name));
+  const auto at = secant->find('@');
+  if (at == std::string::npos)
+    arguments.refuse(fmt::format("option '--secant': '{}'; expected N/m@m, such as 1.5e6@2e-6", *secant));
+  const guides::MeasuredSpring spring{
+      *breakaway, *travel, positive_number(arguments, "secant", secant->substr(0, at), max_stiffness),
+      positive_number(arguments, "secant", secant->substr(at + 1), max_travel)};
+  if (const std::string fault = guides::fault_of(spring); !fault.empty())
+    arguments.refuse(fmt::format(
+        "no friction spring has this --breakaway (N), --travel (m) and --secant (N/m@m): {}", fault));
+  return spring;
 }
 
 std::string manifest_of_guide(const command_line::Arguments& arguments) {
@@ -96,6 +134,7 @@ std::string manifest_of_guide(const command_line::Arguments& arguments) {
                           .value_or(axis.load.preload);
   axis.resolution =
       guide_option(arguments, "resolution", guide, linear, max_resolution).value_or(axis.resolution);
+  axis.spring = measured_spring(arguments, guide);
   return guides::guide_manifest(guide, axis);
 }
 
@@ -137,9 +176,14 @@ commands::Command new_command() {
        "[NAME]",
        {{"list", "", "print the names and questions of the manifests, and the guides"},
         guide_choice(),
-        of_guide({"preload", "N", "with --guide: normal force on all its carriages together, N"}),
+        command_line::excluding(
+            {"breakaway"},
+            of_guide({"preload", "N", "with --guide: normal force on all its carriages together, N"})),
         of_guide({"mass", "KG", "with --guide: moving mass of a linear axis, kg"}),
         of_guide({"resolution", "M", "with --guide: encoder of a linear axis, m per count; default 1e-8"}),
+        of_guide({"breakaway", "N", "with --guide: measured force at which it slides, N"}),
+        of_guide({"travel", "M", "with --guide: measured travel up to breakaway, m"}),
+        of_guide({"secant", "K@M", "with --guide: measured force over travel, N/m, at a travel, m"}),
         command_line::excluding({"list"}, {"output,o", "FILE", "the manifest to make; default: NAME.yaml"}),
         command_line::excluding({"list"}, command_line::force_option())},
        0,

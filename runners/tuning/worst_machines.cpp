@@ -16,6 +16,7 @@
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest_text/point_manifest.hpp"
 #include "experiments/study/machine_inputs.hpp"
+#include "experiments/study/measured_machines.hpp"
 #include "experiments/study/plan.hpp"
 #include "runners/trials/trial_set.hpp"
 #include "runners/tuning/race/search_space.hpp"
@@ -225,16 +226,26 @@ class MachineSearch {
     return scores == 0 ? 0.0 : square / statistics::chi_squared_quantile(scores, 1.0 - 2.0 * tail);
   }
 
-  /// The nearest machine of the region on the way to the median.
-  BoxPoint inside(BoxPoint point, MachineRegion region) const {
-    for (double& one : point.quantiles) one = std::clamp(one, tail, 1.0 - tail);
-    const double excess = excess_of(point, region);
-    if (excess <= 1.0) return point;
+  void approach_median(BoxPoint& point, double divisor) const {
     for (std::size_t i = 0; i < point.quantiles.size(); ++i) {
       if (is_row(i)) continue;
       double& one = point.quantiles[i];
-      one = numerics::normal_probability(numerics::normal_quantile(one) / std::sqrt(excess));
+      one = numerics::normal_probability(numerics::normal_quantile(one) / divisor);
     }
+  }
+
+  bool is_a_machine(const BoxPoint& point) const {
+    return study::is_machine(study_, units_.point, point.rig, draws_of(point, given_.trials));
+  }
+
+  /// The nearest machine of the region on the way to the median.
+  BoxPoint inside(BoxPoint point, MachineRegion region) const {
+    for (double& one : point.quantiles) one = std::clamp(one, tail, 1.0 - tail);
+    if (const double excess = excess_of(point, region); excess > 1.0)
+      approach_median(point, std::sqrt(excess));
+    // Measured values at the ends of their ranges may be those of no machine.
+    constexpr int max_steps = 100;
+    for (int step = 0; step < max_steps && !is_a_machine(point); ++step) approach_median(point, 1.1);
     return point;
   }
 
@@ -251,15 +262,19 @@ class MachineSearch {
     return a.rig == b.rig && a.quantiles == b.quantiles;
   }
 
-  /// A trial of the machine with the random numbers `number`.
-  trial::TrialParameters trial_of(const BoxPoint& point, std::int64_t number) const {
+  study::GivenDraws draws_of(const BoxPoint& point, std::int64_t number) const {
     study::GivenDraws given;
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
       for (const std::uint32_t slot : inputs_[i].slots) given.uniforms[slot] = point.quantiles[i];
     }
     given.number = number;
     given.rotor = point.rig;
-    return study::study_trial(study_, units_.point, point.rig, given).parameters;
+    return given;
+  }
+
+  /// A trial of the machine with the random numbers `number`.
+  trial::TrialParameters trial_of(const BoxPoint& point, std::int64_t number) const {
+    return study::study_trial(study_, units_.point, point.rig, draws_of(point, number)).parameters;
   }
 
   void simulate(std::vector<BoxPoint>& points) const {

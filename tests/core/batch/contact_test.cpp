@@ -67,10 +67,11 @@ TEST(BatchContact, DrawsItsParametersAnewWhereItSticks) {
       if (i % 10 != 9 && j != i % 10) continue;
       const double spread = drawn[j] == &P::coulomb_ratio ? 0.1 : 0.4;
       const double middle = f.*drawn[j];
-      p.friction.per_contact.push_back({drawn[j],
-                                        [=](double u) { return middle * (1.0 + spread * (u - 0.5)); },
-                                        {.key = {static_cast<std::uint32_t>(j), 5}, .stream = 0},
-                                        i});
+      const random::RandomStream stream{.key = {static_cast<std::uint32_t>(j), 5}, .stream = 0};
+      p.friction.per_contact.push_back({drawn[j], [=](std::uint64_t contact) {
+                                          const double u = friction::contact_uniform(stream, i, contact);
+                                          return middle * (1.0 + spread * (u - 0.5));
+                                        }});
     }
   }
   const BatchAgreement agreement = expect_agreement_in_lanes(trials, "contacts");

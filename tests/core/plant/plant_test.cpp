@@ -160,10 +160,10 @@ void slide_once(AnyPlant& plant, double torque) {
 template <class Law>
 void expect_next_contact_at_each_re_stick() {
   friction::FrictionAlongRotor friction{};
-  friction.per_contact.push_back({&friction::FrictionParameters::breakaway,
-                                  [](double u) { return 0.2 + 0.2 * u; },
-                                  {.key = {1, 2}, .stream = 3},
-                                  17});
+  friction.per_contact.push_back(
+      {&friction::FrictionParameters::breakaway, [](std::uint64_t contact) {
+         return 0.2 + 0.2 * friction::contact_uniform({.key = {1, 2}, .stream = 3}, 17, contact);
+       }});
   PlantWith<Law> plant({}, friction, {}, rig_tolerance);
   EXPECT_EQ(plant.contact().breakaway, friction::FrictionParameters{}.breakaway);
   for (int contact = 1; contact <= 20; ++contact) {

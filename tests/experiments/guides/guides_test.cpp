@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/failure/failure.hpp"
+#include "core/friction/presliding/spring.hpp"
 #include "experiments/guides/guide_manifest.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
@@ -115,6 +116,34 @@ TEST(Guides, EveryManifestIsUnderstoodWithoutWarningsAtAnyUsualLoad) {
       const study::Study study = manifest::parse_study(text, "guide.yaml");
       EXPECT_EQ(study.name, guide.name);
       EXPECT_TRUE(study.warnings.empty()) << study.warnings.front() << "\n" << text;
+    }
+  }
+}
+
+// Whatever spring was measured, the study has it: its machines break away after the travel with that force.
+TEST(Guides, AManifestHasTheMeasuredSpringInEachOfItsMachines) {
+  std::mt19937 generator(4);
+  for (const Guide& guide : guide_table()) {
+    for (int i = 0; has_load(guide) && i < 20; ++i) {
+      GuideAxis axis{.load = usual_load(guide)};
+      MeasuredSpring spring{.breakaway = log_uniform(generator, 1, 100),
+                            .travel = log_uniform(generator, 1e-6, 1e-4)};
+      spring.secant_travel = spring.travel * log_uniform(generator, 0.05, 0.9);
+      const double least = spring.breakaway / spring.travel;
+      const double most = spring.breakaway / spring.secant_travel;
+      spring.secant_stiffness = least + (most - least) * log_uniform(generator, 0.05, 0.95);
+      ASSERT_EQ(fault_of(spring), "");
+      axis.spring = spring;
+      const std::string text = guide_manifest(guide, axis);
+      const study::Study study = manifest::parse_study(text, "guide.yaml");
+      for (std::int64_t rig = 0; rig < study.rigs; ++rig) {
+        const friction::FrictionParameters contact =
+            friction::friction_at(study::study_trial(study, 0, rig).parameters.friction, 0.0);
+        const auto torque = [&](double travel) { return 0.5 * friction::branch_law(contact, 2.0 * travel); };
+        EXPECT_NEAR(torque(spring.travel) / spring.breakaway, 1.0, 1e-12);
+        EXPECT_NEAR(torque(spring.secant_travel) / (spring.secant_stiffness * spring.secant_travel), 1.0,
+                    1e-12);
+      }
     }
   }
 }

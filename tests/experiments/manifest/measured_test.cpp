@@ -143,11 +143,6 @@ TEST(MeasuredCreep, StandsInPlaceOfTheConstantsAsAWhole) {
                          "7:29: friction.n | friction.measured.creep | other"));
   EXPECT_TRUE(has_faults(refusal_of(with_creep("torque: 1.0e-200, extension: 1, rate: 1, exponent: 2")),
                          "6:39: friction.lambda | it is 0 | greater than 0"));
-  EXPECT_TRUE(has_faults(
-      refusal_of(
-          with_creep("torque: {uniform: [1, 2], per: contact}, extension: {uniform: [1, 2], per: contact}, "
-                     "rate: 1, exponent: 1")),
-      "6:83: friction.measured.creep.extension | friction.measured.creep.torque | per: contact"));
   EXPECT_NE(refusal_of(with_creep("torque: 1, extension: 1, rate: 1, exponent: {profile: {mean: 2, cv: 0.1, "
                                   "correlation_length: 0.1}}"))
                 .find("cannot vary along the rotor"),

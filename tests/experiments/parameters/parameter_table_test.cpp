@@ -21,7 +21,7 @@ TEST(ParameterTable, DefaultsAreThoseOfThisVersionOfResultsFiles) {
     if (!exists_on(parameter, AxisKind::rotary)) continue;
     defaults += std::string(parameter.name) + "=" + default_text(parameter) + "\n";
   }
-  EXPECT_EQ(hash::sha256_hex(defaults), "f7c41862add1639babf52c711b9ea62005be8ecdf088aad26a1aa5921ee7de33")
+  EXPECT_EQ(hash::sha256_hex(defaults), "96ebbb204e4bd5e83d0019acb4bf873a9408affed4fa0e97ac9f08a46b634197")
       << defaults;
 }
 

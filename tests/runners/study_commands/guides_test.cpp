@@ -50,6 +50,27 @@ TEST_F(NewGuide, ScalesItWithTheLoad) {
     EXPECT_NE(more.out.find(part), std::string::npos) << part << "\n" << more.out;
 }
 
+TEST_F(NewGuide, StartsFromAMeasuredSpring) {
+  const std::vector<std::string> words{"new",        "--guide",  "crossed-roller", "--breakaway",
+                                       "4",          "--travel", "10e-6",          "--secant",
+                                       "1.5e6@2e-6", "-o",       "axis.yaml"};
+  ASSERT_EQ(run(words).code, 0);
+  const ProgramResult check = run({"check", "axis.yaml"});
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_EQ(run({"run", "axis.yaml", "-o", "axis.h5", "--set", "trials=50"}).code, 0);
+  expect_refused({"new", "--guide", "crossed-roller", "--breakaway", "4"},
+                 "'--travel' is missing; a measured spring has --breakaway, --travel and --secant");
+  const auto with_secant = [&](const std::string& secant, const std::string& guide = "crossed-roller") {
+    return std::vector<std::string>{"new",      "--guide", guide,      "--breakaway", "4",
+                                    "--travel", "10e-6",   "--secant", secant};
+  };
+  expect_refused(with_secant("1.5e6"), "expected N/m@m");
+  expect_refused(with_secant("1.5e6@2e-5"), "travel of 2e-05 is not below the travel up to breakaway, 1e-05");
+  expect_refused(with_secant("2.5e6@2e-6"), "carries 5, which is not below the breakaway of 4");
+  expect_refused(with_secant("3e5@2e-6"), "3e+05 is not above breakaway over travel, 4/1e-05 = 400000");
+  expect_refused(with_secant("1.5e6@2e-6", "air-bearing"), "'--breakaway' has no effect on air-bearing");
+}
+
 TEST_F(NewGuide, IsListed) {
   const std::string list = run({"new", "--list"}).out;
   for (const guides::Guide& guide : guides::guide_table())

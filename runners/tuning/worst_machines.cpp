@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -73,8 +74,13 @@ bool are_correlated(const std::vector<study::MachineInput>& inputs, const study:
 
 /// The study with independent draws, as many as are wanted. Its profiles stay.
 study::Study searched_study(const study::Study& study, const std::vector<study::MachineInput>& inputs) {
-  study::Study searched =
-      are_correlated(inputs, *study.plan) ? trials::variant_of(study, {"correlation=[]"}) : study;
+  study::Study searched = study;
+  if (are_correlated(inputs, *study.plan)) {
+    auto plan = std::make_shared<study::StudyPlan>(*study.plan);
+    plan->copula.reset();
+    searched.plan = std::move(plan);
+    searched.correlations.clear();
+  }
   searched.design = study::Design::monte_carlo;
   return searched;
 }

@@ -136,6 +136,24 @@ TEST_F(Worst, IsNamedOnceWhereItIsLikelyToo) {
   EXPECT_EQ(json["likely"]["inputs"], json["box"]["inputs"]);
 }
 
+// Only the correlation of its values makes a draw a machine: in the corners of the box there is none.
+TEST_F(Worst, IsAMachineWhereMeasuredValuesBelongTogether) {
+  const std::string manifest =
+      std::string(common_part) +
+      "rigs: 8\ntrials: 16\ngoal: {band: 1, within: 0.05, moves: 0.9}\n"
+      "friction: {measured: {initial_stiffness: 1500, final_stiffness: {log_uniform: "
+      "[20, 800]}, breakaway: {log_uniform: [0.2, 2.4]}, breakaway_travel: 2.0e-3}}\n"
+      "correlation: [[friction.measured.final_stiffness, friction.measured.breakaway, "
+      "0.9999]]\n";
+  const Json found = worst(manifest);
+  EXPECT_EQ(program({"check", "worst.yaml"}).code, 0) << found;
+  folder_.write("independent.yaml", manifest.substr(0, manifest.find("correlation")));
+  const ProgramResult run = program({"run", "independent.yaml", "-o", "independent.h5"});
+  EXPECT_EQ(run.code, 2) << run.err;
+  EXPECT_NE(run.err.find("friction.measured.final_stiffness: rig "), std::string::npos) << run.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "independent.h5"));
+}
+
 // Rows that are drawn for each trial do not belong to a machine with rigs, and a results file has no place of
 // their table.
 TEST_F(Worst, IsToldWhereNoManifestCanBeWritten) {

@@ -81,6 +81,35 @@ TEST_F(Plausibility, TheSpringSoftensBeforeItSlides) {
   }
 }
 
+// Of breakaway 0.3 N m after 2 mrad, 150 N m/rad.
+TEST_F(Plausibility, AMeasuredSpringIsNeitherALineNorAStep) {
+  const auto warnings = [](double initial, double inertia) {
+    return warnings_of(fmt::format(
+        "friction: {{measured: {{initial_stiffness: {:.17g}, final_stiffness: 100, breakaway: 0.3, "
+        "breakaway_travel: 2.0e-3}}}}\nplant: {{inertia: {}}}\n",
+        initial, inertia));
+  };
+  for (int i = 0; i < rounds; ++i) {
+    const double ratio = 1.0 - log_uniform(1e-4, 0.5);  // (1 - exp(-y))/y, y = 2 beta travel
+    const std::vector<std::string> line = warnings(100.0 + 50.0 / ratio, 5.54e-4);
+    if (ratio <= -std::expm1(-0.2) / 0.2) {
+      EXPECT_TRUE(line.empty()) << ratio;
+    } else {
+      EXPECT_TRUE(
+          has_faults(line, "6:42: friction.measured.initial_stiffness | before it softens | stiffer"));
+    }
+    const double initial = log_uniform(1e5, 1e7);
+    const std::vector<std::string> step = warnings(initial, 10.0);
+    if (initial <= 1e4 * 150.0) {
+      EXPECT_TRUE(step.empty()) << initial;
+    } else {
+      EXPECT_TRUE(has_faults(step, fmt::format("6:42: friction.measured.initial_stiffness | {:.4g} N m/rad | "
+                                               "{:.3g} times",
+                                               initial, initial / 150.0)));
+    }
+  }
+}
+
 TEST_F(Plausibility, ADelayIsANumberOfSamples) {
   for (int i = 0; i < rounds; ++i) {
     const double delay = log_uniform(1e-6, 3);

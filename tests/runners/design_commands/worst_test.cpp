@@ -148,7 +148,8 @@ TEST_F(Worst, IsAMachineWhereMeasuredValuesBelongTogether) {
   const Json found = worst(manifest);
   EXPECT_EQ(program({"check", "worst.yaml"}).code, 0) << found;
   folder_.write("independent.yaml", manifest.substr(0, manifest.find("correlation")));
-  const ProgramResult run = program({"run", "independent.yaml", "-o", "independent.h5"});
+  const ProgramResult run =
+      program({"run", "independent.yaml", "-o", "independent.h5", "--set", "rigs=80", "--set", "trials=80"});
   EXPECT_EQ(run.code, 2) << run.err;
   EXPECT_NE(run.err.find("friction.measured.final_stiffness: rig "), std::string::npos) << run.err;
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "independent.h5"));

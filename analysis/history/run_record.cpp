@@ -122,6 +122,7 @@ std::string series_sha256(const reading::AllTrialsFile& file) {
 }
 
 RunRecord record_of(const reading::AllTrialsFile& file) {
+  study::refuse_conditions(file.study(), "zerocount history");
   const std::string name = file.path().string();
   const summary::StudySummary summary =
       summary::summarise(file, statistics::summary_confidence, /*bootstrap=*/true);

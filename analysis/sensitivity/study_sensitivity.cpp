@@ -156,6 +156,7 @@ StudySensitivity study_sensitivity(const reading::AllTrialsFile& file, const Sen
   check_confidence(question.confidence);
   const layout::FileHeader& header = file.header();
   const study::Study& study = file.study();
+  study::refuse_conditions(study, "zerocount sensitivity");
   const std::vector<SensitivityOutput> outputs =
       outputs_asked(question, file.table(), goal::question_of(study));
   const std::vector<std::string> labels = file.point_labels();

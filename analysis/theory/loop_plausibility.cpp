@@ -130,16 +130,17 @@ constexpr std::array<LoopTest, 3> tests{{{phase_margin, min_phase_margin, phase_
 struct Worst {
   double value{std::numeric_limits<double>::infinity()};
   std::int64_t point{0};
+  std::int64_t condition{0};
   std::string text;
 };
 
 using WorstValues = std::array<Worst, tests.size()>;
 
-void examine_loop(const ExaminedLoop& loop, std::int64_t point, WorstValues& worst) {
+void examine_loop(const ExaminedLoop& loop, std::int64_t point, std::int64_t condition, WorstValues& worst) {
   for (std::size_t i = 0; i < tests.size(); ++i) {
     const double value = tests[i].measure(loop);
     if (!(value < tests[i].least) || !(value < worst[i].value)) continue;
-    worst[i] = {value, point, tests[i].text(loop, value)};
+    worst[i] = {value, point, condition, tests[i].text(loop, value)};
   }
 }
 
@@ -149,24 +150,29 @@ std::vector<std::string> doubtful_loops(const study::Study& study) {
   WorstValues worst;
   const std::vector<std::int64_t> points =
       statistics::spread_over(study::point_count(study), max_trials_doubted);
-  const std::int64_t trials = std::clamp<std::int64_t>(max_trials_doubted / std::ssize(points), 1,
-                                                       std::min(study.trials, max_trials_of_point));
+  const study::TrialTurns turns = study::turns_of(study);
+  const std::int64_t draws =
+      std::clamp<std::int64_t>(max_trials_doubted / (std::ssize(points) * turns.conditions), 1,
+                               std::min(study::draw_count(study), max_trials_of_point));
   for (const std::int64_t point : points) {
-    for (std::int64_t index = 0; index < trials; ++index) {
+    for (std::int64_t i = 0; i < draws * turns.conditions; ++i) {
+      const std::int64_t condition = i % turns.conditions;
+      const std::int64_t index = turns.trial_of(i / turns.conditions, condition);
       const trial::TrialParameters p = study::study_trial(study, point, index).parameters;
       const Travel travel = travel_of(p);
       for (const TrialLoop& loop : trial_loops(p)) {
         ExaminedLoop examined{p, loop, travel, stability_of(loop.loop, p.command.hold)};
         if (is_used(examined)) examined.phase = stability_margins(loop.loop).phase;
-        examine_loop(examined, point, worst);
+        examine_loop(examined, point, condition, worst);
       }
     }
   }
   std::vector<std::string> lines;
   for (const Worst& one : worst) {
     if (one.text.empty()) continue;
-    lines.push_back(fmt::format("point {} ({}): {}", one.point,
-                                study.points.labels[static_cast<std::size_t>(one.point)], one.text));
+    lines.push_back(fmt::format("point {} ({}){}: {}", one.point,
+                                study.points.labels[static_cast<std::size_t>(one.point)],
+                                study::condition_text(study, one.condition), one.text));
   }
   return lines;
 }

@@ -139,14 +139,27 @@ void add_low_end(const study::Study& study, const trial::TrialParameters& p, dou
   lowest.stable_below.add(as_given(study.units, p, bounds.stable_below));
 }
 
-/// Examines the lowest k1 of the rotors of all rigs (trial i runs on rig i mod rigs). The bound of the
-/// sampled loop, which takes longer, is computed only at the lowest of them.
-void examine_rotors(const study::Study& study, std::int64_t point, LowestStiffness& lowest) {
+/// A design point under a condition.
+struct ExaminedPoint {
+  const study::Study& study;
+  std::int64_t point;
+  std::int64_t condition;
+
+  /// The parameters of its trial with this draw (TrialTurns).
+  trial::TrialParameters trial(std::int64_t draw) const {
+    return study::study_trial(study, point, study::turns_of(study).trial_of(draw, condition)).parameters;
+  }
+};
+
+/// Examines the lowest k1 of the rotors of all rigs (draw j is of rig j mod rigs). The bound of the sampled
+/// loop, which takes longer, is computed only at the lowest of them.
+void examine_rotors(const ExaminedPoint& at, LowestStiffness& lowest) {
+  const study::Study& study = at.study;
   lowest.rigs = std::min(study.rigs, max_rigs_examined);
   trial::TrialParameters softest;
   Range k1;
   for (std::int64_t rig = 0; rig < lowest.rigs; ++rig) {
-    const trial::TrialParameters p = study::study_trial(study, point, rig).parameters;
+    const trial::TrialParameters p = at.trial(rig);
     const double k1_of_rig = lowest_k1(p.friction);
     add_low_end(study, p, k1_of_rig, lowest);
     if (k1_of_rig < k1.low) softest = p;
@@ -197,28 +210,29 @@ void add_criteria(const study::Study& study, const trial::TrialParameters& p,
 
 /// Applies `add` to the parameters of the first `count` trials of the point.
 template <typename Add>
-void for_trials(const study::Study& study, std::int64_t point, std::int64_t count, Add add) {
-  for (std::int64_t index = 0; index < std::min(study.trials, count); ++index)
-    add(study::study_trial(study, point, index).parameters);
+void for_trials(const ExaminedPoint& at, std::int64_t count, Add add) {
+  for (std::int64_t draw = 0; draw < std::min(study::draw_count(at.study), count); ++draw)
+    add(at.trial(draw));
 }
 
-void examine_outside(const study::Study& study, std::int64_t point, const trial::TrialParameters& first,
-                     PointTheory& theory) {
+void examine_outside(const ExaminedPoint& at, const trial::TrialParameters& first, PointTheory& theory) {
+  const study::Study& study = at.study;
   theory.hunting = predict_hunting(first);
   theory.free = !has_no_linear_loop(first) && !friction::has_friction(first.friction.model);
-  for_trials(study, point, max_trials_examined_closely, [&](const trial::TrialParameters& p) {
+  for_trials(at, max_trials_examined_closely, [&](const trial::TrialParameters& p) {
     add_loops(theory.loops, p);
     if (theory.free) examine_free(study, p, theory);
   });
 }
 
-void examine_springs(const study::Study& study, std::int64_t point, PointTheory& theory) {
+void examine_springs(const ExaminedPoint& at, PointTheory& theory) {
+  const study::Study& study = at.study;
   theory.rules.torque_unit = parameters::unit_on(study.units.axis, "N m");
-  theory.lowest.source = study::low_end(study, point, "friction.k1");
+  theory.lowest.source = study::low_end(study, at.point, "friction.k1", at.condition);
   trial::TrialParameters softest;
   trial::TrialParameters stiffest;
   Range k1;  // N m/rad
-  for_trials(study, point, max_trials_examined, [&](const trial::TrialParameters& p) {
+  for_trials(at, max_trials_examined, [&](const trial::TrialParameters& p) {
     const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
     add_criteria(study, p, contact, theory.gain, theory.rules);
     if (contact.k1 < k1.low) softest = p;
@@ -230,16 +244,17 @@ void examine_springs(const study::Study& study, std::int64_t point, PointTheory&
   add_sampled_bound(study, stiffest, k1.high, theory.gain);
   add_loops(theory.loops, softest);
   add_loops(theory.loops, stiffest);
-  for_trials(study, point, max_trials_examined_closely,
+  for_trials(at, max_trials_examined_closely,
              [&](const trial::TrialParameters& p) { examine_closely(study, p, theory); });
-  if (theory.lowest.source.kind == study::LowEnd::Kind::profile) examine_rotors(study, point, theory.lowest);
+  if (theory.lowest.source.kind == study::LowEnd::Kind::profile) examine_rotors(at, theory.lowest);
 }
 
 }  // namespace
 
-PointTheory examine(const study::Study& study, std::int64_t point) {
+PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t condition) {
   PointTheory theory;
-  const trial::TrialParameters first = study::study_trial(study, point, 0).parameters;
+  const ExaminedPoint at{study, point, condition};
+  const trial::TrialParameters first = at.trial(0);
   const std::string_view gain = is_cascade(first) ? "controller.cascade.ki" : "controller.ki";
   theory.gain.name = gain.substr(gain.find('.') + 1);
   theory.gain.unit = parameters::unit_of(
@@ -247,9 +262,9 @@ PointTheory examine(const study::Study& study, std::int64_t point) {
   theory.approach.hold = hold_of(first);
   theory.outside = why_outside_theory(first);
   if (theory.outside.empty()) {
-    examine_springs(study, point, theory);
+    examine_springs(at, theory);
   } else {
-    examine_outside(study, point, first, theory);
+    examine_outside(at, first, theory);
   }
   return theory;
 }

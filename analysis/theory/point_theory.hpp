@@ -102,8 +102,8 @@ struct PointTheory {
   std::vector<LoopRanges> loops;  ///< in the order of trial_loops
 };
 
-/// Examines the first trials of the point.
-PointTheory examine(const study::Study& study, std::int64_t point);
+/// Examines the first trials of the point under a condition.
+PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t condition = 0);
 
 /// The theory of a design point: for data each range by itself, for people statements such as "(6) stable
 /// below: 1.5e-04 N m/count". Loops are for data; people have a table of loop_description().

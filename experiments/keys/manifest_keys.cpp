@@ -143,6 +143,11 @@ std::span<const GeneralKey> general_keys() {
            "number of worlds, which differ in what all machines share and nobody knows (`per: world`); rig r "
            "lives in world r mod worlds, without rigs trial i in world i mod worlds (default: none)"},
           2, max_worlds, &study::Study::worlds),
+      {"conditions",
+       "conditions that every machine has to bear, names and overrides of parameters: {empty: {}, loaded: "
+       "{plant.inertia: 4.6}}; trial i runs under condition floor(i/R) mod C (R rigs, or 1), and `trials` "
+       "must "
+       "be a multiple of R*C"},
       label({"design", "sampling design: monte_carlo (default), latin_hypercube, sobol or saltelli"},
             design_labels, &study::Study::design),
       stored(

@@ -225,9 +225,28 @@ std::string pattern_of(std::string_view name, bool value) {
   return pattern + (value ? fmt::format("\\.{}$", index) : "$");
 }
 
+// A map from dotted paths to what is allowed there.
+Json by_path(Json patterns) {
+  return {{"type", "object"}, {"patternProperties", std::move(patterns)}, {"additionalProperties", false}};
+}
+
+// The values that a case or a condition gives to parameters, by pattern.
+Json assignments_schema() {
+  Json assignments = Json::object();
+  for (const parameters::Parameter& parameter : parameters::parameter_table()) {
+    const Json value = value_schema(in_widest_units(parameter));
+    for (const std::string_view name : {parameter.name, parameter.short_name}) {
+      if (!name.empty())
+        assignments[pattern_of(name, false)] = parameters::is_list(parameter) ? list_of(value, 1) : value;
+    }
+    if (parameters::is_list(parameter)) assignments[pattern_of(parameter.name, true)] = value;
+  }
+  assignments[fmt::format("^controller\\.parameters\\.{}$", plugin_name)] = value_schema(plugin_value());
+  return by_path(std::move(assignments));
+}
+
 Json sweep_schema() {
   Json grid = Json::object();
-  Json assignments = Json::object();
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     const Json value = value_schema(in_widest_units(parameter));
     const Json spaced = {{"anyOf", {list_of(value, 1), spacing_schema()}}};
@@ -235,25 +254,17 @@ Json sweep_schema() {
     const Json whole_value = parameters::is_list(parameter) ? list_of(value, 1) : value;
     for (const std::string_view name : {parameter.name, parameter.short_name}) {
       if (name.empty()) continue;
-      assignments[pattern_of(name, false)] = whole_value;
       grid[pattern_of(name, false)] =
           numeric && !parameters::is_list(parameter) ? spaced : list_of(whole_value, 1);
     }
     if (parameters::is_list(parameter)) {
-      assignments[pattern_of(parameter.name, true)] = value;
       grid[pattern_of(parameter.name, true)] = spaced;
     }
   }
   const std::string of_plugin = fmt::format("^controller\\.parameters\\.{}$", plugin_name);
-  assignments[of_plugin] = value_schema(plugin_value());
   grid[of_plugin] = {{"anyOf", {list_of(value_schema(plugin_value()), 1), spacing_schema()}}};
-  const auto by_pattern = [](Json patterns) {
-    return Json{
-        {"type", "object"}, {"patternProperties", std::move(patterns)}, {"additionalProperties", false}};
-  };
-  return object_of(
-      {{"grid", by_pattern(std::move(grid))},
-       {"cases", {{"type", "object"}, {"additionalProperties", by_pattern(std::move(assignments))}}}});
+  return object_of({{"grid", by_path(std::move(grid))},
+                    {"cases", {{"type", "object"}, {"additionalProperties", assignments_schema()}}}});
 }
 
 // The ranges of tune.free.
@@ -321,6 +332,8 @@ Json own_schemas() {
                  {"of", {{"type", "integer"}, {"minimum", 1}, {"maximum", sections::max_observed_trials}}},
                  {"text", text}},
                 {"successes", "of"})}}}}}},
+      {"conditions",
+       {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", assignments_schema()}}},
       {"sweep", sweep_schema()},
       {"controller.plugin", {{"type", "string"}, {"minLength", 1}}},
       {"controller.parameters",

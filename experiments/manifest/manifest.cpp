@@ -13,6 +13,7 @@
 #include "experiments/manifest/checks.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/randomness/factors.hpp"
+#include "experiments/sections/conditions.hpp"
 #include "experiments/sections/goal.hpp"
 #include "experiments/sections/observations.hpp"
 #include "experiments/sections/sections.hpp"
@@ -27,6 +28,7 @@ struct Manifest {
   keys::Reading reading;
   keys::PlanPlaces places{};
   std::vector<sections::SweptAxis> axes{};
+  sections::SweptAxis conditions{};
 
   yaml::Problems& problems() { return reading.problems; }
   study::StudyPlan& plan() { return reading.plan; }
@@ -118,10 +120,21 @@ void read_axes(Manifest& m) {
   }
 }
 
+void read_conditions(Manifest& m) {
+  const auto field = yaml::find_field(m.root, "conditions");
+  if (!field) return;
+  m.conditions = sections::read_conditions(*field, m.axes, m.reading);
+  if (m.conditions.labels.empty()) return;
+  m.plan().axes.push_back(m.conditions.axis);
+  m.plan().conditions = std::ssize(m.conditions.labels);
+  m.places.axes.push_back(m.conditions.places);
+}
+
 void check_trial_count(Manifest& m) {
   std::int64_t points = 1;
   for (const study::PlanAxis& axis : m.plan().axes)
     points *= static_cast<std::int64_t>(study::option_count(axis));
+  points /= study::condition_count(m.study());
   const auto field = yaml::find_field(m.root, "trials");
   if (field && m.study().trials > keys::max_study_trials / points) {
     m.problems().add(*field, fmt::format("{} trials at {} points are too many", m.study().trials, points),
@@ -154,24 +167,36 @@ void check_rows(Manifest& m) {
       fmt::format("a multiple of {}, such as {}", row, nearest_multiples(m.study().trials, row)));
 }
 
-void require_multiple_of_rigs(Manifest& m, const yaml::Field& field, std::int64_t trials) {
-  if (trials % m.study().rigs == 0) return;
-  m.problems().add(
-      field, fmt::format("{} trials cannot be divided equally among {} rigs", trials, m.study().rigs),
-      fmt::format("a multiple of {}, such as {}", m.study().rigs, nearest_multiples(trials, m.study().rigs)));
+// "7 rigs", "7 rigs under each of 3 conditions".
+std::string turns_text(const study::Study& study) {
+  const std::int64_t conditions = std::ssize(study.conditions);
+  const std::string under =
+      conditions == 0 ? "" : fmt::format("{} condition{}", conditions, conditions == 1 ? "" : "s");
+  if (study.rigs == 0) return under;
+  return under.empty() ? fmt::format("{} rigs", study.rigs)
+                       : fmt::format("{} rigs under each of {}", study.rigs, under);
 }
 
-// Every rig must have the same number of trials, also after each block of sequential stopping.
-void check_rigs(Manifest& m) {
-  if (m.study().rigs == 0) return;
+void require_equal_turns(Manifest& m, const yaml::Field& field, std::int64_t trials) {
+  const study::TrialTurns turns = study::turns_of(m.study());
+  const std::int64_t round = turns.rigs * turns.conditions;
+  if (trials % round == 0) return;
+  m.problems().add(field,
+                   fmt::format("{} trials cannot be divided equally among {}", trials, turns_text(m.study())),
+                   fmt::format("a multiple of {}, such as {}", round, nearest_multiples(trials, round)));
+}
+
+// Every rig must have the same number of trials under each condition, also after each block of sequential
+// stopping.
+void check_turns(Manifest& m) {
   const auto trials = yaml::find_field(m.root, "trials");
   const std::int64_t block = m.study().stop ? m.study().stop->block : m.study().trials;
-  if (trials && block > 0) require_multiple_of_rigs(m, *trials, block);
+  if (trials && block > 0) require_equal_turns(m, *trials, block);
   if (m.study().stop) {
     const auto limit = yaml::find_field(yaml::find_field(m.root, "stop").value(), "max_trials");
-    if (limit) require_multiple_of_rigs(m, *limit, m.study().stop->max_trials);
+    if (limit) require_equal_turns(m, *limit, m.study().stop->max_trials);
   }
-  if (m.study().design == study::Design::saltelli) {
+  if (m.study().design == study::Design::saltelli && m.study().rigs > 0) {
     const yaml::Field design = yaml::find_field(m.root, "design").value();
     m.problems().add(design,
                      "this design changes one factor at a time, but the trials of a rig share factors",
@@ -179,12 +204,35 @@ void check_rigs(Manifest& m) {
   }
 }
 
+// Refuses what does not tell conditions apart.
+void check_conditions(Manifest& m) {
+  if (!m.plan().has_conditions()) return;
+  if (m.study().design == study::Design::saltelli) {
+    m.problems().add(
+        yaml::find_field(m.root, "design").value(),
+        "this design changes one factor at a time, but the trials of all conditions share factors",
+        "monte_carlo, latin_hypercube or sobol with conditions");
+  }
+  if (m.study().stop) {
+    m.problems().add(yaml::find_field(m.root, "stop").value(),
+                     "sequential stopping does not tell conditions apart",
+                     "a fixed number of trials, or a study without conditions");
+  }
+  if (m.plan().sequence) {
+    m.problems().add(yaml::find_field(yaml::find_field(m.root, "command").value(), "sequence").value(),
+                     "the values of ISO 230-2 do not tell conditions apart",
+                     "command.targets, or a study without conditions");
+  }
+}
+
 // Every world must have the same number of rigs, or of trials.
 void check_worlds(Manifest& m) {
   if (m.study().worlds == 0) return;
   const yaml::Field field = yaml::find_field(m.root, "worlds").value();
-  const std::int64_t units = m.study().rigs > 0 ? m.study().rigs : m.study().trials;
-  const std::string_view name = m.study().rigs > 0 ? "rigs" : "trials";
+  const std::int64_t units = m.study().rigs > 0 ? m.study().rigs : study::draw_count(m.study());
+  const std::string_view name = m.study().rigs > 0             ? "rigs"
+                                : m.study().conditions.empty() ? "trials"
+                                                               : "trials under each condition";
   if (m.study().rigs > 0 && units % m.study().worlds != 0) {
     m.problems().add(
         field, fmt::format("{} rigs cannot be divided equally among {} worlds", units, m.study().worlds),
@@ -269,6 +317,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version,
   sections::read_plugin(m.root, companions.plugin, m.reading);
   sections::read_sections(m.root, m.reading, m.places);
   read_axes(m);
+  read_conditions(m);
   if (samples != nullptr) sections::join_samples(*samples, m.axes, m.reading);
   let_follow_from_measured(m.places, m.reading);
   sections::read_correlations(m.root, m.reading);
@@ -276,8 +325,11 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version,
   if (const auto field = yaml::find_field(m.root, "stop")) sections::read_stop(*field, m.reading);
   sections::read_goals(m.root, m.reading);
   if (const auto field = yaml::find_field(m.root, "tune")) sections::read_tuning(*field, m.reading);
+  sections::check_overrides(m.root, m.conditions,
+                            samples != nullptr ? samples->columns : std::vector<yaml::Place>{}, m.reading);
   check_trial_count(m);
-  check_rigs(m);
+  check_turns(m);
+  check_conditions(m);
   check_worlds(m);
   read_observed(m);
   realise_profiles(m.reading.profiles, study, companions.rotors, *plan);

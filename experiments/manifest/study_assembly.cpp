@@ -192,7 +192,7 @@ void list_input_columns(const std::vector<bool>& swept, study::StudyPlan& plan, 
   }
 }
 
-// The used profiles of one slot, each with the first point that uses it.
+// The used profiles of one slot, each with the first point of the plan that uses it.
 std::map<std::uint32_t, std::size_t> profiles_in_use(const study::StudyPlan& plan, std::size_t slot,
                                                      std::size_t points) {
   std::map<std::uint32_t, std::size_t> first_point;
@@ -203,6 +203,16 @@ std::map<std::uint32_t, std::size_t> profiles_in_use(const study::StudyPlan& pla
   return first_point;
 }
 
+// Where a value differs from those elsewhere: at a design point, or under a condition.
+std::string place_name(const study::StudyPlan& plan, std::size_t slot, std::size_t point,
+                       const study::Study& study) {
+  const bool overridden = plan.has_conditions() &&
+                          std::ranges::find(plan.axes.back().assignments, slot, &study::Assignment::slot) !=
+                              plan.axes.back().assignments.end();
+  return overridden ? study.conditions[static_cast<std::size_t>(study::condition_at(plan, point))]
+                    : fmt::format("{}", study::design_point(plan, point));
+}
+
 void list_profiles(const std::vector<keys::ProfileRequest>& requests, const std::vector<bool>& swept,
                    const study::StudyPlan& plan, study::Study& study) {
   for (const std::size_t slot : study::slots_in_table_order(plan.table)) {
@@ -210,9 +220,10 @@ void list_profiles(const std::vector<keys::ProfileRequest>& requests, const std:
     const bool asked =
         std::any_of(requests.begin(), requests.end(), [&](const auto& r) { return r.slot == slot; });
     if (!asked) continue;
-    const auto used = profiles_in_use(plan, slot, swept[slot] ? study.points.labels.size() : 1);
+    const auto used =
+        profiles_in_use(plan, slot, swept[slot] ? study::plan_point(plan, study::point_count(study)) : 1);
     for (const auto& [index, point] : used) {
-      const std::string suffix = used.size() > 1 ? fmt::format("@{}", point) : "";
+      const std::string suffix = used.size() > 1 ? "@" + place_name(plan, slot, point, study) : "";
       const std::shared_ptr<const study::Rotors> rotors = plan.profiles[index];
       study::RealisedProfile profile{std::string(parameter.name) + suffix,
                                      parameters::unit_of(parameter, plan.units), rotors->rotor(0)};

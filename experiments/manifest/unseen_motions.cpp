@@ -40,9 +40,11 @@ class Motions {
     return slots;
   }
 
-  /// The motions of a trial: the same ones in all trials of a point.
-  std::vector<Motion> of(std::size_t point, std::int64_t index) const {
-    const study::StudyTrial trial = study::commanded_trial(study_, static_cast<std::int64_t>(point), index);
+  /// The motions of the trial with this draw: the same ones in all trials of a point of the plan.
+  std::vector<Motion> of(std::size_t point, std::int64_t draw) const {
+    const study::StudyTrial trial =
+        study::commanded_trial(study_, study::design_point(plan_, point),
+                               study::turns_of(study_).trial_of(draw, study::condition_at(plan_, point)));
     const double count = loop::fine_resolution(trial.parameters.encoder);
     std::vector<Motion> motions;
     for (std::size_t move = 0; move < trial.target_positions.size(); ++move)
@@ -138,8 +140,12 @@ std::int64_t trials_to_try(std::int64_t points) {
 /// The point, and how many others have the same motions and encoders.
 std::string point_text(const study::Study& study, std::size_t point, std::int64_t different) {
   if (different == 1) return "";
-  const std::int64_t others = study::point_count(study) / different - 1;
-  return fmt::format(" at point {} ({}){}", point, study.points.labels[point],
+  const std::int64_t of_study = study::design_point(*study.plan, point);
+  const std::int64_t all = study::point_count(study) * study::condition_count(study);
+  const std::int64_t others = all / different - 1;
+  return fmt::format(" at point {} ({}){}{}", of_study,
+                     study.points.labels[static_cast<std::size_t>(of_study)],
+                     study::condition_text(study, study::condition_at(*study.plan, point)),
                      others > 0 ? fmt::format(" and {} others", others) : "");
 }
 
@@ -158,7 +164,7 @@ void check_unseen_motions(const study::Study& study, const keys::PlanPlaces& pla
   const Motions motions(study, plan);
   const std::vector<std::size_t> slots = motions.slots();
   const std::int64_t different = different_points(plan, slots);
-  const std::int64_t max_trials = std::min(trials_to_try(different), study.trials);
+  const std::int64_t max_trials = std::min(trials_to_try(different), study::draw_count(study));
   const bool is_recorded = reading.version != parameters::newest_version;
   std::size_t reported = 0;
   study::visit_points(plan, slots, [&](std::size_t point) {

@@ -20,7 +20,7 @@ struct Override {
 };
 
 // Length of the next key in `rest`, for the map at the path `walked`. Keys may contain dots: those of the
-// sweep, the names of its cases, and the labels under `observed`.
+// sweep, the names of its cases, those that a condition overrides, and the labels under `observed`.
 std::size_t next_key_length(const yaml::YamlNode& map, std::string_view walked, std::string_view rest) {
   std::size_t longest = 0;
   for (const yaml::YamlEntry& entry : map.entries) {
@@ -29,7 +29,7 @@ std::size_t next_key_length(const yaml::YamlNode& map, std::string_view walked, 
     if (fits) longest = std::max(longest, size);
   }
   if (longest > 0) return longest;
-  const bool in_case = walked.rfind("sweep.cases.", 0) == 0;
+  const bool in_case = walked.starts_with("sweep.cases.") || walked.starts_with("conditions.");
   if (walked == "sweep.grid" || walked == "observed" || in_case) return rest.size();
   return std::min(rest.find('.'), rest.size());
 }

@@ -87,11 +87,12 @@ class ManifestTree {
   }
 
   /// Writes what the sweep gives at the point into the sections.
-  void settle(std::size_t point) {
+  void settle(std::int64_t design_point) {
     const YamlNode* sweep = child(*root_, "sweep");
     if (sweep == nullptr) return;
     const YamlPointer kept = root_;  // of which the sweep is a part
     const study::StudyPlan& plan = *study_.plan;
+    const std::size_t point = study::plan_point(plan, design_point);
     std::size_t axis = 0;
     if (const YamlNode* cases = child(*sweep, "cases"); cases != nullptr) {
       const YamlPointer& one = cases->entries[study::option_at(plan, axis++, point)].value;
@@ -166,7 +167,7 @@ class ManifestTree {
 
 std::string manifest_of_point(const study::Study& study, std::int64_t point, const PointChanges& changes) {
   ManifestTree tree(study);
-  tree.settle(static_cast<std::size_t>(point));
+  tree.settle(point);
   for (const char* of_the_sweep : {"sweep", "observed", "independent_points"}) tree.remove(of_the_sweep);
   for (const std::string& key : changes.removed) tree.remove(key);
   for (const auto& [name, value] : changes.values) tree.put_number(name, value);

@@ -72,7 +72,7 @@ std::vector<DiscreteDraw> discrete_draws(const study::Study& study, std::int64_t
     const RandomCoordinate& coordinate = coordinates[i];
     if (coordinate.kind != RandomCoordinate::Kind::values) continue;
     const study::Value& value =
-        *study::value_at_point(plan, coordinate.slots[0], static_cast<std::size_t>(point));
+        *study::value_at_point(plan, coordinate.slots[0], study::plan_point(plan, point));
     std::optional<DiscreteDraw> draw;
     if (coordinate.rows > 0) {
       draw = DiscreteDraw{.rows = coordinate.rows};

@@ -89,7 +89,7 @@ void give(study::GivenDraws& draws, const RandomCoordinate& coordinate, double u
 
 std::vector<RandomCoordinate> random_coordinates(const study::Study& study, std::int64_t point) {
   const study::StudyPlan& plan = *study.plan;
-  const std::vector<const study::Value*> values = study::values_at(plan, static_cast<std::size_t>(point));
+  const std::vector<const study::Value*> values = study::values_at(plan, study::plan_point(plan, point));
   std::vector<RandomCoordinate> coordinates;
   RandomCoordinate joint;
   joint.rows = study.samples ? study.samples->rows : 0;

@@ -70,7 +70,7 @@ study::SquareMatrix correlations_of(const std::optional<study::GaussianCopula>& 
 
 RandomVariables random_variables(const study::Study& study, std::int64_t point) {
   const std::vector<const study::Value*> values =
-      study::values_at(*study.plan, static_cast<std::size_t>(point));
+      study::values_at(*study.plan, study::plan_point(*study.plan, point));
   RandomVariables result;
   for (RandomCoordinate& coordinate : random_coordinates(study, point)) {
     const auto distribution = distribution_of(*study.plan, values, coordinate);

@@ -4,22 +4,12 @@
 #include <vector>
 
 #include "experiments/keys/values.hpp"
+#include "experiments/sections/assignments.hpp"
 #include "experiments/study/study.hpp"
 
 namespace zerocount::sections {
 
 constexpr std::size_t max_points = 1'000'000;
-
-/// One factor of the product of design points: the axis for the plan, and the labels of its options.
-struct SweptAxis {
-  bool cases{false};
-  std::string name;                   ///< the swept key; "case" for the cases
-  yaml::Place place{};                ///< of its values
-  std::vector<std::string> labels{};  ///< [option]
-  study::PlanAxis axis{};
-  std::vector<yaml::Place> places{};  ///< [assignment]
-  std::vector<std::size_t> slots{};   ///< assigned by some option, in order of appearance
-};
 
 /// Reads `sweep: {grid, cases}`. The cases are the slowest axis, followed by the keys of the grid in their
 /// order, the last one fastest. If both give a value to a parameter, the grid takes precedence, with a

@@ -56,6 +56,9 @@ std::vector<study::SweepAxis> describe_axes(const std::vector<SweptAxis>& axes,
                                             const study::StudyPlan& plan) {
   std::size_t points = 1;
   for (const SweptAxis& axis : axes) points *= axis.labels.size();
+  const auto place_of = [&](std::size_t point) {
+    return study::plan_point(plan, static_cast<std::int64_t>(point));
+  };
   std::vector<study::SweepAxis> described;
   std::set<std::size_t> shown;
   for (std::size_t a = 0; a < axes.size(); ++a) {
@@ -65,14 +68,14 @@ std::vector<study::SweepAxis> describe_axes(const std::vector<SweptAxis>& axes,
       names.meaning = "name of the case";
       names.kind = study::SweepAxis::Kind::text;
       for (std::size_t point = 0; point < points; ++point)
-        names.texts.push_back(axes[a].labels[study::option_at(plan, a, point)]);
+        names.texts.push_back(axes[a].labels[study::option_at(plan, a, place_of(point))]);
       described.push_back(std::move(names));
     }
     for (const std::size_t slot : axes[a].slots) {
       if (!shown.insert(slot).second) continue;  // swept by the cases and by the grid
       study::SweepAxis axis = empty_axis(slot, plan, points);
       for (std::size_t point = 0; point < points; ++point)
-        append_value(axis, plan.table.rows[slot], *study::value_at_point(plan, slot, point));
+        append_value(axis, plan.table.rows[slot], *study::value_at_point(plan, slot, place_of(point)));
       described.push_back(std::move(axis));
     }
   }

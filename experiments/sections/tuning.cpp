@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
@@ -54,13 +55,14 @@ void read_range(const yaml::Field& field, const numerics::Interval& allowed, stu
   read_ends(field, allowed, parameter, problems);
 }
 
-/// Whether the value at the slot is one number at all points.
+/// Whether the value at the slot is one number at all points. Whether a condition overrides it is told there.
 bool is_one_number(const study::StudyPlan& plan, std::size_t slot) {
+  const auto swept = std::span(plan.axes).first(plan.axes.size() - (plan.has_conditions() ? 1 : 0));
   const auto is_swept = [slot](const study::PlanAxis& axis) {
     return std::ranges::any_of(axis.assignments,
                                [slot](const study::Assignment& one) { return one.slot == slot; });
   };
-  return plan.base[slot].kind == study::Value::Kind::number && std::ranges::none_of(plan.axes, is_swept);
+  return plan.base[slot].kind == study::Value::Kind::number && std::ranges::none_of(swept, is_swept);
 }
 
 void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuning& tuning,

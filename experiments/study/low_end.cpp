@@ -49,8 +49,8 @@ LowEnd low_end_of_slot(const StudyPlan& plan, std::size_t point, std::size_t slo
 
 }  // namespace
 
-LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter) {
-  return low_end_of_slot(*study.plan, static_cast<std::size_t>(point),
+LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter, std::int64_t condition) {
+  return low_end_of_slot(*study.plan, plan_point(*study.plan, point, condition),
                          parameters::find_parameter(parameter).value());
 }
 

@@ -7,7 +7,7 @@
 
 namespace zerocount::study {
 
-/// The lowest value of a parameter that a design must cover at a design point.
+/// The lowest value of a parameter that a design must cover at a design point under a condition.
 struct LowEnd {
   enum class Kind : std::uint8_t {
     number,   ///< the parameter is one number
@@ -21,6 +21,7 @@ struct LowEnd {
 };
 
 /// @param parameter name of a positive physical value, such as friction.k1.
-LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter);
+LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter,
+               std::int64_t condition = 0);
 
 }  // namespace zerocount::study

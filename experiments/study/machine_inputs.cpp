@@ -29,7 +29,7 @@ bool differs_between_machines(const Study& study, DrawLevel level, std::string_v
 
 std::vector<MachineInput> machine_inputs(const Study& study, std::int64_t point) {
   const StudyPlan& plan = *study.plan;
-  const std::vector<const Value*> values = values_at(plan, static_cast<std::size_t>(point));
+  const std::vector<const Value*> values = values_at(plan, plan_point(plan, point));
   std::vector<MachineInput> inputs;
   MachineInput joint;
   bool joint_differs = false;
@@ -52,7 +52,7 @@ std::vector<MachineInput> machine_inputs(const Study& study, std::int64_t point)
 std::vector<std::pair<std::string, double>> values_at_quantile(const Study& study, std::int64_t point,
                                                                const MachineInput& input, double quantile) {
   const StudyPlan& plan = *study.plan;
-  const std::vector<const Value*> values = values_at(plan, static_cast<std::size_t>(point));
+  const std::vector<const Value*> values = values_at(plan, plan_point(plan, point));
   std::vector<std::pair<std::string, double>> found;
   for (const std::uint32_t slot : input.slots) {
     found.emplace_back(plan.table.rows[slot].name,

@@ -1,6 +1,25 @@
 #include "experiments/study/plan.hpp"
 
+#include <fmt/format.h>
+
+#include "core/failure/failure.hpp"
+
 namespace zerocount::study {
+
+std::string condition_text(const Study& study, std::int64_t condition) {
+  return study.conditions.empty()
+             ? ""
+             : " under condition " + study.conditions[static_cast<std::size_t>(condition)];
+}
+
+void refuse_conditions(const Study& study, std::string_view verb) {
+  if (study.conditions.empty()) return;
+  throw Failure(
+      ExitCode::bad_input,
+      fmt::format("{}: it has {} conditions, which '{}' does not tell apart; expected a study without "
+                  "conditions (check, run, trace, summary, judge and export know them)",
+                  study.name, study.conditions.size(), verb));
+}
 
 std::size_t option_at(const StudyPlan& plan, std::size_t axis, std::size_t point) {
   for (std::size_t faster = plan.axes.size() - 1; faster > axis; --faster)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <numbers>
@@ -86,9 +87,10 @@ inline std::size_t factor_count(const TrialFactors& factors) {
   return factors.slots.size() + (factors.within_trial ? 1 : 0);
 }
 
-/// The compiled form of a manifest: the value or distribution of every parameter at every design point, and
-/// the random numbers that each of them draws. A *slot* stands for one number of a trial: a row of `table`. A
-/// trial is made from it in three steps:
+/// The compiled form of a manifest: the value or distribution of every parameter at every design point under
+/// every condition, and the random numbers that each of them draws. A *slot* stands for one number of a
+/// trial: a row of `table`. A *point of the plan* is a design point under a condition (plan_point). A trial
+/// is made from it in three steps:
 ///
 ///     value(slot) = assignment of the last axis that has the slot at this point, otherwise base[slot]
 ///     number(slot) = its number, the quantile of its distribution at the slot's uniform number, or what
@@ -107,6 +109,9 @@ struct StudyPlan {
   std::optional<SequenceCycle> sequence;                   ///< set if the list belongs to a sequence
   std::vector<Value> base;                                 ///< [slot], used unless an axis assigns a value
   std::vector<PlanAxis> axes;  ///< the last axis changes fastest, and takes precedence over the others
+  /// Number of conditions that every machine bears. Where there are any, the last axis of the manifest has
+  /// their overrides; 0: none.
+  std::int64_t conditions{0};
   std::vector<distributions::Distribution> distributions;
   std::vector<std::shared_ptr<const Rotors>> profiles;
   std::vector<FollowingValue> following;
@@ -124,15 +129,29 @@ struct StudyPlan {
   std::vector<std::uint32_t> factor_of;        ///< [slot] its factor; used by the design `saltelli`
   trial::TrialParameters common;               ///< parameters of a trial, without the input slots
   std::vector<double> numbers;                 ///< [slot] numbers of the base; undefined for input slots
+
+  bool has_conditions() const { return conditions > 0; }
 };
 
-/// The option of `axis` at the design point.
+/// The point of the plan that is this design point under this condition.
+inline std::size_t plan_point(const StudyPlan& plan, std::int64_t point, std::int64_t condition = 0) {
+  return static_cast<std::size_t>(point * std::max<std::int64_t>(plan.conditions, 1) + condition);
+}
+/// The design point of a point of the plan, and its condition.
+inline std::int64_t design_point(const StudyPlan& plan, std::size_t point) {
+  return static_cast<std::int64_t>(point) / std::max<std::int64_t>(plan.conditions, 1);
+}
+inline std::int64_t condition_at(const StudyPlan& plan, std::size_t point) {
+  return static_cast<std::int64_t>(point) % std::max<std::int64_t>(plan.conditions, 1);
+}
+
+/// The option of `axis` at the point of the plan.
 std::size_t option_at(const StudyPlan& plan, std::size_t axis, std::size_t point);
 
-/// The value of one slot at a design point.
+/// The value of one slot at a point of the plan.
 const Value* value_at_point(const StudyPlan& plan, std::size_t slot, std::size_t point);
 
-/// The values of all slots at a design point.
+/// The values of all slots at a point of the plan.
 std::vector<const Value*> values_at(const StudyPlan& plan, std::size_t point);
 
 /// A following value, from the numbers of its sources. @param number of a slot

@@ -18,9 +18,7 @@ std::size_t slot_named(const StudyPlan& plan, std::string_view parameter) {
 }  // namespace
 
 PointEdit::PointEdit(const Study& study, std::int64_t point)
-    : study_(study),
-      plan_(std::make_shared<StudyPlan>(*study.plan)),
-      point_(static_cast<std::size_t>(point)) {
+    : study_(study), plan_(std::make_shared<StudyPlan>(*study.plan)), point_(plan_point(*study.plan, point)) {
   plan_->axes.push_back({{0, 0}, {}});
 }
 

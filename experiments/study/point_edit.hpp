@@ -15,6 +15,7 @@ class PointEdit {
  public:
   PointEdit(const Study& study, std::int64_t point);
 
+  /// The point of the plan.
   std::size_t point() const { return point_; }
   const StudyPlan& plan() const { return *plan_; }
   StudyPlan& plan() { return *plan_; }
@@ -43,7 +44,7 @@ class PointEdit {
 
   Study study_;
   std::shared_ptr<StudyPlan> plan_;  // its last axis has one option, the new values
-  std::size_t point_;
+  std::size_t point_;                // of the plan, under the first condition
 };
 
 }  // namespace zerocount::study

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -212,6 +214,7 @@ struct Study {
   std::int64_t trials{0};  ///< per design point; the maximum with `stop`
   std::int64_t rigs{0};    ///< number of rigs; 0: no trials share a rig
   std::int64_t worlds{0};  ///< number of worlds, which divides `rigs`; 0: nothing is drawn for each
+  std::vector<std::string> conditions{};  ///< names of what every machine bears in turn; empty: one condition
   Design design{Design::monte_carlo};
   bool independent_points{false};
   std::vector<Correlation> correlations;  ///< of drawn parameters; all others are independent
@@ -273,6 +276,40 @@ inline std::int64_t trial_count(const Study& study) {
   return point_count(study) * study.trials;
 }
 
+/// How the trials of a point take turns: trial i runs on rig i mod R, under condition ⌊i/R⌋ mod C, and has
+/// the random numbers of j = i mod R + R·⌊i/(R·C)⌋. So each rig bears every condition on the same draws.
+struct TrialTurns {
+  std::int64_t rigs{1};        ///< R; 1 where no trials share a rig
+  std::int64_t conditions{1};  ///< C; 1 without conditions
+
+  std::int64_t condition_of(std::int64_t trial) const { return trial / rigs % conditions; }
+  /// j, of which there are trials/C.
+  std::int64_t draw_of(std::int64_t trial) const {
+    return trial % rigs + rigs * (trial / (rigs * conditions));
+  }
+  /// The trial with draw j under a condition.
+  std::int64_t trial_of(std::int64_t draw, std::int64_t condition) const {
+    return draw % rigs + rigs * (condition + conditions * (draw / rigs));
+  }
+  bool operator==(const TrialTurns&) const = default;
+};
+
+inline std::int64_t condition_count(const Study& study) {
+  return std::max<std::int64_t>(std::ssize(study.conditions), 1);
+}
+/// " under condition loaded"; empty without conditions.
+std::string condition_text(const Study& study, std::int64_t condition);
+/// For what does not tell conditions apart. @param verb of the program
+/// @throws Failure (bad_input) for a study with conditions
+void refuse_conditions(const Study& study, std::string_view verb);
+inline TrialTurns turns_of(const Study& study) {
+  return {std::max<std::int64_t>(study.rigs, 1), condition_count(study)};
+}
+/// Number of different draws of the trials of a point: its trials under one condition.
+inline std::int64_t draw_count(const Study& study) {
+  return study.trials / condition_count(study);
+}
+
 /// The rig (0 … rigs − 1) of trial `trial_index` at every point, for a study with rigs.
 inline std::int64_t rig_of(const Study& study, std::int64_t trial_index) {
   return trial_index % study.rigs;
@@ -281,7 +318,7 @@ inline std::int64_t rig_of(const Study& study, std::int64_t trial_index) {
 /// The world (0 … worlds − 1) of trial `trial_index` at every point, for a study with worlds: that of its rig
 /// r is r mod worlds.
 inline std::int64_t world_of(const Study& study, std::int64_t trial_index) {
-  return trial_index % study.worlds;
+  return turns_of(study).draw_of(trial_index) % study.worlds;
 }
 
 /// Whether existing trials stay the same when `trials` is increased. False for a Latin hypercube, whose
@@ -304,7 +341,8 @@ struct GivenDraws {
   /// Slot of the plan → uniform number in (0, 1). Correlations do not apply to these.
   std::map<std::uint32_t, double> uniforms{};
   std::map<std::uint32_t, GivenProfile> profiles{};  ///< slot of the plan → its profile
-  /// In place of the trial's index, for all random numbers that are not given. It may exceed Study::trials.
+  /// In place of the trial's draw (TrialTurns), for all random numbers that are not given. It may exceed
+  /// Study::trials.
   std::optional<std::int64_t> number{};
   std::optional<std::int64_t> rotor{};  ///< in place of the trial's rig, for profiles drawn per rig
   std::optional<std::int64_t> world{};  ///< in place of the trial's world

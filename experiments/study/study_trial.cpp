@@ -22,7 +22,7 @@ namespace {
 // The coordinates of a trial's random numbers.
 struct TrialDraws {
   const Study& study;
-  std::uint64_t index;   ///< of the trial
+  std::uint64_t index;   ///< of the trial among those of its condition (TrialTurns::draw_of)
   std::uint64_t place;   ///< index of its point in the design
   std::uint64_t rig;     ///< index of its rig in the design, as `place`; 0 without rigs
   std::uint64_t world;   ///< 0 without worlds
@@ -32,8 +32,9 @@ struct TrialDraws {
   const StudyPlan& plan() const { return *study.plan; }
 };
 
-TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t index, const GivenDraws& given) {
-  const auto trial = static_cast<std::uint64_t>(given.number.value_or(index));
+/// @param draw TrialTurns::draw_of the trial
+TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t draw, const GivenDraws& given) {
+  const auto trial = static_cast<std::uint64_t>(given.number.value_or(draw));
   const auto rigs = static_cast<std::uint64_t>(study.rigs);
   const auto worlds = static_cast<std::uint64_t>(study.worlds);
   const std::uint64_t rig = rigs > 0 ? trial % rigs : 0;
@@ -43,7 +44,7 @@ TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t index, 
           rigs > 0 ? place_in_groups(study.design, plan.sobol_places, trial, rigs)
                    : place_in_groups(study.design, plan.sobol_places_of_worlds, trial, worlds),
           rigs > 0 ? place_in_groups(study.design, plan.sobol_places_of_worlds, rig, worlds) : 0,
-          worlds > 0 ? static_cast<std::uint64_t>(given.world.value_or(index % study.worlds)) : 0,
+          worlds > 0 ? static_cast<std::uint64_t>(given.world.value_or(draw % study.worlds)) : 0,
           study.independent_points ? static_cast<std::uint32_t>(point) + 1 : 0,
           given};
 }
@@ -71,7 +72,7 @@ double drawn_uniform(const TrialDraws& draws, std::uint32_t slot, DrawLevel leve
       break;
   }
   return design_uniform(study.design, randomness, draws.stream, source_trial(draws, slot),
-                        static_cast<std::uint64_t>(study.trials));
+                        static_cast<std::uint64_t>(draw_count(study)));
 }
 
 /// The uniform number of a drawn value, with the copula of the study.
@@ -218,8 +219,16 @@ std::vector<double> inputs_of(const Study& study, std::string_view unit, std::in
   return inputs;
 }
 
-const Value& value_of(const StudyPlan& plan, std::size_t slot, std::int64_t point) {
-  return *value_at_point(plan, slot, static_cast<std::size_t>(point));
+/// A trial by its place: a point of the plan, and its draw.
+struct TrialPlace {
+  std::size_t point;
+  std::int64_t draw;
+};
+
+TrialPlace place_of(const Study& study, std::int64_t point, std::int64_t index) {
+  check_exists(study, point, index);
+  const TrialTurns turns = turns_of(study);
+  return {plan_point(*study.plan, point, turns.condition_of(index)), turns.draw_of(index)};
 }
 
 /// A trial whose parameters are being set.
@@ -236,12 +245,12 @@ struct TrialInProgress {
 };
 
 /// Sets the value that follows from those of other slots, which are set.
-void set_following(const TrialDraws& draws, std::int64_t point, std::uint32_t slot, TrialInProgress& t) {
-  const FollowingValue& following = t.plan.following[value_of(t.plan, slot, point).index];
+void set_following(const TrialDraws& draws, std::size_t point, std::uint32_t slot, TrialInProgress& t) {
+  const FollowingValue& following = t.plan.following[value_at_point(t.plan, slot, point)->index];
   t.set(slot, following_value(following, [&](std::uint32_t source) { return t.numbers[source]; }));
   std::map<std::uint32_t, std::function<double(std::uint64_t)>> per_contact;  // by source
   for (const std::uint32_t source : following.from) {
-    const Value& value = value_of(t.plan, source, point);
+    const Value& value = *value_at_point(t.plan, source, point);
     if (is_drawn_per_contact(value)) per_contact.emplace(source, value_per_contact(draws, source, value));
   }
   if (per_contact.empty()) return;
@@ -256,11 +265,11 @@ void set_following(const TrialDraws& draws, std::int64_t point, std::uint32_t sl
 }
 
 /// Refuses measured values that are those of no machine: a draw that no check has seen.
-void require_machine(std::int64_t point, const TrialInProgress& t) {
+void require_machine(std::size_t point, const TrialInProgress& t) {
   for (const MeasuredSlots& measured : t.plan.measured) {
-    const auto fault =
-        fault_of_machine(t.plan, static_cast<std::size_t>(point), measured,
-                         [&](std::uint32_t slot) { return std::pair(t.numbers[slot], t.numbers[slot]); });
+    const auto fault = fault_of_machine(t.plan, point, measured, [&](std::uint32_t slot) {
+      return std::pair(t.numbers[slot], t.numbers[slot]);
+    });
     if (fault)
       throw Failure(ExitCode::bad_input,
                     fmt::format("{}: a draw is that of no machine: {}; expected {}",
@@ -269,13 +278,13 @@ void require_machine(std::int64_t point, const TrialInProgress& t) {
 }
 
 /// With all values but those of profiles.
-TrialInProgress begin_trial(const TrialDraws& draws, std::int64_t point) {
+TrialInProgress begin_trial(const TrialDraws& draws, std::size_t point) {
   const StudyPlan& plan = draws.plan();
   TrialInProgress t{{.parameters = plan.common, .inputs = {}}, plan.numbers, plan};
   t.trial.parameters.randomness.trial = numbers_within_trial(draws.study, draws.index, draws.given);
   t.trial.parameters.randomness.stream = draws.stream;
   for (const std::uint32_t slot : plan.input_slots) {
-    const Value& value = value_of(plan, slot, point);
+    const Value& value = *value_at_point(plan, slot, point);
     if (value.kind == Value::Kind::number) {
       t.set(slot, value.number);
     } else if (value.kind == Value::Kind::distribution) {
@@ -287,7 +296,8 @@ TrialInProgress begin_trial(const TrialDraws& draws, std::int64_t point) {
     }
   }
   for (const std::uint32_t slot : plan.input_slots) {
-    if (value_of(plan, slot, point).kind == Value::Kind::following) set_following(draws, point, slot, t);
+    if (value_at_point(plan, slot, point)->kind == Value::Kind::following)
+      set_following(draws, point, slot, t);
   }
   require_machine(point, t);
   return t;
@@ -297,14 +307,14 @@ TrialInProgress begin_trial(const TrialDraws& draws, std::int64_t point) {
 
 StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index,
                                 const GivenDraws& given) {
-  check_exists(study, point, index);
+  const TrialPlace place = place_of(study, point, index);
   const StudyPlan& plan = *study.plan;
-  const TrialDraws draws = draws_of(study, point, index, given);
-  TrialInProgress t = begin_trial(draws, point);
+  const TrialDraws draws = draws_of(study, point, place.draw, given);
+  TrialInProgress t = begin_trial(draws, place.point);
   StudyTrial& trial = t.trial;
   // Profiles come last, because they depend on the start position.
   for (const std::uint32_t slot : plan.input_slots) {
-    const Value& value = value_of(plan, slot, point);
+    const Value& value = *value_at_point(plan, slot, place.point);
     if (value.kind != Value::Kind::profile) continue;
     const std::shared_ptr<const friction::Profile> profile =
         profile_of(draws, slot, value, trial.parameters.initial.position);
@@ -315,17 +325,17 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
   set_resolution(t.numbers, trial.parameters.dac);
   trial.inputs.reserve(plan.inputs.size());
   for (const InputSource& source : plan.inputs) {
-    trial.inputs.push_back(source.profile_mean
-                               ? profile_mean(draws, source.slot, value_of(plan, source.slot, point))
-                               : t.numbers[source.slot]);
+    trial.inputs.push_back(source.profile_mean ? profile_mean(draws, source.slot,
+                                                              *value_at_point(plan, source.slot, place.point))
+                                               : t.numbers[source.slot]);
   }
   return std::move(trial);
 }
 
 StudyTrial commanded_trial(const Study& study, std::int64_t point, std::int64_t index) {
-  check_exists(study, point, index);
+  const TrialPlace place = place_of(study, point, index);
   const GivenDraws none;
-  TrialInProgress t = begin_trial(draws_of(study, point, index, none), point);
+  TrialInProgress t = begin_trial(draws_of(study, point, place.draw, none), place.point);
   set_targets(study, t.numbers, t.trial);
   complete_trial(study.units, t.trial.parameters);
   round_targets(t.trial);
@@ -345,22 +355,24 @@ StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t inde
 
 std::vector<double> drawn_numbers(const Study& study, std::int64_t point, std::int64_t index,
                                   std::span<const std::uint32_t> slots, const GivenDraws& given) {
-  const TrialDraws draws = draws_of(study, point, index, given);
+  const TrialPlace place = place_of(study, point, index);
+  const TrialDraws draws = draws_of(study, point, place.draw, given);
   std::vector<double> numbers;
   numbers.reserve(slots.size());
   for (const std::uint32_t slot : slots)
-    numbers.push_back(drawn_number(draws, slot, value_of(draws.plan(), slot, point)));
+    numbers.push_back(drawn_number(draws, slot, *value_at_point(draws.plan(), slot, place.point)));
   return numbers;
 }
 
 std::vector<double> drawn_quantiles(const Study& study, std::int64_t point, std::int64_t index,
                                     const std::vector<MachineInput>& inputs) {
+  const TrialPlace place = place_of(study, point, index);
   const GivenDraws none;
-  const TrialDraws draws = draws_of(study, point, index, none);
+  const TrialDraws draws = draws_of(study, point, place.draw, none);
   std::vector<double> quantiles;
   for (const MachineInput& input : inputs) {
     const std::uint32_t slot = input.slots.front();
-    const Value& value = *value_at_point(*study.plan, slot, static_cast<std::size_t>(point));
+    const Value& value = *value_at_point(*study.plan, slot, place.point);
     quantiles.push_back(uniform_of(draws, slot, value.level));
   }
   return quantiles;
@@ -380,7 +392,7 @@ std::vector<WorldValues> world_values(const Study& study, std::int64_t point) {
   const StudyPlan& plan = *study.plan;
   const GivenDraws none;
   for (const std::uint32_t slot : plan.input_slots) {
-    const Value& value = *value_at_point(plan, slot, static_cast<std::size_t>(point));
+    const Value& value = *value_at_point(plan, slot, plan_point(plan, point));
     if (value.kind != Value::Kind::distribution || value.level != DrawLevel::world) continue;
     const parameters::Parameter& parameter = plan.table.rows[slot];
     WorldValues& values = found.emplace_back(

@@ -10,9 +10,13 @@
 
 namespace zerocount::yaml {
 
+std::string place_text(const Place& place) {
+  if (place.line == 0) return std::string(place.source);
+  return fmt::format("{}:{}:{}", place.source, place.line, place.column);
+}
+
 std::string at_place(const Place& place, std::string_view path, std::string_view text) {
-  if (place.line == 0) return fmt::format("{}: {}: {}", place.source, path, text);
-  return fmt::format("{}:{}:{}: {}: {}", place.source, place.line, place.column, path, text);
+  return fmt::format("{}: {}: {}", place_text(place), path, text);
 }
 
 void Problems::add(const Place& place, std::string_view path, std::string_view what,

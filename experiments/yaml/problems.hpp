@@ -45,6 +45,9 @@ class Problems {
   std::vector<Entry> entries_;
 };
 
+/// "file:line:column"; of an override its source alone.
+std::string place_text(const Place& place);
+
 /// "file:line:column: path: text", the form of every message about a manifest.
 std::string at_place(const Place& place, std::string_view path, std::string_view text);
 

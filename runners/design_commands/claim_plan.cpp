@@ -17,6 +17,7 @@
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 #include "runners/command_line/option_values.hpp"
+#include "runners/commands/study_argument.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -44,6 +45,7 @@ struct PlanRequest {
 
 /// Takes the standard deviation and the rate from the point of a pilot study whose rigs differ most.
 void measure_pilot(PlanRequest& request, const std::string& path) {
+  study::refuse_conditions(commands::described_study(path), "zerocount plan");
   const summary::StudySummary summary = summary::summarise_file(path);
   const measures::PointSummary* worst = nullptr;
   for (const measures::PointSummary& point : summary.points) {

@@ -84,6 +84,7 @@ comparison::GateRules rules_of(const command_line::Arguments& arguments) {
 study::Study planned_study(const command_line::Arguments& arguments) {
   const std::string& manifest = arguments.operands()[0];
   study::Study study = commands::load_study(manifest, arguments);
+  study::refuse_conditions(study, "zerocount plan");
   plugins::require_no_hidden_state(study);
   goal::require_one_goal(study, manifest);
   const auto refuse = [&](const char* what) {

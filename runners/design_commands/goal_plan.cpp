@@ -107,6 +107,7 @@ std::int64_t asked_moves(const study::Study& study) {
 document::Answer plan_of_manifest(const command_line::Arguments& arguments) {
   const std::string& path = arguments.operands()[0];
   const study::Study study = commands::load_study(path, arguments);
+  study::refuse_conditions(study, "zerocount plan");
   goal::require_claim(study, path, other_plans);
   goal::require_one_goal(study, path);
   return goal_answer().of(
@@ -115,6 +116,7 @@ document::Answer plan_of_manifest(const command_line::Arguments& arguments) {
 }
 
 document::Answer plan_of_pilot(const std::string& path) {
+  study::refuse_conditions(commands::described_study(path), "zerocount plan");
   const summary::StudySummary summary = summary::summarise_file(path);
   if (!summary.question.claim()) goal::require_claim({}, path, other_plans);
   return pilot_answer().of({summary, summary::judge_point(summary, summary::choose_point(summary))});

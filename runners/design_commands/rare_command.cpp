@@ -101,6 +101,7 @@ document::AnswerDescription<rare::RareReading> rare_answer() {
 ExitCode rare(const command_line::Arguments& arguments) {
   const rare::RareSettings settings = settings_of(arguments);
   const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
+  study::refuse_conditions(study, "zerocount rare");
   const auto threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
   const rare::Question question = rare::question_of(
       study, named_point(arguments, study), world_to_ask(arguments, study), event_to_ask(arguments, study));

@@ -119,6 +119,7 @@ class TunePrinter {
 ExitCode tune(const command_line::Arguments& arguments) {
   tuning::TuneSettings settings = tune_settings(arguments);
   const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
+  study::refuse_conditions(study, "zerocount tune");
   goal::require_one_goal(study, arguments.operands()[0]);
   const std::optional<std::filesystem::path> page = page_option(arguments, settings.output);
   const bool in_html = arguments.choice("format") == "html";

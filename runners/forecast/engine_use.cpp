@@ -13,13 +13,19 @@ PointsOnReference points_on_reference(const study::Study& study) {
   constexpr std::int64_t max_points = 1000;
   PointsOnReference use;
   if (study.engine == study::Engine::reference) return use;  // as asked for
+  const study::TrialTurns turns = study::turns_of(study);
   use.examined = std::min(study::point_count(study), max_points);
   for (std::int64_t point = 0; point < use.examined; ++point) {
-    const std::string feature = batch::lacking_in_lanes(study::study_trial(study, point, 0).parameters);
-    if (feature.empty()) continue;
-    ++use.points;
-    if (std::find(use.features.begin(), use.features.end(), feature) == use.features.end())
-      use.features.push_back(feature);
+    bool lacking = false;
+    for (std::int64_t condition = 0; condition < turns.conditions; ++condition) {
+      const std::string feature =
+          batch::lacking_in_lanes(study::study_trial(study, point, turns.trial_of(0, condition)).parameters);
+      if (feature.empty()) continue;
+      lacking = true;
+      if (std::find(use.features.begin(), use.features.end(), feature) == use.features.end())
+        use.features.push_back(feature);
+    }
+    use.points += lacking;
   }
   return use;
 }

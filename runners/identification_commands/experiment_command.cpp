@@ -106,7 +106,9 @@ study::Study experiment_study(const command_line::Arguments& arguments, const Ex
     if (place) places.push_back(*place);
   }
   command_line::require_places(arguments, {arguments.operands()[0]}, places);
-  return commands::load_study(arguments.operands()[0], arguments, places);
+  study::Study study = commands::load_study(arguments.operands()[0], arguments, places);
+  study::refuse_conditions(study, "zerocount experiment");
+  return study;
 }
 
 document::AnswerDescription<experiment_design::ExperimentDesign> experiment_answer() {

@@ -61,6 +61,7 @@ std::string_view kind_of(const randomness::RandomCoordinate& coordinate) {
 
 /// The random variables of a point: {"names", "kinds", "units", "distributions", "correlations"}.
 py::dict variables_of(const study::Study& study, std::int64_t point) {
+  study::refuse_conditions(study, "variables of a point");
   const randomness::RandomVariables variables = randomness::random_variables(study, point);
   py::list names, kinds, units, forms;
   std::vector<double> correlations;
@@ -99,6 +100,7 @@ py::array values_at_scores(const study::Study& study, std::int64_t point, const 
 std::vector<trial::TrialOutcome> simulated(const study::Study& study, std::int64_t point,
                                            std::span<const double> x, std::span<const std::int64_t> numbers,
                                            const std::stop_token& stop) {
+  study::refuse_conditions(study, "trials at given values");
   const randomness::RandomVariables variables = randomness::random_variables(study, point);
   const std::size_t width = variables.variables.size();
   const auto draw = [&](std::int64_t number) {

@@ -268,6 +268,7 @@ document::AnswerDescription<Outcome> learn_answer() {
 void require_worlds(const command_line::Arguments& arguments) {
   const std::string& path = arguments.operands()[0];
   const study::Study study = commands::described_study(path);
+  study::refuse_conditions(study, "zerocount learn");
   command_line::point_option(arguments, study.points.labels);
   if (study.worlds == 0) refuse_equal_worlds(path);
   if (study.open_loop) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/statistics/sample_size.hpp"
@@ -47,11 +48,13 @@ constexpr const char* check_help =
 
 constexpr std::int64_t points_shown = 20;
 
-/// A design point, its theory, and the targets of its trial 0 in counts, if they are in SI units.
+/// A design point under a condition, its theory, and the targets of its trial 0 in counts, if they are in SI
+/// units.
 struct PointReading {
   std::int64_t point;
   std::string label;
-  std::optional<std::string> name;  ///< a short label; none in a study of one point
+  std::optional<std::string> name;       ///< a short label; none in a study of one point
+  std::optional<std::string> condition;  ///< none without conditions
   theory::PointTheory theory;
   std::optional<std::string> targets;
 };
@@ -59,6 +62,7 @@ struct PointReading {
 /// A loop of a point, for the table of loops.
 struct PointLoop {
   std::optional<std::string> point;  ///< its name
+  std::optional<std::string> condition;
   const theory::LoopRanges* loop;
 };
 
@@ -69,12 +73,14 @@ struct Plan {
   std::vector<PointReading> points;  ///< the first ones
 
   std::int64_t all_points() const { return study::point_count(study); }
-  std::int64_t points_left_out() const { return all_points() - std::ssize(points); }
+  std::int64_t points_shown() const { return std::ssize(points) / study::condition_count(study); }
+  std::int64_t points_left_out() const { return all_points() - points_shown(); }
   double disk_bytes() const { return size.file_bytes + size.shard_bytes; }
   std::vector<PointLoop> loops() const {
     std::vector<PointLoop> all;
     for (const PointReading& point : points) {
-      for (const theory::LoopRanges& loop : point.theory.loops) all.push_back({point.name, &loop});
+      for (const theory::LoopRanges& loop : point.theory.loops)
+        all.push_back({point.name, point.condition, &loop});
     }
     return all;
   }
@@ -103,6 +109,11 @@ std::string trials_text(const Plan& plan) {
   std::string text;
   if (study.rigs > 0)
     text += fmt::format("at each point {} rigs × {} trials of each\n", study.rigs, study.trials / study.rigs);
+  if (!study.conditions.empty()) {
+    text += fmt::format("under {}, {} trials under each: {}\n",
+                        counted(std::ssize(study.conditions), "condition"), study::draw_count(study),
+                        fmt::join(study.conditions, ", "));
+  }
   if (study.worlds > 0) {
     text += fmt::format("in {} worlds, {} in each\n", study.worlds,
                         study.rigs > 0 ? counted(study.rigs / study.worlds, "rig")
@@ -137,11 +148,12 @@ std::string theory_text(const Plan& plan) {
   const std::string which = plan.points_left_out() == 0
                                 ? "each point"
                                 : fmt::format("each of the first {} of {} points (--all-points shows all)",
-                                              plan.points.size(), plan.all_points());
+                                              plan.points_shown(), plan.all_points());
+  const std::string_view under = plan.study.conditions.empty() ? "" : " under each condition";
   std::string text =
-      fmt::format("The theory is of the first {} trials of {}, each with the friction it starts on",
-                  std::min(plan.study.trials, theory::max_trials_examined), which);
-  if (plan.study.trials > theory::max_trials_examined_closely) {
+      fmt::format("The theory is of the first {} trials of {}{}, each with the friction it starts on",
+                  std::min(study::draw_count(plan.study), theory::max_trials_examined), which, under);
+  if (study::draw_count(plan.study) > theory::max_trials_examined_closely) {
     text += fmt::format(
         "; the sampled loop, time constants and margins over the first {}, and the trials with the lowest "
         "and the highest k1",
@@ -196,6 +208,11 @@ document::Description<PointReading> point_description() {
       .value(in_data("point", "number of the design point"), &PointReading::point)
       .value(in_data("label", "label of the design point"), &PointReading::label)
       .value({.key = "name", .heading = "point", .shown = document::Shown::to_people}, &PointReading::name)
+      .value({.key = "condition",
+              .heading = "condition",
+              .meaning = "what every machine bears",
+              .optional = true},
+             &PointReading::condition)
       .include(theory::point_theory_description(), &PointReading::theory)
       .value({"targets", "targets of trial 0", "targets of trial 0 in SI units, and their counts"},
              &PointReading::targets);
@@ -215,6 +232,8 @@ document::Description<Plan> plan_description() {
       .value(in_data("moves", "moves of a trial"), [](Of p) { return p.study.moves; })
       .value(in_data("rigs", "rigs at each point; 0: none"), [](Of p) { return p.study.rigs; })
       .value(in_data("worlds", "worlds; 0: none"), [](Of p) { return p.study.worlds; })
+      .value(in_data("conditions", "names of the conditions that every rig bears; empty: none"),
+             [](Of p) { return p.study.conditions; })
       .sentence(trials_text)
       .value(in_data("judged_by", "what the moves are judged by; null without targets"), judged_by)
       .sentence([](Of p) {
@@ -271,6 +290,7 @@ document::Description<Plan> plan_description() {
       .table({.key = "loops", .heading = "Loops", .shown = document::Shown::to_people},
              document::Description<PointLoop>()
                  .value({.key = "point", .heading = "point"}, &PointLoop::point)
+                 .value({.key = "condition", .heading = "condition"}, &PointLoop::condition)
                  .include(theory::loop_description(), &PointLoop::loop),
              &Plan::loops);
 }
@@ -283,9 +303,11 @@ document::AnswerDescription<Plan> check_answer() {
 }
 
 /// "to the nearest of 3.9e-06 rad: 0.0001 rad = 26 counts"; nothing for targets in counts.
-std::optional<std::string> targets_text(const study::Study& study, std::int64_t point) {
+std::optional<std::string> targets_text(const study::Study& study, std::int64_t point,
+                                        std::int64_t condition) {
   constexpr std::size_t shown = 5;
-  const study::StudyTrial trial = study::study_trial(study, point, 0);
+  const study::StudyTrial trial =
+      study::study_trial(study, point, study::turns_of(study).trial_of(0, condition));
   const std::size_t moves = trial.target_positions.size();
   if (moves == 0) return {};
   const std::string unit = parameters::unit_on(study.units.axis, "rad");
@@ -301,16 +323,21 @@ std::optional<std::string> targets_text(const study::Study& study, std::int64_t 
 std::vector<PointReading> examined_points(const study::Study& study, std::int64_t count) {
   const std::vector<std::string> names = summary::short_labels(study.points.labels, study.points.axes);
   std::vector<PointReading> points;
-  for (std::int64_t point = 0; point < count; ++point) {
+  const std::int64_t conditions = study::condition_count(study);
+  for (std::int64_t i = 0; i < count * conditions; ++i) {
+    const std::int64_t point = i / conditions;
+    const std::int64_t condition = i % conditions;
     const auto index = static_cast<std::size_t>(point);
-    points.push_back({point, study.points.labels[index],
-                      names.size() == 1 ? std::nullopt : std::optional(names[index]),
-                      theory::examine(study, point), targets_text(study, point)});
+    points.push_back(
+        {point, study.points.labels[index], names.size() == 1 ? std::nullopt : std::optional(names[index]),
+         study.conditions.empty() ? std::nullopt
+                                  : std::optional(study.conditions[static_cast<std::size_t>(condition)]),
+         theory::examine(study, point, condition), targets_text(study, point, condition)});
     const theory::Approach& approach = points.back().theory.approach;
     if (!approach.exceeds_hold()) continue;
     status::tell(
-        "warning: point {} ({}): the loop's slowest time constant{}: moves may end before they arrive\n",
-        point, points.back().label, theory::slowness_text(approach));
+        "warning: point {} ({}){}: the loop's slowest time constant{}: moves may end before they arrive\n",
+        point, points.back().label, study::condition_text(study, condition), theory::slowness_text(approach));
   }
   return points;
 }

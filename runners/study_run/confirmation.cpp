@@ -68,6 +68,7 @@ summary_answer::Confirmation counted_in(const study::Study& study, std::int64_t 
 summary_answer::Confirmation confirm_point(const reading::ResultsFile& file, std::int64_t point,
                                            std::int64_t trials,
                                            std::shared_ptr<const plugin::ControllerPlugin> plugin) {
+  study::refuse_conditions(file.study(), "zerocount summary --confirm");
   const study::Study study = fresh_study(file, trials, std::move(plugin));
   if (study.plugin && study.plugin->functions == nullptr) {
     throw Failure(ExitCode::bad_input,

@@ -167,10 +167,13 @@ int threads_to_use(int asked) {
 
 double samples_per_trial(const study::Study& study) {
   double total = 0.0;
-  const std::int64_t asked = std::min<std::int64_t>(study::point_count(study), 64);
+  const std::int64_t asked =
+      std::min<std::int64_t>(study::point_count(study) * study::condition_count(study), 64);
   for (std::int64_t i = 0; i < asked; ++i) {
     const trial::TrialParameters parameters =
-        study::study_trial(study, i * study::point_count(study) / asked, 0).parameters;
+        study::study_trial(study, i * study::point_count(study) / asked,
+                           study::turns_of(study).trial_of(0, i % study::condition_count(study)))
+            .parameters;
     total += static_cast<double>(trial::samples_of_trial(parameters));
   }
   return total / static_cast<double>(asked);

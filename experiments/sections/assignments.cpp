@@ -1,0 +1,144 @@
+#include "experiments/sections/assignments.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiments/keys/manifest_keys.hpp"
+#include "experiments/parameters/unknown_key.hpp"
+#include "experiments/study/study_table.hpp"
+
+namespace zerocount::sections {
+namespace {
+
+// The names of the rows, of long lists only the first ones.
+std::vector<std::string> assigned_names(const study::StudyTable& table) {
+  constexpr std::size_t max_of_studies = 100;
+  const std::size_t count =
+      std::min(table.rows.size(), parameters::parameter_table().size() + max_of_studies);
+  std::vector<std::string> names;
+  for (std::size_t row = 0; row < count; ++row) names.emplace_back(table.rows[row].name);
+  return names;
+}
+
+// The names of the values of the list of elements or coefficients to which an unknown path leads.
+std::string names_like(const study::StudyTable& table, std::string_view pattern) {
+  std::vector<std::string_view> names;
+  for (const parameters::Parameter& row : table.rows) {
+    const std::string known = parameters::without_indices(row.name);
+    if (parameters::has_value(row) && known != row.name &&
+        keys::is_within(pattern, known.substr(0, known.find(".#"))))
+      names.push_back(row.name);
+  }
+  return names.empty() ? "" : fmt::format("one of {}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::optional<study::SlotRange> find_assigned(const yaml::Field& map, const yaml::YamlEntry& entry,
+                                              std::string_view refusal, keys::Reading& reading) {
+  const study::StudyTable& table = reading.plan.table;
+  if (auto slots = study::find_slots(entry.key, table)) return slots;
+  // The parameters of a plugin that could not be loaded, which is reported, are not known.
+  if (reading.plugin_failed && keys::is_within(entry.key, "controller.parameters")) return std::nullopt;
+  yaml::Problems& problems = reading.problems;
+  const std::string path = yaml::entry_of(map, entry).path;
+  const std::string pattern = parameters::without_indices(entry.key);
+  const bool of_element = parameters::find_element_list(pattern.substr(0, pattern.find(".#"))) != nullptr;
+  if (of_element && pattern != entry.key) {
+    const std::string known = names_like(table, pattern);
+    problems.add(entry.place, path, fmt::format("the study has no {}", entry.key),
+                 known.empty() ? "the list in its section of the manifest" : known);
+  } else if (const auto row = study::find_list_row(entry.key)) {
+    const parameters::Parameter& list = table.rows[*row];
+    if (const auto values = study::find_list(table, *row)) {
+      problems.add(entry.place, path, fmt::format("the study has no {} with this index", list.list->singular),
+                   fmt::format("an index from 0 to {}", values->count - 1));
+    } else {
+      problems.add(entry.place, path, fmt::format("the study has no {}", list.name),
+                   keys::is_within(list.name, keys::required_section)
+                       ? fmt::format("{}, which it has", table.rows[reading.plan.list.row].name)
+                       : "the list in its section of the manifest");
+    }
+  } else if (keys::find_general_key(entry.key) != nullptr) {
+    problems.add(entry.place, path, std::string(refusal),
+                 "a dotted path of the table of parameters, such as controller.ki");
+  } else {
+    parameters::add_unknown_key(map, entry, assigned_names(table), problems);
+  }
+  return std::nullopt;
+}
+
+void assign(SweptAxis& axis, std::size_t slot, const study::Value& value, const yaml::Place& place) {
+  axis.axis.assignments.push_back({static_cast<std::uint32_t>(slot), value});
+  axis.places.push_back(place);
+}
+
+void finish_option(SweptAxis& axis, std::string label) {
+  axis.axis.first.push_back(static_cast<std::uint32_t>(axis.axis.assignments.size()));
+  axis.labels.push_back(std::move(label));
+}
+
+std::string_view noun_of(const study::SlotRange& list, const study::StudyTable& table) {
+  for (const study::RowGroup& group : table.groups) {
+    const parameters::Parameter& row = table.rows[group.row];
+    if (group.first == list.first && parameters::is_list(row)) return row.list->plural;
+  }
+  return "values";
+}
+
+void read_assignments(const yaml::Field& field, const study::SlotRange& slots, SweptAxis& axis,
+                      keys::Reading& reading) {
+  if (!slots.list) {
+    assign(axis, slots.first, keys::read_value(field, slots.first, reading), field.node->place);
+    return;
+  }
+  const std::string_view noun = noun_of(slots, reading.plan.table);
+  const std::string expected = fmt::format("a list of {} {}, as at every point", slots.count, noun);
+  if (!yaml::check_list(field, expected, reading.problems)) return;
+  const std::size_t count = field.node->items.size();
+  if (count != slots.count) {
+    reading.problems.add(field, fmt::format("found a list of {} {}", count, noun), expected);
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const yaml::Field item = yaml::item_of(field, i);
+    assign(axis, slots.first + i, keys::read_value(item, slots.first + i, reading), item.node->place);
+  }
+}
+
+void note_slots(SweptAxis& axis, const study::SlotRange& slots) {
+  for (std::size_t slot = slots.first; slot < slots.first + slots.count; ++slot) {
+    if (std::find(axis.slots.begin(), axis.slots.end(), slot) == axis.slots.end()) axis.slots.push_back(slot);
+  }
+}
+
+void read_option(const yaml::Field& options, const yaml::YamlEntry& entry, const OptionWords& words,
+                 SweptAxis& axis, keys::Reading& reading) {
+  const yaml::Field field = yaml::entry_of(options, entry);
+  if (entry.key.find_first_not_of(" \t\r\n") == std::string::npos) {
+    reading.problems.add(entry.place, field.path, fmt::format("the name of the {} is empty", words.option),
+                         "a name");
+  }
+  if (!yaml::check_map(field, "a map from dotted paths to values", reading.problems)) return;
+  std::set<std::size_t> in_this_option;
+  for (const yaml::YamlEntry& assignment : field.node->entries) {
+    const auto slots = find_assigned(field, assignment, words.refusal, reading);
+    if (!slots) continue;
+    note_slots(axis, *slots);
+    for (std::size_t slot = slots->first; slot < slots->first + slots->count; ++slot) {
+      if (in_this_option.insert(slot).second) continue;
+      reading.problems.add(
+          assignment.place, yaml::entry_of(field, assignment).path,
+          fmt::format("{} is given twice in this {}", reading.plan.table.rows[slot].name, words.option),
+          "one value");
+      break;
+    }
+    read_assignments(yaml::entry_of(field, assignment), *slots, axis, reading);
+  }
+  finish_option(axis, entry.key);
+}
+
+}  // namespace zerocount::sections

@@ -1,0 +1,144 @@
+#include "experiments/sections/conditions.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "experiments/study/study_table.hpp"
+
+namespace zerocount::sections {
+namespace {
+
+constexpr std::size_t max_conditions = 1000;
+constexpr std::string_view expected_conditions =
+    "a map from names to overrides: {empty: {}, loaded: {plant.inertia: 4.6}}";
+constexpr OptionWords words{"condition", "a condition cannot override this key"};
+
+/// Index of the option that has this assignment.
+std::size_t option_of(const study::PlanAxis& axis, std::size_t assignment) {
+  const auto after = std::ranges::upper_bound(axis.first, static_cast<std::uint32_t>(assignment));
+  return static_cast<std::size_t>(after - axis.first.begin()) - 1;
+}
+
+/// Reports the first override of the slot, which is given at `other` too. @param what "is swept"
+void refuse_override(const SweptAxis& conditions, std::size_t slot, std::string_view what,
+                     const yaml::Place& other, keys::Reading& reading) {
+  for (std::size_t i = 0; i < conditions.axis.assignments.size(); ++i) {
+    if (conditions.axis.assignments[i].slot != slot) continue;
+    const std::string_view name = reading.plan.table.rows[slot].name;
+    reading.problems.add(
+        conditions.places[i],
+        fmt::format("conditions.{}.{}", conditions.labels[option_of(conditions.axis, i)], name),
+        fmt::format("{} {} at {}: a condition cannot override it", name, what, yaml::place_text(other)),
+        "one or the other");
+    return;
+  }
+}
+
+/// Place of the axis's first value of the slot.
+yaml::Place place_of(const SweptAxis& axis, std::size_t slot) {
+  for (std::size_t i = 0; i < axis.axis.assignments.size(); ++i) {
+    if (axis.axis.assignments[i].slot == slot) return axis.places[i];
+  }
+  return axis.place;
+}
+
+void check_not_swept(const SweptAxis& conditions, const std::vector<SweptAxis>& swept,
+                     keys::Reading& reading) {
+  for (const std::size_t slot : conditions.slots) {
+    const auto axis = std::ranges::find_if(swept, [slot](const SweptAxis& one) {
+      return std::ranges::find(one.slots, slot) != one.slots.end();
+    });
+    if (axis != swept.end()) refuse_override(conditions, slot, "is swept", place_of(*axis, slot), reading);
+  }
+}
+
+/// Lets the override be drawn as often as its parameter. Reports one that says otherwise.
+void take_level(const yaml::Field& field, std::uint32_t slot, study::Value& value, keys::Reading& reading) {
+  using Kind = study::Value::Kind;
+  const study::Value& parameter = reading.plan.base[slot];
+  if (value.kind != parameter.kind || value.level == parameter.level) return;
+  if (value.kind != Kind::distribution && value.kind != Kind::profile) return;
+  const auto per =
+      field.node->kind == yaml::YamlNode::Kind::map ? yaml::find_field(field, keys::per_key) : std::nullopt;
+  if (per) {
+    const auto label = [](study::DrawLevel level) {
+      return keys::draw_level_labels[static_cast<std::size_t>(level)];
+    };
+    reading.problems.add(*per,
+                         fmt::format("{} is drawn per {}: an override is drawn as often as its parameter",
+                                     reading.plan.table.rows[slot].name, label(parameter.level)),
+                         fmt::format("per: {}, or the key left out", label(parameter.level)));
+    return;
+  }
+  value.level = parameter.level;
+  if (value.kind == Kind::profile) reading.profiles[value.index].level = parameter.level;
+}
+
+/// The values of one condition, from assignment `first` on, in the order of its map.
+void take_levels(const yaml::Field& overrides, std::size_t first, SweptAxis& axis, keys::Reading& reading) {
+  for (const yaml::YamlEntry& entry : overrides.node->entries) {
+    const auto slots = study::find_slots(entry.key, reading.plan.table);
+    if (!slots) continue;
+    const yaml::Field field = yaml::entry_of(overrides, entry);
+    for (std::size_t i = first; i < axis.axis.assignments.size(); ++i) {
+      study::Assignment& one = axis.axis.assignments[i];
+      if (one.slot < slots->first || one.slot >= slots->first + slots->count) continue;
+      take_level(slots->list ? yaml::item_of(field, one.slot - slots->first) : field, one.slot, one.value,
+                 reading);
+    }
+  }
+}
+
+}  // namespace
+
+SweptAxis read_conditions(const yaml::Field& field, const std::vector<SweptAxis>& swept,
+                          keys::Reading& reading) {
+  SweptAxis axis{.name = "condition", .place = field.node->place};
+  if (!yaml::check_map(field, std::string(expected_conditions), reading.problems)) return axis;
+  const auto& entries = field.node->entries;
+  if (entries.empty() || entries.size() > max_conditions) {
+    reading.problems.add(field, fmt::format("found {} conditions", entries.size()),
+                         fmt::format("1 to {}: {}", max_conditions, expected_conditions));
+    return axis;
+  }
+  for (const yaml::YamlEntry& entry : entries) {
+    const std::size_t first = axis.axis.assignments.size();
+    const std::size_t options = axis.labels.size();
+    read_option(field, entry, words, axis, reading);
+    if (axis.labels.size() == options) {
+      finish_option(axis, entry.key);  // could not be read, which is reported
+    } else {
+      take_levels(yaml::entry_of(field, entry), first, axis, reading);
+    }
+  }
+  check_not_swept(axis, swept, reading);
+  reading.study.conditions = axis.labels;
+  return axis;
+}
+
+void check_overrides(const yaml::Field& root, const SweptAxis& conditions,
+                     const std::vector<yaml::Place>& sampled, keys::Reading& reading) {
+  const auto is_overridden = [&](std::size_t slot) {
+    return std::ranges::find(conditions.slots, slot) != conditions.slots.end();
+  };
+  for (std::size_t i = 0; i < reading.plan.sampled_slots.size(); ++i) {
+    const std::uint32_t slot = reading.plan.sampled_slots[i];
+    if (is_overridden(slot)) refuse_override(conditions, slot, "comes from samples", sampled[i], reading);
+  }
+  const auto tune = yaml::find_field(root, "tune");
+  if (!tune || tune->node->kind != yaml::YamlNode::Kind::map) return;
+  const auto free = yaml::find_field(*tune, "free");
+  if (!free || free->node->kind != yaml::YamlNode::Kind::map) return;
+  for (const yaml::YamlEntry& entry : free->node->entries) {
+    const auto slots = study::find_slots(entry.key, reading.plan.table);
+    if (slots && is_overridden(slots->first))
+      refuse_override(conditions, slots->first, "is tuned", entry.place, reading);
+  }
+}
+
+}  // namespace zerocount::sections

@@ -1,0 +1,241 @@
+// `conditions` in a manifest: each machine bears all of them on the same draws, and what is refused.
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/failure/failure.hpp"
+#include "core/trial/trial.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount::study {
+namespace {
+
+/// What a condition overrides, and the overrides of `--set` that do the same to the manifest.
+struct Override {
+  std::string in_condition;
+  std::vector<std::string> in_manifest;
+};
+
+const std::vector<Override>& override_pool() {
+  static const std::vector<Override> pool{
+      {"plant.inertia: 7.0e-4", {"plant.inertia=7.0e-4"}},
+      {"controller.delay: {uniform: [0.5, 1.5]}", {"controller.delay={uniform: [0.5, 1.5]}"}},
+      {"friction.k2: {uniform: [100, 200]}", {"friction.k2={uniform: [100, 200]}"}},
+      {"friction.k2: 321", {"friction.k2=321"}},
+      {"friction.lambda: {log_uniform: [2, 4]}",  // drawn as often as its parameter
+       {"friction.lambda={log_uniform: [2, 4], per: trial}"}},
+      {"friction.beta: {uniform: [1.0e5, 1.1e5]}", {"friction.beta={uniform: [1.0e5, 1.1e5], per: contact}"}},
+      {"friction.alpha: {uniform: [1, 2]}", {"friction.alpha={uniform: [1, 2], per: study}"}},
+      {"friction.k1: {profile: {mean: 90, cv: 0.2, correlation_length: 0.5}}",
+       {"friction.k1={profile: {mean: 90, cv: 0.2, correlation_length: 0.5}}"}},
+      {"friction.k1: 130", {"friction.k1=130"}},
+      {"encoder.fine: {integers: [500000, 600000]}", {"encoder.fine={integers: [500000, 600000]}"}},
+      {"command.targets.1: {integers: [-9, 9]}", {"command.targets.1={integers: [-9, 9]}"}},
+      {"command.targets: [4, {integers: [1, 3]}]", {"command.targets=[4, {integers: [1, 3]}]"}},
+      {"initial.position: 2", {"initial.position=2"}},
+      {"encoder.fine_errors.noise: 0.2", {"encoder.fine_errors.noise=0.2"}}};
+  return pool;
+}
+
+const std::string machines =
+    "friction:\n"
+    "  k1: {profile: {mean: {lognormal: {median: 110, cv: 0.1}}, cv: 0.1, correlation_length: 0.3}}\n"
+    "  k2: {uniform: [600, 900]}\n"
+    "  lambda: {uniform: [5, 20], per: trial}\n"
+    "  alpha: {uniform: [0.1, 0.9], per: study}\n"
+    "  beta: {uniform: [1.0e5, 2.0e5], per: contact}\n"
+    "encoder: {fine: {integers: [1000000, 2000000]}, fine_errors: {noise: 0.1}}\n"
+    "initial: {position: {uniform: [0, 6]}, hardening: {uniform: [0, 1.0e-6]}}\n"
+    "sweep: {grid: {controller.ki: [3.0e-5, 4.0e-5]}}\n";
+
+std::string manifest_with(const std::string& more) {
+  return "zerocount: 1\nname: c\nseed: 5\ntrials: 24\n"
+         "command: {targets: [{integers: [1, 9]}, 2], hold: 0.004}\n"
+         "verdict: {dwell: 0.001, window: 0.001}\n" +
+         machines + more;
+}
+
+/// Indices of `count` different overrides that can stand together.
+std::vector<std::size_t> some_overrides(std::uint64_t& state, std::size_t count) {
+  std::vector<std::size_t> chosen;
+  std::set<std::string> keys;
+  while (chosen.size() < count) {
+    state = state * 6364136223846793005U + 1442695040888963407U;
+    const std::size_t one = (state >> 33U) % override_pool().size();
+    const std::string& text = override_pool()[one].in_condition;
+    std::string key = text.substr(0, text.find(':'));
+    if (key.starts_with("command.targets")) key = "command.targets";
+    if (keys.insert(key).second) chosen.push_back(one);
+  }
+  return chosen;
+}
+
+std::string text_of(const std::vector<std::size_t>& overrides) {
+  std::string text;
+  for (const std::size_t one : overrides)
+    text += (text.empty() ? "" : ", ") + override_pool()[one].in_condition;
+  return "{" + text + "}";
+}
+
+void expect_equal_runs(const StudyTrial& a, const StudyTrial& b) {
+  EXPECT_EQ(a.target_positions, b.target_positions);
+  EXPECT_EQ(a.parameters.command.targets, b.parameters.command.targets);
+  EXPECT_EQ(a.parameters.plant.inertia, b.parameters.plant.inertia);
+  EXPECT_EQ(a.parameters.randomness.trial, b.parameters.randomness.trial);
+  EXPECT_EQ(a.parameters.randomness.stream, b.parameters.randomness.stream);
+  const trial::TrialOutcome x = trial::run_trial(a.parameters);
+  const trial::TrialOutcome y = trial::run_trial(b.parameters);
+  ASSERT_EQ(x.moves.size(), y.moves.size());
+  for (std::size_t move = 0; move < x.moves.size(); ++move) {
+    EXPECT_EQ(x.moves[move].final_position, y.moves[move].final_position);
+    EXPECT_EQ(x.moves[move].creep, y.moves[move].creep);
+    EXPECT_EQ(x.moves[move].holding_torque, y.moves[move].holding_torque);
+  }
+}
+
+// The definition: trial i is trial j of the study in which the overrides stand in the manifest.
+TEST(Conditions, ATrialIsThatOfTheStudyWithTheOverrides) {
+  std::uint64_t state = 1;
+  int seed = 0;
+  for (const std::string design : {"monte_carlo", "latin_hypercube", "sobol"}) {
+    for (const int rigs : {0, 4}) {
+      for (const int worlds : {0, 2}) {
+        for (const int conditions : {1, 2, 3}) {
+          std::vector<std::vector<std::size_t>> overrides;
+          std::string section = "conditions: {";
+          for (int c = 0; c < conditions; ++c) {
+            overrides.push_back(some_overrides(state, static_cast<std::size_t>(c)));
+            section += fmt::format("{}c{}: {}", c == 0 ? "" : ", ", c, text_of(overrides.back()));
+          }
+          std::vector<std::string> settings{"design=" + design, fmt::format("seed={}", ++seed),
+                                            fmt::format("independent_points={}", seed % 2 == 0)};
+          if (rigs > 0) settings.push_back(fmt::format("rigs={}", rigs));
+          if (worlds > 0) {
+            settings.push_back(fmt::format("worlds={}", worlds));
+            settings.emplace_back("plant.presliding_damping={interval: [0.1, 0.3]}");
+          }
+          const Study study = study_of(manifest_with(section + "}\n"), settings);
+          ASSERT_EQ(std::ssize(study.conditions), conditions);
+          for (int c = 0; c < conditions; ++c) {
+            std::vector<std::string> alone = settings;
+            alone.push_back(fmt::format("trials={}", 24 / conditions));
+            for (const std::size_t one : overrides[static_cast<std::size_t>(c)])
+              for (const std::string& set : override_pool()[one].in_manifest) alone.push_back(set);
+            const Study other = study_of(manifest_with(""), alone);
+            std::set<std::int64_t> draws;
+            for (std::int64_t i = 0; i < study.trials; ++i) {
+              const std::int64_t r = rigs > 0 ? rigs : 1;
+              if (i / r % conditions != c) continue;
+              const std::int64_t j = i % r + r * (i / (r * conditions));
+              draws.insert(j);
+              EXPECT_EQ(turns_of(study).trial_of(j, c), i);
+              if (worlds > 0) {
+                EXPECT_EQ(world_of(study, i), world_of(other, j));
+              }
+              for (std::int64_t point = 0; point < 2; ++point) {
+                const StudyTrial trial = study_trial(study, point, i);
+                const StudyTrial expected = study_trial(other, point, j);
+                for (std::size_t column = 0; column < study.columns.inputs.size(); ++column) {
+                  for (std::size_t k = 0; k < other.columns.inputs.size(); ++k) {
+                    if (study.columns.inputs[column].name == other.columns.inputs[k].name) {
+                      EXPECT_EQ(trial.inputs[column], expected.inputs[k])
+                          << study.columns.inputs[column].name << " " << section;
+                    }
+                  }
+                }
+                expect_equal_runs(trial, expected);
+              }
+            }
+            EXPECT_EQ(std::ssize(draws), other.trials);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Conditions, HaveWhatTheyOverrideInTheColumnsOfTrials) {
+  const Study study = study_of(
+      manifest_with("conditions: {a: {}, b: {plant.inertia: 7.0e-4, friction.k2: 100}}\n"), {"rigs=4"});
+  const std::size_t inertia = column_of(study, "plant.inertia");
+  for (std::int64_t i = 0; i < study.trials; ++i) {
+    const StudyTrial trial = study_trial(study, 0, i);
+    EXPECT_EQ(trial.inputs[inertia], i / 4 % 2 == 0 ? 5.54e-4 : 7.0e-4);
+    EXPECT_EQ(trial.inputs[inertia], trial.parameters.plant.inertia);
+  }
+  for (const InputColumn& column : study.columns.rigs) EXPECT_NE(column.name, "friction.k2");
+}
+
+TEST(Conditions, AreExtendedByMoreTrials) {
+  for (const std::string design : {"monte_carlo", "sobol"}) {
+    const std::string text = manifest_with("conditions: {a: {}, b: {friction.k2: {uniform: [1, 2]}}}\n");
+    const Study few = study_of(text, {"rigs=4", "design=" + design});
+    const Study many = study_of(text, {"rigs=4", "design=" + design, "trials=240"});
+    for (std::int64_t i = 0; i < few.trials; ++i)
+      EXPECT_EQ(study_trial(few, 0, i).inputs, study_trial(many, 0, i).inputs) << design;
+  }
+}
+
+TEST(Conditions, ChangeTheStudysHashByNameValueAndOrder) {
+  const auto hash = [](const std::string& conditions) {
+    return study_of(manifest_with("conditions: " + conditions + "\n")).study_sha256;
+  };
+  const std::set<std::string> hashes{
+      hash("{a: {}, b: {plant.inertia: 7.0e-4}}"), hash("{b: {plant.inertia: 7.0e-4}, a: {}}"),
+      hash("{a: {}, c: {plant.inertia: 7.0e-4}}"), hash("{a: {}, b: {plant.inertia: 8.0e-4}}"),
+      study_of(manifest_with("")).study_sha256};
+  EXPECT_EQ(hashes.size(), 5U);
+}
+
+std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    study_of(text, overrides);
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
+TEST(Conditions, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
+  const auto of = [](const std::string& conditions, const std::vector<std::string>& overrides = {}) {
+    return refusal(manifest_with("conditions: " + conditions + "\n"), overrides);
+  };
+  const std::vector<std::pair<std::string, std::string>> faults{
+      {of("{}"), "16:13: conditions: found 0 conditions; expected 1 to"},
+      {of("[a]"), "conditions: found a list"},
+      {of("{a: {plant.inertai: 1}}"),
+       "16:18: conditions.a.plant.inertai: unknown key, nearest known: plant.inertia"},
+      {of("{a: {trials: 1}}"), "conditions.a.trials: a condition cannot override this key"},
+      {of("{a: {plant.inertia: -1}}"), "16:33: conditions.a.plant.inertia: "},
+      {of("{a: {plant.inertia: 1, plant.inertia: 2}}"), "duplicate key"},
+      {of("{a: {command.targets: [1, 2], command.targets.0: 1}}"),
+       "command.targets.0 is given twice in this condition"},
+      {of("{a: {}, b: {controller.ki: 1.0e-5}}"),
+       "16:40: conditions.b.controller.ki: controller.ki is swept at m.yaml:15:32: a condition cannot "
+       "override "
+       "it; expected one or the other"},
+      {of("{a: {friction.lambda: {uniform: [1, 2], per: study}}}"),
+       "friction.lambda is drawn per trial: an override is drawn as often as its parameter; expected per: "
+       "trial"},
+      {of("{a: {}, b: {}, c: {}}", {"rigs=5", "trials=100"}),
+       "100 trials cannot be divided equally among 5 rigs under each of 3 conditions; expected a multiple of "
+       "15, such as 90 or 105"},
+      {of("{a: {}, b: {}}", {"trials=7"}),
+       "7 trials cannot be divided equally among 2 conditions; expected a multiple of 2, such as 6 or 8"},
+      {of("{a: {}, b: {}}", {"design=saltelli"}), "the trials of all conditions share factors"},
+      {of("{a: {}, b: {}}", {"stop={success_rate_halfwidth: 0.1, max_trials: 48}"}),
+       "sequential stopping does not tell conditions apart"},
+      {of("{a: {plant.inertia: 7.0e-4}}",
+          {"goal={within: 0.002, moves: 0.9}", "tune={free: {plant.inertia: [1.0e-4, 1.0e-3]}}"}),
+       "plant.inertia is tuned at --set tune"}};
+  for (const auto& [error, expected] : faults)
+    EXPECT_NE(error.find(expected), std::string::npos) << error << "\n" << expected;
+}
+
+}  // namespace
+}  // namespace zerocount::study

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+
+#include "experiments/study/study.hpp"
 
 namespace zerocount::measures {
 
@@ -20,10 +23,38 @@ bool has_valid_worlds(const MoveCounts& counts) {
   return events == counts.of_trials.events && hits == counts.of_trials.hits;
 }
 
+study::TrialTurns turns_of(const MoveCounts& counts, std::int64_t rigs) {
+  return {std::max<std::int64_t>(rigs, 1), std::max<std::int64_t>(std::ssize(counts.of_conditions), 1)};
+}
+
+bool has_valid_conditions(const MoveCounts& counts, std::int64_t moves_of_trial, std::int64_t rigs) {
+  std::int64_t moves = 0;
+  std::int64_t met = 0;
+  for (const MoveCounts& condition : counts.of_conditions) {
+    if (condition.moves < 0 || condition.moves > counts.moves - moves ||
+        (condition.moves > 0 && !condition.is_valid(condition.moves / moves_of_trial, moves_of_trial, rigs)))
+      return false;
+    moves += condition.moves;
+    met += condition.met;
+  }
+  return counts.of_conditions.empty() || (moves == counts.moves && met == counts.met);
+}
+
 }  // namespace
 
-void MoveCounts::add(std::int64_t trial, std::int64_t rig_count, std::int64_t of_trial,
+void MoveCounts::tell_apart(std::int64_t worlds_of_study, std::int64_t conditions) {
+  worlds = worlds_of_study;
+  of_conditions.resize(static_cast<std::size_t>(conditions));
+  for (MoveCounts& condition : of_conditions) condition.worlds = worlds;
+}
+
+void MoveCounts::add(std::int64_t trial_index, std::int64_t rig_count, std::int64_t of_trial,
                      std::int64_t meeting) {
+  const study::TrialTurns turns = turns_of(*this, rig_count);
+  const std::int64_t trial = turns.draw_of(trial_index);
+  if (!of_conditions.empty())
+    of_conditions[static_cast<std::size_t>(turns.condition_of(trial_index))].add(trial, rig_count, of_trial,
+                                                                                 meeting);
   moves += of_trial;
   met += meeting;
   if (rig_count == 0) {
@@ -45,6 +76,9 @@ MoveCounts& MoveCounts::operator+=(const MoveCounts& other) {
   met += other.met;
   of_trials += other.of_trials;
   worlds = std::max(worlds, other.worlds);
+  of_conditions.resize(std::max(of_conditions.size(), other.of_conditions.size()));
+  for (std::size_t condition = 0; condition < other.of_conditions.size(); ++condition)
+    of_conditions[condition] += other.of_conditions[condition];
   of_worlds.resize(std::max(of_worlds.size(), other.of_worlds.size()));
   for (std::size_t world = 0; world < other.of_worlds.size(); ++world)
     of_worlds[world] += other.of_worlds[world];
@@ -58,7 +92,9 @@ MoveCounts& MoveCounts::operator+=(const MoveCounts& other) {
 }
 
 bool MoveCounts::is_valid(std::int64_t trials, std::int64_t moves_of_trial, std::int64_t rig_count) const {
-  if (moves != trials * moves_of_trial || met < 0 || met > moves) return false;
+  if (moves != trials * moves_of_trial || met < 0 || met > moves ||
+      !has_valid_conditions(*this, moves_of_trial, rig_count))
+    return false;
   if (rig_count == 0) {
     return rigs.empty() && of_trials.events == moves && of_trials.hits == met && has_valid_worlds(*this);
   }

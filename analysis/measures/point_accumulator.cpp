@@ -74,7 +74,8 @@ MoveKind move_kind(const study::Study& study, std::int64_t version) {
           .version = version,
           .rigs = study.rigs,
           .goals = counted_goals(study),
-          .worlds = study.worlds};
+          .worlds = study.worlds,
+          .conditions = std::ssize(study.conditions)};
 }
 
 OutcomeCounts& OutcomeCounts::operator+=(const OutcomeCounts& other) {
@@ -124,8 +125,9 @@ PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTa
                                    std::int64_t first_trial)
     : kind_(kind), first_trial_(first_trial), table_(&table), trial_settling_times_(kind.rigs) {
   goals_.resize(kind.goals.size());
-  for (MoveCounts& counts : goals_) counts.worlds = kind.worlds;
-  for (MoveCounts* counts : {&worlds_.succeeded, &worlds_.meeting}) counts->worlds = kind.worlds;
+  for (MoveCounts& counts : goals_) counts.tell_apart(kind.worlds, kind.conditions);
+  for (MoveCounts* counts : {&groups_.succeeded, &groups_.meeting})
+    counts->tell_apart(kind.worlds, kind.conditions);
   for (const layout::Measure& measure : table) measures_.emplace_back(measure, measure.point, kind);
 }
 
@@ -188,17 +190,17 @@ void PointAccumulator::add_moves(std::span<const trial::MoveOutcome> moves) {
   if (kind_.rigs > 0) add_to_rig(moves);
   for (std::size_t i = 0; i < goals_.size(); ++i)
     count_moves(goals_[i], kind_.goals[i], first_trial_ + counted_.trials, kind_.rigs, moves);
-  if (kind_.worlds > 0) add_to_world(moves);
+  if (kind_.has_groups()) add_to_groups(moves);
   add_trial_settling_time(moves);
 }
 
-void PointAccumulator::add_to_world(std::span<const trial::MoveOutcome> moves) {
+void PointAccumulator::add_to_groups(std::span<const trial::MoveOutcome> moves) {
   const std::int64_t trial = first_trial_ + counted_.trials;
-  worlds_.succeeded.add(trial, kind_.rigs, 1, trial::succeeded(moves) ? 1 : 0);
+  groups_.succeeded.add(trial, kind_.rigs, 1, trial::succeeded(moves) ? 1 : 0);
   if (kind_.goals.empty()) return;
   const bool meeting =
       std::ranges::all_of(kind_.goals, [&](const CountedGoal& goal) { return all_meet(goal, moves); });
-  worlds_.meeting.add(trial, kind_.rigs, 1, meeting ? 1 : 0);
+  groups_.meeting.add(trial, kind_.rigs, 1, meeting ? 1 : 0);
 }
 
 void PointAccumulator::add_level(std::size_t level, std::span<const trial::MoveOutcome> move) {
@@ -283,8 +285,8 @@ PointAccumulator& PointAccumulator::operator+=(const PointAccumulator& next) {
   if (rigs_.size() < next.rigs_.size()) rigs_.resize(next.rigs_.size());
   add_each(rigs_, next.rigs_);
   add_each(goals_, next.goals_);
-  worlds_.succeeded += next.worlds_.succeeded;
-  worlds_.meeting += next.worlds_.meeting;
+  groups_.succeeded += next.groups_.succeeded;
+  groups_.meeting += next.groups_.meeting;
   trial_settling_times_ += next.trial_settling_times_;
   jerks_ += next.jerks_;
   jerk_intervals_ += next.jerk_intervals_;
@@ -306,7 +308,7 @@ void PointAccumulator::transfer(Self& self, Archive& archive) {
     while (self.kind_.open_loop && self.levels_.size() < self.counted_.by_move.size())
       self.add_level_accumulators();
   }
-  if (self.kind_.worlds > 0) archive(self.worlds_);
+  if (self.kind_.has_groups()) archive(self.groups_);
   for (auto& measure : self.measures_) archive(measure);
   for (std::size_t level = 0; level < self.levels_.size(); ++level) {
     archive(self.lost_in_levels_[level]);
@@ -320,7 +322,7 @@ bool PointAccumulator::is_valid(std::int64_t moves) const {
     return std::all_of(measures.begin(), measures.end(),
                        [&](const auto& one) { return one.is_valid(trials, moves_of_trial); });
   };
-  if (!has_valid_counts(moves) || !has_valid_jerks() || !has_valid_rigs() || !has_valid_worlds())
+  if (!has_valid_counts(moves) || !has_valid_jerks() || !has_valid_rigs() || !has_valid_groups())
     return false;
   for (std::size_t i = 0; i < goals_.size(); ++i) {
     if (!goals_[i].is_valid(counted_.trials, asked_moves(kind_.goals[i], moves), kind_.rigs)) return false;
@@ -370,11 +372,11 @@ bool PointAccumulator::has_valid_rigs() const {
          sum.moves == counted_.moves;
 }
 
-bool PointAccumulator::has_valid_worlds() const {
-  if (kind_.worlds == 0 || kind_.open_loop) return true;
-  return worlds_.succeeded.is_valid(counted_.trials, 1, kind_.rigs) &&
-         worlds_.succeeded.met == counted_.outcomes.zero_count &&
-         (kind_.goals.empty() || worlds_.meeting.is_valid(counted_.trials, 1, kind_.rigs));
+bool PointAccumulator::has_valid_groups() const {
+  if (!kind_.has_groups() || kind_.open_loop) return true;
+  return groups_.succeeded.is_valid(counted_.trials, 1, kind_.rigs) &&
+         groups_.succeeded.met == counted_.outcomes.zero_count &&
+         (kind_.goals.empty() || groups_.meeting.is_valid(counted_.trials, 1, kind_.rigs));
 }
 
 statistics::State PointAccumulator::state() const {
@@ -432,7 +434,8 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
     result.rigs = statistics::rig_statistics(rigs_, options.confidence);
   result.claim = claim(result, options);
   result.goals = goals_;
-  if (kind_.worlds > 0 && result.judged > 0) result.worlds = worlds_;
+  if (kind_.worlds > 0 && result.judged > 0) result.worlds = groups_;
+  if (kind_.conditions > 0 && result.judged > 0) result.conditions = groups_;
   if (options.stopped_by_outcomes)
     result.rigs.tolerance = {};  // it takes a number of trials that was fixed beforehand
   result.settles_within = tolerance_limits(trial_settling_times_.sample(), options);

@@ -23,7 +23,10 @@ struct MoveKind {
   std::int64_t version{layout::format_version};  ///< of the layout of the results file
   std::int64_t rigs{0};  ///< number of rigs, trial i on rig i mod rigs; 0: no trials share a rig
   std::vector<CountedGoal> goals{};
-  std::int64_t worlds{0};  ///< trial i in world i mod worlds; 0: none
+  std::int64_t worlds{0};      ///< the trial with draw j is in world j mod worlds; 0: none
+  std::int64_t conditions{0};  ///< see study::TrialTurns; 0: none
+
+  bool has_groups() const { return worlds > 0 || conditions > 0; }
 };
 
 /// The kind of the moves of a study, in a results file of this version of the layout.
@@ -147,11 +150,11 @@ class PointAccumulator {
   bool has_valid_counts(std::int64_t moves) const;
   bool has_valid_jerks() const;
   bool has_valid_rigs() const;
-  bool has_valid_worlds() const;
+  bool has_valid_groups() const;
   void add_level_accumulators();
   void add_moves(std::span<const trial::MoveOutcome> moves);
   void add_level(std::size_t level, std::span<const trial::MoveOutcome> move);
-  void add_to_world(std::span<const trial::MoveOutcome> moves);
+  void add_to_groups(std::span<const trial::MoveOutcome> moves);
   void add_to_rig(std::span<const trial::MoveOutcome> moves);
   void add_trial_settling_time(std::span<const trial::MoveOutcome> moves);
   void add_jerks(const trial::MoveOutcome& move, std::span<const trial::Jerk> jerks);
@@ -168,7 +171,7 @@ class PointAccumulator {
   std::vector<std::int64_t> lost_in_levels_;             ///< [move] trials whose motion was lost
   std::vector<statistics::RigTrials> rigs_;              ///< [rig], of those that have trials
   std::vector<MoveCounts> goals_;                        ///< [goal]
-  WorldTrials worlds_;                                   ///< empty without worlds
+  GroupTrials groups_;                                   ///< empty without worlds and conditions
   statistics::TrialClusters trial_settling_times_;       ///< of each trial: of its slowest move
   std::int64_t jerks_{0};
   statistics::Histogram<double> jerk_intervals_;

@@ -88,8 +88,9 @@ struct PointCounts {
   }
 };
 
-/// Trials of a design point, each as one move, told apart by worlds (in_worlds).
-struct WorldTrials {
+/// Trials of a design point, each as one move, told apart by worlds (in_worlds) and by conditions
+/// (in_conditions).
+struct GroupTrials {
   MoveCounts succeeded;  ///< all their moves ended at zero error
   MoveCounts meeting;    ///< all moves meet the goals about them; empty without one
 
@@ -115,7 +116,8 @@ struct PointSummary : StatisticsOfMeasures, PointCounts {
   double jerk_one_count_share{statistics::unknown};  ///< jerks of magnitude 1 / jerks
   UndecidedMoves undecided;                          ///< only off_target is known without the study
   std::vector<MoveCounts> goals;                     ///< [goal] moves that meet it
-  std::optional<WorldTrials> worlds;                 ///< of a study with worlds and targets
+  std::optional<GroupTrials> worlds;                 ///< of a study with worlds and targets
+  std::optional<GroupTrials> conditions;             ///< of a study with conditions and targets
   std::vector<LevelStatistics> levels;               ///< [move] in an open-loop study, otherwise empty
 
   /// The proportion of trials all of whose moves ended at zero error.

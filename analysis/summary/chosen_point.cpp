@@ -12,6 +12,7 @@
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/sums/moments.hpp"
 #include "analysis/summary/best_point.hpp"
+#include "analysis/summary/conditions_of_point.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "analysis/summary/point_names.hpp"
 
@@ -135,7 +136,7 @@ std::string claim_of_chosen_point(const StudySummary& summary, const ChosenPoint
     return name + fmt::format("{} of {} trials succeeded; dependent trials give no bounds",
                               point.outcomes.zero_count, point.trials);
   }
-  return name + (summary.question.worlds > 0 ? "on average over the worlds: " : "") +
+  return name + averaged_over(summary) +
          statistics::claim_sentence(goal::claim_of_chosen(point, static_cast<std::size_t>(chosen.chosen_from),
                                                           summary.question.stopped));
 }

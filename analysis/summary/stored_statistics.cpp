@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -16,27 +17,27 @@ namespace {
 
 constexpr std::size_t points_at_once = 256;  ///< that are held with all their statistics
 
-/// The trials of the worlds at each point; of an open loop none is judged.
-layout::WorldCounts world_counts(std::span<const measures::PointSummary> points, const study::Study& study) {
-  layout::WorldCounts counts;
-  const auto of_worlds = [&](const std::optional<measures::WorldTrials>& point,
-                             measures::MoveCounts measures::WorldTrials::*which,
-                             std::int64_t measures::MoveCounts::*number) {
-    std::vector<std::int64_t> numbers;
-    if (point) {
-      for (const measures::MoveCounts& world : measures::in_worlds((*point).*which))
-        numbers.push_back(world.*number);
-    }
-    numbers.resize(static_cast<std::size_t>(study.worlds));  // none in an open loop
-    return numbers;
-  };
+/// The trials of the groups (worlds or conditions) at each point; of an open loop none is judged.
+/// @param trials of a point. @param groups of the counts
+layout::GroupCounts group_counts(
+    std::span<const measures::PointSummary> points, std::int64_t count, bool has_goal,
+    std::optional<measures::GroupTrials> measures::PointSummary::*trials,
+    const std::function<std::vector<measures::MoveCounts>(const measures::MoveCounts&)>& groups) {
+  using measures::GroupTrials;
   using measures::MoveCounts;
-  using measures::WorldTrials;
+  layout::GroupCounts counts;
   for (const measures::PointSummary& point : points) {
-    counts.trials.push_back(of_worlds(point.worlds, &WorldTrials::succeeded, &MoveCounts::moves));
-    counts.success.push_back(of_worlds(point.worlds, &WorldTrials::succeeded, &MoveCounts::met));
-    if (!study.goals.empty())
-      counts.goal_met.push_back(of_worlds(point.worlds, &WorldTrials::meeting, &MoveCounts::met));
+    const auto numbers = [&](MoveCounts GroupTrials::*which, std::int64_t MoveCounts::*number) {
+      std::vector<std::int64_t> found;
+      if (point.*trials) {
+        for (const MoveCounts& group : groups((*(point.*trials)).*which)) found.push_back(group.*number);
+      }
+      found.resize(static_cast<std::size_t>(count));  // none in an open loop
+      return found;
+    };
+    counts.trials.push_back(numbers(&GroupTrials::succeeded, &MoveCounts::moves));
+    counts.success.push_back(numbers(&GroupTrials::succeeded, &MoveCounts::met));
+    if (has_goal) counts.goal_met.push_back(numbers(&GroupTrials::meeting, &MoveCounts::met));
   }
   return counts;
 }
@@ -53,10 +54,12 @@ void append(layout::StoredStatistics& stored, layout::StoredStatistics&& next) {
       append_to(stored.tables[i].columns[column].values, next.tables[i].columns[column].values);
   }
   append_to(stored.rig_successes, next.rig_successes);
-  if (!stored.worlds) return;
-  append_to(stored.worlds->trials, next.worlds->trials);
-  append_to(stored.worlds->success, next.worlds->success);
-  append_to(stored.worlds->goal_met, next.worlds->goal_met);
+  for (auto groups : {&layout::StoredStatistics::worlds, &layout::StoredStatistics::conditions}) {
+    if (!(stored.*groups)) continue;
+    append_to((stored.*groups)->trials, (next.*groups)->trials);
+    append_to((stored.*groups)->success, (next.*groups)->success);
+    append_to((stored.*groups)->goal_met, (next.*groups)->goal_met);
+  }
 }
 
 }  // namespace
@@ -76,7 +79,13 @@ layout::StoredStatistics stored_statistics(std::span<const measures::PointSummar
     stored.rig_successes.push_back(points[point].rigs.successes_of_rigs);
     stored.rig_successes.back().resize(static_cast<std::size_t>(study.rigs));  // empty in an open loop
   }
-  if (study.worlds > 0) stored.worlds = world_counts(points, study);
+  using measures::PointSummary;
+  if (study.worlds > 0)
+    stored.worlds = group_counts(points, study.worlds, study.goal.has_value(), &PointSummary::worlds,
+                                 measures::in_worlds);
+  if (!study.conditions.empty())
+    stored.conditions = group_counts(points, std::ssize(study.conditions), study.goal.has_value(),
+                                     &PointSummary::conditions, measures::in_conditions);
   return stored;
 }
 

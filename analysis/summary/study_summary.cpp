@@ -36,7 +36,9 @@ double hold_of(const study::Study& study, std::int64_t point) {
                   [](const study::InputColumn& column) { return column.name == "command.hold"; });
   const double hold = study::study_trial(study, point, 0).parameters.command.hold;
   constexpr std::int64_t looked_at = 64;  // a hold that is drawn differs long before
-  for (std::int64_t index = 1; recorded && index < std::min(looked_at, study.trials); ++index) {
+  const study::TrialTurns turns = study::turns_of(study);
+  for (std::int64_t i = 1; recorded && i < std::min(looked_at * turns.conditions, study.trials); ++i) {
+    const std::int64_t index = turns.trial_of(i / turns.conditions, i % turns.conditions);
     if (study::study_trial(study, point, index).parameters.command.hold != hold) return statistics::unknown;
   }
   return hold;
@@ -182,6 +184,7 @@ StudySummary summary_without_points(const study::Study& study, double confidence
   summary.confidence = confidence;
   summary.features = study.features;
   summary.question = goal::question_of(study);
+  summary.conditions = study.conditions;
   summary.seed = study.seed;
   summary.design = keys::design_labels[static_cast<std::size_t>(study.design)];
   return summary;

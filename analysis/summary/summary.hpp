@@ -39,6 +39,7 @@ struct StudySummary {
   std::vector<theory::PointPrediction> predictions{};  ///< [point], or empty where not computed
   study::StudyFeatures features{};                     ///< what the table has columns for
   goal::Question question{};                           ///< what the study is judged by
+  std::vector<std::string> conditions{};               ///< names; empty without conditions
   std::vector<std::vector<worlds::WorldInput>> world_inputs{};     ///< [point] unknown and derived
   std::uint64_t seed{0};                                           ///< of the study
   std::optional<UnfinishedStudy> unfinished{};                     ///< where the run has not ended

@@ -105,9 +105,11 @@ PointDescription assurance_object(bool on_rigs) {
 }
 
 std::string title_of_claims(const summary::StudySummary& summary) {
-  return fmt::format(
-      "shown with {} confidence of all axes that the manifest describes{}", text::percent(summary.confidence),
-      summary.question.worlds > 0 ? ", on average over its worlds: in some worlds it is less" : "");
+  return fmt::format("shown with {} confidence of all axes that the manifest describes{}",
+                     text::percent(summary.confidence),
+                     !summary.conditions.empty()   ? ", on average over its conditions: under some it is less"
+                     : summary.question.worlds > 0 ? ", on average over its worlds: in some worlds it is less"
+                                                   : "");
 }
 
 std::string note_on_claims(const SummaryReading& s) {

@@ -80,6 +80,10 @@ void add_undecided(SummaryDescription& answer, const summary::StudySummary& summ
 void add_worlds(PointDescription& point, const summary::StudySummary& summary);
 void add_worlds(SummaryDescription& answer, const summary::StudySummary& summary);
 
+/// What the trials show under each condition, and which is the worst.
+void add_conditions(PointDescription& point, const summary::StudySummary& summary);
+void add_conditions(SummaryDescription& answer, const summary::StudySummary& summary);
+
 /// The bounds of the success rate that hold although the study looked after every block and decided itself
 /// how many trials it took (`stop`).
 ///

@@ -158,7 +158,8 @@ void complete(StudySummary& summary, const reading::AllTrialsFile& file, const s
 }
 
 bool is_summarised_by_point(const study::Study& study) {
-  return !study.open_loop && study.worlds == 0 && !study.stop && study.sequence.empty();
+  return !study.open_loop && study.worlds == 0 && study.conditions.empty() && !study.stop &&
+         study.sequence.empty();
 }
 
 }  // namespace

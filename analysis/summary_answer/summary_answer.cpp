@@ -247,6 +247,7 @@ StudySummary full_study() {
   full.features.own_controller = full.features.rigs = true;
   full.question.parts.front().claim = study::Goal{.machines = 0.99};
   full.question.worlds = 1;
+  full.conditions = {"empty"};
   full.predictions.resize(1);
   full.observed_counts[""] = {};
   full.stop = study::StoppingRule{};
@@ -287,10 +288,14 @@ std::string design_line(const StudySummary& summary) {
                         summary.question.worlds,
                         summary.question.claim() ? "; those of the goal are of the worst world" : "");
   }
+  if (!summary.conditions.empty()) {
+    line += fmt::format(", {} conditions: statistics of all trials are over the conditions together",
+                        summary.conditions.size());
+  }
   if (features.spread_trials) {
     line += fmt::format(
         "{} bounds are conservative: made for trials by chance, which vary more than those of this design",
-        features.rigs || summary.question.worlds > 0 ? ";" : ":");
+        features.rigs || summary.question.worlds > 0 || !summary.conditions.empty() ? ";" : ":");
   }
   return line;
 }
@@ -323,6 +328,7 @@ SummaryDescription question_tables(const StudySummary& summary) {
       [legend](Summary s) { return nonfinite_lines(s) + points_shown(s) + (s.legend ? legend : ""); });
   add_repeatability(tables, summary);
   add_worlds(tables, summary);
+  add_conditions(tables, summary);
   return tables;
 }
 

@@ -158,8 +158,8 @@ struct StatisticTable {
   std::vector<PointColumn> columns;      ///< values[point·width + index]
 };
 
-/// Trials of the worlds at the design points, [point][world].
-struct WorldCounts {
+/// Trials of the worlds, or under the conditions, at the design points, [point][world] or [point][condition].
+struct GroupCounts {
   std::vector<std::vector<std::int64_t>> trials;    ///< that were judged: none in an open loop
   std::vector<std::vector<std::int64_t>> success;   ///< all of whose moves ended with a zero count
   std::vector<std::vector<std::int64_t>> goal_met;  ///< all of whose moves meet the goal; empty without one
@@ -172,7 +172,8 @@ struct StoredStatistics {
   std::vector<StatisticTable> tables;  ///< none twice
   /// [point][rig] trials of which all moves ended with a zero count; empty without rigs
   std::vector<std::vector<std::int64_t>> rig_successes{};
-  std::optional<WorldCounts> worlds{};
+  std::optional<GroupCounts> worlds{};
+  std::optional<GroupCounts> conditions{};
 };
 
 /// Number of angles at which a profile is tabulated, over one revolution, where all trials are on one rotor.
@@ -217,6 +218,10 @@ Table world_table(const std::vector<study::InputColumn>& inputs);
 /// Trials of the worlds at the design points: [point, world]. It shares the group and the dimension scale of
 /// world_table.
 Table world_count_table(bool has_goal);
+/// The names of the conditions: [condition].
+Table condition_table();
+/// Trials under the conditions at the design points: [point, condition], in the group of condition_table.
+Table condition_count_table(bool has_goal);
 
 /// How many of the whole and real numbers in /sums belong to each design point: [point].
 Table sums_table();

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "results/layout/layout.hpp"
 
@@ -17,6 +20,24 @@ Column rig_scale() {
 
 Column world_scale() {
   return whole_numbers("world", "index of the world");
+}
+
+Column condition_scale() {
+  return whole_numbers("condition", "index of the condition");
+}
+
+/// Counts of trials in groups, [point, group]. @param where "in the world"
+Table group_count_table(std::string name, Column scale, std::string_view where, bool has_goal) {
+  const auto counts = [&](std::string_view column, std::string_view which) {
+    return whole_numbers(column, fmt::format("trials {} at the point {}", where, which));
+  };
+  Table table{std::move(name),
+              whole_numbers("point", "index of the design point"),
+              std::move(scale),
+              {counts("success", "that succeeded, in all their moves"),
+               counts("trials", "that were judged, 0 in an open loop")}};
+  if (has_goal) table.columns.push_back(counts("goal_met", "all of whose moves meet the goal"));
+  return table;
 }
 
 Column theta_scale() {
@@ -204,17 +225,15 @@ Table world_table(const std::vector<study::InputColumn>& inputs) {
 }
 
 Table world_count_table(bool has_goal) {
-  Table table{
-      "world",
-      whole_numbers("point", "index of the design point"),
-      world_scale(),
-      {whole_numbers("success", "trials in the world at the point that succeeded, in all their moves"),
-       whole_numbers("trials", "trials in the world at the point that were judged, 0 in an open loop")}};
-  if (has_goal) {
-    table.columns.push_back(
-        whole_numbers("goal_met", "trials in the world at the point all of whose moves meet the goal"));
-  }
-  return table;
+  return group_count_table("world", world_scale(), "in the world", has_goal);
+}
+
+Table condition_table() {
+  return {"condition", condition_scale(), {}, {{"name", "1", "name of the condition", hdf5::Element::text}}};
+}
+
+Table condition_count_table(bool has_goal) {
+  return group_count_table("condition", condition_scale(), "under the condition", has_goal);
 }
 
 Table sums_table() {

@@ -148,13 +148,15 @@ void export_profiles(const ResultsFile& file, CsvFile& csv) {
   }
 }
 
-/// The inputs of rigs or worlds. @param name of one
+/// The inputs of rigs or worlds, or the names of conditions. @param name of one
 void export_groups(std::string_view name, const StoredGroups& groups, CsvFile& csv) {
   csv.add(name);
+  if (!groups.names.empty()) csv.add("name");
   for (const study::InputColumn& column : groups.columns) csv.add(head_with_unit(column.name, column.unit));
   csv.end_row();
   for (std::int64_t group = 0; group < groups.count; ++group) {
     csv.add(group);
+    if (!groups.names.empty()) csv.add(groups.names[static_cast<std::size_t>(group)]);
     for (const std::vector<double>& values : groups.inputs) csv.add(values[static_cast<std::size_t>(group)]);
     csv.end_row();
   }
@@ -206,6 +208,7 @@ void add_study_tables(std::vector<ExportedTable>& tables, const ResultsFile& fil
   if (file.has_profiles()) tables.push_back({"profiles.csv", export_profiles});
   add_groups(tables, "rig", file.rigs());
   add_groups(tables, "world", file.worlds());
+  add_groups(tables, "condition", file.conditions());
 }
 
 void add_statistic_tables(std::vector<ExportedTable>& tables, const ResultsFile& file) {

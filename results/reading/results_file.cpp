@@ -126,6 +126,19 @@ StoredGroups read_groups(const hdf5::File& file, const std::string& name,
   return stored;
 }
 
+/// Reads the counts of worlds or conditions, which a part does not have.
+void read_counts(const hdf5::File& file, const layout::FileHeader& header, const std::string& name,
+                 layout::Table (*table)(bool has_goal), StoredGroups& stored) {
+  const hdf5::Group group = file.open_group(name);
+  if (!group.contains("success")) return;
+  const bool has_goal = group.contains("goal_met");
+  const layout::TableIo counts = layout::TableIo::open(file, table(has_goal));
+  stored.success = layout::read_column<std::int64_t>(counts, 0);
+  stored.trials = layout::read_column<std::int64_t>(counts, 1);
+  if (has_goal) stored.goal_met = layout::read_column<std::int64_t>(counts, 2);
+  validate_groups(name, header, counts, stored.success, stored.trials, stored.goal_met);
+}
+
 }  // namespace
 
 ResultsFile::ResultsFile(const std::filesystem::path& path, Require require,
@@ -218,14 +231,17 @@ std::optional<StoredGroups> ResultsFile::rigs() const {
 std::optional<StoredGroups> ResultsFile::worlds() const {
   if (!file_.contains("world")) return std::nullopt;
   StoredGroups stored = read_groups(file_, "world", layout::world_table);
-  const hdf5::Group group = file_.open_group("world");
-  if (!group.contains("success")) return stored;
-  const bool has_goal = group.contains("goal_met");
-  const layout::TableIo counts = layout::TableIo::open(file_, layout::world_count_table(has_goal));
-  stored.success = layout::read_column<std::int64_t>(counts, 0);
-  stored.trials = layout::read_column<std::int64_t>(counts, 1);
-  if (has_goal) stored.goal_met = layout::read_column<std::int64_t>(counts, 2);
-  validate_worlds(header_, counts, stored.success, stored.trials, stored.goal_met);
+  read_counts(file_, header_, "world", layout::world_count_table, stored);
+  return stored;
+}
+
+std::optional<StoredGroups> ResultsFile::conditions() const {
+  if (!file_.contains("condition")) return std::nullopt;
+  const layout::TableIo io = layout::TableIo::open(file_, layout::condition_table());
+  StoredGroups stored;
+  stored.count = io.rows();
+  stored.names = io.column(0).read_texts();
+  read_counts(file_, header_, "condition", layout::condition_count_table, stored);
   return stored;
 }
 

@@ -34,14 +34,16 @@ struct StoredProfile {
   std::string theta_unit{"rad"};
 };
 
-/// The rigs, or worlds, of a study as they stand in a results file.
+/// The rigs, worlds or conditions of a study as they stand in a results file.
 struct StoredGroups {
   std::int64_t count{0};
   std::vector<study::InputColumn> columns;  ///< what differs between them
   std::vector<std::vector<double>> inputs;  ///< [column][group]
-  std::vector<std::int64_t> success;   ///< [point][group] trials that succeeded, flattened; empty in a part
-  std::vector<std::int64_t> trials;    ///< [point][group] trials that were judged, flattened; empty in a part
-  std::vector<std::int64_t> goal_met;  ///< [point][world] trials that meet the goal; empty without a goal
+  std::vector<std::int64_t> success;  ///< [point][group] trials that succeeded, flattened; empty in a part
+  std::vector<std::int64_t> trials;   ///< [point][group] trials that were judged, flattened; empty in a part
+  std::vector<std::int64_t>
+      goal_met;  ///< [point][group] trials that meet the goal; empty of rigs, and without a goal
+  std::vector<std::string> names;  ///< [group] of conditions; otherwise empty
 };
 
 /// A results file, part or shard, open to be read: the description of the study, the tables by design point
@@ -79,6 +81,8 @@ class ResultsFile {
   std::optional<StoredGroups> rigs() const;
   /// Nothing in a study without worlds, and in a shard.
   std::optional<StoredGroups> worlds() const;
+  /// Nothing in a study without conditions, and in a shard.
+  std::optional<StoredGroups> conditions() const;
 
   /// Nothing with `keep: statistics`.
   const std::optional<TrialTables>& trials() const { return trials_; }

@@ -219,20 +219,20 @@ void validate_rigs(const layout::FileHeader& header, const layout::TableIo& coun
   }
 }
 
-void validate_worlds(const layout::FileHeader& header, const layout::TableIo& counts,
+void validate_groups(std::string_view name, const layout::FileHeader& header, const layout::TableIo& counts,
                      std::span<const std::int64_t> success, std::span<const std::int64_t> trials,
                      std::span<const std::int64_t> goal_met) {
-  const std::int64_t worlds = counts.width();
+  const std::int64_t groups = counts.width();
   if (counts.rows() != header.points) counts.column(0).fail("its size differs from the points of the study");
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    const std::int64_t world = static_cast<std::int64_t>(i) % worlds;
-    const std::int64_t most = (header.trials - world + worlds - 1) / worlds;
+    const std::int64_t group = static_cast<std::int64_t>(i) % groups;
+    const std::int64_t most = (header.trials - group + groups - 1) / groups;
     const auto within = [&](std::int64_t count, std::int64_t limit) { return count >= 0 && count <= limit; };
     if (within(trials[i], most) && within(success[i], trials[i]) &&
         (goal_met.empty() || within(goal_met[i], trials[i])))
       continue;
-    counts.column(0).fail(fmt::format("row {}: impossible counts of world {}; expected 0 to {} trials",
-                                      static_cast<std::int64_t>(i) / worlds, world, most));
+    counts.column(0).fail(fmt::format("row {}: impossible counts of {} {}; expected 0 to {} trials",
+                                      static_cast<std::int64_t>(i) / groups, name, group, most));
   }
 }
 

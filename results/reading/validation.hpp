@@ -56,9 +56,9 @@ void validate_jerk_counts(const layout::TableIo& table, std::span<const std::int
 void validate_rigs(const layout::FileHeader& header, const layout::TableIo& counts,
                    std::span<const std::int64_t> success, std::span<const std::int64_t> trials);
 
-/// Counts of the worlds, [point][world]: not more trials than a world has, and of them successes and those
-/// that meet the goal. @param goal_met empty without a goal
-void validate_worlds(const layout::FileHeader& header, const layout::TableIo& counts,
+/// Counts of the worlds (conditions), [point][group]: not more trials than one has, and of them successes and
+/// those that meet the goal. @param goal_met empty without a goal
+void validate_groups(std::string_view name, const layout::FileHeader& header, const layout::TableIo& counts,
                      std::span<const std::int64_t> success, std::span<const std::int64_t> trials,
                      std::span<const std::int64_t> goal_met);
 

@@ -152,6 +152,7 @@ hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const stu
   write_profiles(file, study);
   if (study.rigs > 0) write_rigs(file, study);
   if (study.worlds > 0) write_worlds(file, study);
+  if (!study.conditions.empty()) write_conditions(file, study);
   if (!study.retained_trials.empty())
     join(layout::on_axis(layout::trace_table(study.features), study.units.axis), 1, 0, options.renumber);
   return file.close();
@@ -222,6 +223,7 @@ void MergedFile::write_statistics(const layout::StoredStatistics& statistics) {
   if (!statistics.rig_successes.empty())
     write_rig_counts(file_, study_, statistics.rig_successes, points.first);
   if (statistics.worlds) write_world_counts(file_, study_, *statistics.worlds, points.first);
+  if (statistics.conditions) write_condition_counts(file_, study_, *statistics.conditions, points.first);
 }
 
 void MergedFile::finish() {

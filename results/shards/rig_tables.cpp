@@ -79,6 +79,15 @@ layout::TableIo table_of_counts(hdf5::File& file, const layout::Table& table, co
   return io;
 }
 
+void write_group_counts(layout::TableIo io, const layout::GroupCounts& counts, std::int64_t first) {
+  for (std::size_t point = 0; point < counts.trials.size(); ++point) {
+    const auto row = first + static_cast<std::int64_t>(point);
+    io.column(0).write(row, 1, counts.success[point].data());
+    io.column(1).write(row, 1, counts.trials[point].data());
+    if (!counts.goal_met.empty()) io.column(2).write(row, 1, counts.goal_met[point].data());
+  }
+}
+
 }  // namespace
 
 void write_profiles(hdf5::File& file, const study::Study& study) {
@@ -101,16 +110,25 @@ void write_worlds(hdf5::File& file, const study::Study& study) {
                [&](std::int64_t world) { return study::world_inputs(study, world); });
 }
 
-void write_world_counts(hdf5::File& file, const study::Study& study, const layout::WorldCounts& counts,
+void write_world_counts(hdf5::File& file, const study::Study& study, const layout::GroupCounts& counts,
                         std::int64_t first) {
-  const bool has_goal = !counts.goal_met.empty();
-  layout::TableIo io = table_of_counts(file, layout::world_count_table(has_goal), study, study.worlds, first);
-  for (std::size_t point = 0; point < counts.trials.size(); ++point) {
-    const auto row = first + static_cast<std::int64_t>(point);
-    io.column(0).write(row, 1, counts.success[point].data());
-    io.column(1).write(row, 1, counts.trials[point].data());
-    if (has_goal) io.column(2).write(row, 1, counts.goal_met[point].data());
-  }
+  write_group_counts(
+      table_of_counts(file, layout::world_count_table(!counts.goal_met.empty()), study, study.worlds, first),
+      counts, first);
+}
+
+void write_conditions(hdf5::File& file, const study::Study& study) {
+  layout::TableIo io =
+      layout::TableIo::create(file, layout::condition_table(), std::ssize(study.conditions), 1);
+  io.number_rows(0);
+  io.column(0).write_texts(study.conditions);
+}
+
+void write_condition_counts(hdf5::File& file, const study::Study& study, const layout::GroupCounts& counts,
+                            std::int64_t first) {
+  write_group_counts(table_of_counts(file, layout::condition_count_table(!counts.goal_met.empty()), study,
+                                     std::ssize(study.conditions), first),
+                     counts, first);
 }
 
 void write_rig_counts(hdf5::File& file, const study::Study& study,

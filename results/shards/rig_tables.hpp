@@ -24,7 +24,14 @@ void write_rig_counts(hdf5::File& file, const study::Study& study,
 void write_worlds(hdf5::File& file, const study::Study& study);
 
 /// Writes the trials of the worlds at the points from `first` on to /world.
-void write_world_counts(hdf5::File& file, const study::Study& study, const layout::WorldCounts& counts,
+void write_world_counts(hdf5::File& file, const study::Study& study, const layout::GroupCounts& counts,
                         std::int64_t first);
+
+/// Writes the names of the conditions of a study to /condition.
+void write_conditions(hdf5::File& file, const study::Study& study);
+
+/// Writes the trials under the conditions at the points from `first` on to /condition.
+void write_condition_counts(hdf5::File& file, const study::Study& study, const layout::GroupCounts& counts,
+                            std::int64_t first);
 
 }  // namespace zerocount::shards

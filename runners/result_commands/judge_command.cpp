@@ -6,6 +6,7 @@
 
 #include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
+#include "analysis/summary/conditions_of_point.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "analysis/summary/worlds_description.hpp"
 #include "analysis/summary/worlds_of_point.hpp"
@@ -26,7 +27,8 @@ constexpr const char* judge_help =
     "machines? One paragraph tells the point, the verdict, its bounds, and what would decide it.\n"
     "The bounds of the best of several points allow for its choice; --point judges a point that\n"
     "was chosen beforehand. In a study with worlds the goal must be met in each of them; the rates are\n"
-    "those of the worst world, and a rule says what the bad worlds have in common.\n"
+    "those of the worst world, and a rule says what the bad worlds have in common. With conditions a\n"
+    "table says under which of them the goal is met or missed.\n"
     "The exit code is 0 if the goal is met, 1 if it is missed, 3 if the trials do not decide it.\n"
     "\n"
     "Example: zerocount judge gains.h5\n"
@@ -36,6 +38,7 @@ struct Judgement {
   const summary::StudySummary& summary;
   summary::JudgedPoint judged;
   std::optional<worlds::PointWorlds> worlds;
+  std::vector<summary::ConditionOfPoint> conditions;  ///< [condition]; empty without conditions
 
   const std::string& label() const { return summary.labels[static_cast<std::size_t>(judged.chosen.point)]; }
   std::optional<double> of_machines(double bound) const {
@@ -50,6 +53,8 @@ struct Judgement {
 document::AnswerDescription<Judgement> judge_answer() {
   using document::Shown;
   using Of = const Judgement&;
+  goal::Question with_claim;
+  with_claim.parts.front().claim.emplace();
   document::AnswerDescription<Judgement> answer{
       {.name = "judge", .meaning = "whether a study meets its goal"}, {}};
   answer.items.headline([](Of j) { return summary::judgement_headline(j.summary, j.judged); })
@@ -85,7 +90,10 @@ document::AnswerDescription<Judgement> judge_answer() {
       .object({.key = "needed", .meaning = "study that would decide the goal", .shown = Shown::in_data},
               goal::needs_description(), [](Of j) { return goal::practicable(j.judged.needs); })
       .object({.key = "worlds", .meaning = "the worlds at the point", .shown = Shown::in_data},
-              summary::worlds_description(), &Judgement::worlds_reading);
+              summary::worlds_description(), &Judgement::worlds_reading)
+      .table({.key = "conditions", .heading = "by condition", .meaning = "the point under each condition"},
+             summary::condition_description(with_claim), &Judgement::conditions)
+      .sentence([](Of j) { return summary::conditions_sentence(j.summary, j.conditions); });
   return answer;
 }
 
@@ -111,7 +119,8 @@ ExitCode judge(const command_line::Arguments& arguments) {
   const summary::ChosenPoint chosen = summary::choose_point(summary, point);
   const Judgement judgement{
       summary, summary::judge_point(summary, chosen),
-      summary::worlds_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from))};
+      summary::worlds_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
+      summary::conditions_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from))};
   return answers::print(
       arguments, judge_answer().of(judgement, commands::exit_code_of(judgement.judged.verdict.status)));
 }

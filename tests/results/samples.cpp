@@ -273,11 +273,11 @@ study::Study sample_study_in_worlds() {
 }
 
 /// Counts of the trials in the file. A trial is taken to meet the goal if its first move arrived.
-layout::WorldCounts counted_worlds(const reading::AllTrialsFile& file, std::int64_t worlds) {
+layout::GroupCounts counted_worlds(const reading::AllTrialsFile& file, std::int64_t worlds) {
   const std::vector<std::vector<std::int64_t>> none(
       static_cast<std::size_t>(file.header().points),
       std::vector<std::int64_t>(static_cast<std::size_t>(worlds), 0));
-  layout::WorldCounts counts{none, none, none};
+  layout::GroupCounts counts{none, none, none};
   const std::vector<trial::MoveOutcome> outcomes = file.outcomes(file.rows());
   for (std::int64_t row = 0; row < file.rows().count; ++row) {
     const auto point = static_cast<std::size_t>(row / file.header().trials);

@@ -48,7 +48,7 @@ std::filesystem::path write_sample_file(const std::filesystem::path& directory, 
 study::Study sample_study_in_worlds();
 
 /// Counts of the trials in the file. A trial is taken to meet the goal if its first move arrived.
-layout::WorldCounts counted_worlds(const reading::AllTrialsFile& file, std::int64_t worlds);
+layout::GroupCounts counted_worlds(const reading::AllTrialsFile& file, std::int64_t worlds);
 
 /// A results file of a study with worlds. A trial is taken to meet the goal if its first move arrived.
 /// @param size trials of a shard

@@ -50,7 +50,7 @@ TEST(WorldTables, HaveTheTrialsOfEveryWorldAtEveryPoint) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_in_worlds();
   const reading::AllTrialsFile file(write_file_in_worlds(directory.path(), study));
-  const layout::WorldCounts counts = counted_worlds(file, 7);
+  const layout::GroupCounts counts = counted_worlds(file, 7);
   EXPECT_EQ(counts.trials[1], (std::vector<std::int64_t>{6, 6, 6, 6, 6, 5, 5}));
   const reading::StoredGroups stored = file.worlds().value();
   EXPECT_EQ(stored.trials, flattened(counts.trials));

@@ -1,0 +1,137 @@
+#include "analysis/summary/conditions_of_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/goal/goal_description.hpp"
+#include "analysis/goal/question.hpp"
+#include "analysis/statistics/clusters/clustered_proportion.hpp"
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/text/percent.hpp"
+
+namespace zerocount::summary {
+namespace {
+
+/// The proportion of trials that succeed; with worlds in the worst of them.
+goal::BoundedProportion success_of(const measures::MoveCounts& counts, double confidence) {
+  std::vector<measures::MoveCounts> worlds = measures::in_worlds(counts);
+  if (worlds.empty()) worlds.push_back(counts);
+  const double each = statistics::confidence_of_each(confidence, worlds.size());
+  goal::BoundedProportion lowest;
+  for (std::size_t world = 0; world < worlds.size(); ++world) {
+    const statistics::ClusterSums sums = measures::clusters_of(worlds[world]);
+    const goal::BoundedProportion one{statistics::rate(worlds[world].met, worlds[world].moves),
+                                      statistics::clustered_at_least(sums, each),
+                                      statistics::clustered_at_most(sums, each)};
+    lowest = world == 0 ? one : goal::lowest(lowest, one);
+  }
+  return lowest;
+}
+
+void judge(const study::Goal& claim, const measures::MoveCounts& counts, std::size_t points,
+           std::size_t conditions, ConditionOfPoint& condition) {
+  const goal::Verdict alone = goal::judge_goal(claim, counts, points);
+  condition.rate = claim.machines ? alone.machines : alone.moves;
+  condition.status = alone.status;
+  if (alone.status == goal::Status::missed &&
+      goal::judge_goal(claim, counts, points * conditions).status != goal::Status::missed)
+    condition.status = goal::Status::undecided;
+}
+
+}  // namespace
+
+std::vector<ConditionOfPoint> conditions_of_point(const StudySummary& summary, std::int64_t point,
+                                                  std::size_t points) {
+  std::vector<ConditionOfPoint> found;
+  const measures::PointSummary& statistics = summary.points[static_cast<std::size_t>(point)];
+  if (!statistics.conditions) return found;
+  const std::optional<study::Goal>& claim = summary.question.claim();
+  const auto& succeeded = measures::in_conditions(statistics.conditions->succeeded);
+  const auto& meeting = measures::in_conditions(statistics.conditions->meeting);
+  for (std::size_t c = 0; c < succeeded.size(); ++c) {
+    ConditionOfPoint one;
+    one.name = summary.conditions[c];
+    one.trials = succeeded[c].moves;
+    one.success = succeeded[c].met;
+    if (claim) {
+      one.goal_met = meeting[c].met;
+      judge(*claim, measures::in_conditions(*statistics.goal)[c], points, succeeded.size(), one);
+    } else {
+      one.rate = success_of(succeeded[c], summary.confidence);
+    }
+    found.push_back(std::move(one));
+  }
+  return found;
+}
+
+std::size_t worst_condition(const std::vector<ConditionOfPoint>& conditions) {
+  const auto key = [](const ConditionOfPoint& one) {
+    return std::isnan(one.rate.value) ? 2.0 : one.rate.value;  // without trials: the last
+  };
+  const auto worst = std::ranges::min_element(conditions, {}, key);
+  return static_cast<std::size_t>(worst - conditions.begin());
+}
+
+document::Description<ConditionOfPoint> condition_description(const goal::Question& question) {
+  using Of = const ConditionOfPoint&;
+  document::Description<ConditionOfPoint> description;
+  description.value({"condition", "condition", "what every machine bears"}, &ConditionOfPoint::name)
+      .value({"trials", "trials", "trials under the condition"}, &ConditionOfPoint::trials)
+      .value({"success", "succeeded", "trials all of whose moves ended at zero error"},
+             &ConditionOfPoint::success);
+  if (question.claim())
+    description.value({.key = "goal_met",
+                       .heading = "in goal",
+                       .meaning = "trials all of whose moves meet the goal",
+                       .optional = true},
+                      &ConditionOfPoint::goal_met);
+  description.value({.key = "rate",
+                     .heading = "rate [bounds]",
+                     .meaning = "proportion that the question is about, with one-sided bounds",
+                     .unit = "1",
+                     .notation = document::Notation::percent},
+                    [](Of c) { return goal::bounded(c.rate); });
+  if (question.claim())
+    description.value(
+        {.key = "status",
+         .heading = "goal",
+         .meaning = "verdict on the goal under the condition",
+         .words = goal::status_words(),
+         .optional = true},
+        [](Of c) { return c.status ? std::optional(std::string(goal::text_of(*c.status))) : std::nullopt; });
+  return description;
+}
+
+std::string conditions_sentence(const StudySummary& summary,
+                                const std::vector<ConditionOfPoint>& conditions) {
+  if (conditions.empty()) return {};
+  const ConditionOfPoint& worst = conditions[worst_condition(conditions)];
+  const std::string lowest =
+      fmt::format("lowest under condition {}: {} of {}", worst.name, text::percent_near(worst.rate.value),
+                  goal::judged_meeting(summary.question));
+  if (!summary.question.claim()) return lowest;
+  std::string text;
+  for (const goal::Status status : {goal::Status::missed, goal::Status::undecided, goal::Status::met}) {
+    std::vector<std::string> names;
+    for (const ConditionOfPoint& one : conditions) {
+      if (one.status == status) names.push_back(one.name);
+    }
+    if (names.empty()) continue;
+    text += fmt::format("{}{} under {}", text.empty() ? "the goal is " : ", ", goal::text_of(status),
+                        fmt::join(names, ", "));
+  }
+  return text + "; " + lowest;
+}
+
+std::string averaged_over(const StudySummary& summary) {
+  const bool worlds = summary.question.worlds > 0;
+  const bool conditions = !summary.conditions.empty();
+  if (!worlds && !conditions) return "";
+  return fmt::format("on average over the {}{}{}: ", worlds ? "worlds" : "",
+                     worlds && conditions ? " and " : "", conditions ? "conditions" : "");
+}
+
+}  // namespace zerocount::summary

@@ -100,6 +100,13 @@ class ObservedStudy {
 
 Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
                double probability, std::size_t parts) {
+  if (!counts.of_conditions.empty()) {
+    const std::size_t conditions = counts.of_conditions.size();
+    const std::size_t worst = judge_goal(goal, counts, points, parts).condition;
+    Needs needs = needs_of(goal, counts.of_conditions[worst], points, probability, parts * conditions);
+    needs.trials *= static_cast<std::int64_t>(conditions);
+    return needs;
+  }
   const std::vector<measures::MoveCounts> all =
       counts.worlds > 0 ? measures::in_worlds(counts) : std::vector{counts};
   if (std::ranges::any_of(all, [](const measures::MoveCounts& world) { return world.moves == 0; })) return {};

@@ -112,8 +112,22 @@ std::string_view text_of(Status status) {
   return "undecided";
 }
 
+bool is_worse(const Verdict& one, const Verdict& other) {
+  return std::pair(rank_of(one.status), one.margin) < std::pair(rank_of(other.status), other.margin);
+}
+
 Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
                    std::size_t parts) {
+  if (!counts.of_conditions.empty()) {
+    std::vector<Verdict> each;
+    for (const measures::MoveCounts& condition : counts.of_conditions)
+      each.push_back(judge_goal(goal, condition, points, parts * counts.of_conditions.size()));
+    const auto worst = std::ranges::min_element(each, is_worse);
+    Verdict verdict = *worst;
+    verdict.condition = static_cast<std::size_t>(worst - each.begin());
+    verdict.conditions = std::move(each);
+    return verdict;
+  }
   Verdict verdict = counts.worlds > 0 ? judge_worlds(goal, counts, points, parts)
                                       : judge_world(goal, counts, {goal, points, parts});
   verdict.margin = margin_of(goal, verdict);
@@ -126,12 +140,9 @@ Verdict judge_goals(std::span<const study::Goal> goals, std::span<const measures
   for (std::size_t i = 0; i < goals.size(); ++i)
     each.push_back(judge_goal(goals[i], counts[i], points, goals.size()));
   if (each.size() == 1) return each.front();
-  std::size_t worst = 0;
-  const auto place = [&](std::size_t i) { return std::pair(rank_of(each[i].status), each[i].margin); };
-  for (std::size_t i = 1; i < each.size(); ++i)
-    if (place(i) < place(worst)) worst = i;
-  Verdict verdict = each[worst];
-  verdict.goal = worst;
+  const auto worst = std::ranges::min_element(each, is_worse);
+  Verdict verdict = *worst;
+  verdict.goal = static_cast<std::size_t>(worst - each.begin());
   verdict.goals = std::move(each);
   return verdict;
 }

@@ -51,14 +51,17 @@ struct Verdict {
   std::int64_t rigs_meeting{0};  ///< rigs that meet it in Goal::moves of their moves, as observed
   std::int64_t rigs_without_miss{0};   ///< rigs all of whose moves meet the goal
   std::vector<WorldVerdict> worlds{};  ///< [world]; empty without worlds
-  double margin{0.0};   ///< logit of the lower bound of what is claimed, minus that of what is asked for
-  std::size_t goal{0};  ///< of several, the worst: the one that all of this is of
-  std::vector<Verdict> goals{};  ///< [goal] each of several; empty of one
+  double margin{0.0};        ///< logit of the lower bound of what is claimed, minus that of what is asked for
+  std::size_t goal{0};       ///< of several, the worst: the one that all of this is of
+  std::size_t condition{0};  ///< the worst, which all of this is of
+  std::vector<Verdict> conditions{};  ///< [condition] each; empty without conditions
+  std::vector<Verdict> goals{};       ///< [goal] each of several; empty of one
 };
 
 /// The verdict by Goal::machines, or by Goal::moves where the goal does not ask for machines.
 /// @param points number of design points from which the point was chosen by its trials; 1 if it was chosen
 /// before. The bounds have the confidence 1 − (1 − γ)/points (Bonferroni).
+/// With conditions it is that of the worst condition, as of several goals the worst (judge_goals()).
 /// @param parts that the goal is one of, all of which must be met: goals
 Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
                    std::size_t parts = 1);
@@ -69,6 +72,9 @@ Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, 
 /// @param counts [goal]
 Verdict judge_goals(std::span<const study::Goal> goals, std::span<const measures::MoveCounts> counts,
                     std::size_t points);
+
+/// Whether the first is worse: missed before undecided before met; of equals that with the smaller margin.
+bool is_worse(const Verdict& one, const Verdict& other);
 
 /// The worlds in order of their proportions, the worst first: of machines that meet the goal where it asks
 /// for them, else of moves.

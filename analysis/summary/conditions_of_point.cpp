@@ -31,14 +31,18 @@ goal::BoundedProportion success_of(const measures::MoveCounts& counts, double co
   return lowest;
 }
 
-void judge(const study::Goal& claim, const measures::MoveCounts& counts, std::size_t points,
-           std::size_t conditions, ConditionOfPoint& condition) {
-  const goal::Verdict alone = goal::judge_goal(claim, counts, points);
-  condition.rate = claim.machines ? alone.machines : alone.moves;
-  condition.status = alone.status;
-  if (alone.status == goal::Status::missed &&
-      goal::judge_goal(claim, counts, points * conditions).status != goal::Status::missed)
-    condition.status = goal::Status::undecided;
+/// The verdict under a condition: of several goals that of the worst.
+void judge(const goal::Question& question, const goal::Verdict& of_point, std::size_t number,
+           ConditionOfPoint& condition) {
+  std::vector<goal::Verdict> goals = of_point.goals.empty() ? std::vector{of_point} : of_point.goals;
+  std::size_t worst = 0;
+  for (std::size_t i = 1; i < goals.size(); ++i) {
+    if (is_worse(goals[i].conditions.at(number), goals[worst].conditions.at(number))) worst = i;
+  }
+  const goal::Verdict& verdict = goals[worst].conditions.at(number);
+  condition.rate = question.parts[worst].claim->machines ? verdict.machines : verdict.moves;
+  condition.status = verdict.status;
+  if (has_several(question)) condition.goal = question.parts[worst].claim->name;
 }
 
 }  // namespace
@@ -48,7 +52,9 @@ std::vector<ConditionOfPoint> conditions_of_point(const StudySummary& summary, s
   std::vector<ConditionOfPoint> found;
   const measures::PointSummary& statistics = summary.points[static_cast<std::size_t>(point)];
   if (!statistics.conditions) return found;
-  const std::optional<study::Goal>& claim = summary.question.claim();
+  const std::optional<goal::Verdict> verdict =
+      summary.question.claim() ? std::optional(verdict_on(summary.question, statistics, points))
+                               : std::nullopt;
   const auto& succeeded = measures::in_conditions(statistics.conditions->succeeded);
   const auto& meeting = measures::in_conditions(statistics.conditions->meeting);
   for (std::size_t c = 0; c < succeeded.size(); ++c) {
@@ -56,9 +62,9 @@ std::vector<ConditionOfPoint> conditions_of_point(const StudySummary& summary, s
     one.name = summary.conditions[c];
     one.trials = succeeded[c].moves;
     one.success = succeeded[c].met;
-    if (claim) {
+    if (verdict) {
       one.goal_met = meeting[c].met;
-      judge(*claim, measures::in_conditions(*statistics.goal)[c], points, succeeded.size(), one);
+      judge(summary.question, *verdict, c, one);
     } else {
       one.rate = success_of(succeeded[c], summary.confidence);
     }
@@ -88,6 +94,12 @@ document::Description<ConditionOfPoint> condition_description(const goal::Questi
                        .meaning = "trials all of whose moves meet the goal",
                        .optional = true},
                       &ConditionOfPoint::goal_met);
+  if (has_several(question))
+    description.value({.key = "goal",
+                       .heading = "worst goal",
+                       .meaning = "name of the goal that the next numbers are of",
+                       .optional = true},
+                      &ConditionOfPoint::goal);
   description.value({.key = "rate",
                      .heading = "rate [bounds]",
                      .meaning = "proportion that the question is about, with one-sided bounds",
@@ -97,7 +109,7 @@ document::Description<ConditionOfPoint> condition_description(const goal::Questi
   if (question.claim())
     description.value(
         {.key = "status",
-         .heading = "goal",
+         .heading = "verdict",
          .meaning = "verdict on the goal under the condition",
          .words = goal::status_words(),
          .optional = true},

@@ -17,6 +17,7 @@ struct ConditionOfPoint {
   std::int64_t trials{0};
   std::int64_t success{0};                 ///< trials all of whose moves ended at zero error
   std::optional<std::int64_t> goal_met{};  ///< trials all of whose moves meet the goal; none without one
+  std::optional<std::string> goal{};       ///< name of the worst goal, of several
   goal::BoundedProportion rate;            ///< of machines, moves or trials, as judged_head() says
   std::optional<goal::Status> status{};    ///< of the goal under this condition; none without a goal
 };

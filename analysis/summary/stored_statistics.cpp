@@ -81,10 +81,10 @@ layout::StoredStatistics stored_statistics(std::span<const measures::PointSummar
   }
   using measures::PointSummary;
   if (study.worlds > 0)
-    stored.worlds = group_counts(points, study.worlds, study.goal.has_value(), &PointSummary::worlds,
-                                 measures::in_worlds);
+    stored.worlds =
+        group_counts(points, study.worlds, !study.goals.empty(), &PointSummary::worlds, measures::in_worlds);
   if (!study.conditions.empty())
-    stored.conditions = group_counts(points, std::ssize(study.conditions), study.goal.has_value(),
+    stored.conditions = group_counts(points, std::ssize(study.conditions), !study.goals.empty(),
                                      &PointSummary::conditions, measures::in_conditions);
   return stored;
 }

@@ -329,8 +329,9 @@ TEST(OptionsWithoutEffect, AreErrorsOfEveryVerb) {
       }
       for (const std::string& excluded : option.excludes) {
         ++conditions;
-        EXPECT_NE(refusal_of(spec, operand, {&option, &option_of(spec, excluded)}).find("exclude each other"),
-                  std::string::npos)
+        std::vector<const command_line::OptionSpec*> all{&option, &option_of(spec, excluded)};
+        for (const std::string& need : option.needs) all.push_back(&option_of(spec, need));
+        EXPECT_NE(refusal_of(spec, operand, all).find("exclude each other"), std::string::npos)
             << spec.name << own << excluded;
       }
       for (const std::string& word : spec.operand_words) {

@@ -82,7 +82,7 @@ std::optional<MeasuredFault> fault_of_machine(const StudyPlan& plan, std::size_t
     rows = std::get<distributions::Choice>(plan.distributions[value.index]).values.size();
   }
   for (std::size_t row = 0; row < rows; ++row) {
-    const auto fault = fault_within(plan, measured, [&](std::uint32_t slot) {
+    auto fault = fault_within(plan, measured, [&](std::uint32_t slot) {
       const Value& value = *value_at_point(plan, slot, point);
       if (!is_of_contact(slot)) return ends(slot);
       if (!is_sampled(slot)) return extremes_of(plan, value);

@@ -1,4 +1,5 @@
 // The moves of a design point by world: each world is counted as if it were a study of its own.
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -129,6 +130,45 @@ TEST_EACH_SEED(CountsByWorld, ThatDoNotAddUpAreImpossible) {
   MoveCounts one_less = counts;
   one_less.of_worlds.pop_back();
   EXPECT_FALSE(one_less.is_valid(trials(), moves, rigs));
+}
+
+// Each condition is counted as a study of its own, of the draws: by rig, by world, and added from parts.
+TEST(MoveCounts, TellConditionsApart) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    testing::Draws draws(seed);
+    const std::int64_t conditions = draws.integer(1, 4);
+    const std::int64_t worlds = draws.integer(0, 3);
+    const std::int64_t rigs = draws.integer(0, 1) * 2 * std::max<std::int64_t>(worlds, 1);
+    const std::int64_t of_each = std::max<std::int64_t>(rigs, 1) * draws.integer(1, 6);
+    const auto empty = [&] {
+      MoveCounts counts;
+      counts.tell_apart(worlds, conditions);
+      return counts;
+    };
+    MoveCounts all = empty(), first = empty(), rest = empty();
+    std::vector<MoveCounts> alone(static_cast<std::size_t>(conditions));
+    for (MoveCounts& one : alone) one.worlds = worlds;
+    const std::int64_t turn = std::max<std::int64_t>(rigs, 1);
+    const std::int64_t cut = draws.integer(0, of_each * conditions);
+    for (std::int64_t trial = 0; trial < of_each * conditions; ++trial) {
+      const std::int64_t met = draws.integer(0, 3);
+      all.add(trial, rigs, 3, met);
+      (trial < cut ? first : rest).add(trial, rigs, 3, met);
+      alone[static_cast<std::size_t>(trial / turn % conditions)].add(
+          trial % turn + turn * (trial / (turn * conditions)), rigs, 3, met);
+    }
+    EXPECT_EQ(numbers_of(in_conditions(all)), numbers_of(alone));
+    EXPECT_TRUE(all.is_valid(of_each * conditions, 3, rigs));
+    first += rest;
+    EXPECT_EQ(numbers_of(first), numbers_of(all));
+    const auto [whole, real] = numbers_of(all);
+    statistics::StateReader reader(whole, real);
+    MoveCounts restored = empty();
+    reader(restored);
+    EXPECT_EQ(numbers_of(restored), numbers_of(all));
+    ++all.of_conditions.front().met;
+    EXPECT_FALSE(all.is_valid(of_each * conditions, 3, rigs));
+  }
 }
 
 }  // namespace

@@ -137,12 +137,15 @@ std::string goals_text(const Question& question, const measures::PointSummary& p
   }
   if (const auto all = rigs_meeting_all(question, point))
     text +=
-        fmt::format("  machines that meet all goals together: {} of {}, as observed\n", all->rigs, all->of);
+        fmt::format("  machines that meet all of this together: {} of {}, as observed\n", all->rigs, all->of);
   return text;
 }
 
 std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,
                           const Verdict& verdict) {
+  if (!counts.of_conditions.empty())
+    return "  under the worst condition:\n" +
+           readings_text(goal, counts.of_conditions[verdict.condition], verdict);
   if (!verdict.worlds.empty()) return readings_of_worlds(goal, verdict);
   std::string text = fmt::format("  of all moves of all machines, {} meet it: {} of {}, {}\n",
                                  text::percentage(counts.met, counts.moves), counts.met, counts.moves,

@@ -173,7 +173,10 @@ Verdict verdict_on(const Question& question, const measures::PointSummary& point
 
 measures::MoveCounts counts_of(const Question& question, const measures::PointSummary& point) {
   if (!question.claim()) return successes_of(point);
-  return point.goals.at(question.parts[has_several(question) ? verdict_on(question, point).goal : 0].number);
+  const measures::MoveCounts& first = point.goals.at(question.parts.front().number);
+  if (!has_several(question) && first.of_conditions.empty()) return first;
+  const Verdict verdict = verdict_on(question, point);
+  return measures::under_condition(point.goals.at(question.parts[verdict.goal].number), verdict.condition);
 }
 
 const measures::MeasureStatistics& settling_of(const Question& question,
@@ -224,7 +227,7 @@ QuestionRate rate_of(const Question& question, const measures::PointSummary& poi
   }
   const Verdict verdict = verdict_on(question, point, points);
   const JudgedPart& worst = question.parts[verdict.goal];
-  const measures::MoveCounts& all = point.goals[worst.number];
+  const measures::MoveCounts& all = measures::under_condition(point.goals[worst.number], verdict.condition);
   const measures::MoveCounts shown =
       all.worlds > 0 ? measures::in_worlds(all)[worst_worlds_first(*worst.claim, verdict).front()] : all;
   return {verdict.moves.value, {verdict.moves.low, verdict.moves.high}, shown.met, shown.moves};
@@ -246,13 +249,20 @@ RigsWithoutFailure rigs_without_failure(const Question& question, const measures
 
 std::optional<RigsWithoutFailure> rigs_meeting_all(const Question& question,
                                                    const measures::PointSummary& point) {
-  const auto on_machines = [](const JudgedPart& part) { return part.claim && part.claim->machines; };
-  if (std::ranges::count_if(question.parts, on_machines) < 2) return std::nullopt;
-  RigsWithoutFailure meeting{0, std::ssize(point.goals.front().rigs)};
-  for (std::size_t rig = 0; rig < point.goals.front().rigs.size(); ++rig) {
-    meeting.rigs += std::ranges::all_of(question.parts, [&](const JudgedPart& part) {
-      const statistics::RigMoves& moves = point.goals[part.number].rigs[rig];
-      return !part.claim->machines || statistics::rate(moves.met, moves.moves) >= part.claim->moves;
+  std::vector<std::pair<double, const measures::MoveCounts*>> claims;  // proportion of moves, of these
+  for (const JudgedPart& part : question.parts) {
+    if (!part.claim || !part.claim->machines) continue;
+    const measures::MoveCounts& counts = point.goals[part.number];
+    if (counts.of_conditions.empty()) claims.emplace_back(part.claim->moves, &counts);
+    for (const measures::MoveCounts& condition : counts.of_conditions)
+      claims.emplace_back(part.claim->moves, &condition);
+  }
+  if (claims.size() < 2) return std::nullopt;
+  RigsWithoutFailure meeting{0, std::ssize(claims.front().second->rigs)};
+  for (std::size_t rig = 0; rig < claims.front().second->rigs.size(); ++rig) {
+    meeting.rigs += std::ranges::all_of(claims, [&](const auto& claim) {
+      const statistics::RigMoves& moves = claim.second->rigs[rig];
+      return statistics::rate(moves.met, moves.moves) >= claim.first;
     });
   }
   return meeting;

@@ -147,8 +147,8 @@ inline bool is_of_machines(const Question& question) {
   return question.claim() && question.claim()->machines;
 }
 
-/// Rigs of a point that meet every goal on machines in its proportion of moves, and all that were judged;
-/// nothing unless several goals are on machines.
+/// Rigs of a point that meet every goal on machines in its proportion of moves under every condition, and all
+/// that were judged; nothing where only one claim is on machines.
 std::optional<RigsWithoutFailure> rigs_meeting_all(const Question& question,
                                                    const measures::PointSummary& point);
 

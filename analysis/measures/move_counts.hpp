@@ -52,4 +52,9 @@ inline const std::vector<MoveCounts>& in_conditions(const MoveCounts& counts) {
   return counts.of_conditions;
 }
 
+/// The counts under one condition; without conditions all.
+inline const MoveCounts& under_condition(const MoveCounts& counts, std::size_t condition) {
+  return counts.of_conditions.empty() ? counts : counts.of_conditions.at(condition);
+}
+
 }  // namespace zerocount::measures

@@ -42,7 +42,7 @@ JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen) 
   judged.verdict = verdict_on(summary.question, statistics, points);
   if (judged.verdict.status == goal::Status::undecided)
     judged.needs = goal::needs_of(worst_goal(summary, judged.verdict),
-                                  goal::counts_of(only(summary.question, judged.verdict.goal), statistics),
+                                  statistics.goals[summary.question.parts[judged.verdict.goal].number],
                                   points, goal::probability_of_needs, summary.question.parts.size());
   return judged;
 }

@@ -103,8 +103,8 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
                 goals_description(question, summary.features.rigs), &PointReading::verdict)
         .value({.key = "machines_together",
                 .meaning =
-                    "proportion of rigs that meet all goals on machines, as observed; nothing unless several "
-                    "goals are on machines",
+                    "proportion of rigs that meet all goals on machines, as observed; nothing where only one "
+                    "claim is on machines",
                 .unit = "1",
                 .shown = Shown::in_data},
                [question](const PointReading& p) -> std::optional<double> {

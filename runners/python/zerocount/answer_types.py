@@ -48,6 +48,8 @@ class CheckAnswer(Answer):
         Rigs at each point; 0: none.
     worlds : int
         Worlds; 0: none.
+    conditions : list[str]
+        Names of the conditions that every rig bears; empty: none.
     judged_by : str or None
         What the moves are judged by; null without targets.
     stopping : pandas.DataFrame
@@ -87,6 +89,7 @@ class CheckAnswer(Answer):
 
         - ``point``: number of the design point
         - ``label``: label of the design point
+        - ``condition``: what every machine bears
         - ``outside``: why (6) and (7) do not apply; null: they do
         - ``hunting_left_out``: part of the loop that the predictions leave out
         - ``hunting_by_function``: cycles of trial 0 by describing function
@@ -149,6 +152,7 @@ class CheckAnswer(Answer):
     moves: int
     rigs: int
     worlds: int
+    conditions: list[str]
     judged_by: str | None
     stopping: pandas.DataFrame
     cost: Cost
@@ -405,6 +409,15 @@ class SummaryAnswer(Answer):
           halfwidth_confidence, reached, of_rigs): what the rule that ended the study asked for, and what was reached
         - ``worlds``.* (n, success, success_rates, goal_rates, goal_status, met, missed, undecided, bad_worlds, rule):
           the worlds at the point
+        - ``conditions``: the point under each condition
+          - ``condition``: what every machine bears
+          - ``trials``: trials under the condition
+          - ``success``: trials all of whose moves ended at zero error
+          - ``goal_met``: trials all of whose moves meet the goal
+          - ``rate``: proportion that the question is about, with one-sided bounds
+          - ``rate_low``: lower bound
+          - ``rate_high``: upper bound
+          - ``status``: verdict on the goal under the condition
         - ``assurance``.* (success_at_least, failure_at_most, rule_of_three, settling_time, statement, rigs): what the
           trials show of all axes that the manifest describes
         - ``levels``: the torque levels
@@ -975,6 +988,18 @@ class JudgeAnswer(Answer):
         Study that would decide the goal.
     worlds : JudgeWorlds or None
         The worlds at the point.
+    conditions : pandas.DataFrame
+        The point under each condition.
+
+        - ``condition``: what every machine bears
+        - ``trials``: trials under the condition
+        - ``success``: trials all of whose moves ended at zero error
+        - ``goal_met``: trials all of whose moves meet the goal
+        - ``rate``: proportion that the question is about, with one-sided bounds
+        - ``rate_low``: lower bound
+        - ``rate_high``: upper bound
+        - ``status``: verdict on the goal under the condition
+
     """
 
     _records = {"needed": Needed, "worlds": JudgeWorlds}
@@ -991,6 +1016,7 @@ class JudgeAnswer(Answer):
     chosen_from: int
     needed: Needed | None
     worlds: JudgeWorlds | None
+    conditions: pandas.DataFrame
 
 
 class LearnAnswer(Answer):

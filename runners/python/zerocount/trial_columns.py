@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -75,15 +76,21 @@ class TrialColumns:
         of_goals = [self.meets_goal(goal, outcome) for goal in self.study.goals]
         if any(met is None for met in of_goals):
             return {}
-        any_measure = next(iter(outcome.values()))
         values = np.logical_and.reduce(of_goals)
+        like = outcome[self.settling_time(self.study.goals[0])]
         meaning = "it meets the goal of the manifest" if len(of_goals) == 1 else "it meets the goals about it"
-        return {"goal_met": dataclasses.replace(any_measure, values=values, unit="1", meaning=meaning)}
+        return {"goal_met": dataclasses.replace(like, values=values, unit="1", meaning=meaning)}
 
-    def meets_goal(self, goal: Mapping[str, Any], outcome: Mapping[str, Column]) -> np.ndarray | None:
+    @staticmethod
+    def settling_time(goal: Mapping[str, Any]) -> str:
+        """The measure that a goal is about."""
+        if goal["tolerance"] is None:
+            return f"band_settling_time[{goal['band']}]"
+        return f"tolerance_settling_time[{goal['tolerance']}]"
+
+    def meets_goal(self, goal: Mapping[str, Any], outcome: Mapping[str, Column]) -> Array | None:
         """[trial, move] whether each move meets a goal, or it is not about the move; None where it cannot be told."""
-        key = "band_settling_time[{band}]" if goal["tolerance"] is None else "tolerance_settling_time[{tolerance}]"
-        times = outcome.get(key.format(**goal))
+        times = outcome.get(self.settling_time(goal))
         if times is None or any(measure not in outcome for measure in goal["limits"]):
             return None
         met = times.values <= goal["latest"]  # not where it is NaN

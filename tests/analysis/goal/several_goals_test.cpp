@@ -75,6 +75,41 @@ TEST_EACH_SEED(SeveralGoals, AreJudgedByTheWorst) {
   }
 }
 
+TEST_EACH_SEED(SeveralGoals, AreJudgedUnderEachConditionAlike) {
+  const std::int64_t conditions = draws.integer(2, 3);
+  std::vector<measures::MoveCounts> under(goals.size());
+  std::vector<std::vector<measures::MoveCounts>> alone(goals.size());
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    under[i].tell_apart(0, conditions);
+    alone[i].resize(static_cast<std::size_t>(conditions));
+    const double rate = draws.uniform(0.7, 1.0);
+    const std::int64_t each = std::max<std::int64_t>(rigs, 1);
+    for (std::int64_t trial = 0; trial < conditions * trials; ++trial) {
+      const std::int64_t met = draws.chance(rate);
+      under[i].add(trial, rigs, 1, met);
+      const std::int64_t draw = trial % each + each * (trial / (each * conditions));
+      alone[i][static_cast<std::size_t>(trial / each % conditions)].add(draw, rigs, 1, met);
+    }
+  }
+  const Verdict verdict = judge_goals(goals, under, 1);
+  const std::size_t parts = goals.size() * static_cast<std::size_t>(conditions);
+  bool all_met = true, one_missed = false;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    for (std::size_t c = 0; c < alone[i].size(); ++c) {
+      const Verdict one = judge_goal(goals[i], alone[i][c], 1, parts);
+      const Verdict& found = verdict.goals[i].conditions.at(c);
+      EXPECT_EQ(found.status, one.status);
+      EXPECT_EQ(found.moves.low, one.moves.low);
+      EXPECT_EQ(found.moves.high, one.moves.high);
+      EXPECT_FALSE(is_worse(one, verdict));
+      all_met = all_met && one.status == Status::met;
+      one_missed = one_missed || one.status == Status::missed;
+    }
+  }
+  EXPECT_EQ(verdict.status == Status::met, all_met);
+  EXPECT_EQ(verdict.status == Status::missed, one_missed);
+}
+
 /// Three standard deviations above a wrong claim in 5 % of the studies.
 double largest_number(int studies) {
   return studies * 0.05 + 3.0 * std::sqrt(studies * 0.05 * 0.95);

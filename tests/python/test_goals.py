@@ -1,0 +1,62 @@
+"""Several goals of a study, and goals on some of the moves, counted again from the recorded measures."""
+
+from __future__ import annotations
+
+import pathlib
+
+import pytest
+import zerocount as zc
+
+MANIFEST = """\
+zerocount: 1
+name: two-goals
+seed: 5
+rigs: 20
+trials: 100
+goals:
+  first: {on: [0], tolerance: 4.0e-6, within: 0.2, moves: 0.5, machines: 0.5, limits: {overshoot: 3}}
+  second: {on: [1], band: 1, within: 0.1, moves: 0.5, limits: {"band_exits[1]": 0}}
+friction: {k1: {uniform: [90, 130]}}
+controller: {sample_rate: 2000, ki: {uniform: [2.0e-5, 6.0e-5]}}
+command: {targets: [{integers: [1, 30]}, {integers: [-30, 30]}], hold: 0.3}
+initial: {encoder_phase: {uniform: [0, 1]}}
+sweep: {grid: {controller.delay: [0, 2]}}
+"""
+
+
+@pytest.fixture(scope="module")
+def results(folder: pathlib.Path) -> zc.Results:
+    """Results of the study with two goals."""
+    path = folder / "two-goals.yaml"
+    path.write_text(MANIFEST)
+    return zc.study(path).run(folder / "two-goals.h5")
+
+
+def test_moves_meet_the_goals_that_are_about_them(results: zc.Results) -> None:
+    """A move meets a goal within its time and its limits; the other goal says nothing of it."""
+    moves = results.moves().reset_index()
+    first = (moves["tolerance_settling_time[4e-06]"] <= 0.2 * (1 + 1e-9)) & (moves["overshoot"] <= 3)
+    second = (moves["band_settling_time[1]"] <= 0.1 * (1 + 1e-9)) & (moves["band_exits[1]"] == 0)
+    expected = first.where(moves["move"] == 0, second)
+    assert 0.02 < expected.mean() < 0.98
+    assert (moves["goal_met"] == expected).all()
+
+
+def test_the_summary_counts_them_by_goal(results: zc.Results) -> None:
+    """The rate of each goal is that of its own moves, and the goal of a point is the worst of them."""
+    moves = results.moves(inputs=True).reset_index()
+    for point in results.summary["points"]:
+        of_point = moves[moves["point"] == point["point"]]
+        for move, name in enumerate(("first", "second")):
+            rate = of_point[of_point["move"] == move]["goal_met"].mean()
+            assert point["goals"][name]["rate"] == pytest.approx(rate, abs=1e-12)
+        assert point["goal"] == {**point["goals"][point["goal"]["name"]], "name": point["goal"]["name"]} | (
+            {"machines": None, "machines_low": None, "machines_high": None} if point["goal"]["name"] == "second" else {}
+        )
+
+
+def test_several_goals_are_named(results: zc.Results) -> None:
+    """A study with several goals has no single one."""
+    assert results.study.goal is None
+    assert [goal["name"] for goal in results.study.goals] == ["first", "second"]
+    assert results.study.goals[1]["limits"] == {"band_exits[1]": 0.0}

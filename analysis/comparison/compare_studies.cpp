@@ -391,12 +391,18 @@ std::vector<manifest_text::ManifestDifference> axis_differences(const reading::A
   return differences;
 }
 
+void require_no_conditions(const reading::AllTrialsFile& file) {
+  const manifest_text::ManifestValues values = layout::manifest_values(file.header(), file.path().string());
+  if (std::ranges::any_of(values,
+                          [](const auto& value) { return keys::is_within(value.first, "conditions"); }))
+    study::refuse_conditions(file.study(), "zerocount compare");
+}
+
 }  // namespace
 
 StudyComparison compare_studies(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
                                 const GateRules& rules) {
-  for (const reading::AllTrialsFile* file : {&baseline, &current})
-    study::refuse_conditions(file->study(), "zerocount compare");
+  for (const reading::AllTrialsFile* file : {&baseline, &current}) require_no_conditions(*file);
   std::vector<MatchedPoint> points = match_points(baseline, current);
   manifest_text::ManifestValues old_values =
       layout::manifest_values(baseline.header(), baseline.path().string());
@@ -421,7 +427,7 @@ StudyComparison compare_studies(const reading::AllTrialsFile& baseline, const re
 
 StudyComparison compare_points(const reading::AllTrialsFile& file, std::int64_t baseline,
                                std::int64_t current, const GateRules& rules) {
-  study::refuse_conditions(file.study(), "zerocount compare");
+  require_no_conditions(file);
   const std::vector<std::string> labels = file.point_labels();
   const MatchedPoint point{labels[static_cast<std::size_t>(current)], baseline, current};
   const manifest_text::ManifestValues values = layout::manifest_values(file.header(), file.path().string());

@@ -280,7 +280,7 @@ MeasureSample sample_of_proportion(const GateMeasure& measure, const PointTrials
 constexpr double judged_quantile = 0.95;
 
 two_samples::ClusteredValues clustered_times(const PointTrials& trials, const GateMeasure& measure) {
-  return {trials.of(measure), trials.moves, trials.rigs};
+  return {trials.of(measure), trials.judged->asked_moves(trials.moves), trials.rigs};
 }
 
 std::int64_t units_in(const PointTrials& trials) {
@@ -292,7 +292,7 @@ void compare_quantile(MeasureComparison& result, const GateMeasure& measure, con
   const bool over_rigs = baseline.rigs > 0 || current.rigs > 0;
   result.baseline_n = units_in(baseline);
   result.current_n = units_in(current);
-  result.test = fmt::format("{} % quantile of all moves, by the moves later than that of both{}",
+  result.test = fmt::format("{} % quantile of all moves of the goal, by the moves later than that of both{}",
                             100.0 * judged_quantile, over_rigs ? ", over rigs" : "");
   if (std::min(result.baseline_n, result.current_n) < min_values) {
     result.note = fmt::format("fewer than {} {}", min_values, over_rigs ? "rigs" : "trials");

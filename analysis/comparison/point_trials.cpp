@@ -25,10 +25,9 @@ void add_to_goal(GoalTrials& goal, std::int64_t first, std::int64_t moves,
 void add_goal_times(PointTrials& trials, std::span<const trial::MoveOutcome> outcomes) {
   std::vector<double>& times = trials.values["goal_settling_time"];
   for (const trial::MoveOutcome& move : outcomes) {
+    if (!measures::asks(trials.judged->counted, move)) continue;
     const double time = measures::settling_time(trials.judged->counted, move);
-    times.push_back(!measures::asks(trials.judged->counted, move) ? statistics::unknown
-                    : std::isnan(time)                            ? std::numeric_limits<double>::infinity()
-                                                                  : time);
+    times.push_back(std::isnan(time) ? std::numeric_limits<double>::infinity() : time);
   }
 }
 

@@ -23,8 +23,8 @@ struct CountedLimit {
 /// limits; or to succeed (end at zero counts).
 struct CountedGoal {
   std::optional<std::size_t> slot{};       ///< of the band, in MoveOutcome::bands
-  std::optional<std::size_t> tolerance{};  ///< in MoveOutcome::tolerance_settling_times. Neither: it succeeds
   double within{0.0};                      ///< s; of a band or a tolerance
+  std::optional<std::size_t> tolerance{};  ///< in MoveOutcome::tolerance_settling_times. Neither: it succeeds
   std::vector<std::int64_t> on{};          ///< the moves that are asked, rising; empty: all
   std::vector<CountedLimit> limits{};
 };

@@ -1,6 +1,7 @@
 #include "runners/trials/variant.hpp"
 
 #include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/random/random_numbers.hpp"

@@ -299,6 +299,7 @@ std::filesystem::path write_file_in_worlds(const std::filesystem::path& director
     layout::StoredStatistics stored = sample_statistics(file);
     stored.worlds = counted_worlds(file, study.worlds);
     if (!has_goal) stored.worlds->goal_met.clear();
+    if (!study.conditions.empty()) stored.conditions = counted_worlds(file, std::ssize(study.conditions));
     return stored;
   };
   testing::merge_shards(shards, study, path, layout::all_rows(study), statistics, {sample_provenance()});

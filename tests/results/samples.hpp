@@ -50,7 +50,8 @@ study::Study sample_study_in_worlds();
 /// Counts of the trials in the file. A trial is taken to meet the goal if its first move arrived.
 layout::GroupCounts counted_worlds(const reading::AllTrialsFile& file, std::int64_t worlds);
 
-/// A results file of a study with worlds. A trial is taken to meet the goal if its first move arrived.
+/// A results file of a study with worlds, whose conditions, if it has any, are counted like worlds. A trial
+/// is taken to meet the goal if its first move arrived.
 /// @param size trials of a shard
 std::filesystem::path write_file_in_worlds(const std::filesystem::path& directory, const study::Study& study,
                                            bool has_goal = true, std::int64_t size = 17);

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -60,21 +60,21 @@ class TrialColumns:
         """The columns, those with a dimension of error bands as one column for each of them."""
         result = {}
         for name, column in columns.items():
-            limits = {"band": self.study.bands, "tolerance": self.study.tolerances}.get(column.dimensions[-1])
-            if limits is None:
+            limits: Mapping[str, Sequence[float]] = {"band": self.study.bands, "tolerance": self.study.tolerances}
+            if column.dimensions[-1] not in limits:
                 result[name] = column
                 continue
-            for place, band in enumerate(limits):
+            for place, limit in enumerate(limits[column.dimensions[-1]]):
                 values = column.values[..., place]
-                result[f"{name}[{band}]"] = dataclasses.replace(column, values=values, dimensions=column.dimensions[:-1])
+                result[f"{name}[{limit}]"] = dataclasses.replace(column, values=values, dimensions=column.dimensions[:-1])
         return result
 
     def meets(self, outcome: Mapping[str, Column]) -> dict[str, Column]:
         """[trial, move] whether each move meets the goals of the manifest that are about it, if there are any."""
         if not self.study.goals:
             return {}
-        of_goals = [self.meets_goal(goal, outcome) for goal in self.study.goals]
-        if any(met is None for met in of_goals):
+        of_goals = [met for goal in self.study.goals if (met := self.meets_goal(goal, outcome)) is not None]
+        if len(of_goals) < len(self.study.goals):
             return {}
         values = np.logical_and.reduce(of_goals)
         like = outcome[self.settling_time(self.study.goals[0])]
@@ -93,7 +93,7 @@ class TrialColumns:
         times = outcome.get(self.settling_time(goal))
         if times is None or any(measure not in outcome for measure in goal["limits"]):
             return None
-        met = times.values <= goal["latest"]  # not where it is NaN
+        met: Array = times.values <= goal["latest"]  # not where it is NaN
         for measure, largest in goal["limits"].items():
             met &= np.abs(outcome[measure].values.astype(float)) <= largest
         if goal["on"]:

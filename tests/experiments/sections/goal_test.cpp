@@ -50,7 +50,7 @@ TEST(Goals, HaveNamesMovesAndLimits) {
   const study::Study study =
       study_of(minimal_manifest("goals:\n"
                                 "  large: {on: [0], tolerance: 2.0e-6, within: 0.1, moves: 0.9, limits: "
-                                "{overshoot: 20, band_exits[3]: 1}}\n"
+                                "{overshoot: 20, \"band_exits[3]\": 1}}\n"
                                 "  small: {band: 3, within: 0.05, moves: 0.8}\n"));
   ASSERT_EQ(study.goals.size(), 2U);
   EXPECT_EQ(study.goals[0].name, "large");

@@ -138,7 +138,11 @@ TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
   for_each_dataset(write_sample_file(directory.path(), sample_study()), look_up);
   for_each_dataset(write_sample_file(directory_with_rigs.path(), sample_study_with_rigs()), look_up);
   for_each_dataset(write_sample_file(directory_with_companions.path(), with_companions), look_up);
-  for_each_dataset(write_file_in_worlds(directory_with_worlds.path(), sample_study_in_worlds()), look_up);
+  study::Study in_worlds = sample_study_in_worlds();
+  in_worlds.conditions = {"empty", "loaded"};
+  in_worlds.features.position_error = true;
+  in_worlds.features.tolerances = {{1.0e-6}, 1};
+  for_each_dataset(write_file_in_worlds(directory_with_worlds.path(), in_worlds), look_up);
   for (std::size_t i = 0; i < rows.size(); ++i)
     EXPECT_TRUE(used.contains(i)) << rows[i][0] << " is in no file";
 }

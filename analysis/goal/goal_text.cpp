@@ -136,8 +136,8 @@ std::string goals_text(const Question& question, const measures::PointSummary& p
                         readings_text(*part.claim, point.goals[part.number], one));
   }
   if (const auto all = rigs_meeting_all(question, point))
-    text +=
-        fmt::format("  machines that meet all of this together: {} of {}, as observed\n", all->rigs, all->of);
+    text += fmt::format("  machines that meet all claims on machines together: {} of {}, as observed\n",
+                        all->rigs, all->of);
   return text;
 }
 

@@ -81,7 +81,8 @@ double margin_of(const study::Goal& goal, const Verdict& verdict) {
                        : logit(verdict.moves.low) - logit(goal.moves);
 }
 
-/// From the worst status to the best.
+}  // namespace
+
 int rank_of(Status status) {
   switch (status) {
     case Status::missed:
@@ -93,8 +94,6 @@ int rank_of(Status status) {
   }
   return 2;
 }
-
-}  // namespace
 
 BoundedProportion lowest(const BoundedProportion& a, const BoundedProportion& b) {
   return {std::fmin(a.value, b.value), std::min(a.low, b.low), std::min(a.high, b.high)};

@@ -73,6 +73,8 @@ Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, 
 Verdict judge_goals(std::span<const study::Goal> goals, std::span<const measures::MoveCounts> counts,
                     std::size_t points);
 
+/// From the worst status, missed, to the best: 0, 1, 2.
+int rank_of(Status status);
 /// Whether the first is worse: missed before undecided before met; of equals that with the smaller margin.
 bool is_worse(const Verdict& one, const Verdict& other);
 

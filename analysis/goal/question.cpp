@@ -203,11 +203,11 @@ std::vector<double> merits_of(const Question& question, const measures::PointSum
             -lateness((settling_of(question, point).*settling_quantile(question)).value)};
   }
   const Verdict verdict = verdict_on(question, point);
-  std::vector<double> merits;
-  if (has_several(question)) {
-    const auto is_met = [](const Verdict& one) { return one.status == Status::met; };
-    merits = {static_cast<double>(std::ranges::count_if(verdict.goals, is_met)), verdict.margin};
-  }
+  const auto is_met = [](const Verdict& one) { return one.status == Status::met; };
+  const auto met = has_several(question) ? std::ranges::count_if(verdict.goals, is_met)
+                                         : static_cast<std::ptrdiff_t>(is_met(verdict));
+  std::vector<double> merits{static_cast<double>(met), static_cast<double>(rank_of(verdict.status)),
+                             verdict.margin};
   if (question.parts[verdict.goal].claim->machines) merits.push_back(verdict.machines.value);
   merits.push_back(verdict.moves.value);
   double latest = 0.0;

@@ -43,6 +43,10 @@ Question question_of(const study::Study& study);
 inline bool has_several(const Question& question) {
   return question.parts.size() > 1;
 }
+/// Whether its goals have names: they stand in `goals`, of which there may be one.
+inline bool has_names(const Question& question) {
+  return question.claim() && !question.claim()->name.empty();
+}
 /// Its part with this number alone, to judge a point by its worst goal (Verdict::goal).
 Question only(const Question& question, std::size_t number);
 /// @throws Failure (bad_input) for a study with several goals, where answers are of one. @param path of the

@@ -125,6 +125,7 @@ std::string conditions_sentence(const StudySummary& summary,
       fmt::format("lowest under condition {}: {} of {}", worst.name, text::percent_near(worst.rate.value),
                   goal::judged_meeting(summary.question));
   if (!summary.question.claim()) return lowest;
+  const bool one_kind = !has_several(summary.question);
   std::string text;
   for (const goal::Status status : {goal::Status::missed, goal::Status::undecided, goal::Status::met}) {
     std::vector<std::string> names;
@@ -135,7 +136,7 @@ std::string conditions_sentence(const StudySummary& summary,
     text += fmt::format("{}{} under {}", text.empty() ? "the goal is " : ", ", goal::text_of(status),
                         fmt::join(names, ", "));
   }
-  return text + "; " + lowest;
+  return one_kind ? text + "; " + lowest : text;  // rates of several goals are not alike
 }
 
 std::string averaged_over(const StudySummary& summary) {

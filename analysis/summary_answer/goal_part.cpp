@@ -35,7 +35,7 @@ document::Description<goal::Verdict> verdict_description(const goal::Question& q
   document::Description<goal::Verdict> description;
   const bool has_machines = std::ranges::any_of(
       question.parts, [](const goal::JudgedPart& part) { return part.claim->machines.has_value(); });
-  if (has_several(question))
+  if (has_names(question))
     description.value(
         {.key = "name", .meaning = "name of the goal: of several the worst, which all of this is of"},
         [question](Verdict v) { return question.parts[v.goal].claim->name; });
@@ -68,7 +68,7 @@ document::Description<goal::Verdict> goals_description(const goal::Question& que
     const std::size_t number = part.number;
     goals.object({.key = part.claim->name, .meaning = goal::goal_sentence(*part.claim)},
                  verdict_description(only(question, number), on_rigs),
-                 [number](Verdict v) { return v.goals.at(number); });
+                 [number](Verdict v) { return v.goals.empty() ? v : v.goals.at(number); });
   }
   return goals;
 }
@@ -76,7 +76,7 @@ document::Description<goal::Verdict> goals_description(const goal::Question& que
 void add_goal(PointDescription& point, const summary::StudySummary& summary) {
   if (!summary.question.claim()) return;
   const goal::Question& question = summary.question;
-  const bool several = has_several(question);
+  const bool several = has_names(question);
   const std::string where = summary.question.worlds > 0 ? " (worst world)" : "";
   const auto column = [&](const std::string& of) {
     return document::Item{.heading = of + " in goal" + where,

@@ -1,5 +1,6 @@
 #include "experiments/manifest/json_schema.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -13,6 +14,7 @@
 #include "experiments/keys/draw_level.hpp"
 #include "experiments/keys/key_reading.hpp"
 #include "experiments/parameters/element_lists.hpp"
+#include "experiments/parameters/measured_parameters.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/sections/observations.hpp"
 #include "experiments/sections/sweep.hpp"
@@ -445,6 +447,13 @@ Json section_or_value_schema(const std::string& path) {
   return {{"anyOf", {key_schema(parameters::parameter_table()[*row]), std::move(section)}}};
 }
 
+// Whether the parameter is of a group of measured values: one may stand for others.
+bool is_measured(std::string_view name) {
+  return std::ranges::any_of(parameters::measured_parameters(), [name](const auto& group) {
+    return std::ranges::find(group.names, name) != group.names.end();
+  });
+}
+
 // The map of the keys below this dotted path.
 Json section_schema(const std::string& path) {
   Json properties = Json::object();
@@ -454,7 +463,7 @@ Json section_schema(const std::string& path) {
     if (const auto row = parameters::find_parameter(name); row && !keys::is_section(name)) {
       const parameters::Parameter& parameter = parameters::parameter_table()[*row];
       properties[key] = key_schema(parameter);
-      const bool always = !parameters::has_default(parameter) && !parameter.only_on;
+      const bool always = !parameters::has_default(parameter) && !parameter.only_on && !is_measured(name);
       if (always && path != keys::required_section) required.push_back(key);
     } else if (const keys::GeneralKey* general = keys::find_general_key(name)) {
       properties[key] = general_schema(*general);

@@ -119,9 +119,11 @@ class MeasuredDraws {
     });
   }
 
-  std::optional<study::MeasuredFault> fault_of(std::size_t point, std::int64_t index) const {
+  /// @param draw under the condition of this point of the plan
+  std::optional<study::MeasuredFault> fault_of(std::size_t point, std::int64_t draw) const {
+    const std::int64_t trial = study::turns_of(study_).trial_of(draw, study::condition_at(plan_, point));
     const std::vector<double> numbers =
-        study::drawn_numbers(study_, static_cast<std::int64_t>(point), index, measured_.slots);
+        study::drawn_numbers(study_, study::design_point(plan_, point), trial, measured_.slots);
     return study::fault_of_machine(plan_, point, measured_, [&](std::uint32_t slot) {
       const auto i = std::ranges::find(measured_.slots, slot) - measured_.slots.begin();
       const double number = numbers[static_cast<std::size_t>(i)];
@@ -140,7 +142,7 @@ class MeasuredDraws {
     return level;
   }
 
-  /// The number of different draws, which are those of the first trials.
+  /// The number of different draws, which are the first ones.
   std::int64_t count_at(std::size_t point) const {
     switch (level_at(point)) {
       case study::DrawLevel::world:
@@ -148,7 +150,7 @@ class MeasuredDraws {
       case study::DrawLevel::rig:
         return study_.rigs;
       case study::DrawLevel::trial:
-        return study_.trials;
+        return study::draw_count(study_);
       case study::DrawLevel::study:
       case study::DrawLevel::contact:
         break;
@@ -189,16 +191,22 @@ bool check_draws(const MeasuredDraws& draws, std::size_t point, const study::Stu
     }
   }
   if (!first) return true;
+  const auto design = static_cast<std::size_t>(study::design_point(*study.plan, point));
   const std::string_view unit = name_of(draws.level_at(point));
   const std::string of = count == 1 ? "" : fmt::format("{} {}: ", unit, first_index);
   const std::string how_many = faulty > 1 ? fmt::format(" ({} of {} {}s)", faulty, count, unit) : "";
   const std::string at = study::point_count(study) == 1
                              ? ""
-                             : fmt::format(" at point {} ({})", point, study.points.labels[point]);
+                             : fmt::format(" at point {} ({})", design, study.points.labels[design]);
+  const std::string under =
+      study.conditions.empty()
+          ? ""
+          : fmt::format(" under condition {}",
+                        study.conditions[static_cast<std::size_t>(study::condition_at(*study.plan, point))]);
   const std::vector<std::size_t> slots(first->slots.begin(), first->slots.end());
   const FaultPlace place = place_of_fault(places, *study.plan, slots, point);
   reading.problems.add(place.place, study.plan->table.rows[place.slot].name,
-                       fmt::format("{}{}{}{}", of, first->what, at, how_many), first->expected);
+                       fmt::format("{}{}{}{}{}", of, first->what, at, under, how_many), first->expected);
   return false;
 }
 
@@ -251,7 +259,8 @@ void check_measured_machines(const study::Study& study, const keys::PlanPlaces& 
       study::visit_points(*study.plan, slots, check);
       continue;
     }
-    for (std::size_t point = 0; point < study.points.labels.size() && check(point); ++point) {
+    const std::size_t points = study::plan_point(*study.plan, study::point_count(study));
+    for (std::size_t point = 0; point < points && check(point); ++point) {
     }
   }
 }

@@ -210,8 +210,12 @@ void read_goals(const yaml::Field& root, keys::Reading& reading) {
                        reading.problems))
     return;
   if (several->node->entries.empty()) reading.problems.add(*several, "found no goal", "at least one");
-  for (const yaml::YamlEntry& entry : several->node->entries)
+  for (const yaml::YamlEntry& entry : several->node->entries) {
+    if (entry.key.find_first_not_of(' ') == std::string::npos || entry.key.find('\n') != std::string::npos)
+      reading.problems.add(yaml::entry_of(*several, entry), "the name of the goal is empty, or has two lines",
+                           "a name such as large");
     read_goal(yaml::entry_of(*several, entry), entry.key, reading);
+  }
   // A limit can be of the band of any goal.
   for (study::Goal& goal : reading.study.goals)
     read_limits(yaml::find_field(*several, goal.name).value(), reading, goal);

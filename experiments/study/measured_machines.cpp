@@ -103,7 +103,7 @@ bool is_machine(const Study& study, std::int64_t point, std::int64_t index, cons
       const auto i = std::ranges::find(measured.slots, slot) - measured.slots.begin();
       return std::pair(numbers[static_cast<std::size_t>(i)], numbers[static_cast<std::size_t>(i)]);
     };
-    return fault_of_machine(plan, static_cast<std::size_t>(point), measured, known).has_value();
+    return fault_of_machine(plan, plan_point(plan, point), measured, known).has_value();
   });
 }
 

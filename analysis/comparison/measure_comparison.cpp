@@ -121,7 +121,7 @@ std::int64_t clusters_of_failures(const PointTrials& trials, const GateMeasure& 
 /// Whether the failures_of() are independent, and each 0 or 1.
 bool are_whole(const PointTrials& trials, const GateMeasure& measure) {
   return clusters_of_failures(trials, measure) == 0 &&
-         (measure.statistic != GateStatistic::moves || trials.moves == 1);
+         (measure.statistic != GateStatistic::moves || trials.judged->asked_moves(trials.moves) == 1);
 }
 
 /// The proportion of trials with a quality, where a proportion `failures` of them failed.

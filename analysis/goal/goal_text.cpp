@@ -128,12 +128,12 @@ std::string ending_text(const Question& question, std::span<const trial::MoveOut
 
 std::string goals_text(const Question& question, const measures::PointSummary& point,
                        const Verdict& verdict) {
-  if (!has_several(question)) return readings_text(*question.claim(), point.goals.front(), verdict);
   std::string text;
-  for (const JudgedPart& part : question.parts) {
-    const Verdict& one = verdict.goals[part.number];
-    text += fmt::format("  {}{}\n{}", name_text(*part.claim), text_of(one.status),
-                        readings_text(*part.claim, point.goals[part.number], one));
+  if (!has_several(question)) text = readings_text(*question.claim(), point.goals.front(), verdict);
+  for (std::size_t i = 0; i < verdict.goals.size(); ++i) {
+    const JudgedPart& part = question.parts[i];
+    text += fmt::format("  {}{}\n{}", name_text(*part.claim), text_of(verdict.goals[i].status),
+                        readings_text(*part.claim, point.goals[part.number], verdict.goals[i]));
   }
   if (const auto all = rigs_meeting_all(question, point))
     text += fmt::format("  machines that meet all claims on machines together: {} of {}, as observed\n",

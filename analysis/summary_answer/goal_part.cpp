@@ -100,18 +100,20 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
                  return p.verdict ? question.parts[p.verdict->goal].claim->name : "–";
                })
         .object({.key = "goals", .meaning = "each of the goals, by name", .shown = Shown::in_data},
-                goals_description(question, summary.features.rigs), &PointReading::verdict)
-        .value({.key = "machines_together",
-                .meaning =
-                    "proportion of rigs that meet all goals on machines, as observed; nothing where only one "
+                goals_description(question, summary.features.rigs), &PointReading::verdict);
+  }
+  if (several || !summary.conditions.empty()) {
+    point.value(
+        {.key = "machines_together",
+         .meaning = "proportion of rigs that meet all goals on machines, as observed; nothing where only one "
                     "claim is on machines",
-                .unit = "1",
-                .shown = Shown::in_data},
-               [question](const PointReading& p) -> std::optional<double> {
-                 const auto all = goal::rigs_meeting_all(question, p.statistics());
-                 if (!all) return std::nullopt;
-                 return statistics::rate(all->rigs, all->of);
-               });
+         .unit = "1",
+         .shown = Shown::in_data},
+        [question](const PointReading& p) -> std::optional<double> {
+          const auto all = goal::rigs_meeting_all(question, p.statistics());
+          if (!all) return std::nullopt;
+          return statistics::rate(all->rigs, all->of);
+        });
   }
   const bool has_machines = std::ranges::any_of(
       question.parts, [](const goal::JudgedPart& part) { return part.claim->machines.has_value(); });

@@ -16,7 +16,7 @@ void refuse_conditions(const Study& study, std::string_view verb) {
   if (study.conditions.empty()) return;
   throw Failure(
       ExitCode::bad_input,
-      fmt::format("{}: it has {} conditions, which '{}' does not tell apart; expected a study without "
+      fmt::format("{}: it has {} conditions, which are not told apart by '{}'; expected a study without "
                   "conditions (check, run, trace, summary, judge and export know them)",
                   study.name, study.conditions.size(), verb));
 }

@@ -314,6 +314,8 @@ class SummaryAnswer(Answer):
         - ``axes``: values of the swept parameters; null where one has a distribution
         - ``goal``.* (status, rate, rate_low, rate_high, machines, machines_low, machines_high, rigs_without_miss):
           whether the point meets the goal, with bounds of this point alone
+        - ``machines_together``: proportion of rigs that meet all goals on machines, as observed; nothing where only one
+          claim is on machines
         - ``trials``: trials of the point
         - ``zero_count``: trials whose worst move ended at zero error
         - ``one_count``: trials whose worst move ended within one count

@@ -80,6 +80,14 @@ std::string readings_of_worlds(const study::Goal& goal, const Verdict& verdict) 
                             with_bounds(verdict.moves));
 }
 
+/// The rigs that meet all claims together, a line; empty where only one claim is on machines.
+std::string together_text(const Question& question, const measures::PointSummary& point) {
+  const auto all = rigs_meeting_all(question, point);
+  if (!all) return {};
+  return fmt::format("  machines that meet all claims on machines together: {} of {}, as observed\n",
+                     all->rigs, all->of);
+}
+
 }  // namespace
 
 std::string goal_sentence(const study::Goal& goal) {
@@ -128,24 +136,26 @@ std::string ending_text(const Question& question, std::span<const trial::MoveOut
 
 std::string goals_text(const Question& question, const measures::PointSummary& point,
                        const Verdict& verdict) {
+  const auto readings = [&](const JudgedPart& part, const Verdict& of_goal) {
+    const measures::MoveCounts& counts = point.goals[part.number];
+    return (question.conditions.empty()
+                ? ""
+                : fmt::format("  under condition {}, the worst:\n", question.conditions[of_goal.condition])) +
+           readings_text(*part.claim, under_condition(counts, of_goal.condition), of_goal);
+  };
+  if (!has_several(question))
+    return readings(question.parts.front(), verdict) + together_text(question, point);
   std::string text;
-  if (!has_several(question)) text = readings_text(*question.claim(), point.goals.front(), verdict);
   for (std::size_t i = 0; i < verdict.goals.size(); ++i) {
     const JudgedPart& part = question.parts[i];
     text += fmt::format("  {}{}\n{}", name_text(*part.claim), text_of(verdict.goals[i].status),
-                        readings_text(*part.claim, point.goals[part.number], verdict.goals[i]));
+                        readings(part, verdict.goals[i]));
   }
-  if (const auto all = rigs_meeting_all(question, point))
-    text += fmt::format("  machines that meet all claims on machines together: {} of {}, as observed\n",
-                        all->rigs, all->of);
-  return text;
+  return text + together_text(question, point);
 }
 
 std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,
                           const Verdict& verdict) {
-  if (!counts.of_conditions.empty())
-    return "  under the worst condition:\n" +
-           readings_text(goal, counts.of_conditions[verdict.condition], verdict);
   if (!verdict.worlds.empty()) return readings_of_worlds(goal, verdict);
   std::string text = fmt::format("  of all moves of all machines, {} meet it: {} of {}, {}\n",
                                  text::percentage(counts.met, counts.moves), counts.met, counts.moves,

@@ -84,7 +84,8 @@ measures::MoveCounts successes_of(const measures::PointSummary& point) {
 }  // namespace
 
 Question question_of(const study::Study& study) {
-  Question question{.parts = {}, .worlds = study.worlds, .stopped = study.stop.has_value()};
+  Question question{
+      .parts = {}, .worlds = study.worlds, .stopped = study.stop.has_value(), .conditions = study.conditions};
   const std::vector<measures::CountedGoal> counted = measures::asked_of_moves(study);
   for (std::size_t i = 0; i < counted.size(); ++i) {
     question.parts.push_back({.number = i, .counted = counted[i]});
@@ -179,9 +180,30 @@ measures::MoveCounts counts_of(const Question& question, const measures::PointSu
   return measures::under_condition(point.goals.at(question.parts[verdict.goal].number), verdict.condition);
 }
 
+std::vector<GoalTimes> goal_times(const Question& question, const measures::PointSummary& point) {
+  std::vector<GoalTimes> all;
+  for (std::size_t i = 0; i < question.parts.size(); ++i) {
+    const JudgedPart& part = question.parts[i];
+    const auto add = [&](std::size_t condition, const measures::MeasureStatistics& times) {
+      all.push_back({i, condition, &times, lateness(times.p95.value) / part.claim->within});
+    };
+    const bool has_own =
+        part.number < point.goal_settling.size() && !point.goal_settling[part.number].empty();
+    if (!has_own) add(0, measures::named(point, name_of_settling(*part.claim, "")));
+    for (std::size_t condition = 0; has_own && condition < point.goal_settling[part.number].size();
+         ++condition)
+      add(condition, point.goal_settling[part.number][condition]);
+  }
+  return all;
+}
+
+GoalTimes slowest_goal_times(const Question& question, const measures::PointSummary& point) {
+  return std::ranges::max(goal_times(question, point), {}, &GoalTimes::share);
+}
+
 const measures::MeasureStatistics& settling_of(const Question& question,
                                                const measures::PointSummary& point) {
-  return question.claim() ? measures::named(point, settling_measure(question))
+  return question.claim() ? *slowest_goal_times(question, point).statistics
                           : point.of(&trial::MoveOutcome::settling_time);
 }
 
@@ -210,12 +232,7 @@ std::vector<double> merits_of(const Question& question, const measures::PointSum
                              verdict.margin};
   if (question.parts[verdict.goal].claim->machines) merits.push_back(verdict.machines.value);
   merits.push_back(verdict.moves.value);
-  double latest = 0.0;
-  for (const JudgedPart& part : question.parts) {
-    const Question one = only(question, part.number);
-    latest = std::max(latest, lateness(settling_of(one, point).p95.value) / part.claim->within);
-  }
-  merits.push_back(-latest);
+  merits.push_back(-slowest_goal_times(question, point).share);
   return merits;
 }
 

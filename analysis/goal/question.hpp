@@ -30,8 +30,9 @@ struct JudgedPart {
 /// for success.
 struct Question {
   std::vector<JudgedPart> parts{JudgedPart{}};
-  std::int64_t worlds{0};  ///< in each of which it is asked; 0: the study has no worlds
-  bool stopped{false};     ///< the outcomes decided the number of trials (`stop`)
+  std::int64_t worlds{0};                 ///< in each of which it is asked; 0: the study has no worlds
+  bool stopped{false};                    ///< the outcomes decided the number of trials (`stop`)
+  std::vector<std::string> conditions{};  ///< names of those under each of which it is asked
 
   /// The claim that is judged, the first of several; nothing where success is not claimed.
   const std::optional<study::Goal>& claim() const { return parts.front().claim; }
@@ -59,7 +60,9 @@ void require_claim(const study::Study& study, std::string_view path, std::string
 void require_targets(const study::Study& study, std::string_view path);
 /// Success in place of the goal.
 inline Question success(const Question& question) {
-  return {.worlds = question.worlds, .stopped = question.stopped};
+  Question without = question;
+  without.parts = {JudgedPart{}};
+  return without;
 }
 
 /// How answers speak of the question. With a claim they count moves, else trials: success is of a whole
@@ -107,11 +110,22 @@ Verdict verdict_on(const Question& question, const measures::PointSummary& point
 /// goals those of the worst.
 measures::MoveCounts counts_of(const Question& question, const measures::PointSummary& point);
 
-/// The statistics of the settling time by which points are compared: of the goal's band or tolerance, the
-/// first of several goals, or of the arrival.
+/// The settling times of one of the goals: within its band or tolerance for good.
+struct GoalTimes {
+  std::size_t part{0};       ///< of the question
+  std::size_t condition{0};  ///< 0 without conditions
+  const measures::MeasureStatistics* statistics{nullptr};
+  double share{statistics::unknown};  ///< 95 % quantile / Goal::within; infinite where it is never reached
+};
+/// Those of each goal under each condition, of the moves that it asks. @param question with a claim
+std::vector<GoalTimes> goal_times(const Question& question, const measures::PointSummary& point);
+/// Those with the largest share of the time that their goal allows. @param question with a claim
+GoalTimes slowest_goal_times(const Question& question, const measures::PointSummary& point);
+
+/// The statistics of the settling time by which points are compared: slowest_goal_times(), or of the arrival.
 const measures::MeasureStatistics& settling_of(const Question& question, const measures::PointSummary& point);
 
-/// The name of that measure: "band_settling_time[2]", "settling_time".
+/// The name of that measure of the first goal: "band_settling_time[2]", "settling_time".
 std::string settling_measure(const Question& question);
 
 /// Its quantile by which points are compared: the 95 % quantile, of the arrival the median.

@@ -126,6 +126,7 @@ PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTa
     : kind_(kind), first_trial_(first_trial), table_(&table), trial_settling_times_(kind.rigs) {
   goals_.resize(kind.goals.size());
   for (MoveCounts& counts : goals_) counts.tell_apart(kind.worlds, kind.conditions);
+  for (const CountedGoal& goal : kind.goals) goal_settling_.emplace_back(goal, kind.rigs, kind.conditions);
   for (MoveCounts* counts : {&groups_.succeeded, &groups_.meeting})
     counts->tell_apart(kind.worlds, kind.conditions);
   for (const layout::Measure& measure : table) measures_.emplace_back(measure, measure.point, kind);
@@ -188,8 +189,10 @@ void PointAccumulator::add_moves(std::span<const trial::MoveOutcome> moves) {
   ++(counted_.outcomes.*counter_of(trial::worst_outcome(moves)));
   if (kind_.open_loop) return;
   if (kind_.rigs > 0) add_to_rig(moves);
-  for (std::size_t i = 0; i < goals_.size(); ++i)
+  for (std::size_t i = 0; i < goals_.size(); ++i) {
     count_moves(goals_[i], kind_.goals[i], first_trial_ + counted_.trials, kind_.rigs, moves);
+    goal_settling_[i].add(first_trial_ + counted_.trials, kind_.goals[i], moves);
+  }
   if (kind_.has_groups()) add_to_groups(moves);
   add_trial_settling_time(moves);
 }
@@ -285,6 +288,7 @@ PointAccumulator& PointAccumulator::operator+=(const PointAccumulator& next) {
   if (rigs_.size() < next.rigs_.size()) rigs_.resize(next.rigs_.size());
   add_each(rigs_, next.rigs_);
   add_each(goals_, next.goals_);
+  add_each(goal_settling_, next.goal_settling_);
   groups_.succeeded += next.groups_.succeeded;
   groups_.meeting += next.groups_.meeting;
   trial_settling_times_ += next.trial_settling_times_;
@@ -302,6 +306,7 @@ template <class Self, class Archive>
 void PointAccumulator::transfer(Self& self, Archive& archive) {
   archive(self.counted_, self.rigs_);
   for (auto& counts : self.goals_) archive(counts);
+  for (auto& settling : self.goal_settling_) archive(settling);
   archive(self.trial_settling_times_, self.jerks_, self.jerk_intervals_, self.jerk_slowing_,
           self.interval_trend_, self.one_count_jerks_);
   if constexpr (!std::is_const_v<Self>) {
@@ -325,7 +330,9 @@ bool PointAccumulator::is_valid(std::int64_t moves) const {
   if (!has_valid_counts(moves) || !has_valid_jerks() || !has_valid_rigs() || !has_valid_groups())
     return false;
   for (std::size_t i = 0; i < goals_.size(); ++i) {
-    if (!goals_[i].is_valid(counted_.trials, asked_moves(kind_.goals[i], moves), kind_.rigs)) return false;
+    if (!goals_[i].is_valid(counted_.trials, asked_moves(kind_.goals[i], moves), kind_.rigs) ||
+        !goal_settling_[i].is_valid(goals_[i].moves))
+      return false;
   }
   for (std::size_t level = 0; level < levels_.size(); ++level) {
     const std::int64_t lost = lost_in_levels_[level];
@@ -434,6 +441,8 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
     result.rigs = statistics::rig_statistics(rigs_, options.confidence);
   result.claim = claim(result, options);
   result.goals = goals_;
+  for (const GoalSettling& settling : goal_settling_)
+    result.goal_settling.push_back(settling.statistics(options.confidence));
   if (kind_.worlds > 0 && result.judged > 0) result.worlds = groups_;
   if (kind_.conditions > 0 && result.judged > 0) result.conditions = groups_;
   if (options.stopped_by_outcomes)

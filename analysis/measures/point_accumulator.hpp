@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/goal_settling.hpp"
 #include "analysis/measures/measure_statistics.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/statistics/clusters/clustered_mean.hpp"
@@ -171,6 +172,7 @@ class PointAccumulator {
   std::vector<std::int64_t> lost_in_levels_;             ///< [move] trials whose motion was lost
   std::vector<statistics::RigTrials> rigs_;              ///< [rig], of those that have trials
   std::vector<MoveCounts> goals_;                        ///< [goal]
+  std::vector<GoalSettling> goal_settling_;              ///< [goal]
   GroupTrials groups_;                                   ///< empty without worlds and conditions
   statistics::TrialClusters trial_settling_times_;       ///< of each trial: of its slowest move
   std::int64_t jerks_{0};

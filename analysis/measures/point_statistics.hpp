@@ -116,9 +116,12 @@ struct PointSummary : StatisticsOfMeasures, PointCounts {
   double jerk_one_count_share{statistics::unknown};  ///< jerks of magnitude 1 / jerks
   UndecidedMoves undecided;                          ///< only off_target is known without the study
   std::vector<MoveCounts> goals;                     ///< [goal] moves that meet it
-  std::optional<GroupTrials> worlds;                 ///< of a study with worlds and targets
-  std::optional<GroupTrials> conditions;             ///< of a study with conditions and targets
-  std::vector<LevelStatistics> levels;               ///< [move] in an open-loop study, otherwise empty
+  /// [goal][condition, or 0 without conditions] settling times of the moves that it asks; empty for a goal on
+  /// all moves of a study without conditions, of which the measure of its band is
+  std::vector<std::vector<MeasureStatistics>> goal_settling;
+  std::optional<GroupTrials> worlds;      ///< of a study with worlds and targets
+  std::optional<GroupTrials> conditions;  ///< of a study with conditions and targets
+  std::vector<LevelStatistics> levels;    ///< [move] in an open-loop study, otherwise empty
 
   /// The proportion of trials all of whose moves ended at zero error.
   const RateWithBounds& success_rate() const { return of(&trial::MoveOutcome::outcome).rate; }

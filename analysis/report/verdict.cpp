@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/document/markup.hpp"
 #include "analysis/goal/goal_text.hpp"
@@ -208,7 +210,7 @@ void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported, 
 }
 
 /// Examples: "half of all moves within 0.05 s", "95 % of them not within the hold".
-std::string within_text(const measures::PointSummary& point, const char* moves, double time) {
+std::string within_text(const measures::PointSummary& point, std::string_view moves, double time) {
   if (!std::isnan(time)) return fmt::format("{} within {} s", moves, text::short_number(time));
   return fmt::format("{} not within {}", moves,
                      std::isnan(point.hold) ? "the hold" : text::short_number(point.hold) + " s");
@@ -224,19 +226,25 @@ std::string median_bounds_text(const ReportedStudy& reported, const statistics::
                      text::short_number(median.high));
 }
 
-/// The quantiles of the settling time in the goal's band.
+/// The quantiles of the settling time of each goal, under each condition.
 void add_goal_times(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const measures::PointSummary& point = point_of(reported, best);
-  const measures::MeasureStatistics& settling = settling_of(question_of(reported), point);
-  const study::Goal& goal = *question_of(reported).claim();
-  const std::string within =
-      goal.tolerance
-          ? fmt::format("{:g} {}", *goal.tolerance, parameters::unit_on(reported.study.units.axis, "rad"))
-          : fmt::format("{} count{}", goal.band, goal.band == 1 ? "" : "s");
-  lines.push_back(fmt::format("Within ±{} for good{}: {}, {}{}.", within, at_point(reported, best),
-                              within_text(point, "half of all moves", settling.median.value),
-                              within_text(point, "95 % of them", settling.p95.value),
-                              question_of(reported).worlds > 0 ? ", on average over the worlds" : ""));
+  const goal::Question& question = question_of(reported);
+  for (const goal::GoalTimes& times : goal_times(question, point)) {
+    const study::Goal& goal = *question.parts[times.part].claim;
+    const std::string within =
+        goal.tolerance
+            ? fmt::format("{:g} {}", *goal.tolerance, parameters::unit_on(reported.study.units.axis, "rad"))
+            : fmt::format("{} count{}", goal.band, goal.band == 1 ? "" : "s");
+    const std::string which =
+        goal.on.empty() ? "all moves" : fmt::format("the repetitions of move {}", fmt::join(goal.on, ", "));
+    lines.push_back(
+        fmt::format("Within ±{} for good{}{}: {}, {}{}.", within, at_point(reported, best),
+                    study::condition_text(reported.study, static_cast<std::int64_t>(times.condition)),
+                    within_text(point, "half of " + which, times.statistics->median.value),
+                    within_text(point, "95 % of them", times.statistics->p95.value),
+                    question.worlds > 0 ? ", on average over the worlds" : ""));
+  }
 }
 
 void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "analysis/summary/claims_of_point.hpp"
 #include "analysis/summary/conditions_of_point.hpp"
 #include "analysis/summary_answer/parts.hpp"
 #include "analysis/text/percent.hpp"
@@ -13,19 +14,35 @@ bool has_conditions(const summary::StudySummary& summary) {
   return !summary.conditions.empty() && !summary.features.open_loop;
 }
 
-/// A condition of a point, for people.
-struct PointCondition {
+/// A part of a point, for people.
+template <class Part>
+struct PartOfPoint {
   std::optional<std::string> point;  ///< its label; none in a study of one point
-  summary::ConditionOfPoint condition;
+  Part part;
 };
 
-std::vector<PointCondition> conditions_of_points(const SummaryReading& s) {
-  std::vector<PointCondition> rows;
+/// The parts of all points in their order. @param parts_of gives those of one
+template <class Part>
+std::vector<PartOfPoint<Part>> parts_of_points(const SummaryReading& s,
+                                               std::vector<Part> (*parts_of)(const summary::StudySummary&,
+                                                                             std::int64_t, std::size_t)) {
+  std::vector<PartOfPoint<Part>> rows;
   for (Point p : s.points) {
-    for (const summary::ConditionOfPoint& one : summary::conditions_of_point(p.summary, p.point))
-      rows.push_back({s.points.size() > 1 ? std::optional(p.label()) : std::nullopt, one});
+    for (Part& one : parts_of(p.summary, p.point, 1))
+      rows.push_back({s.points.size() > 1 ? std::optional(p.label()) : std::nullopt, std::move(one)});
   }
   return rows;
+}
+
+template <class Part>
+document::Description<PartOfPoint<Part>> part_description(const document::Description<Part>& of_part) {
+  return document::Description<PartOfPoint<Part>>()
+      .value({.heading = "point"}, &PartOfPoint<Part>::point)
+      .include(of_part, &PartOfPoint<Part>::part);
+}
+
+bool has_several_claims(const summary::StudySummary& summary) {
+  return summary.question.claim() && (has_several(summary.question) || has_conditions(summary));
 }
 
 std::string note_on_conditions(const SummaryReading& s) {
@@ -52,13 +69,25 @@ void add_conditions(PointDescription& point, const summary::StudySummary& summar
 
 void add_conditions(SummaryDescription& answer, const summary::StudySummary& summary) {
   if (!has_conditions(summary)) return;
-  answer
-      .table({.heading = "by condition", .shown = Shown::to_people},
-             document::Description<PointCondition>()
-                 .value({.heading = "point"}, &PointCondition::point)
-                 .include(summary::condition_description(summary.question), &PointCondition::condition),
-             conditions_of_points)
-      .sentence(note_on_conditions);
+  if (!summary.question.claim())  // with one the table of claims has them
+    answer.table({.heading = "by condition", .shown = Shown::to_people},
+                 part_description(summary::condition_description(summary.question)),
+                 [](const SummaryReading& s) { return parts_of_points(s, &summary::conditions_of_point); });
+  answer.sentence(note_on_conditions);
+}
+
+void add_claims(PointDescription& point, const summary::StudySummary& summary) {
+  if (!has_several_claims(summary)) return;
+  point.table(
+      {.key = "claims", .meaning = "each goal under each condition at the point", .shown = Shown::in_json},
+      summary::claim_description(), [](Point p) { return summary::claims_of_point(p.summary, p.point); });
+}
+
+void add_claims(SummaryDescription& answer, const summary::StudySummary& summary) {
+  if (!has_several_claims(summary)) return;
+  answer.table({.heading = "by claim", .shown = Shown::to_people},
+               part_description(summary::claim_description()),
+               [](const SummaryReading& s) { return parts_of_points(s, &summary::claims_of_point); });
 }
 
 }  // namespace zerocount::summary_answer

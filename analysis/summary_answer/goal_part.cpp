@@ -39,6 +39,9 @@ document::Description<goal::Verdict> verdict_description(const goal::Question& q
     description.value(
         {.key = "name", .meaning = "name of the goal: of several the worst, which all of this is of"},
         [question](Verdict v) { return question.parts[v.goal].claim->name; });
+  if (!question.conditions.empty())
+    description.value({.key = "condition", .meaning = "the worst condition, which all of this is under"},
+                      [question](Verdict v) { return question.conditions[v.condition]; });
   description
       .value({.key = "status", .meaning = "verdict on the goal", .words = goal::status_words()},
              [](Verdict v) { return goal::text_of(v.status); })
@@ -102,7 +105,14 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
         .object({.key = "goals", .meaning = "each of the goals, by name", .shown = Shown::in_data},
                 goals_description(question, summary.features.rigs), &PointReading::verdict);
   }
-  if (several || !summary.conditions.empty()) {
+  if (!question.conditions.empty())
+    point.value({.heading = "worst condition",
+                 .meaning = "the condition that the next columns are of",
+                 .shown = Shown::to_people},
+                [question](const PointReading& p) {
+                  return p.verdict ? question.conditions[p.verdict->condition] : "–";
+                });
+  if (several || !question.conditions.empty()) {
     point.value(
         {.key = "machines_together",
          .meaning = "proportion of rigs that meet all goals on machines, as observed; nothing where only one "

@@ -80,6 +80,10 @@ void add_undecided(SummaryDescription& answer, const summary::StudySummary& summ
 void add_worlds(PointDescription& point, const summary::StudySummary& summary);
 void add_worlds(SummaryDescription& answer, const summary::StudySummary& summary);
 
+/// Each goal under each condition, of a study with several claims.
+void add_claims(PointDescription& point, const summary::StudySummary& summary);
+void add_claims(SummaryDescription& answer, const summary::StudySummary& summary);
+
 /// What the trials show under each condition, and which is the worst.
 void add_conditions(PointDescription& point, const summary::StudySummary& summary);
 void add_conditions(SummaryDescription& answer, const summary::StudySummary& summary);

@@ -212,6 +212,11 @@ void add_predictions(PointDescription& point, const StudySummary& summary) {
   add("(7) exceeded", "", &theory::PointPrediction::unstable);
 }
 
+/// Whether the settling times of the goal are those of a measure of all moves.
+bool asks_all_moves_alike(const goal::Question& question) {
+  return !has_several(question) && question.conditions.empty() && question.counted().on.empty();
+}
+
 }  // namespace
 
 std::string settling_text(Statistics point, double time) {
@@ -231,9 +236,18 @@ void add_zero_count_columns(PointDescription& point, const StudySummary& summary
 void add_question_columns(PointDescription& point, const StudySummary& summary) {
   if (!summary.question.claim()) return add_zero_count_columns(point, summary);
   add_trials(point, summary);
-  for (const layout::Measure* measure : shown_measures(summary)) {
-    if (measure->field.column.name == goal::settling_measure(summary.question))
-      add_measure(point, summary, *measure);
+  if (asks_all_moves_alike(summary.question)) {
+    for (const layout::Measure* measure : shown_measures(summary)) {
+      if (measure->field.column.name == goal::settling_measure(summary.question))
+        add_measure(point, summary, *measure);
+    }
+  } else {
+    add_cells(point, "95 % within",
+              "95 % within: 95 % quantile of the settling time of the moves that a goal asks, s, of the goal "
+              "and condition that leave the least of the time allowed",
+              [question = summary.question](Statistics p) {
+                return settling_text(p, settling_of(question, p).p95.value);
+              });
   }
   add_rigs(point, summary, summary.question);
 }

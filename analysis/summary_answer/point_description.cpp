@@ -151,6 +151,7 @@ document::Description<PointReading> point_description(const summary::StudySummar
   add_repeatability(point, summary);
   add_stopping(point, summary);
   add_worlds(point, summary);
+  add_claims(point, summary);
   add_conditions(point, summary);
   add_assurance(point, summary);
   return point;

@@ -247,7 +247,7 @@ StudySummary full_study() {
   full.features.own_controller = full.features.rigs = true;
   full.question.parts.front().claim = study::Goal{.machines = 0.99};
   full.question.worlds = 1;
-  full.conditions = {"empty"};
+  full.conditions = full.question.conditions = {"empty"};
   full.predictions.resize(1);
   full.observed_counts[""] = {};
   full.stop = study::StoppingRule{};
@@ -328,6 +328,7 @@ SummaryDescription question_tables(const StudySummary& summary) {
       [legend](Summary s) { return nonfinite_lines(s) + points_shown(s) + (s.legend ? legend : ""); });
   add_repeatability(tables, summary);
   add_worlds(tables, summary);
+  add_claims(tables, summary);
   add_conditions(tables, summary);
   return tables;
 }

@@ -6,6 +6,7 @@
 
 #include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
+#include "analysis/summary/claims_of_point.hpp"
 #include "analysis/summary/conditions_of_point.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "analysis/summary/worlds_description.hpp"
@@ -38,11 +39,24 @@ struct Judgement {
   const summary::StudySummary& summary;
   summary::JudgedPoint judged;
   std::optional<worlds::PointWorlds> worlds;
+  std::vector<summary::ClaimOfPoint> claims;          ///< each goal under each condition
   std::vector<summary::ConditionOfPoint> conditions;  ///< [condition]; empty without conditions
 
   const std::string& label() const { return summary.labels[static_cast<std::size_t>(judged.chosen.point)]; }
+  const goal::JudgedPart& worst_goal() const { return summary.question.parts[judged.verdict.goal]; }
+  std::optional<std::string> name() const {
+    const std::string& of_goal = worst_goal().claim->name;
+    return of_goal.empty() ? std::nullopt : std::optional(of_goal);
+  }
+  std::optional<std::string> condition() const {
+    const std::vector<std::string>& names = summary.question.conditions;
+    return names.empty() ? std::nullopt : std::optional(names[judged.verdict.condition]);
+  }
+  std::vector<summary::ClaimOfPoint> several_claims() const {
+    return claims.size() > 1 ? claims : std::vector<summary::ClaimOfPoint>();
+  }
   std::optional<double> of_machines(double bound) const {
-    return summary.question.parts[judged.verdict.goal].claim->machines ? std::optional(bound) : std::nullopt;
+    return worst_goal().claim->machines ? std::optional(bound) : std::nullopt;
   }
   std::optional<summary::WorldsReading> worlds_reading() const {
     if (!worlds) return {};
@@ -53,8 +67,6 @@ struct Judgement {
 document::AnswerDescription<Judgement> judge_answer() {
   using document::Shown;
   using Of = const Judgement&;
-  goal::Question with_claim;
-  with_claim.parts.front().claim.emplace();
   document::AnswerDescription<Judgement> answer{
       {.name = "judge", .meaning = "whether a study meets its goal"}, {}};
   answer.items.headline([](Of j) { return summary::judgement_headline(j.summary, j.judged); })
@@ -64,6 +76,16 @@ document::AnswerDescription<Judgement> judge_answer() {
              &Judgement::label)
       .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
              [](Of j) { return goal::claim_sentence(j.summary.question); })
+      .value({.key = "worst_goal",
+              .meaning = "name of the goal that the numbers are of, the worst of several",
+              .shown = Shown::in_data,
+              .optional = true},
+             &Judgement::name)
+      .value({.key = "worst_condition",
+              .meaning = "the condition that they are under, the worst of several",
+              .shown = Shown::in_data,
+              .optional = true},
+             &Judgement::condition)
       .value({.key = "status",
               .meaning = "verdict on the goal",
               .shown = Shown::in_data,
@@ -91,8 +113,10 @@ document::AnswerDescription<Judgement> judge_answer() {
               goal::needs_description(), [](Of j) { return goal::practicable(j.judged.needs); })
       .object({.key = "worlds", .meaning = "the worlds at the point", .shown = Shown::in_data},
               summary::worlds_description(), &Judgement::worlds_reading)
-      .table({.key = "conditions", .heading = "by condition", .meaning = "the point under each condition"},
-             summary::condition_description(with_claim), &Judgement::conditions)
+      .table({.key = "claims", .meaning = "each goal under each condition", .shown = Shown::in_json},
+             summary::claim_description(), &Judgement::claims)
+      .table({.heading = "by claim", .shown = Shown::to_people}, summary::claim_description(),
+             &Judgement::several_claims)
       .sentence([](Of j) { return summary::conditions_sentence(j.summary, j.conditions); });
   return answer;
 }
@@ -120,6 +144,7 @@ ExitCode judge(const command_line::Arguments& arguments) {
   const Judgement judgement{
       summary, summary::judge_point(summary, chosen),
       summary::worlds_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
+      summary::claims_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
       summary::conditions_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from))};
   return answers::print(
       arguments, judge_answer().of(judgement, commands::exit_code_of(judgement.judged.verdict.status)));

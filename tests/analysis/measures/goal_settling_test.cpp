@@ -1,0 +1,126 @@
+// The settling times of the moves that a goal asks, under each condition.
+#include "analysis/measures/goal_settling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "analysis/statistics/sums/state.hpp"
+#include "experiments/study/study.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/each_seed.hpp"
+
+namespace zerocount::measures {
+namespace {
+
+/// A goal on some moves of random trials, one in five of whose moves never settles.
+struct GoalSettlingTimes {
+  static constexpr unsigned seeds = 100;
+
+  explicit GoalSettlingTimes(unsigned seed) : draws(seed) {
+    goal.slot = 0;
+    for (std::int64_t move = 0; move < moves; ++move)
+      if (draws.chance(0.5)) goal.on.push_back(move);
+    if (goal.on.empty()) goal.on.push_back(0);
+    for (std::int64_t trial = 0; trial < trials; ++trial) {
+      std::vector<trial::MoveOutcome>& outcomes = of_trials.emplace_back(moves);
+      for (std::int64_t move = 0; move < moves; ++move) {
+        trial::MoveOutcome& outcome = outcomes[static_cast<std::size_t>(move)];
+        outcome.number = move;
+        outcome.bands[0].settling_time = draws.chance(0.2) ? std::numeric_limits<double>::quiet_NaN()
+                                                           : 0.01 * static_cast<double>(draws.integer(0, 20));
+      }
+    }
+  }
+
+  /// The times of the asked moves under a condition, in order; infinite where a move never settles.
+  std::vector<double> times_under(std::int64_t condition) const {
+    const study::TrialTurns turns{std::max<std::int64_t>(rigs, 1), conditions};
+    std::vector<double> times;
+    for (std::int64_t trial = 0; trial < trials; ++trial) {
+      if (turns.condition_of(trial) != condition) continue;
+      for (const std::int64_t move : goal.on) {
+        const double time =
+            of_trials[static_cast<std::size_t>(trial)][static_cast<std::size_t>(move)].bands[0].settling_time;
+        times.push_back(std::isnan(time) ? std::numeric_limits<double>::infinity() : time);
+      }
+    }
+    std::ranges::sort(times);
+    return times;
+  }
+
+  GoalSettling of(std::int64_t first, std::int64_t end) const {
+    GoalSettling settling(goal, rigs, conditions);
+    for (std::int64_t trial = first; trial < end; ++trial)
+      settling.add(trial, goal, of_trials[static_cast<std::size_t>(trial)]);
+    return settling;
+  }
+
+  testing::Draws draws;
+  std::int64_t conditions{draws.integer(1, 3)};
+  std::int64_t rigs{draws.chance(0.5) ? 0 : draws.integer(2, 6)};
+  std::int64_t trials{std::max<std::int64_t>(rigs, 1) * conditions * draws.integer(4, 20)};
+  std::int64_t moves{draws.integer(1, 4)};
+  CountedGoal goal;
+  std::vector<std::vector<trial::MoveOutcome>> of_trials;
+};
+
+/// The quantile of sorted times; NaN where it is infinite.
+double quantile_of(const std::vector<double>& times, double probability) {
+  const auto rank =
+      static_cast<std::size_t>(std::ceil(probability * static_cast<double>(times.size()) - 1e-9));
+  const double time = times[std::max<std::size_t>(rank, 1) - 1];
+  return std::isinf(time) ? std::numeric_limits<double>::quiet_NaN() : time;
+}
+
+void expect_same(double found, double expected) {
+  if (std::isnan(expected)) {
+    EXPECT_TRUE(std::isnan(found)) << found;
+  } else {
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST_EACH_SEED(GoalSettlingTimes, AreOfTheMovesThatItAsksUnderEachCondition) {
+  const std::vector<MeasureStatistics> found = of(0, trials).statistics(0.95);
+  ASSERT_EQ(std::ssize(found), conditions);
+  for (std::int64_t condition = 0; condition < conditions; ++condition) {
+    const std::vector<double> times = times_under(condition);
+    const MeasureStatistics& one = found[static_cast<std::size_t>(condition)];
+    EXPECT_EQ(one.moves, std::ssize(times));
+    EXPECT_EQ(one.n, std::ranges::count_if(times, [](double time) { return std::isfinite(time); }));
+    expect_same(one.median.value, quantile_of(times, 0.5));
+    expect_same(one.p95.value, quantile_of(times, 0.95));
+  }
+}
+
+TEST_EACH_SEED(GoalSettlingTimes, DoNotDependOnHowTrialsAreDivided) {
+  const GoalSettling whole = of(0, trials);
+  GoalSettling parts = of(0, trials / 3);
+  parts += of(trials / 3, trials);
+  statistics::State state;
+  statistics::StateWriter writer(state);
+  GoalSettling::transfer(parts, writer);
+  GoalSettling restored(goal, rigs, conditions);
+  statistics::StateReader reader(state.whole, state.real);
+  GoalSettling::transfer(restored, reader);
+  EXPECT_TRUE(restored.is_valid(trials * asked_moves(goal, moves)));
+  EXPECT_FALSE(restored.is_valid(trials * asked_moves(goal, moves) + 1));
+  const auto expected = whole.statistics(0.95), found = restored.statistics(0.95);
+  for (std::size_t condition = 0; condition < expected.size(); ++condition) {
+    expect_same(found[condition].p95.value, expected[condition].p95.value);
+    expect_same(found[condition].p95.low, expected[condition].p95.low);
+    expect_same(found[condition].max, expected[condition].max);
+  }
+}
+
+TEST(GoalSettling, CollectsNothingWhereTheBandOfAllMovesIsMeasured) {
+  EXPECT_TRUE(GoalSettling(CountedGoal{.slot = 0}, 0, 0).statistics(0.95).empty());
+}
+
+}  // namespace
+}  // namespace zerocount::measures

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/numerics/number.hpp"
 
@@ -25,13 +26,43 @@ void PositionError::start_move(std::size_t number) {
 
 void PositionError::add(std::int64_t k, double theta, const loop::Reference& reference) {
   const double t = static_cast<double>(k) / p_.controller.sample_rate;
-  const double followed = reference.is_sine() ? reference.exact_at(t) * resolution_ : target_;
-  const double error = followed + offset_ - theta;
-  overshoot_ = std::max(overshoot_, -error * direction_);
+  add_error(k, theta, reference.is_sine() ? reference.exact_at(t) * resolution_ : target_);
+}
+
+void PositionError::add_at_target(std::int64_t k, double theta) {
+  for (std::int64_t& outside : last_outside_) {
+    if (outside == last_) outside = k - 1;  // it stayed outside, or there was no sample
+  }
+  add_error(k, theta, target_);
+}
+
+void PositionError::add_error(std::int64_t k, double theta, double followed) {
+  error_ = followed + offset_ - theta;
+  overshoot_ = std::max(overshoot_, -error_ * direction_);
   for (std::size_t i = 0; i < p_.verdict.tolerances.count; ++i) {
-    if (std::abs(error) > p_.verdict.tolerances.limits[i]) last_outside_[i] = k;
+    if (std::abs(error_) > p_.verdict.tolerances.limits[i]) last_outside_[i] = k;
   }
   last_ = k;
+}
+
+PositionError::Range PositionError::quiet_range() const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double lowest = -infinity, highest = infinity;  // of ε
+  for (std::size_t i = 0; i < p_.verdict.tolerances.count; ++i) {
+    const double tolerance = p_.verdict.tolerances.limits[i];
+    if (error_ > tolerance) {
+      lowest = std::max(lowest, tolerance);
+    } else if (error_ < -tolerance) {
+      highest = std::min(highest, -tolerance);
+    } else {
+      lowest = std::max(lowest, -tolerance);
+      highest = std::min(highest, tolerance);
+    }
+  }
+  if (direction_ > 0.0) lowest = std::max(lowest, -overshoot_);
+  if (direction_ < 0.0) highest = std::min(highest, overshoot_);
+  const double zero = target_ + offset_;
+  return {zero - highest, zero - lowest};
 }
 
 void PositionError::finish(MoveOutcome& outcome) const {

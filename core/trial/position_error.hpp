@@ -25,6 +25,19 @@ class PositionError {
 
   /// Takes sample k of the move. @param theta rad
   void add(std::int64_t k, double theta, const loop::Reference& reference);
+  /// Takes sample k of a move whose target does not move. At the samples that were not taken since the last
+  /// one θ lay within quiet_range().
+  void add_at_target(std::int64_t k, double theta);
+
+  /// Positions of the rotor, rad.
+  struct Range {
+    double low;
+    double high;
+  };
+  /// The positions around that of the last sample at which a sample leaves no tolerance, enters none, and
+  /// does not exceed the overshoot so far: such samples need not be taken. Of a move whose target does not
+  /// move.
+  Range quiet_range() const;
 
   /// Adds the measures of the move to its outcome, whose other measures are final.
   void finish(MoveOutcome& outcome) const;
@@ -32,6 +45,8 @@ class PositionError {
  private:
   /// Target of the move, rad, before rounding; 0 before the first.
   double exact_target(std::size_t number) const;
+  /// @param followed position that the rotor is to have, rad
+  void add_error(std::int64_t k, double theta, double followed);
 
   const TrialParameters& p_;
   double resolution_;
@@ -39,6 +54,7 @@ class PositionError {
   double target_{0.0};     // rad
   double direction_{0.0};  // of the move: −1, 0 or 1
   double overshoot_{0.0};  // so far, rad
+  double error_{0.0};      // ε of the last sample, rad
   std::int64_t last_{-1};  // sample
   std::array<std::int64_t, max_tolerances> last_outside_{};
 };

@@ -109,6 +109,8 @@ struct alignas(64) LoopLanes {
   Lanes integral;     ///< I, N m
   Lanes error;        ///< of the last sample, counts
   Lanes count;        ///< of the last sample
+  Lanes quiet_from;   ///< samples may be passed while θ/Δx + phase − count lies from here, counts;
+  Lanes quiet_to;     ///< to here. 0 and 1 where nothing is measured but what the encoder reads
   Lanes counted;      ///< there has been a sample
   Lanes decided;      ///< torque of the last sample, N m
   Lanes code;         ///< of the last sample

@@ -43,8 +43,10 @@ ZEROCOUNT_ALWAYS_INLINE StepTiming<P> timing_of(const BatchState& batch, const A
   const P lowest = (hook + min(start, t.elongation) + min(extension, t.extension)) * per_count + phase;
   const P highest = (hook + max(start, t.elongation) + max(extension, t.extension)) * per_count + phase;
   // The margin covers rounding errors at the edges.
-  const Mask same_count = (lowest - count > P(1e-9)) & (highest - count < P(1.0 - 1e-9));
-  t.count_may_change = (t.passed > zero) & ~same_count & ~step.too_long & ~step.beyond & ~step.has_event;
+  const P margin(1e-9);
+  const Mask quiet = (lowest - count > at.load(batch.loop.quiet_from) + margin) &
+                     (highest - count < at.load(batch.loop.quiet_to) - margin);
+  t.count_may_change = (t.passed > zero) & ~quiet & ~step.too_long & ~step.beyond & ~step.has_event;
   return t;
 }
 

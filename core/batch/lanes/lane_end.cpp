@@ -48,6 +48,7 @@ trial::MoveOutcome outcome_of(const BatchState& batch, int lane, LaneTrial& tria
   const std::int64_t reference = end.last.target + (trial.loop ? trial.loop->reference_offset() : 0);
   outcome.true_error = trial::true_error(reference, end.last.theta, l.resolution[lane], l.phase[lane]);
   if (trial.loop) trial.loop->finish(outcome);
+  if (trial.position) trial.position->finish(outcome);
   return outcome;
 }
 

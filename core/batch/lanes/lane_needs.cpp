@@ -139,15 +139,9 @@ bool needs_lane_drive(const trial::TrialParameters& p) {
          !d.ripple.empty() || !d.vibration.empty() || !d.spectra.empty();
 }
 
-/// Whether the position itself is measured at every sample, whatever the encoder reads.
-bool measures_position(const trial::VerdictParameters& verdict) {
-  return verdict.motion || verdict.position_error;
-}
-
 bool needs_lane_loop(const trial::TrialParameters& p) {
-  return !is_certain(p) || measures_position(p.verdict) || p.controller.missed > 0.0 ||
-         loop::has_errors(p.dac) || loop::has_coarse_phase(p.controller) ||
-         p.controller.encoder != loop::EncoderChoice::fine ||
+  return !is_certain(p) || p.verdict.motion || p.controller.missed > 0.0 || loop::has_errors(p.dac) ||
+         loop::has_coarse_phase(p.controller) || p.controller.encoder != loop::EncoderChoice::fine ||
          p.command.profile.shape != loop::ReferenceShape::step || p.controller.user.plugin ||
          p.controller.blocks.filters.size() > max_lane_filters;
 }
@@ -158,8 +152,9 @@ bool is_steady_at_zero(const trial::TrialParameters& p) {
     return b.hold.enter >= 0.0 || b.standstill.band >= 0.0;
   };
   const bool all_fine = c.encoder == loop::EncoderChoice::fine && c.coarse.encoder == c.encoder;
-  return is_certain(p) && !measures_position(p.verdict) && !c.user.plugin && all_fine && !remembers(p) &&
-         !has_dwell(c.blocks) && (!loop::has_coarse_phase(c) || !blocks_remember(c.coarse.blocks));
+  return is_certain(p) && !p.verdict.motion && !p.verdict.position_error && !c.user.plugin && all_fine &&
+         !remembers(p) && !has_dwell(c.blocks) &&
+         (!loop::has_coarse_phase(c) || !blocks_remember(c.coarse.blocks));
 }
 
 std::string lacking_in_lanes(const trial::TrialParameters& parameters) {

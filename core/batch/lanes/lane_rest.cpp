@@ -41,14 +41,24 @@ RestAhead rest_ahead(const LanePlant::Rest& rest) {
   return ahead;
 }
 
-/// A time (s) for which the count cannot change: until creep plus the bound of the residual oscillation
-/// reaches an edge of the count. Zero if the oscillation alone may reach one.
-double time_within_count(const BatchState& batch, int lane, const RestAhead& rest, const LanePlant& plant) {
+/// Whether a sample at θ may be passed: the count is the same, and the position quiet.
+bool is_quiet(const BatchState& batch, int lane, double theta) {
   const LoopLanes& l = batch.loop;
-  const double low = (l.count[lane] - l.phase[lane]) * l.resolution[lane];
+  if (count_at(batch, lane, theta) != l.count[lane]) return false;
+  const double within = theta / l.resolution[lane] + l.phase[lane] - l.count[lane];
+  return !(within < l.quiet_from[lane]) && !(within > l.quiet_to[lane]);
+}
+
+/// A time (s) for which samples are quiet (LoopLanes::quiet_from): until creep plus the bound of the residual
+/// oscillation reaches an edge of the count, or of the quiet positions in it. Zero if the oscillation alone
+/// may reach one.
+double quiet_time(const BatchState& batch, int lane, const RestAhead& rest, const LanePlant& plant) {
+  const LoopLanes& l = batch.loop;
+  const double low = (l.count[lane] + l.quiet_from[lane] - l.phase[lane]) * l.resolution[lane];
+  const double width = (l.quiet_to[lane] - l.quiet_from[lane]) * l.resolution[lane];
   const friction::ResidualOscillation::State& oscillation = plant.oscillation();
   const double slow_theta = plant.theta() - oscillation.elongation - oscillation.extension;
-  const double above = low + l.resolution[lane] - slow_theta;
+  const double above = low + width - slow_theta;
   const double below = slow_theta - low;
   double bound = friction::oscillation_bound(rest.oscillation, rest.elapsed);
   if (!(std::min(above, below) > bound)) return 0.0;
@@ -63,9 +73,9 @@ double time_within_count(const BatchState& batch, int lane, const RestAhead& res
   return time;
 }
 
-/// The number of samples after the last processed one at which the count is likely to be unchanged.
-double samples_within_count(const BatchState& batch, int lane, const LanePlant& plant, double to_first) {
-  const double time = time_within_count(batch, lane, rest_ahead(*plant.rest()), plant);
+/// The number of samples after the last processed one that are likely to be quiet.
+double quiet_samples(const BatchState& batch, int lane, const LanePlant& plant, double to_first) {
+  const double time = quiet_time(batch, lane, rest_ahead(*plant.rest()), plant);
   if (time == HUGE_VAL) return batch.time.samples_to_stop[lane];
   return std::max(std::ceil((time - to_first) * batch.time.sample_rate[lane]), 0.0);
 }
@@ -198,7 +208,6 @@ bool rest(RunningBatch& run, int lane) {
   const double max_samples = time.samples_to_stop[lane];
   const double sample_time = time.sample_time[lane];
   const double to_first = time.time_to_stop[lane] - (max_samples - 1.0) * sample_time;
-  const double count = batch.loop.count[lane];
   // Advances sample by sample (i, from 1), many at once where the count surely stays the same.
   double i = 0.0;
   double to_next = to_first;
@@ -207,13 +216,13 @@ bool rest(RunningBatch& run, int lane) {
     return plant.point_at_rest(to_next + (samples - 1.0) * sample_time);
   };
   const auto stays_within = [&](const LanePlant::RestPoint& point) {
-    return count_at(batch, lane, plant.theta_at(point)) == count;
+    return is_quiet(batch, lane, plant.theta_at(point));
   };
   bool same = true;
   while (same && i < max_samples) {
     double ahead = 1.0;
     if (!edge_is_next && max_samples - i > 1.0)
-      ahead = std::clamp(samples_within_count(batch, lane, plant, to_next), 1.0, max_samples - i);
+      ahead = std::clamp(quiet_samples(batch, lane, plant, to_next), 1.0, max_samples - i);
     LanePlant::RestPoint point = point_after(ahead);
     // The edge may be nearer than estimated.
     for (double back = 1.0; ahead > 1.0 && !stays_within(point); back *= 2.0) {
@@ -221,7 +230,7 @@ bool rest(RunningBatch& run, int lane) {
       point = point_after(ahead);
     }
     plant.go_to(point);
-    same = count_at(batch, lane, plant.theta()) == count;
+    same = is_quiet(batch, lane, plant.theta());
     edge_is_next = ahead > 1.0;
     i += ahead;
     to_next = sample_time;

@@ -1,4 +1,6 @@
 // Sampling instants of the lanes.
+#include <algorithm>
+
 #include "core/batch/lanes/running_batch.hpp"
 
 namespace zerocount::batch {
@@ -77,6 +79,23 @@ LaneSet decide_in_loops(RunningBatch& run, const LaneSet& due) {
   return decided;
 }
 
+/// Takes the position error of each lane at this sample, and finds out within which positions its next
+/// samples may be passed.
+void measure_position(RunningBatch& run, const LaneSet& due) {
+  LoopLanes& l = run.state.loop;
+  for_each_lane(due.in_both(run.lanes.with_position), [&](int lane) {
+    if (run.samples_of(lane) == 0) return;  // a new trial
+    trial::PositionError& position = *run.trial_of(lane).position;
+    position.add_at_target(run.samples_of(lane) - 1, run.state.measures.theta[lane]);
+    const trial::PositionError::Range quiet = position.quiet_range();
+    const auto in_counts = [&](double theta) {
+      return theta / l.resolution[lane] + l.phase[lane] - l.count[lane];
+    };
+    l.quiet_from[lane] = std::max(in_counts(quiet.low), 0.0);
+    l.quiet_to[lane] = std::min(in_counts(quiet.high), 1.0);
+  });
+}
+
 }  // namespace
 
 void take_samples(RunningBatch& run, const LaneSet& due) {
@@ -85,6 +104,7 @@ void take_samples(RunningBatch& run, const LaneSet& due) {
   sample(run, run.kernels.sample, due.without(with_blocks).without(with_loop));
   sample(run, run.kernels.sample_blocks, with_blocks);
   if (!with_loop.empty()) sample(run, run.kernels.sample_given, decide_in_loops(run, with_loop));
+  if (!run.lanes.with_position.empty()) measure_position(run, due);
 }
 
 }  // namespace zerocount::batch

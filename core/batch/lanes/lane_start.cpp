@@ -35,6 +35,8 @@ void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
   l.integral[lane] = p.initial.integral;
   l.error[lane] = 0.0;
   l.count[lane] = 0.0;
+  l.quiet_from[lane] = 0.0;
+  l.quiet_to[lane] = 1.0;
   l.counted[lane] = 0.0;
   l.decided[lane] = 0.0;
   l.code[lane] = 0.0;
@@ -180,7 +182,12 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial) {
   batch.contact.sliding_damping[lane] = p.plant.sliding_damping;
   start_motion(batch, lane, trial, resolution);
   trial.loop.reset();
-  if (needs_lane_loop(p)) trial.loop.emplace(p);
+  trial.position.reset();
+  if (needs_lane_loop(p)) {
+    trial.loop.emplace(p);
+  } else if (p.verdict.position_error) {
+    trial.position.emplace(p, resolution);
+  }
   trial.drive.reset();
   if (needs_lane_drive(p)) start_drive(batch, lane, trial);
   start_move(batch, lane, trial);
@@ -207,6 +214,7 @@ void start_move(BatchState& batch, int lane, LaneTrial& trial) {
     (*of)[lane] = 0.0;
   q.max_error[lane] = p.verdict.stop ? p.verdict.limit : infinity;
   if (trial.loop) trial.loop->start_move(trial.move, p.command.targets[trial.move], trial.first_sample);
+  if (trial.position) trial.position->start_move(trial.move);
   trial.breakaways = 0;
   const bool has_contact = trial.motion == LaneMotion::contact;
   trial.slid_at_start = has_contact && batch.motion.slide_direction[lane] != 0.0;
@@ -235,6 +243,7 @@ void start_next_trial(RunningBatch& run, int lane) {
     } else if (has_blocks(*trial.parameters)) {
       run.lanes.with_blocks.insert(lane);
     }
+    if (trial.position) run.lanes.with_position.insert(lane);
     set_motion(run, lane);
     if (trial.drive && trial.drive->jitters()) begin_piece(run, lane);
     return;

@@ -14,6 +14,7 @@
 #include "core/trial/last_half.hpp"
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
+#include "core/trial/position_error.hpp"
 
 namespace zerocount::batch {
 
@@ -57,7 +58,9 @@ struct LaneTrial {
   std::int64_t reported_jerks{0};  ///< of the trial
   trial::LastHalf last_half;       ///< of this move
 
-  std::optional<LaneLoop> loop;    ///< of a trial that needs one
+  std::optional<LaneLoop> loop;  ///< of a trial that needs one
+  /// Of a trial that measures it without a LaneLoop, which does it otherwise.
+  std::optional<trial::PositionError> position;
   std::optional<LaneDrive> drive;  ///< of a trial that needs one
 };
 

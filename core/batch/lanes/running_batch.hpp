@@ -27,6 +27,8 @@ struct LaneStates {
   LaneSet with_blocks;  ///< the controller has blocks
   LaneSet with_loop;    ///< by a LaneLoop
 
+  LaneSet with_position;  ///< the position error is measured, without a LaneLoop
+
   // Torque until the next stop: constant for a whole sample, if in none.
   LaneSet varying;   ///< it varies
   LaneSet part;      ///< the stop ends only a part of a sample
@@ -34,9 +36,9 @@ struct LaneStates {
 
   LaneSet ahead;  ///< at rest, with a plant that lags behind (CreepAhead)
 
-  std::array<LaneSet*, 12> all() {
-    return {&active,      &sticking,  &waiting, &sliding, &bristles, &free,
-            &with_blocks, &with_loop, &varying, &part,    &changing, &ahead};
+  std::array<LaneSet*, 13> all() {
+    return {&active,    &sticking,      &waiting, &sliding, &bristles, &free, &with_blocks,
+            &with_loop, &with_position, &varying, &part,    &changing, &ahead};
   }
 };
 

@@ -14,31 +14,19 @@ bool has_conditions(const summary::StudySummary& summary) {
   return !summary.conditions.empty() && !summary.features.open_loop;
 }
 
-/// A part of a point, for people.
-template <class Part>
-struct PartOfPoint {
+/// A condition of a point, for people.
+struct PointCondition {
   std::optional<std::string> point;  ///< its label; none in a study of one point
-  Part part;
+  summary::ConditionOfPoint condition;
 };
 
-/// The parts of all points in their order. @param parts_of gives those of one
-template <class Part>
-std::vector<PartOfPoint<Part>> parts_of_points(const SummaryReading& s,
-                                               std::vector<Part> (*parts_of)(const summary::StudySummary&,
-                                                                             std::int64_t, std::size_t)) {
-  std::vector<PartOfPoint<Part>> rows;
+std::vector<PointCondition> conditions_of_points(const SummaryReading& s) {
+  std::vector<PointCondition> rows;
   for (Point p : s.points) {
-    for (Part& one : parts_of(p.summary, p.point, 1))
-      rows.push_back({s.points.size() > 1 ? std::optional(p.label()) : std::nullopt, std::move(one)});
+    for (const summary::ConditionOfPoint& one : summary::conditions_of_point(p.summary, p.point))
+      rows.push_back({s.points.size() > 1 ? std::optional(p.label()) : std::nullopt, one});
   }
   return rows;
-}
-
-template <class Part>
-document::Description<PartOfPoint<Part>> part_description(const document::Description<Part>& of_part) {
-  return document::Description<PartOfPoint<Part>>()
-      .value({.heading = "point"}, &PartOfPoint<Part>::point)
-      .include(of_part, &PartOfPoint<Part>::part);
 }
 
 bool has_several_claims(const summary::StudySummary& summary) {
@@ -48,6 +36,7 @@ bool has_several_claims(const summary::StudySummary& summary) {
 std::string note_on_conditions(const SummaryReading& s) {
   std::string text;
   for (Point p : s.points) {
+    if (s.summary.question.claim() && p.point != s.chosen.point) continue;  // the point's row names the worst
     const std::string sentence =
         summary::conditions_sentence(s.summary, summary::conditions_of_point(s.summary, p.point));
     if (!sentence.empty())
@@ -71,8 +60,10 @@ void add_conditions(SummaryDescription& answer, const summary::StudySummary& sum
   if (!has_conditions(summary)) return;
   if (!summary.question.claim())  // with one the table of claims has them
     answer.table({.heading = "by condition", .shown = Shown::to_people},
-                 part_description(summary::condition_description(summary.question)),
-                 [](const SummaryReading& s) { return parts_of_points(s, &summary::conditions_of_point); });
+                 document::Description<PointCondition>()
+                     .value({.heading = "point"}, &PointCondition::point)
+                     .include(summary::condition_description(summary.question), &PointCondition::condition),
+                 conditions_of_points);
   answer.sentence(note_on_conditions);
 }
 
@@ -85,9 +76,10 @@ void add_claims(PointDescription& point, const summary::StudySummary& summary) {
 
 void add_claims(SummaryDescription& answer, const summary::StudySummary& summary) {
   if (!has_several_claims(summary)) return;
-  answer.table({.heading = "by claim", .shown = Shown::to_people},
-               part_description(summary::claim_description()),
-               [](const SummaryReading& s) { return parts_of_points(s, &summary::claims_of_point); });
+  answer.table({.heading = summary.points.size() > 1 ? "by claim, at the chosen point" : "by claim",
+                .shown = Shown::to_people},
+               summary::claim_description(),
+               [](const SummaryReading& s) { return summary::claims_of_point(s.summary, s.chosen.point); });
 }
 
 }  // namespace zerocount::summary_answer

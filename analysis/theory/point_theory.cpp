@@ -151,16 +151,25 @@ struct ExaminedPoint {
   }
 };
 
+/// lowest_k1() of a rotor whose k1 is a profile; `known` is that of the same rig in the point before.
+double lowest_k1_of(const friction::FrictionAlongRotor& friction, KnownRotor& known) {
+  const auto k1 = std::ranges::find(friction.profiled, &friction::FrictionParameters::k1,
+                                    &friction::ProfiledParameter::parameter);
+  if (known.k1 != k1->profile) known = {k1->profile, lowest_k1(friction)};
+  return known.lowest;
+}
+
 /// Examines the lowest k1 of the rotors of all rigs (draw j is of rig j mod rigs). The bound of the sampled
 /// loop, which takes longer, is computed only at the lowest of them.
-void examine_rotors(const ExaminedPoint& at, LowestStiffness& lowest) {
+void examine_rotors(const ExaminedPoint& at, LowestStiffness& lowest, std::vector<KnownRotor>& known) {
   const study::Study& study = at.study;
   lowest.rigs = std::min(study.rigs, max_rigs_examined);
+  known.resize(static_cast<std::size_t>(lowest.rigs));
   trial::TrialParameters softest;
   Range k1;
   for (std::int64_t rig = 0; rig < lowest.rigs; ++rig) {
     const trial::TrialParameters p = at.trial(rig);
-    const double k1_of_rig = lowest_k1(p.friction);
+    const double k1_of_rig = lowest_k1_of(p.friction, known[static_cast<std::size_t>(rig)]);
     add_low_end(study, p, k1_of_rig, lowest);
     if (k1_of_rig < k1.low) softest = p;
     k1.add(k1_of_rig);
@@ -225,7 +234,7 @@ void examine_outside(const ExaminedPoint& at, const trial::TrialParameters& firs
   });
 }
 
-void examine_springs(const ExaminedPoint& at, PointTheory& theory) {
+void examine_springs(const ExaminedPoint& at, std::vector<KnownRotor>& known, PointTheory& theory) {
   const study::Study& study = at.study;
   theory.rules.torque_unit = parameters::unit_on(study.units.axis, "N m");
   theory.lowest.source = study::low_end(study, at.point, "friction.k1", at.condition);
@@ -246,12 +255,18 @@ void examine_springs(const ExaminedPoint& at, PointTheory& theory) {
   add_loops(theory.loops, stiffest);
   for_trials(at, max_trials_examined_closely,
              [&](const trial::TrialParameters& p) { examine_closely(study, p, theory); });
-  if (theory.lowest.source.kind == study::LowEnd::Kind::profile) examine_rotors(at, theory.lowest);
+  if (theory.lowest.source.kind == study::LowEnd::Kind::profile) examine_rotors(at, theory.lowest, known);
 }
 
 }  // namespace
 
-PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t condition) {
+PointTheory examine(const study::Study& study, std::int64_t point) {
+  std::vector<KnownRotor> none;
+  return examine(study, point, 0, none);
+}
+
+PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t condition,
+                    std::vector<KnownRotor>& rotors) {
   PointTheory theory;
   const ExaminedPoint at{study, point, condition};
   const trial::TrialParameters first = at.trial(0);
@@ -262,7 +277,7 @@ PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t 
   theory.approach.hold = hold_of(first);
   theory.outside = why_outside_theory(first);
   if (theory.outside.empty()) {
-    examine_springs(at, theory);
+    examine_springs(at, rotors, theory);
   } else {
     examine_outside(at, first, theory);
   }

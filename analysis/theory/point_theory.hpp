@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -12,6 +13,7 @@
 #include "analysis/document/description.hpp"
 #include "analysis/theory/hunting_prediction.hpp"
 #include "analysis/theory/theory_prediction.hpp"
+#include "core/friction/profile.hpp"
 #include "core/theory/frozen_loop.hpp"
 #include "experiments/study/low_end.hpp"
 #include "experiments/study/study.hpp"
@@ -102,8 +104,19 @@ struct PointTheory {
   std::vector<LoopRanges> loops;  ///< in the order of trial_loops
 };
 
-/// Examines the first trials of the point under a condition.
-PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t condition = 0);
+/// The lowest k1 (N m/rad) of a rotor, and the profile that it is of.
+struct KnownRotor {
+  std::shared_ptr<const friction::Profile> k1;
+  double lowest{0.0};
+};
+
+/// Examines the first trials of the point.
+PointTheory examine(const study::Study& study, std::int64_t point);
+
+/// Examines them under a condition.
+/// @param rotors [rig] of the call before: a rotor that is the same again is not searched again
+PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t condition,
+                    std::vector<KnownRotor>& rotors);
 
 /// The theory of a design point: for data each range by itself, for people statements such as "(6) stable
 /// below: 1.5e-04 N m/count". Loops are for data; people have a table of loop_description().

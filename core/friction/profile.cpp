@@ -1,8 +1,10 @@
 #include "core/friction/profile.hpp"
 
 #include <algorithm>
+#include <array>
 #include <complex>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 
 #include <boost/math/tools/minima.hpp>
@@ -25,43 +27,106 @@ double field_at(const Profile& profile, double position) {
   return field;
 }
 
+namespace {
+
+/// The normal value that the marginal transforms: the value itself, or its logarithm.
+double normal_value(const Profile& profile, double field) {
+  return profile.location + profile.scale * field;
+}
+
+}  // namespace
+
 double value_at(const Profile& profile, double position) {
-  const double value = profile.location + profile.scale * field_at(profile, position);
+  const double value = normal_value(profile, field_at(profile, position));
   return profile.marginal == Marginal::lognormal ? numerics::exp_of_draws(value) : value;
 }
 
 namespace {
 
-/// The lowest of sign·value near `angle`, times sign.
-double refined(const Profile& profile, double angle, double spacing, double sign) {
-  constexpr int bits = 26;  // of the angle; the value is flat there, so this is far more than it needs
+constexpr std::size_t block_size = 16;
+using Block = std::array<double, block_size>;
+
+/// The field at `block_size` positions from `first` on, `spacing` apart: field_at() in vectors, to rounding.
+Block fields_from(const Profile& profile, double first, double spacing) {
+  Block turn_real;
+  Block turn_imaginary;
+  for (std::size_t i = 0; i < block_size; ++i) {
+    const double position = first + static_cast<double>(i) * spacing;
+    const numerics::SineAndCosine turn =
+        numerics::sine_and_cosine(position * (2.0 * std::numbers::pi / profile.period));
+    turn_real[i] = turn.cosine;
+    turn_imaginary[i] = turn.sine;
+  }
+  Block real;
+  Block imaginary{};
+  Block field{};
+  real.fill(1.0);
+  for (std::size_t m = 0; m < profile.cosine.size(); ++m) {
+    const double cosine = profile.cosine[m];
+    const double sine = profile.sine[m];
+    for (std::size_t i = 0; i < block_size; ++i) {
+      field[i] += cosine * real[i] + sine * imaginary[i];
+      const double next = real[i] * turn_real[i] - imaginary[i] * turn_imaginary[i];
+      imaginary[i] = real[i] * turn_imaginary[i] + imaginary[i] * turn_real[i];
+      real[i] = next;
+    }
+  }
+  return field;
+}
+
+/// Positions of the extreme values among those that are searched.
+struct ExtremePositions {
+  double lowest{0.0};   // rad or m
+  double highest{0.0};  // rad or m
+  double spacing{0.0};  // of the positions searched, rad or m
+};
+
+/// Searches 16 positions per shortest wavelength. The marginal is monotonic: the normal values are compared.
+ExtremePositions find_extremes(const Profile& profile) {
+  const std::size_t points = block_size * std::max<std::size_t>(4, profile.cosine.size());
+  ExtremePositions found;
+  found.spacing = profile.period / static_cast<double>(points);
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (std::size_t block = 0; block < points; block += block_size) {
+    const Block fields = fields_from(profile, static_cast<double>(block) * found.spacing, found.spacing);
+    for (std::size_t i = 0; i < block_size; ++i) {
+      const double value = normal_value(profile, fields[i]);
+      const double position = static_cast<double>(block + i) * found.spacing;
+      if (value < low) {
+        low = value;
+        found.lowest = position;
+      }
+      if (value > high) {
+        high = value;
+        found.highest = position;
+      }
+    }
+  }
+  return found;
+}
+
+/// The lowest of sign·value within `spacing` of `position`, times sign.
+double refined(const Profile& profile, double position, double spacing, double sign) {
+  constexpr int bits = 26;  // of the position; the value is flat there, so this is far more than it needs
   const auto signed_value = [&](double at) { return sign * value_at(profile, at); };
-  return sign *
-         boost::math::tools::brent_find_minima(signed_value, angle - spacing, angle + spacing, bits).second;
+  const double found =
+      boost::math::tools::brent_find_minima(signed_value, position - spacing, position + spacing, bits)
+          .second;
+  return sign * std::min(signed_value(position), found);
 }
 
 }  // namespace
 
+double lowest_over_revolution(const Profile& profile) {
+  const ExtremePositions extremes = find_extremes(profile);
+  return refined(profile, extremes.lowest, extremes.spacing, 1.0);
+}
+
 ValueRange range_over_revolution(const Profile& profile) {
-  const std::size_t points = 16 * std::max<std::size_t>(4, profile.cosine.size());
-  const double spacing = profile.period / static_cast<double>(points);
-  double lowest_angle = 0.0;
-  double highest_angle = 0.0;
-  ValueRange range{value_at(profile, 0.0), value_at(profile, 0.0)};
-  for (std::size_t i = 1; i < points; ++i) {
-    const double angle = static_cast<double>(i) * spacing;
-    const double value = value_at(profile, angle);
-    if (value < range.low) {
-      range.low = value;
-      lowest_angle = angle;
-    }
-    if (value > range.high) {
-      range.high = value;
-      highest_angle = angle;
-    }
-  }
-  return {std::min(range.low, refined(profile, lowest_angle, spacing, 1.0)),
-          std::max(range.high, refined(profile, highest_angle, spacing, -1.0))};
+  const ExtremePositions extremes = find_extremes(profile);
+  return {refined(profile, extremes.lowest, extremes.spacing, 1.0),
+          refined(profile, extremes.highest, extremes.spacing, -1.0)};
 }
 
 }  // namespace zerocount::friction

@@ -38,5 +38,7 @@ struct ValueRange {
 /// The extreme values of a profile over a revolution, to 1e-6 relative: searched at 16 points per shortest
 /// wavelength, and the extremes then refined.
 ValueRange range_over_revolution(const Profile& profile);
+/// The low end of range_over_revolution(), in half the time.
+double lowest_over_revolution(const Profile& profile);
 
 }  // namespace zerocount::friction

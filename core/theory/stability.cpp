@@ -45,7 +45,7 @@ double lowest_k1(const friction::FrictionAlongRotor& friction) {
   double lowest = friction.uniform.k1;
   for (const friction::ProfiledParameter& entry : friction.profiled) {
     if (entry.parameter == &friction::FrictionParameters::k1)
-      lowest = friction::range_over_revolution(*entry.profile).low;
+      lowest = friction::lowest_over_revolution(*entry.profile);
   }
   return lowest;
 }

@@ -323,6 +323,7 @@ std::optional<std::string> targets_text(const study::Study& study, std::int64_t 
 std::vector<PointReading> examined_points(const study::Study& study, std::int64_t count) {
   const std::vector<std::string> names = summary::short_labels(study.points.labels, study.points.axes);
   std::vector<PointReading> points;
+  std::vector<theory::KnownRotor> rotors;
   const std::int64_t conditions = study::condition_count(study);
   for (std::int64_t i = 0; i < count * conditions; ++i) {
     const std::int64_t point = i / conditions;
@@ -332,7 +333,7 @@ std::vector<PointReading> examined_points(const study::Study& study, std::int64_
         {point, study.points.labels[index], names.size() == 1 ? std::nullopt : std::optional(names[index]),
          study.conditions.empty() ? std::nullopt
                                   : std::optional(study.conditions[static_cast<std::size_t>(condition)]),
-         theory::examine(study, point, condition), targets_text(study, point, condition)});
+         theory::examine(study, point, condition, rotors), targets_text(study, point, condition)});
     const theory::Approach& approach = points.back().theory.approach;
     if (!approach.exceeds_hold()) continue;
     status::tell(

@@ -54,5 +54,26 @@ TEST(PointTheoryDescription, HasTheNumbersOfEachStatement) {
   }
 }
 
+// A rotor that stays the same from point to point is searched once.
+TEST(PointTheory, RotorsKnownFromThePointBeforeChangeNothing) {
+  const study::Study study = manifest::parse_study(
+      "zerocount: 1\nname: axis\nseed: 1\nrigs: 5\ntrials: 5\ncommand: {targets: [1], hold: 1}\nsweep:\n  "
+      "cases:\n"
+      "    a: {friction.k1: {profile: {mean: 110, cv: 0.1, correlation_length: 0.3}}}\n"
+      "    b: {friction.k1: {profile: {mean: 110, cv: 0.1, correlation_length: 0.3}}, controller.ki: "
+      "2.0e-5}\n"
+      "    c: {friction.k1: {profile: {mean: 90, cv: 0.2, correlation_length: 0.3}}}\n",
+      "m.yaml", {});
+  std::vector<KnownRotor> known;
+  std::set<double> lowest;
+  for (const std::int64_t point : {0, 1, 2, 0}) {
+    const PointTheory theory = examine(study, point, 0, known);
+    EXPECT_EQ(theory.lowest.k1.low, examine(study, point).lowest.k1.low) << point;
+    EXPECT_EQ(theory.lowest.k1.high, examine(study, point).lowest.k1.high) << point;
+    lowest.insert(theory.lowest.k1.low);
+  }
+  EXPECT_EQ(lowest.size(), 2U);
+}
+
 }  // namespace
 }  // namespace zerocount::theory

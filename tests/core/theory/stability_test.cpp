@@ -168,6 +168,7 @@ TEST(Rules, NoAngleHasALowerStiffnessThanTheLowest) {
     friction.profiled.push_back(
         {&friction::FrictionParameters::k1, std::make_shared<friction::Profile>(profile)});
     const double lowest = lowest_k1(friction);
+    EXPECT_EQ(lowest, friction::range_over_revolution(profile).low);
     double seen = 1e9;
     for (int j = 0; j < 20000; ++j) seen = std::min(seen, friction::value_at(profile, angle(random)));
     EXPECT_GE(seen, lowest * (1.0 - 1e-6));

@@ -83,44 +83,43 @@ Chances ObservedWorld::of_moves(const PlannedSize& planned) const {
   return {chance_of_at_least(of_all_moves_, n, met), 1.0 - chance_of_at_least(of_all_moves_, n, not_missed)};
 }
 
-/// So many of the rigs observed would show `threshold` or more moves that meet the goal.
-double ObservedWorld::rigs_passing(std::int64_t threshold, std::int64_t more) {
-  const auto [at, is_new] = passing_.try_emplace({threshold, more}, 0.0);
+/// So many of the rigs observed would show `met` or more moves that meet the goal.
+double ObservedWorld::rigs_passing(std::int64_t met, std::int64_t more) {
+  const auto [at, is_new] = passing_.try_emplace({met, more}, 0.0);
   if (!is_new) return at->second;
   const std::int64_t moves = counts_.rigs.front().moves;
-  for (const auto& [met, rigs] : machines_) {
-    const double chance = threshold <= 0 ? 1.0
-                                         : statistics::binomial_upper_tail(
-                                               moves * more, statistics::rate(met, moves), threshold - 1);
+  for (const auto& [observed, rigs] : machines_) {
+    const double chance =
+        met <= 0 ? 1.0
+                 : statistics::binomial_upper_tail(moves * more, statistics::rate(observed, moves), met - 1);
     at->second += static_cast<double>(rigs) * chance;
   }
   return at->second;
 }
 
+/// The chance of the mark that shows best what is wanted: that of any of them is not smaller.
 Chances ObservedWorld::of_machines(const PlannedSize& planned) {
-  statistics::RigMoves rig = counts_.rigs.front();
-  rig.trials *= planned.more_on_each_rig;
-  rig.moves *= planned.more_on_each_rig;
-  const std::int64_t rigs = planned.units;
-  const auto thresholds = [&](double confidence) {
-    return statistics::rig_thresholds(rig, rigs, goal_.moves, *goal_.machines, confidence);
+  const statistics::RigMoves& rig = counts_.rigs.front();
+  const statistics::RigStudy study{planned.units, rig.trials * planned.more_on_each_rig,
+                                   rig.moves * planned.more_on_each_rig};
+  const auto observed = static_cast<double>(counts_.rigs.size());
+  const auto chance = [&](const statistics::RigBound::Enough& enough, double passing) {
+    if (enough.rigs > study.rigs) return 0.0;
+    return statistics::binomial_upper_tail(study.rigs, std::clamp(passing / observed, 0.0, 1.0),
+                                           enough.rigs - 1);
   };
-  const statistics::RigThresholds of_low = thresholds(confidence_low_);
-  const statistics::RigThresholds of_high = thresholds(confidence_high_);
-  const std::int64_t met = first_where(0, rigs + 1, [&](std::int64_t passing) {
-    return statistics::rigs_at_least(of_low, passing, rigs, confidence_low_) >= *goal_.machines;
-  });
-  const std::int64_t not_missed = first_where(0, rigs + 1, [&](std::int64_t passing) {
-    return statistics::rigs_at_most(of_high, passing, rigs, confidence_high_) >= *goal_.machines;
-  });
-  const auto chance = [&](std::int64_t threshold, std::int64_t passing) {
-    if (passing > rigs) return 0.0;
-    if (passing <= 0) return 1.0;
-    const double p =
-        rigs_passing(threshold, planned.more_on_each_rig) / static_cast<double>(counts_.rigs.size());
-    return statistics::binomial_upper_tail(rigs, std::clamp(p, 0.0, 1.0), passing - 1);
-  };
-  return {chance(of_low.low, met), 1.0 - chance(of_high.high, not_missed)};
+  Chances chances;
+  const statistics::RigClaim met{goal_.moves, *goal_.machines, confidence_low_};
+  for (const auto& enough : statistics::RigBound(study, met).enough())
+    chances.met = std::max(chances.met, chance(enough, rigs_passing(enough.met, planned.more_on_each_rig)));
+  const statistics::RigClaim missed =
+      statistics::of_missing({goal_.moves, *goal_.machines, confidence_high_});
+  for (const auto& enough : statistics::RigBound(study, missed).enough()) {
+    const std::int64_t at_most = study.moves - enough.met;
+    const double missing = observed - rigs_passing(at_most + 1, planned.more_on_each_rig);
+    chances.missed = std::max(chances.missed, chance(enough, missing));
+  }
+  return chances;
 }
 
 }  // namespace zerocount::goal

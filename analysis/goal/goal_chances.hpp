@@ -47,7 +47,7 @@ class ObservedWorld {
   static Proportions likely_proportions(double hits, double events);
   static double chance_of_at_least(const Proportions& proportions, std::int64_t events, std::int64_t hits);
   double planned_events(const PlannedSize& planned) const;
-  double rigs_passing(std::int64_t threshold, std::int64_t more);
+  double rigs_passing(std::int64_t met, std::int64_t more);
   Chances of_moves(const PlannedSize& planned) const;
   Chances of_machines(const PlannedSize& planned);
 

@@ -42,7 +42,7 @@ Verdict judge_world(const study::Goal& goal, const measures::MoveCounts& counts,
     return verdict;
   }
   const auto rigs = [&](double one) {
-    return statistics::rig_proportion(counts.rigs, goal.moves, *goal.machines, one);
+    return statistics::rig_proportion(counts.rigs, {goal.moves, *goal.machines, one});
   };
   const statistics::RigProportion low = rigs(confidence.low);
   const double high = confidence.high == confidence.low ? low.high : rigs(confidence.high).high;

@@ -10,33 +10,43 @@
 namespace zerocount::statistics {
 namespace {
 
-/// The n moves of a rig, of which the proportion q is asked for.
-struct MovesOfRig {
-  double trials;
-  std::int64_t moves;
-  double q;
+/// ε(c): how probably a rig on the proportion shows `met` or more.
+double false_pass(const RigStudy& study, double proportion, std::int64_t met) {
+  if (met <= 0) return 1.0;
+  if (study.trials == study.moves) return binomial_upper_tail(study.moves, proportion, met - 1);
+  const double mean = static_cast<double>(met) / static_cast<double>(study.moves);
+  if (mean <= proportion) return 1.0;
+  return std::exp(-static_cast<double>(study.trials) * bernoulli_divergence(mean, proportion));
+}
 
-  bool one_move_each() const { return trials == static_cast<double>(moves); }
-  double mean(std::int64_t met) const { return static_cast<double>(met) / static_cast<double>(moves); }
+/// The c of a mark is the lowest with ε(c) ≤ `wrong`, or n; its b the highest with 1 − ε(b) ≤ `left_out`.
+struct MarkRule {
+  double wrong;
+  double weight;
+  double left_out{0.0};  ///< 0: b = 0
 };
 
-/// exp(−m·KL(y‖q)).
-double chernoff_bound(const MovesOfRig& rig, double y) {
-  return std::exp(-rig.trials * bernoulli_divergence(y, rig.q));
+/// Chosen for sharp bounds in populations of many kinds.
+constexpr MarkRule rules[] = {{0.1, 0.35}, {0.35, 0.25}, {0.6, 0.15}, {0.85, 0.15}, {0.35, 0.1, 0.1}};
+
+/// ε of the highest mark, not so large that it takes more than half of what the number of rigs leaves.
+double strictest(const RigStudy& study, const RigClaim& claim) {
+  const double room = proportion_at_least(study.rigs, study.rigs, claim.confidence) - claim.wanted;
+  return room > 0.0 ? std::min(rules[0].wrong, room / (2.0 * (1.0 - claim.wanted))) : rules[0].wrong;
 }
 
-/// ε(c): how probably a rig below q shows `met` or more.
-double false_pass(const MovesOfRig& rig, std::int64_t met) {
-  if (met <= 0) return 1.0;
-  if (!rig.one_move_each()) return rig.mean(met) > rig.q ? chernoff_bound(rig, rig.mean(met)) : 1.0;
-  return binomial_upper_tail(rig.moves, rig.q, met - 1);
-}
-
-/// δ(c): how probably a rig at q or above shows fewer than `met`.
-double false_fail(const MovesOfRig& rig, std::int64_t met) {
-  if (met <= 0) return 0.0;
-  if (!rig.one_move_each()) return rig.mean(met - 1) < rig.q ? chernoff_bound(rig, rig.mean(met - 1)) : 1.0;
-  return binomial_cdf(rig.moves, rig.q, met - 1);
+RigMark mark_of(const RigStudy& study, double q, const MarkRule& rule) {
+  RigMark mark;
+  if (rule.left_out > 0.0) {
+    mark.among = numerics::first_where(
+                     0, study.moves + 1,
+                     [&](std::int64_t met) { return false_pass(study, q, met) < 1.0 - rule.left_out; }) -
+                 1;
+  }
+  mark.met = numerics::first_where(0, study.moves,
+                                   [&](std::int64_t met) { return false_pass(study, q, met) <= rule.wrong; });
+  mark.wrong = false_pass(study, q, mark.met) / false_pass(study, q, mark.among);
+  return mark;
 }
 
 std::int64_t passing(std::span<const RigMoves> rigs, std::int64_t met) {
@@ -50,50 +60,118 @@ std::vector<RigMoves> without_further_moves(std::span<const RigMoves> rigs, std:
   return shortened;
 }
 
+/// The moves that miss in place of those that meet the requirement.
+std::vector<RigMoves> missing(std::span<const RigMoves> rigs) {
+  std::vector<RigMoves> missed(rigs.begin(), rigs.end());
+  for (RigMoves& rig : missed) rig.met = rig.moves - rig.met;
+  return missed;
+}
+
+double low_bound(std::span<const RigMoves> rigs, const RigClaim& claim) {
+  const auto [fewest, most] = std::minmax_element(
+      rigs.begin(), rigs.end(), [](const RigMoves& a, const RigMoves& b) { return a.moves < b.moves; });
+  const RigStudy study{std::ssize(rigs), fewest->trials, fewest->moves, fewest->moves == most->moves};
+  const std::vector<RigMoves> counted = without_further_moves(rigs, fewest->moves);
+  return RigBound(study, claim).at_least([&](std::int64_t met) { return passing(counted, met); });
+}
+
 }  // namespace
 
-RigThresholds rig_thresholds(const RigMoves& rig, std::int64_t rigs, double proportion, double wanted,
-                             double confidence) {
-  const MovesOfRig moves{static_cast<double>(rig.trials), rig.moves, proportion};
-  const double allowed_pass = (proportion_at_least(rigs, rigs, confidence) - wanted) / (2.0 * (1.0 - wanted));
-  const double allowed_fail = 0.5 * (1.0 - wanted);
-  RigThresholds thresholds;
-  thresholds.low = numerics::first_where(
-      0, rig.moves, [&](std::int64_t met) { return false_pass(moves, met) <= allowed_pass; });
-  const std::int64_t beyond = numerics::first_where(
-      0, rig.moves + 1, [&](std::int64_t met) { return false_fail(moves, met) > allowed_fail; });
-  thresholds.high = std::max<std::int64_t>(beyond - 1, 0);
-  thresholds.false_pass = false_pass(moves, thresholds.low);
-  thresholds.false_fail = false_fail(moves, thresholds.high);
-  return thresholds;
+RigBound::RigBound(const RigStudy& study, const RigClaim& claim) : study_(study), claim_(claim) {
+  std::vector<Tested> marks;  // with their weights in place of errors
+  for (const MarkRule& rule : rules) {
+    // Further moves change both numbers of a ratio; moves of one trial have no known ratio.
+    if (rule.left_out > 0.0 && !(study.all_alike && study.trials == study.moves)) continue;
+    MarkRule one = rule;
+    if (&rule == &rules[0]) one.wrong = strictest(study, claim);
+    const RigMark mark = mark_of(study, claim.proportion, one);
+    const bool is_idle = mark.wrong >= 1.0 || (rule.left_out > 0.0 && mark.among == 0);
+    if (is_idle) continue;
+    const auto same = std::ranges::find_if(marks, [&](const Tested& other) {
+      return other.mark.met == mark.met && other.mark.among == mark.among;
+    });
+    if (same == marks.end()) {
+      marks.push_back({mark, one.weight});
+    } else {
+      same->error += one.weight;
+    }
+  }
+  while (!marks.empty()) {
+    double weights = 0.0;
+    for (const Tested& one : marks) weights += one.error;
+    Stage stage{marks, 1.0};
+    std::size_t lowest = 0;
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      Tested& one = stage.marks[i];
+      one.error *= (1.0 - claim.confidence) / weights;
+      const double reach = bound(one, study.rigs, study.rigs);
+      if (reach < stage.reach) lowest = i;
+      stage.reach = std::min(stage.reach, reach);
+    }
+    stages_.push_back(std::move(stage));
+    marks.erase(marks.begin() + static_cast<std::ptrdiff_t>(lowest));
+  }
 }
 
-double rigs_at_least(const RigThresholds& thresholds, std::int64_t passing, std::int64_t rigs,
-                     double confidence) {
-  const double wrong = thresholds.false_pass;
-  if (!(wrong < 1.0)) return 0.0;
-  return std::max(0.0, (proportion_at_least(passing, rigs, confidence) - wrong) / (1.0 - wrong));
+double RigBound::bound(const Tested& tested, std::int64_t passing, std::int64_t among) const {
+  const auto& [mark, error] = tested;
+  if (among == 0) return 0.0;
+  const bool of_all = mark.among == 0;
+  const double confidence = 1.0 - (of_all ? error : 0.5 * error);
+  const double in_question = of_all ? 1.0 : proportion_at_least(among, study_.rigs, confidence);
+  const double pass = proportion_at_least(passing, among, confidence);
+  return std::max(0.0, in_question * (pass - mark.wrong) / (1.0 - mark.wrong));
 }
 
-double rigs_at_most(const RigThresholds& thresholds, std::int64_t passing, std::int64_t rigs,
-                    double confidence) {
-  return std::min(1.0, proportion_at_most(passing, rigs, confidence) / (1.0 - thresholds.false_fail));
+double RigBound::at_least(const std::function<std::int64_t(std::int64_t met)>& passing) const {
+  double low = 0.0;
+  for (const Stage& stage : stages_) {
+    double found = 0.0;
+    for (const Tested& one : stage.marks)
+      found = std::max(found, bound(one, passing(one.mark.met), passing(one.mark.among)));
+    low = std::max(low, found);
+    if (found < stage.reach) break;
+  }
+  return low;
 }
 
-RigProportion rig_proportion(std::span<const RigMoves> rigs, double proportion, double wanted,
-                             double confidence) {
-  if (rigs.empty()) return {};
-  // In a run that has not ended, rigs may differ by a trial. Both bounds then allow for the further moves.
-  const RigMoves fewest = *std::min_element(
-      rigs.begin(), rigs.end(), [](const RigMoves& a, const RigMoves& b) { return a.moves < b.moves; });
-  if (fewest.moves == 0) return {};
-  const auto meeting = std::count_if(
-      rigs.begin(), rigs.end(), [&](const RigMoves& one) { return rate(one.met, one.moves) >= proportion; });
-  const std::int64_t count = std::ssize(rigs);
-  const RigThresholds thresholds = rig_thresholds(fewest, count, proportion, wanted, confidence);
-  const std::int64_t passing_low = passing(without_further_moves(rigs, fewest.moves), thresholds.low);
-  return {meeting, rigs_at_least(thresholds, passing_low, count, confidence),
-          rigs_at_most(thresholds, passing(rigs, thresholds.high), count, confidence)};
+std::vector<RigBound::Enough> RigBound::enough() const {
+  std::vector<Enough> found;
+  const Stage* last = nullptr;  // that shows the proportion wanted
+  for (const Stage& stage : stages_)
+    if (last == nullptr || last->reach < claim_.wanted) last = &stage;
+  if (last == nullptr) return found;
+  for (const Tested& one : last->marks) {
+    if (one.mark.among > 0) continue;
+    Enough& enough = found.emplace_back(Enough{one.mark.met, 0});
+    for (const Stage& stage : stages_) {
+      const auto here = std::ranges::find_if(stage.marks, [&](const Tested& other) {
+        return other.mark.met == one.mark.met && other.mark.among == 0;
+      });
+      const double shown = &stage == last ? claim_.wanted : stage.reach;
+      const double pass = shown + (1.0 - shown) * one.mark.wrong;
+      enough.rigs = numerics::first_where(enough.rigs, study_.rigs + 1, [&](std::int64_t rigs) {
+        return rigs > 0 && binomial_upper_tail(study_.rigs, pass, rigs - 1) <= here->error;
+      });
+      if (&stage == last) break;
+    }
+  }
+  return found;
+}
+
+RigClaim of_missing(const RigClaim& claim) {
+  return {1.0 - claim.proportion, 1.0 - claim.wanted, claim.confidence};
+}
+
+RigProportion rig_proportion(std::span<const RigMoves> rigs, const RigClaim& claim) {
+  if (rigs.empty() || std::ranges::any_of(rigs, [](const RigMoves& rig) { return rig.moves == 0; }))
+    return {};
+  const auto meeting = std::count_if(rigs.begin(), rigs.end(), [&](const RigMoves& one) {
+    return rate(one.met, one.moves) >= claim.proportion;
+  });
+  const double low = low_bound(rigs, claim);
+  const double high = 1.0 - low_bound(missing(rigs), of_missing(claim));
+  return {meeting, low, std::max(low, high)};
 }
 
 }  // namespace zerocount::statistics

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <vector>
 
 #include "analysis/statistics/proportion.hpp"
 
@@ -22,50 +25,107 @@ struct RigMoves {
 /// The proportion π of all rigs that meet the requirement in at least the proportion q of their moves, with
 /// one-sided bounds. p_r, the proportion of rig r in infinitely many moves, is not known: the rig was seen in
 /// n moves only.
-///
-/// A rig with p_r < q shows c or more moves of n with a probability of at most ε(c), a rig with p_r ≥ q fewer
-/// than c with at most δ(c). With P the proportion of all rigs that show c or more,
-///
-///   P ≤ π + (1 − π)·ε(c),   P ≥ π·(1 − δ(c)),
-///
-/// so that the Clopper–Pearson bounds L and U of P give
-///
-///   π ≥ (L − ε(c))/(1 − ε(c)),   π ≤ U/(1 − δ(c)).
-///
-/// For trials of one move ε and δ are tails of the binomial distribution (n, q). Moves of one trial may be
-/// correlated. For several moves they are the bounds of Chernoff and Hoeffding for the mean of m trials with
-/// values in [0, 1], exp(−m·KL(c/n‖q)); Hoeffding, J. Amer. Statist. Assoc. 58 (1963) 13, theorem 1.
-///
-/// The thresholds c depend on n, q, the number of rigs and `wanted`, not on the observations: for the lower
-/// bound the smallest c with ε(c) ≤ (L* − wanted)/(2·(1 − wanted)), L* being L if all rigs pass, or c = n;
-/// for the upper bound the largest c with δ(c) ≤ (1 − wanted)/2.
 struct RigProportion {
   std::int64_t meeting{0};  ///< rigs with met/moves ≥ q
   double low{0.0};
   double high{1.0};
 };
 
-/// The thresholds c of the two bounds, and how they mislead. A rig passes that shows c moves or more.
-struct RigThresholds {
-  std::int64_t low{0};     ///< for the lower bound
-  std::int64_t high{0};    ///< for the upper bound
-  double false_pass{1.0};  ///< ε(low)
-  double false_fail{0.0};  ///< δ(high)
+/// What is asked of rigs: that the proportion `wanted` of them meets the requirement in the proportion q of
+/// their moves.
+struct RigClaim {
+  double proportion;  ///< q
+  double wanted;
+  double confidence;  ///< of a bound
 };
 
-/// @param rig of which trials and moves count @param rigs their number
-RigThresholds rig_thresholds(const RigMoves& rig, std::int64_t rigs, double proportion, double wanted,
-                             double confidence);
+/// The size of a study on rigs.
+struct RigStudy {
+  std::int64_t rigs{0};
+  std::int64_t trials{0};  ///< of a rig
+  std::int64_t moves{0};   ///< of a rig, of all its trials
+  bool all_alike{true};    ///< all rigs have as many moves; otherwise these are the fewest
+};
 
-/// The bounds of π where so many of the rigs pass the threshold of each.
-double rigs_at_least(const RigThresholds& thresholds, std::int64_t passing, std::int64_t rigs,
-                     double confidence);
-double rigs_at_most(const RigThresholds& thresholds, std::int64_t passing, std::int64_t rigs,
-                    double confidence);
+/// Rigs that pass a mark: c or more of their n moves meet the requirement.
+struct RigMark {
+  std::int64_t met{0};    ///< c
+  std::int64_t among{0};  ///< b: the mark is of those rigs alone that show b or more; 0: of all
+  double wrong{1.0};      ///< ρ: proportion of rigs below q that pass, at most; of those that show b or more
+};
 
-/// @param rigs with moves each @param proportion q @param wanted the proportion of rigs that is asked about
-/// @param confidence of each bound
-RigProportion rig_proportion(std::span<const RigMoves> rigs, double proportion, double wanted,
-                             double confidence);
+/// The lower bound of π from the numbers of rigs that pass some marks.
+///
+/// A rig with p_r < q shows c or more moves of n with a probability of at most ε(c), that of a rig on q. For
+/// trials of one move it is the tail of the binomial distribution (n, q). Moves of one trial may be
+/// correlated; then ε is the bound of Chernoff and Hoeffding for the mean of m trials with values in [0, 1],
+/// exp(−m·KL(c/n‖q)); Hoeffding, J. Amer. Statist. Assoc. 58 (1963) 13, theorem 1. With P(c) the proportion
+/// of all rigs that show c or more,
+///
+///   P(c) ≤ π + (1 − π)·ε(c),   so that π ≥ (P(c) − ε(c))/(1 − ε(c)).
+///
+/// Rigs far below q need not be allowed for: the ratio of two binomial tails rises with p (monotone
+/// likelihood ratio), so that of the rigs below q that show b or more at most ρ = ε(c)/ε(b) show c. Hence
+///
+///   P(c) ≤ ρ·P(b) + (1 − ρ)·π,   π ≥ P(b)·(P(c)/P(b) − ρ)/(1 − ρ),
+///
+/// of which the former is the case b = 0. P(b) and P(c)/P(b) are proportions with Clopper–Pearson bounds.
+///
+/// Which mark is best depends on the rigs: a high one where they hardly ever miss, a low one where they are
+/// well above q and miss at times. So there are several, and the error 1 − γ is divided among them
+/// (Bonferroni); the bound is the best of theirs. A mark that cannot show a proportion π₀ even if all rigs
+/// pass takes no part in showing π₀ or more, and leaves its error to the others:
+///
+///   low = 0; marks = all
+///   repeat
+///     found = largest bound of the marks, which share 1 − γ by their weights
+///     reach = smallest of the bounds that the marks have if all rigs pass
+///     low = max(low, found)
+///     if found < reach or one mark is left: return low
+///     low = max(low, reach); leave out the mark with the smallest reach
+///
+/// Each π₀ is so tested by marks that depend on π₀ and the size of the study alone, which makes the bound
+/// valid for each size and distribution of the rigs. If all rigs pass it is that of the highest mark alone.
+class RigBound {
+ public:
+  RigBound(const RigStudy& study, const RigClaim& claim);
+
+  /// @param passing number of rigs that show so many moves or more
+  double at_least(const std::function<std::int64_t(std::int64_t met)>& passing) const;
+
+  /// Rigs that show `met` moves or more, in a number that suffices to show the proportion that is wanted.
+  struct Enough {
+    std::int64_t met{0};
+    std::int64_t rigs{0};  ///< more than there are: no number suffices
+  };
+  /// [mark]; of the marks that are of all rigs.
+  std::vector<Enough> enough() const;
+
+ private:
+  /// A mark of a stage, and its part of the error.
+  struct Tested {
+    RigMark mark;
+    double error;
+  };
+  /// Proportions that are shown by the same marks.
+  struct Stage {
+    std::vector<Tested> marks;
+    double reach;
+  };
+
+  double bound(const Tested& tested, std::int64_t passing, std::int64_t among) const;
+
+  RigStudy study_;
+  RigClaim claim_;
+  std::vector<Stage> stages_{};
+};
+
+/// The upper bound is 1 − the lower bound of the rigs that miss the requirement in more than 1 − q of their
+/// moves.
+/// @param rigs with moves each @param confidence of each bound
+RigProportion rig_proportion(std::span<const RigMoves> rigs, const RigClaim& claim);
+
+/// The claim on the rigs that do not meet the requirement.
+RigClaim of_missing(const RigClaim& claim);
 
 }  // namespace zerocount::statistics

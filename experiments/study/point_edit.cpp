@@ -1,5 +1,3 @@
-#include "experiments/study/point_edit.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,6 +5,8 @@
 #include <variant>
 
 #include <fmt/format.h>
+
+#include "experiments/study/point_edit.hpp"
 
 namespace zerocount::study {
 namespace {
@@ -81,17 +81,18 @@ std::string PointEdit::out_of_range() const {
   for (const Assignment& one : plan_->axes.back().assignments) {
     const parameters::Parameter& parameter = plan_->table.rows[one.slot];
     const ValueLimits limits = limits_of(*plan_, one.value);
+    const numerics::Interval range = parameters::range_of(parameter, plan_->units);
     const auto is_allowed = [&](double value) {
-      return value == parameter.none || numerics::contains(parameter.range, value);
+      return value == parameter.none || numerics::contains(range, value);
     };
     const bool drawn = one.value.kind == Value::Kind::distribution;
-    if (drawn ? distributions::extremes_are_inside(plan_->distributions[one.value.index], parameter.range)
+    if (drawn ? distributions::extremes_are_inside(plan_->distributions[one.value.index], range)
               : is_allowed(limits.low))
       continue;
     return fmt::format("{}: it would be {}; expected {}", parameter.name,
                        limits.low == limits.high ? fmt::format("{:.6g}", limits.low)
                                                  : fmt::format("{:.6g} to {:.6g}", limits.low, limits.high),
-                       numerics::notation(parameter.range));
+                       numerics::notation(range));
   }
   return "";
 }

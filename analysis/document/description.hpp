@@ -251,14 +251,15 @@ class Description {
   template <class Part, class Get>
   Description& add_rows(Item item, Description<Part> parts, Get get) {
     item.members = parts.items();
-    return add(
-        std::move(item),
-        [parts = std::move(parts), get = std::move(get)](const Row& row, Audience audience) -> Content {
-          Rows rows;
-          auto&& found = std::invoke(get, row);
-          for (const Part& part : found) rows.rows.push_back(parts.members_of(part, audience));
-          return {std::move(rows)};
-        });
+    return add(std::move(item),
+               [parts = std::move(parts), get = std::move(get), optional = item.optional](
+                   const Row& row, Audience audience) -> Content {
+                 Rows rows;
+                 auto&& found = std::invoke(get, row);
+                 for (const Part& part : found) rows.rows.push_back(parts.members_of(part, audience));
+                 if (optional && rows.rows.empty()) return {};
+                 return {std::move(rows)};
+               });
   }
 
   template <class Get>

@@ -71,6 +71,16 @@ void MoveCounts::add(std::int64_t trial_index, std::int64_t rig_count, std::int6
   rig.met += meeting;
 }
 
+void MoveCounts::add_rig(std::size_t rig, std::size_t condition, const statistics::RigMoves& of_rig) {
+  if (!of_conditions.empty()) of_conditions[condition].add_rig(rig, 0, of_rig);
+  moves += of_rig.moves;
+  met += of_rig.met;
+  rigs.resize(std::max(rigs.size(), rig + 1));
+  rigs[rig].trials += of_rig.trials;
+  rigs[rig].moves += of_rig.moves;
+  rigs[rig].met += of_rig.met;
+}
+
 MoveCounts& MoveCounts::operator+=(const MoveCounts& other) {
   moves += other.moves;
   met += other.met;

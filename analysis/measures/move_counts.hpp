@@ -26,6 +26,8 @@ struct MoveCounts {
   void tell_apart(std::int64_t worlds_of_study, std::int64_t conditions);
   /// Adds the moves of a trial. @param rigs number of rigs; 0: no trials share a rig
   void add(std::int64_t trial, std::int64_t rigs, std::int64_t moves, std::int64_t met);
+  /// Adds all moves of a rig under one condition. @param condition 0 without conditions
+  void add_rig(std::size_t rig, std::size_t condition, const statistics::RigMoves& of_rig);
   MoveCounts& operator+=(const MoveCounts& other);
   /// Whether the counts are possible for this number of trials.
   bool is_valid(std::int64_t trials, std::int64_t moves_of_trial, std::int64_t rigs) const;

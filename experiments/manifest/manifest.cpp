@@ -126,6 +126,7 @@ void read_conditions(Manifest& m) {
   m.conditions = sections::read_conditions(*field, m.axes, m.reading);
   if (m.conditions.labels.empty()) return;
   m.plan().axes.push_back(m.conditions.axis);
+  m.plan().condition_axis = m.plan().axes.size() - 1;
   m.plan().conditions = std::ssize(m.conditions.labels);
   m.places.axes.push_back(m.conditions.places);
 }

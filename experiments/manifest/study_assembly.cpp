@@ -206,9 +206,10 @@ std::map<std::uint32_t, std::size_t> profiles_in_use(const study::StudyPlan& pla
 // Where a value differs from those elsewhere: at a design point, or under a condition.
 std::string place_name(const study::StudyPlan& plan, std::size_t slot, std::size_t point,
                        const study::Study& study) {
-  const bool overridden = plan.has_conditions() &&
-                          std::ranges::find(plan.axes.back().assignments, slot, &study::Assignment::slot) !=
-                              plan.axes.back().assignments.end();
+  const bool overridden =
+      plan.has_conditions() &&
+      std::ranges::find(plan.axes[plan.condition_axis].assignments, slot, &study::Assignment::slot) !=
+          plan.axes[plan.condition_axis].assignments.end();
   return overridden ? study.conditions[static_cast<std::size_t>(study::condition_at(plan, point))]
                     : fmt::format("{}", study::design_point(plan, point));
 }

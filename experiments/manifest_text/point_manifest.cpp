@@ -109,6 +109,14 @@ class ManifestTree {
     }
   }
 
+  /// Writes what the condition overrides into the sections.
+  void settle_condition(std::string_view condition) {
+    const YamlPointer kept = root_;
+    const YamlNode& overrides = *child(*child(*root_, "conditions"), condition);
+    for (const yaml::YamlEntry& entry : overrides.entries) put(entry.key, entry.value);
+    remove("conditions");
+  }
+
   void remove(std::string_view path) { root_ = without(root_, path); }
 
   void put(std::string_view path, const YamlPointer& value) {
@@ -169,6 +177,7 @@ std::string manifest_of_point(const study::Study& study, std::int64_t point, con
   ManifestTree tree(study);
   tree.settle(point);
   for (const char* of_the_sweep : {"sweep", "observed", "independent_points"}) tree.remove(of_the_sweep);
+  if (!changes.condition.empty()) tree.settle_condition(changes.condition);
   for (const std::string& key : changes.removed) tree.remove(key);
   for (const auto& [name, value] : changes.values) tree.put_number(name, value);
   for (const auto& [key, text] : changes.keys) tree.put_text(key, text);

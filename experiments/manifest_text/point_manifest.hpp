@@ -13,6 +13,7 @@ namespace zerocount::manifest_text {
 
 /// What a manifest of one design point has otherwise than its study.
 struct PointChanges {
+  std::string condition{};  ///< whose overrides the sections get, in place of `conditions`; empty: none
   /// (dotted path of a parameter, number): in place of what the manifest gives.
   std::vector<std::pair<std::string, double>> values{};
   /// (key at the root, YAML): in place of what the manifest gives.

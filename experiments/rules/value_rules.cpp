@@ -259,8 +259,11 @@ std::string first_fault(const study::StudyPlan& plan, std::size_t point) {
 }
 
 std::string refusal_of(const study::PointEdit& edit) {
-  const std::string fault = edit.out_of_range();
-  return fault.empty() ? first_fault(edit.plan(), edit.point()) : fault;
+  std::string fault = edit.out_of_range();
+  for (const std::size_t point : edit.points()) {
+    if (fault.empty()) fault = first_fault(edit.plan(), point);
+  }
+  return fault;
 }
 
 }  // namespace zerocount::rules

@@ -1,5 +1,7 @@
 #include "experiments/study/plan.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
@@ -19,6 +21,27 @@ void refuse_conditions(const Study& study, std::string_view verb) {
       fmt::format("{}: it has {} conditions, which are not told apart by '{}'; expected a study without "
                   "conditions (check, run, trace, summary, judge and export know them)",
                   study.name, study.conditions.size(), verb));
+}
+
+Study under_condition(const Study& study, std::int64_t condition) {
+  Study one = study;
+  if (study.conditions.empty()) return one;
+  auto plan = std::make_shared<StudyPlan>(*study.plan);
+  PlanAxis& axis = plan->axes[plan->condition_axis];
+  const auto option = static_cast<std::size_t>(condition);
+  const std::vector<Assignment> overrides(axis.assignments.begin() + axis.first[option],
+                                          axis.assignments.begin() + axis.first[option + 1]);
+  axis = {{0, static_cast<std::uint32_t>(overrides.size())}, overrides};
+  plan->conditions = 0;
+  one.plan = std::move(plan);
+  one.conditions.clear();
+  one.trials = draw_count(study);
+  one.retained_trials.clear();
+  for (const std::int64_t trial : study.retained_trials) {
+    const TrialTurns turns = turns_of(study);
+    if (turns.condition_of(trial) == condition) one.retained_trials.push_back(turns.draw_of(trial));
+  }
+  return one;
 }
 
 std::size_t option_at(const StudyPlan& plan, std::size_t axis, std::size_t point) {

@@ -109,9 +109,10 @@ struct StudyPlan {
   std::optional<SequenceCycle> sequence;                   ///< set if the list belongs to a sequence
   std::vector<Value> base;                                 ///< [slot], used unless an axis assigns a value
   std::vector<PlanAxis> axes;  ///< the last axis changes fastest, and takes precedence over the others
-  /// Number of conditions that every machine bears. Where there are any, the last axis of the manifest has
-  /// their overrides; 0: none.
+  /// Number of conditions that every machine bears; 0: none. Where there are any, an axis has their
+  /// overrides: the last one of the manifest.
   std::int64_t conditions{0};
+  std::size_t condition_axis{0};
   std::vector<distributions::Distribution> distributions;
   std::vector<std::shared_ptr<const Rotors>> profiles;
   std::vector<FollowingValue> following;

@@ -1,3 +1,5 @@
+#include "experiments/study/point_edit.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -5,8 +7,6 @@
 #include <variant>
 
 #include <fmt/format.h>
-
-#include "experiments/study/point_edit.hpp"
 
 namespace zerocount::study {
 namespace {
@@ -22,8 +22,16 @@ PointEdit::PointEdit(const Study& study, std::int64_t point)
   plan_->axes.push_back({{0, 0}, {}});
 }
 
-ValueLimits PointEdit::limits(std::string_view parameter) const {
-  return limits_of(*plan_, value_of(slot_named(*plan_, parameter)));
+std::vector<std::size_t> PointEdit::points() const {
+  std::vector<std::size_t> points;
+  for (std::int64_t condition = 0; condition < condition_count(study_); ++condition)
+    points.push_back(point_ + static_cast<std::size_t>(condition));
+  return points;
+}
+
+ValueLimits PointEdit::limits(std::string_view parameter, std::int64_t condition) const {
+  const std::size_t point = point_ + static_cast<std::size_t>(condition);
+  return limits_of(*plan_, *value_at_point(*plan_, slot_named(*plan_, parameter), point));
 }
 
 void PointEdit::set(std::size_t slot, double number) {

@@ -4,23 +4,25 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "experiments/study/point_limits.hpp"
 
 namespace zerocount::study {
 
 /// A study with other values at one of its design points, in the units of its manifest. All other values and
-/// all random numbers stay: a scaled value is drawn as before.
+/// all random numbers stay: a scaled value is drawn as before. With conditions a value that is set is that
+/// under each of them; values are scaled and added to under one condition alone (under_condition()).
 class PointEdit {
  public:
   PointEdit(const Study& study, std::int64_t point);
 
-  /// The point of the plan.
-  std::size_t point() const { return point_; }
+  /// The points of the plan: the design point under each condition.
+  std::vector<std::size_t> points() const;
   const StudyPlan& plan() const { return *plan_; }
   StudyPlan& plan() { return *plan_; }
   /// @param parameter dotted path
-  ValueLimits limits(std::string_view parameter) const;
+  ValueLimits limits(std::string_view parameter, std::int64_t condition = 0) const;
 
   void set(std::size_t slot, double number);
   void set(std::string_view parameter, double number);

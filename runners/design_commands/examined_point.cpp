@@ -42,9 +42,7 @@ ExaminedPoint point_to_examine(const command_line::Arguments& arguments) {
   const std::string& path = arguments.operands()[0];
   study::Study study =
       commands::is_results_file(path) ? study_in_file(arguments) : commands::load_study(path, arguments);
-  study::refuse_conditions(study, "zerocount limits' and 'zerocount worst");
   goal::require_targets(study, path);
-  goal::require_one_goal(study, path);
   const std::int64_t point = named_point(arguments, study);
   return {std::move(study), point};
 }

@@ -29,7 +29,8 @@ constexpr const char* limits_help =
     "finer), the encoder (4 times finer), the sample rate (twice), delay and amplifier lag, noise,\n"
     "disturbance, missed and late samples. The gains are not tuned again. All are simulated with\n"
     "the same random numbers. Without a goal the rate is that of moves that end at zero counts. Of\n"
-    "several points --point chooses one.\n"
+    "several goals and conditions each rate is that of the worst. Of several points --point chooses\n"
+    "one.\n"
     "\n"
     "Example: zerocount limits my-axis.yaml\n";
 
@@ -48,7 +49,8 @@ std::vector<LimitRow> limit_rows(const std::vector<Limit>& limits) {
 /// "14 % fewer": the failures of the row, compared with those of the base.
 std::string failures_cell(const LimitRow& row) {
   const double base = row.base.rate.value();
-  if (&row.limit == &row.base || !row.limit.rate || base == 1.0) return "";
+  const bool is_of_same_claim = row.limit.estimate.worst == row.base.estimate.worst;
+  if (&row.limit == &row.base || !row.limit.rate || base == 1.0 || !is_of_same_claim) return "";
   const double avoided = (*row.limit.rate - base) / (1.0 - base);
   return fmt::format("{:.0f} % {}", std::abs(100.0 * avoided), avoided >= 0.0 ? "fewer" : "more");
 }
@@ -66,6 +68,22 @@ document::Description<LimitRow> limit_columns() {
            .unit = "1",
            .notation = Notation::percent},
           [](Row row) { return row.limit.rate; })
+      .value({.key = "goal",
+              .heading = "of goal",
+              .meaning = "the worst of several goals, which the rate is of",
+              .optional = true},
+             [](Row row) { return row.limit.goal; })
+      .value({.key = "condition",
+              .heading = "under condition",
+              .meaning = "the worst condition, which the rate is of",
+              .optional = true},
+             [](Row row) { return row.limit.condition; })
+      .value({.key = "rates",
+              .meaning = "the rates of all goals under all conditions, where there are several",
+              .unit = "1",
+              .shown = Shown::in_json,
+              .optional = true},
+             [](Row row) { return row.limit.rates; })
       .value({.key = "failures", .heading = "failures", .shown = Shown::to_people, .numeric = true},
              failures_cell)
       .value(in_data("note", "what the rate does not show, or why there is none"),
@@ -91,11 +109,16 @@ struct PointLimits {
 std::string limits_headline(const PointLimits& found) {
   const Limit& base = found.limits.front();
   const std::string rate = fmt::format("{} of the {}", text::percent_near(base.rate.value()),
-                                       rated_words(goal::question_of(found.study)));
-  const Limit& best = *std::ranges::max_element(found.limits, {}, &Limit::rate);
-  if (*base.rate == 1.0) return rate + ": these trials show no limit";
-  if (*best.rate == *base.rate) return rate + "; no cause of failures that is switched off raises it";
-  return fmt::format("{}; the most, {}, with {}", rate, text::percent_near(*best.rate), best.cause);
+                                       rated_words(found.study, base.estimate.worst));
+  const Limit& best = *std::ranges::max_element(found.limits, tuning::is_lower);
+  if (misses_nothing(base)) return rate + ": these trials show no limit";
+  if (!is_lower(base, best)) return rate + "; no cause of failures that is switched off raises it";
+  return fmt::format(
+      "{}; the most, {}{}, with {}", rate, text::percent_near(*best.rate),
+      best.estimate.worst == base.estimate.worst
+          ? ""
+          : tuning::text_of_claim(found.study, tuning::place_of_claim(found.study, best.estimate.worst)),
+      best.cause);
 }
 
 document::AnswerDescription<PointLimits> limits_answer() {
@@ -119,9 +142,14 @@ ExitCode limits(const command_line::Arguments& arguments) {
 
 }  // namespace
 
-std::string rated_words(const goal::Question& question) {
-  return fmt::format("{} {}{}", goal::is_of_machines(question) ? "machines" : "moves",
-                     goal::words_of(question).meet, question.worlds > 0 ? " in the worst world" : "");
+std::string rated_words(const study::Study& study, std::size_t claim) {
+  const tuning::ClaimPlace place = tuning::place_of_claim(study, claim);
+  const goal::Question question = only(goal::question_of(study), place.goal);
+  const std::string goal = has_several(goal::question_of(study)) ? " '" + question.claim()->name + "'" : "";
+  return fmt::format("{} {}{}{}{}", goal::is_of_machines(question) ? "machines" : "moves",
+                     goal::words_of(question).meet, goal,
+                     study::condition_text(study, static_cast<std::int64_t>(place.condition)),
+                     question.worlds > 0 ? " in the worst world" : "");
 }
 
 document::Description<std::vector<Limit>> limits_description(const std::string& title) {

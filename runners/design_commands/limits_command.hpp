@@ -9,8 +9,9 @@
 
 namespace zerocount::design_commands {
 
-/// "moves meet the goal in the worst world": what the rates are the proportions of.
-std::string rated_words(const goal::Question& question);
+/// "moves meet the goal 'small' under condition loaded in the worst world": what the rate of a claim
+/// (tuning::Aim::claims) is the proportion of.
+std::string rated_words(const study::Study& study, std::size_t claim);
 
 /// The rates without each cause of failures as the item "limits", below `title`; the reasons of those that
 /// are not simulated.

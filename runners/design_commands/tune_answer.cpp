@@ -58,6 +58,17 @@ std::vector<std::string> tune_statuses() {
   return words;
 }
 
+/// The worst goal of a verdict, and its worst condition.
+tuning::ClaimPlace worst_claim(const goal::Verdict& verdict) {
+  return {verdict.goal, verdict.condition};
+}
+
+/// The goal of which most of the answer is: the worst by the proof.
+const study::Goal& worst_goal(Of tuning) {
+  const std::optional<Proof>& proof = tuning.answer.proof;
+  return tuning.study.goals[proof ? proof->verdict.goal : 0];
+}
+
 // The margins.
 
 struct NamedMargin {
@@ -98,9 +109,16 @@ std::string margins_sentence(Of tuning) {
   if (answer.blind)
     return "margins: none, because the controller is a plugin, whose transfer function is not known";
   if (!answer.margins) return "";
-  return fmt::format("smallest margins of {} machines{}: {}{}", answer.margins->machines,
-                     loops_text(*answer.margins), margins_text(*answer.margins, tuning.study.tuning->margins),
-                     answer.margins->stable ? "" : "\n  the linear loop of a machine is unstable");
+  const study::LoopMargins& wanted = tuning.study.tuning->margins;
+  std::string text =
+      fmt::format("smallest margins of {} machines{}: {}{}", answer.margins->machines,
+                  loops_text(*answer.margins), margins_text(*answer.margins, wanted),
+                  answer.margins->stable ? "" : "\n  the linear loop of a machine is unstable");
+  for (std::size_t condition = 0; condition < answer.margins->conditions.size(); ++condition) {
+    text += fmt::format("\n  under condition {}: {}", tuning.study.conditions[condition],
+                        margins_text(answer.margins->conditions[condition], wanted));
+  }
+  return text;
 }
 
 Description<SmallestMargins> margins_description() {
@@ -171,20 +189,33 @@ std::string unproven_headline(const TuneAnswer& answer) {
                            answer.examined);
 }
 
+/// "met: all 2 goals are met by these values under each of 2 conditions, 'small' under loaded by the least".
+std::string met_headline(Of tuning) {
+  const study::Study& study = tuning.study;
+  std::string text = study.goals.size() > 1
+                         ? fmt::format("met: all {} goals are met by these values", study.goals.size())
+                         : std::string("met: the goal is met by these values");
+  if (!tuning::has_named_claims(study)) return text;
+  const tuning::ClaimPlace worst = worst_claim(tuning.answer.proof->verdict);
+  if (!study.conditions.empty()) text += fmt::format(" under each of {} conditions", study.conditions.size());
+  text += study.goals.size() > 1 ? fmt::format(", '{}'", *tuning::goal_name(study, worst)) : ", that";
+  return text + study::condition_text(study, static_cast<std::int64_t>(worst.condition)) + " by the least";
+}
+
 std::string tune_headline(Of tuning) {
   if (!tuning.answer.proof) return unproven_headline(tuning.answer);
-  const std::optional<double> machines = study::first_goal(tuning.study)->machines;
+  const std::optional<double> machines = worst_goal(tuning).machines;
   const goal::Verdict& verdict = tuning.answer.proof->verdict;
   switch (tuning.answer.status) {
     case goal::Status::met:
-      return "met: the goal is met by these values";
+      return met_headline(tuning);
     case goal::Status::missed:
       return fmt::format(
           "unreachable in these ranges: at the best values found {:.4g} % of the {}, and at least {:g} % are "
           "wanted",
           100.0 * (machines ? verdict.machines.value : verdict.moves.value),
-          rated_words(goal::question_of(tuning.study)),
-          100.0 * machines.value_or(study::first_goal(tuning.study)->moves));
+          rated_words(tuning.study, tuning::claim_at(tuning.study, worst_claim(verdict))),
+          100.0 * machines.value_or(worst_goal(tuning).moves));
     case goal::Status::undecided:
       break;
   }
@@ -248,15 +279,95 @@ std::string proof_sentence(Of tuning) {
       study.rigs > 0 ? fmt::format(" on {} machines", proof.study.rigs) : std::string(),
       study.worlds > 0 ? fmt::format("in the worst of {} new worlds ", study.worlds) : std::string(),
       100.0 * proof.verdict.moves.value, 100.0 * proof.verdict.moves.low);
-  if (study::first_goal(study)->machines)
+  if (tuning::has_named_claims(study)) {
+    lines = fmt::format(
+        "proof: {} moves{} that the search never saw; the worst{}: {}{:.5g} % of its moves meet it, at least "
+        "{:.5g} %\n",
+        proof.study.trials * study.moves,
+        study.rigs > 0 ? fmt::format(" on {} machines", proof.study.rigs) : std::string(),
+        tuning::text_of_claim(study, worst_claim(proof.verdict)),
+        study.worlds > 0 ? fmt::format("in the worst of {} new worlds ", study.worlds) : std::string(),
+        100.0 * proof.verdict.moves.value, 100.0 * proof.verdict.moves.low);
+  }
+  const study::Goal& goal = worst_goal(tuning);
+  if (goal.machines)
     lines += fmt::format("at least {:.5g} % of machines meet it in {:g} % of their moves\n",
-                         100.0 * proof.verdict.machines.low, 100.0 * study::first_goal(study)->moves);
+                         100.0 * proof.verdict.machines.low, 100.0 * goal.moves);
   if (!proof.verdict.worlds.empty()) lines += worlds_line(proof.verdict);
   if (proof.attempts > 1)
     lines += fmt::format("it is attempt {}: the bounds allow for all of them\n", proof.attempts);
-  if (proof.needs)
-    lines += goal::needs_sentence(*study::first_goal(study), *proof.needs, study.rigs > 0) + '\n';
+  if (proof.needs) lines += goal::needs_sentence(goal, *proof.needs, study.rigs > 0) + '\n';
   return lines;
+}
+
+/// A goal under a condition, by the proof.
+struct ProvenClaimRow {
+  std::optional<std::string> goal;
+  std::optional<std::string> condition;
+  const goal::Verdict& verdict;
+  bool is_of_machines;
+};
+
+/// Every goal under every condition, where there are several.
+std::vector<ProvenClaimRow> proven_claim_rows(Of tuning) {
+  std::vector<ProvenClaimRow> rows;
+  if (!tuning.answer.proof || !tuning::has_named_claims(tuning.study)) return rows;
+  const goal::Verdict& whole = tuning.answer.proof->verdict;
+  for (std::size_t goal = 0; goal < tuning.study.goals.size(); ++goal) {
+    const goal::Verdict& of_goal = whole.goals.empty() ? whole : whole.goals[goal];
+    const auto add = [&](const goal::Verdict& verdict, std::size_t condition) {
+      const tuning::ClaimPlace place{goal, condition};
+      rows.push_back({tuning::goal_name(tuning.study, place), tuning::condition_name(tuning.study, place),
+                      verdict, tuning.study.goals[goal].machines.has_value()});
+    };
+    if (of_goal.conditions.empty()) add(of_goal, 0);
+    for (std::size_t condition = 0; condition < of_goal.conditions.size(); ++condition)
+      add(of_goal.conditions[condition], condition);
+  }
+  return rows;
+}
+
+/// The goal and the condition of a row that has only some.
+template <class Row, class GoalOf, class ConditionOf>
+void add_claim(Description<Row>& columns, const std::string& which, GoalOf goal, ConditionOf condition) {
+  columns
+      .value({.key = "goal",
+              .heading = which + "goal",
+              .meaning = "name of the " + which + "goal, of several",
+              .optional = true},
+             goal)
+      .value({.key = "condition",
+              .heading = which + "condition",
+              .meaning = "name of the " + which + "condition, with conditions",
+              .optional = true},
+             condition);
+}
+
+Description<ProvenClaimRow> proven_claim_columns() {
+  using Row = const ProvenClaimRow&;
+  Description<ProvenClaimRow> columns;
+  add_claim(columns, "", &ProvenClaimRow::goal, &ProvenClaimRow::condition);
+  return columns
+      .value({.key = "status",
+              .heading = "verdict",
+              .meaning = "verdict on the goal under the condition",
+              .words = goal::status_words()},
+             [](Row row) { return goal::text_of(row.verdict.status); })
+      .value({.key = "rate",
+              .heading = "moves that meet it",
+              .meaning = "proportion of moves that meet the goal, with one-sided bounds",
+              .unit = "1",
+              .notation = Notation::percent},
+             [](Row row) { return goal::bounded(row.verdict.moves); })
+      .value({.key = "machines",
+              .heading = "machines that meet it",
+              .meaning = "proportion of machines that meet the goal, with one-sided bounds",
+              .unit = "1",
+              .notation = Notation::percent,
+              .optional = true},
+             [](Row row) {
+               return row.is_of_machines ? std::optional(goal::bounded(row.verdict.machines)) : std::nullopt;
+             });
 }
 
 std::string criterion_text(double value) {
@@ -267,10 +378,13 @@ std::string criterion_text(double value) {
 std::string criterion_sentence(Of tuning) {
   if (!tuning.answer.proof) return "";
   const study::Study& study = tuning.study;
-  const std::string& unit = tuning::criterion_of(study).measure->field.column.unit;
+  const bool is_proportion = tuning::is_proportion_of_allowed(study);
+  const std::string unit = is_proportion ? "of the time that its goal allows"
+                                         : tuning::criteria_of(study).front().measure->field.column.unit;
   const bool has_unit = std::isfinite(tuning.answer.criterion) && unit != "1" && !unit.empty();
-  return fmt::format("{} by the proof{}: {}{}", study.tuning->minimise,
+  return fmt::format("{} by the proof{}{}: {}{}", study.tuning->minimise,
                      study.worlds > 0 ? ", of all worlds together" : "",
+                     tuning::has_named_claims(study) ? ", the largest of all goals and conditions" : "",
                      criterion_text(tuning.answer.criterion), has_unit ? " " + unit : "");
 }
 
@@ -280,7 +394,8 @@ std::string late_sentence(Of tuning) {
       !tuning.study.tuning->minimise.starts_with("band_settling_time"))
     return "";
   const std::string moves =
-      fmt::format("{:g} % of the moves{}", 100.0 * study::first_goal(tuning.study)->moves,
+      fmt::format("{:g} % of the moves{}{}", 100.0 * worst_goal(tuning).moves,
+                  tuning::text_of_claim(tuning.study, worst_claim(tuning.answer.proof->verdict)),
                   tuning.study.worlds > 0 ? " of all worlds together" : "");
   if (!std::isfinite(tuning.answer.late_limit))
     return fmt::format("  fewer than {} are within the band for good at the end of the hold", moves);
@@ -318,14 +433,22 @@ Description<goal::Verdict> worlds_of_proof() {
 }
 
 Description<Tuning> proof_description() {
-  return Description<Tuning>()
+  Description<Tuning> proof;
+  const auto worst = [](Of t) { return worst_claim(t.answer.proof->verdict); };
+  add_claim(
+      proof, "worst ",
+      [worst](Of t) {
+        return tuning::has_named_claims(t.study) ? tuning::goal_name(t.study, worst(t)) : std::nullopt;
+      },
+      [worst](Of t) { return tuning::condition_name(t.study, worst(t)); });
+  return proof
       .value(in_data("rate", "proportion of moves that meet the goal, with one-sided bounds", "1"),
              [](Of t) { return goal::bounded(t.answer.proof->verdict.moves); })
       .value(in_data("machines_low",
                      "lower bound of the proportion of machines that meet the goal, if it is about machines",
                      "1"),
              [](Of t) -> std::optional<double> {
-               if (!study::first_goal(t.study)->machines) return {};
+               if (!worst_goal(t).machines) return {};
                return t.answer.proof->verdict.machines.low;
              })
       .value(in_data("rigs", "machines; 0 without rigs"), [](Of t) { return t.answer.proof->study.rigs; })
@@ -345,7 +468,7 @@ Description<Tuning> proof_description() {
 void add_proven(Description<Tuning>& items) {
   items.headline(tune_headline)
       .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
-             [](Of t) { return goal::goal_sentence(*study::first_goal(t.study)); })
+             [](Of t) { return goal::claim_sentence(goal::question_of(t.study)); })
       .value(with_words(in_data("status", "whether the goal is met; unreachable: not in the ranges"),
                         tune_statuses()),
              [](Of t) { return tune_status(t.answer.status); })
@@ -355,6 +478,11 @@ void add_proven(Description<Tuning>& items) {
       .sentence(other_units_sentence)
       .sentence(nearest_sentence)
       .sentence(proof_sentence)
+      .table({.key = "claims",
+              .heading = "each goal under each condition, by the proof",
+              .meaning = "verdicts on each goal under each condition, where there are several",
+              .optional = true},
+             proven_claim_columns(), proven_claim_rows)
       .object(in_data("proof", "trials of the tuned values on machines that the search never saw"),
               proof_description(), [](Of t) { return t.answer.proof ? &t : nullptr; })
       .object(in_data("needed", "study that would decide the goal"), goal::needs_description(),
@@ -380,17 +508,32 @@ void add_proven(Description<Tuning>& items) {
 
 std::string wider_band_sentence(Of tuning) {
   if (!tuning.answer.wider_band_rate) return "";
-  return fmt::format("within ±{} counts {:.4g} % of the {} would meet the goal",
-                     study::first_goal(tuning.study)->band + 1, 100.0 * *tuning.answer.wider_band_rate,
-                     study::first_goal(tuning.study)->machines ? "machines" : "moves");
+  const study::Goal& goal = worst_goal(tuning);
+  return fmt::format("within ±{} counts {:.4g} % of the {} would meet the goal{}", goal.band + 1,
+                     100.0 * *tuning.answer.wider_band_rate, goal.machines ? "machines" : "moves",
+                     tuning.study.goals.size() > 1 ? fmt::format(" '{}'", goal.name) : std::string());
+}
+
+/// " 'small'", of several goals.
+std::string lost_goal_text(const study::Study& study, std::size_t claim) {
+  if (study.goals.size() < 2) return "";
+  return fmt::format(" '{}'", study.goals[tuning::place_of_claim(study, claim).goal].name);
 }
 
 std::string delay_sentence(Of tuning) {
   const TuneAnswer& answer = tuning.answer;
   if (!answer.delay_sought) return "";
+  if (answer.delay_lost && tuning.study.conditions.empty())
+    return fmt::format("the goal{} seems lost at controller.delay = {:.3g} samples; it is {:g} here",
+                       lost_goal_text(tuning.study, answer.delay_lost->claim), answer.delay_lost->delay,
+                       answer.delay);
   if (answer.delay_lost)
-    return fmt::format("the goal seems lost at controller.delay = {:.3g} samples; it is {:g} here",
-                       *answer.delay_lost, answer.delay);
+    return fmt::format(
+        "with {:.3g} samples more of controller.delay the goal{} seems lost, first{}",
+        answer.delay_lost->delay - answer.delay, lost_goal_text(tuning.study, answer.delay_lost->claim),
+        study::condition_text(tuning.study,
+                              static_cast<std::int64_t>(
+                                  tuning::place_of_claim(tuning.study, answer.delay_lost->claim).condition)));
   return fmt::format("the goal seems met up to 5 samples more of controller.delay; it is {:g} here",
                      answer.delay);
 }
@@ -398,9 +541,17 @@ std::string delay_sentence(Of tuning) {
 /// What the rates of the tables are proportions of, where it is not the moves of all machines.
 std::string rates_sentence(Of tuning) {
   const study::Study& study = tuning.study;
-  if (tuning.answer.limits.empty() || !(study::first_goal(study)->machines || study.worlds > 0)) return "";
-  return fmt::format("the rate of the goal, below, is of {}{}",
-                     study::first_goal(study)->machines ? "machines" : "moves",
+  const bool named = tuning::has_named_claims(study);
+  const bool on_machines = study.goals.front().machines.has_value();
+  if (tuning.answer.limits.empty() || !(named || on_machines || study.worlds > 0)) return "";
+  if (study.goals.size() > 1)
+    return fmt::format(
+        "the rate of the goal, below, is of the worst goal{}{}: of machines where it is on machines, else of "
+        "moves",
+        study.conditions.empty() ? "" : " under its worst condition",
+        study.worlds > 0 ? " in the worst world" : "");
+  return fmt::format("the rate of the goal, below, is of {}{}{}", on_machines ? "machines" : "moves",
+                     study.conditions.empty() ? "" : " under the worst condition",
                      study.worlds > 0 ? " in the worst world" : "");
 }
 
@@ -423,6 +574,23 @@ Description<RoomRow> room_columns() {
       .value({.heading = "goal seems met from"}, [](Row row) { return row.room.low; })
       .value({.heading = "to"}, [](Row row) { return row.room.high; })
       .value({.heading = "unit"}, [](Row row) { return row.unit; });
+}
+
+/// Where several goals and conditions end the room: "controller.kp above: of goal 'small' under condition
+/// loaded".
+std::string ends_of_room_sentence(Of tuning) {
+  if (!tuning::has_named_claims(tuning.study)) return "";
+  std::vector<std::string> ends;
+  for (const tuning::Room& one : tuning.answer.room) {
+    for (const auto& [lost, side] :
+         {std::pair(one.lost_below, "below"), std::pair(one.lost_above, "above")}) {
+      if (lost)
+        ends.push_back(fmt::format(
+            "{} its room the goal is lost{} ({})", side,
+            tuning::text_of_claim(tuning.study, tuning::place_of_claim(tuning.study, *lost)), one.name));
+    }
+  }
+  return fmt::format("{}", fmt::join(ends, "\n"));
 }
 
 std::vector<std::pair<std::string, std::vector<double>>> ranges_of_room(Of tuning) {
@@ -462,6 +630,16 @@ Description<Alternative> alternative_columns() {
              [](Row row) {
                return row.verdict ? std::optional(goal::bounded(row.verdict->moves)) : std::nullopt;
              })
+      .value({.key = "goal_name",
+              .heading = "worst goal",
+              .meaning = "name of the worst goal, of several",
+              .optional = true},
+             &Alternative::worst_goal)
+      .value({.key = "condition",
+              .heading = "worst condition",
+              .meaning = "name of the worst condition, with conditions",
+              .optional = true},
+             &Alternative::worst_condition)
       .value(criterion_item(),
              [](Row row) { return row.verdict ? std::optional(row.criterion) : std::nullopt; });
 }
@@ -544,7 +722,10 @@ Description<TuneAnswer> rest_data() {
       .object(in_data("margins", "smallest margins of the tuned loops"), margins_description(),
               &TuneAnswer::margins)
       .value(in_data("delay_lost", "controller.delay from which on the goal seems lost", "samples"),
-             &TuneAnswer::delay_lost)
+             [](const TuneAnswer& a) -> std::optional<double> {
+               if (!a.delay_lost) return {};
+               return a.delay_lost->delay;
+             })
       .object(in_data("searched", "size of the search"), search_description(), std::identity())
       .value(in_data("spent_trials", "trials of all"), &TuneAnswer::spent_trials)
       .value(in_data("left_out", "parts of the answer for which the budget was not enough"),
@@ -561,6 +742,7 @@ void add_rest(Description<Tuning>& items) {
              ranges_of_room)
       .table({.heading = "room of each parameter, the others as tuned", .shown = Shown::to_people},
              room_columns(), room_rows)
+      .sentence(ends_of_room_sentence)
       .table({.key = "alternatives",
               .heading = "other controls, each at its own best values, on other machines than its search",
               .meaning = "simpler and other controls at their own best values"},

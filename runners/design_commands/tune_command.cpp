@@ -42,8 +42,9 @@ constexpr const char* tune_help =
     "\n"
     "Of the values that meet the goal and keep the margins (dB, degrees, samples of delay), the\n"
     "search seeks those with the smallest criterion. Candidates race on the same machines; one\n"
-    "that cannot win is dropped early. The bounds are of the proof alone. FILE is its results\n"
-    "file, whose manifest has the tuned values.\n"
+    "that cannot win is dropped early. Of several goals all must be met, under every condition: the\n"
+    "worst decides. The bounds are of the proof alone. FILE is its results file, whose manifest has\n"
+    "the tuned values.\n"
     "\n"
     "--budget bounds all together: the search, which takes half, the proof, and what follows it. It\n"
     "is a number of trials, with which the answer depends on the seed alone, or a time such as 60s\n"
@@ -119,8 +120,6 @@ class TunePrinter {
 ExitCode tune(const command_line::Arguments& arguments) {
   tuning::TuneSettings settings = tune_settings(arguments);
   const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
-  study::refuse_conditions(study, "zerocount tune");
-  goal::require_one_goal(study, arguments.operands()[0]);
   const std::optional<std::filesystem::path> page = page_option(arguments, settings.output);
   const bool in_html = arguments.choice("format") == "html";
   settings.maps = page || in_html;

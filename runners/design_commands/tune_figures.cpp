@@ -15,7 +15,6 @@ using document::Figure;
 using document::FigureData;
 using nlohmann::ordered_json;
 using report::datum;
-using tuning::Aim;
 using tuning::Limit;
 using tuning::MapCell;
 using tuning::TriedPoint;
@@ -46,11 +45,11 @@ FigureData cells_data(const TuningMap& map, const std::vector<study::FreeParamet
         [](const MapCell& one) { return ordered_json(one.keeps_margins ? "kept" : "lost"); }}});
 }
 
-/// The edges between cells in which the goal seems met and cells in which it does not.
-FigureData boundary_data(const TuningMap& map, double wanted) {
+/// The edges between cells in which all goals seem met and cells in which they do not.
+FigureData boundary_data(const TuningMap& map) {
   FigureData data{"boundary", {{"x_from", "", ""}, {"x_to", "", ""}, {"y_from", "", ""}, {"y_to", "", ""}}};
   const auto side = static_cast<std::size_t>(std::llround(std::sqrt(static_cast<double>(map.cells.size()))));
-  const auto meets = [&](std::size_t i) { return map.cells[i].rate >= wanted; };
+  const auto meets = [&](std::size_t i) { return map.cells[i].seems_met; };
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
     const MapCell& cell = map.cells[i];
     if (i % side + 1 < side && meets(i) != meets(i + 1))
@@ -67,7 +66,7 @@ FigureData places_data(std::string name, const TuningMap& map, const std::vector
                                   {{"y", "", ""}, [&](const Values& at) { return datum(at[map.y]); }}});
 }
 
-Figure map_figure(const TuneAnswer& answer, const TuningMap& map, const Aim& aim) {
+Figure map_figure(const TuneAnswer& answer, const TuningMap& map) {
   const study::FreeParameter& x = answer.free[map.x];
   const study::FreeParameter& y = answer.free[map.y];
   std::vector<Values> tried;
@@ -81,8 +80,8 @@ Figure map_figure(const TuneAnswer& answer, const TuningMap& map, const Aim& aim
       "128 machines of the search; × marks cells whose loops do not keep the margins. Dots are the points "
       "that "
       "the search tried, at all values of the other parameters; the star is the tuned point.",
-      {cells_data(map, answer.free), boundary_data(map, tuning::wanted_rate(aim)),
-       places_data("tried", map, tried), places_data("tuned", map, {answer.gains})});
+      {cells_data(map, answer.free), boundary_data(map), places_data("tried", map, tried),
+       places_data("tuned", map, {answer.gains})});
   ordered_json& encoding = figure.specification["layer"][0]["encoding"];
   for (const auto& [axis, parameter] : {std::pair{"x", &x}, std::pair{"y", &y}}) {
     encoding[axis]["title"] = axis_title(*parameter);
@@ -115,8 +114,8 @@ Figure frontier_figure(const TuneAnswer& answer, const study::Study& study) {
   std::erase_if(tried, [](const TriedPoint& one) { return !std::isfinite(one.estimate.criterion); });
   TriedPoint tuned{answer.gains, {}};
   tuned.estimate.criterion = answer.criterion;
-  tuned.estimate.rate = study::first_goal(study)->machines ? answer.proof->verdict.machines.value
-                                                           : answer.proof->verdict.moves.value;
+  const goal::Verdict& verdict = answer.proof->verdict;
+  tuned.estimate.rate = study.goals[verdict.goal].machines ? verdict.machines.value : verdict.moves.value;
   Figure figure = report::figure_of(
       "tuning-frontier", "tuning-frontier", "Success and speed",
       "The points that the search tried, with a finite criterion. The line joins those that no other point "
@@ -192,8 +191,7 @@ std::vector<Figure> tune_figures(const Tuning& tuning) {
   const TuneAnswer& answer = tuning.answer;
   std::vector<Figure> figures;
   if (!answer.proof) return figures;
-  for (const TuningMap& map : answer.maps)
-    figures.push_back(map_figure(answer, map, tuning::aim_of(tuning.study)));
+  for (const TuningMap& map : answer.maps) figures.push_back(map_figure(answer, map));
   if (!answer.tried.empty()) figures.push_back(frontier_figure(answer, tuning.study));
   if (!answer.room.empty()) figures.push_back(room_figure(answer));
   if (!answer.limits.empty()) figures.push_back(limits_figure(answer));

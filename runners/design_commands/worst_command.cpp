@@ -34,8 +34,9 @@ constexpr const char* worst_help =
     "worst of the study, from the corners, and from points between them; then among the likely\n"
     "machines, whose normal scores have a sum of squares within the 99.9 % quantile. Each is judged\n"
     "by 256 trials of its own. -o writes the manifest of the worst machine of the box: its values\n"
-    "are fixed, and `run` repeats these trials. Without a goal moves are to end at zero counts. Of\n"
-    "several points --point chooses one.\n"
+    "are fixed, and `run` repeats these trials. With conditions the search is made under each, and\n"
+    "the answer is of the worst. Without a goal moves are to end at zero counts. Of several points\n"
+    "--point chooses one.\n"
     "\n"
     "Example: zerocount worst my-axis.yaml -o worst.yaml\n";
 
@@ -44,10 +45,11 @@ struct Search {
   WorstMachines found;
   std::optional<std::filesystem::path> manifest{};  ///< that is written
 
-  /// "75.4 % of 256 moves meet the goal".
+  /// "75.4 % of 256 moves meet the goal under condition loaded".
   std::string judged(const JudgedMachine& machine) const {
-    return fmt::format("{:.4g} % of {} moves {}", 100.0 * machine.met, machine.moves,
-                       goal::words_of(goal::question_of(study)).meet);
+    return fmt::format("{:.4g} % of {} moves {}{}{}", 100.0 * machine.met, machine.moves,
+                       goal::words_of(goal::question_of(study)).meet, study.goals.size() > 1 ? "s" : "",
+                       study::condition_text(study, machine.condition));
   }
 };
 
@@ -109,6 +111,11 @@ document::Description<InputRow> input_columns() {
 
 document::Description<JudgedMachine> judged_description() {
   return document::Description<JudgedMachine>()
+      .value({.key = "condition",
+              .meaning = "the condition that it bears, with conditions",
+              .shown = Shown::in_data,
+              .optional = true},
+             &JudgedMachine::condition_name)
       .value(in_data("moves", "moves by which the machine is judged"), &JudgedMachine::moves)
       .value(in_data("met", "proportion of these moves that meet the goal", "1"), &JudgedMachine::met);
 }
@@ -205,13 +212,26 @@ std::string machine_name(const WorstMachine& worst, bool on_rigs) {
 }
 
 std::string worst_machine_text(const WorstMachine& worst, const study::Study& study) {
-  return fmt::format("{}, {:.4g} % of its moves {}{}{}", machine_name(worst, study.rigs > 0),
-                     100.0 * worst.met, goal::words_of(goal::question_of(study)).meet,
+  const std::string goal =
+      study.goals.size() > 1 ? " '" + study.goals[worst.claim.goal].name + "'" : std::string();
+  return fmt::format("{}, {:.4g} % of its moves {}{}{}{}{}", machine_name(worst, study.rigs > 0),
+                     100.0 * worst.met, goal::words_of(goal::question_of(study)).meet, goal,
+                     study::condition_text(study, static_cast<std::int64_t>(worst.claim.condition)),
                      worst.inputs.empty() ? "" : "; ", values_text(worst.inputs));
 }
 
 document::Description<WorstMachine> worst_description() {
   return document::Description<WorstMachine>()
+      .value({.key = "goal",
+              .meaning = "the goal that it meets in the fewest moves, of several",
+              .shown = Shown::in_data,
+              .optional = true},
+             &WorstMachine::goal)
+      .value({.key = "condition",
+              .meaning = "the condition under which it does worst, with conditions",
+              .shown = Shown::in_data,
+              .optional = true},
+             &WorstMachine::condition)
       .value(in_data("rig",
                      "number of the machine in the study: its rig, or its trial where no trials share a rig"),
              &WorstMachine::rig)

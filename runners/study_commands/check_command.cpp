@@ -346,7 +346,7 @@ std::vector<PointReading> examined_points(const study::Study& study, std::int64_
 ExitCode check(const command_line::Arguments& arguments) {
   const study::Study study = commands::load_study(arguments.operands()[0], arguments);
   plugins::require_no_hidden_state(study);
-  if (study.tuning && study::first_goal(study)) tuning::criterion_of(study);  // a wrong one is an error
+  if (study.tuning && study::first_goal(study)) tuning::criteria_of(study);  // a wrong one is an error
   commands::print_warnings(study);
   const std::int64_t all = study::point_count(study);
   const std::int64_t shown = arguments.has("all-points") ? all : std::min(all, points_shown);

@@ -29,16 +29,25 @@ std::optional<study::Study> with_values(const study::Study& study, std::span<con
   study::PointEdit edit(study, 0);
   for (std::size_t i = 0; i < parameters.size(); ++i) edit.set(parameters[i], values[i]);
   if (!rules::refusal_of(edit).empty()) return std::nullopt;
-  const auto has_no_time = [&edit](const study::Goal& goal) {
-    return !rules::longer_than_the_move(goal.within, edit.limits("command.hold")).empty();
-  };
-  if (std::ranges::any_of(study.goals, has_no_time)) return std::nullopt;
+  for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
+    const study::ValueLimits hold = edit.limits("command.hold", condition);
+    const auto has_no_time = [&hold](const study::Goal& goal) {
+      return !rules::longer_than_the_move(goal.within, hold).empty();
+    };
+    if (std::ranges::any_of(study.goals, has_no_time)) return std::nullopt;
+  }
   return edit.study();
 }
 
 Replicates replicates_of(const study::Study& study, std::int64_t point) {
-  if (study.rigs == 0) return {study.trials, 1, point};
+  if (study.rigs == 0) return {study::draw_count(study), study::condition_count(study), point};
   return {study.rigs, study.trials / study.rigs, point};
+}
+
+std::int64_t trial_of_replicate(const study::Study& study, const Replicates& replicates,
+                                std::int64_t replicate, std::int64_t i) {
+  const study::TrialTurns turns = study::turns_of(study);
+  return turns.trial_of(replicate + replicates.count * (i / turns.conditions), i % turns.conditions);
 }
 
 std::int64_t in_equal_worlds(const study::Study& study, std::int64_t count) {

@@ -23,22 +23,27 @@ study::Study variant_of(const study::Study& study, const std::vector<std::string
 /// A study of one design point with these values of some of its numbers, in the units of its manifest. All
 /// random numbers stay, and so does the text of its manifest. Nothing where such values together are not
 /// allowed.
-/// @param parameters dotted paths. @param values [parameter]
+/// @param parameters dotted paths, none of which a condition overrides. @param values [parameter]
 std::optional<study::Study> with_values(const study::Study& study, std::span<const std::string> parameters,
                                         std::span<const double> values);
 
 /// Replicates of a study: machines with `trials_each` trials or, where no trials share a rig, trials that
-/// have a machine each.
+/// have a machine each. With conditions each bears all of them equally often.
 struct Replicates {
   std::int64_t count{0};
-  std::int64_t trials_each{1};
-  std::int64_t point{0};  ///< design point
+  std::int64_t trials_each{1};  ///< under all conditions together
+  std::int64_t point{0};        ///< design point
 
   std::int64_t trials() const { return count * trials_each; }
 };
 
-/// Those of a study that is given: its rigs, or its trials.
+/// Those of a study that is given: its rigs, or its draws.
 Replicates replicates_of(const study::Study& study, std::int64_t point);
+
+/// The trial of the study that is trial i (0 … trials_each − 1) of a replicate: it runs under condition i mod
+/// C.
+std::int64_t trial_of_replicate(const study::Study& study, const Replicates& replicates,
+                                std::int64_t replicate, std::int64_t i);
 
 /// So many replicates or a few more, as many in each world.
 std::int64_t in_equal_worlds(const study::Study& study, std::int64_t count);

@@ -1,7 +1,9 @@
 #include "runners/tuning/answer_details.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "analysis/measures/goal_counts.hpp"
 #include "core/numerics/bisection.hpp"
@@ -10,9 +12,25 @@
 namespace zerocount::tuning {
 namespace {
 
-bool seems_met(const TunedStudy& tuned, const study::Study& study, const Change* change) {
-  return rate_of(study, tuned.units, tuned.count, change, tuned.effort) >= wanted_rate(aim_of(study));
-}
+/// Whether the goals seem met; remembers the worst claim where they do not.
+class SeemsMet {
+ public:
+  explicit SeemsMet(const TunedStudy& tuned) : tuned_(tuned), aim_(aim_of(tuned.study)) {}
+
+  bool operator()(const study::Study& study, const Change* change) {
+    const Estimate estimate = estimate_on(study, tuned_.units, tuned_.count, change, tuned_.effort);
+    const bool met = reaches(aim_, estimate);
+    if (!met) lost_ = estimate.worst;
+    return met;
+  }
+
+  std::optional<std::size_t> lost() const { return lost_; }
+
+ private:
+  const TunedStudy& tuned_;
+  Aim aim_;
+  std::optional<std::size_t> lost_;  ///< by the last study that did not meet them
+};
 
 /// The last place from `kept` towards `lost` where the condition still holds, to 2^−halvings of the way.
 template <class Condition>
@@ -22,31 +40,37 @@ double last_kept(double kept, double lost, int halvings, const Condition& holds)
 
 }  // namespace
 
-std::optional<double> delay_lost(const TunedStudy& tuned, double delay) {
+std::optional<DelayLost> delay_lost(const TunedStudy& tuned, double delay) {
+  SeemsMet seems_met(tuned);
   const auto holds = [&](double at) {
     const Change later = [&](trial::TrialParameters& p) { p.controller.delay += at - delay; };
-    return seems_met(tuned, tuned.study, &later);
+    return seems_met(tuned.study, &later);
   };
   constexpr double step = 0.25;
   constexpr double most = 5.0;
   for (double more = step; more <= most; more += step) {
-    if (!holds(delay + more)) return last_kept(delay + more - step, delay + more, 3, holds);
+    if (holds(delay + more)) continue;
+    const double lost = last_kept(delay + more - step, delay + more, 3, holds);
+    return DelayLost{lost, seems_met.lost().value()};
   }
   return std::nullopt;
 }
 
-std::optional<double> rate_in_wider_band(const TunedStudy& tuned) {
-  const std::optional<std::size_t> wanted = measures::asked_of_moves(tuned.study).front().slot;
+std::optional<double> rate_in_wider_band(const TunedStudy& tuned, std::size_t goal) {
+  const std::optional<std::size_t> wanted = measures::asked_of_moves(tuned.study).at(goal).slot;
   if (!wanted) return std::nullopt;  // the goal is a tolerance
   const std::size_t slot = *wanted;
   const Change wider = [slot](trial::TrialParameters& p) {
     for (std::size_t b = slot; b < p.verdict.bands.count; ++b) ++p.verdict.bands.limits[b];
   };
-  return rate_of(tuned.study, tuned.units, tuned.count, &wider, tuned.effort);
+  const Estimate estimate = estimate_on(tuned.study, tuned.units, tuned.count, &wider, tuned.effort);
+  const std::size_t conditions = aim_of(tuned.study).conditions;
+  return std::ranges::min(std::span(estimate.rates).subspan(goal * conditions, conditions));
 }
 
 std::vector<Room> room_of(const TunedStudy& tuned) {
   const UnitCubePoint place = place_of(tuned.free, tuned.gains);
+  SeemsMet seems_met(tuned);
   std::vector<Room> room;
   for (std::size_t i = 0; i < tuned.free.size(); ++i) {
     const auto values = [&](double share) {
@@ -58,20 +82,27 @@ std::vector<Room> room_of(const TunedStudy& tuned) {
     };
     const auto holds = [&](double share) {
       const std::optional<study::Study> study = at_values(tuned.study, tuned.free, values(share));
-      return study && seems_met(tuned, *study, nullptr);
+      return study && seems_met(*study, nullptr);
     };
     // Outwards in steps, because the goal may be lost and met again farther off.
-    const auto end = [&](double to) {
+    const auto end = [&](double to, std::optional<std::size_t>& lost) {
       constexpr int steps = 8;
       double kept = place[i];
       for (int step = 1; step <= steps; ++step) {
         const double next = place[i] + (to - place[i]) * step / steps;
-        if (!holds(next)) return last_kept(kept, next, 4, holds);
+        if (!holds(next)) {
+          const double last = last_kept(kept, next, 4, holds);
+          lost = seems_met.lost();
+          return last;
+        }
         kept = next;
       }
       return to;
     };
-    room.push_back({tuned.free[i].name, values(end(0.0))[i], values(end(1.0))[i]});
+    Room one{.name = tuned.free[i].name};
+    one.low = values(end(0.0, one.lost_below))[i];
+    one.high = values(end(1.0, one.lost_above))[i];
+    room.push_back(std::move(one));
   }
   return room;
 }

@@ -21,19 +21,27 @@ struct TunedStudy {
   trials::Effort effort;
 };
 
-/// Range of a free parameter, the others as tuned, in which the goal seems to be met.
+/// Range of a free parameter, the others as tuned, in which all goals seem to be met under all conditions.
 struct Room {
   std::string name;
   double low{0.0};
   double high{0.0};
+  /// The claims (Aim::claims) that are lost first beyond the ends; nothing at the end of the range.
+  std::optional<std::size_t> lost_below{}, lost_above{};
 };
 
-/// controller.delay (samples) from which on the goal seems to be lost, to 0.05; nothing up to 5 samples more.
-/// @param delay of the tuned study
-std::optional<double> delay_lost(const TunedStudy& tuned, double delay);
+/// controller.delay (samples) from which on a goal seems to be lost, to 0.05.
+struct DelayLost {
+  double delay{0.0};
+  std::size_t claim{0};  ///< of Aim::claims that is lost
+};
 
-/// Rate of the goal if its band were one count wider.
-std::optional<double> rate_in_wider_band(const TunedStudy& tuned);
+/// Nothing if no goal is lost up to 5 samples more.
+/// @param delay of the tuned study; with conditions each gets as much more
+std::optional<DelayLost> delay_lost(const TunedStudy& tuned, double delay);
+
+/// Rate of a goal if its band were one count wider, under the worst condition; nothing of a tolerance.
+std::optional<double> rate_in_wider_band(const TunedStudy& tuned, std::size_t goal);
 
 std::vector<Room> room_of(const TunedStudy& tuned);
 

@@ -14,6 +14,7 @@
 #include "core/numerics/bisection.hpp"
 #include "core/theory/margins.hpp"
 #include "core/trial/trial.hpp"
+#include "experiments/study/plan.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -122,13 +123,21 @@ double delay_margin(const trial::TrialParameters& p, const MachineLoops& machine
   return numerics::bisect({kept, lost}, bears, numerics::within(0.01)).holds;
 }
 
-/// Whether the drawn quantities change nothing of the loops but the stiffness of a spring.
-bool differ_in_stiffness_alone(const study::Study& study, friction::FrictionModel model) {
+/// Whether what differs between machines under a condition changes nothing of the loops but the stiffness of
+/// a spring.
+bool differ_in_stiffness_alone(const study::Study& study, std::int64_t condition,
+                               friction::FrictionModel model) {
   if (!friction::has_spring(model) && friction::traits_of(model).has_presliding_motion) return false;
-  return std::ranges::all_of(study.columns.inputs, [](const study::InputColumn& column) {
-    const auto is_of = [&column](std::string_view section) { return column.name.starts_with(section); };
-    return is_of("friction.") || is_of("initial.") || is_of("command.");
-  });
+  const study::StudyPlan& plan = *study.plan;
+  for (std::size_t column = 0; column < study.columns.inputs.size(); ++column) {
+    const std::string_view name = study.columns.inputs[column].name;
+    if (name.starts_with("friction.") || name.starts_with("initial.") || name.starts_with("command."))
+      continue;
+    const study::Value& value =
+        *study::value_at_point(plan, plan.inputs[column].slot, study::plan_point(plan, 0, condition));
+    if (!plan.has_conditions() || value.kind != study::Value::Kind::number) return false;
+  }
+  return true;
 }
 
 /// The softest and the stiffest contact over the friction profile of a trial.
@@ -145,34 +154,58 @@ std::pair<double, double> stiffness_range(const trial::TrialParameters& p, doubl
   return {softest, stiffest};
 }
 
+/// Lets margins be the smallest of other machines too.
+void include(SmallestMargins& all, const SmallestMargins& one) {
+  all.stable = all.stable && one.stable;
+  all.gain = std::min(all.gain, one.gain);
+  all.phase = std::min(all.phase, one.phase);
+  all.delay = std::min(all.delay, one.delay);
+  all.before_sliding = all.before_sliding || one.before_sliding;
+  all.sliding = all.sliding || one.sliding;
+}
+
 }  // namespace
 
-LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines) {
+LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
+    : conditions_(std::ssize(study.conditions)) {
   const trial::TrialParameters first = study::study_trial(study, 0, 0).parameters;
   if (theory::has_no_linear_loop(first)) return;
-  const bool alike = differ_in_stiffness_alone(study, first.friction.model);
-  examined_ = alike ? machines : std::min(machines, max_unlike_machines);
-  machines_.resize(static_cast<std::size_t>(examined_));
-  parallel::for_each_index(machines_.size(), [&](std::size_t i) {
-    const auto trial = static_cast<std::int64_t>(i);
+  const study::TrialTurns turns = study::turns_of(study);
+  std::vector<char> alike;  // [condition]
+  for (std::int64_t condition = 0; condition < turns.conditions; ++condition)
+    alike.push_back(differ_in_stiffness_alone(study, condition, first.friction.model) ? 1 : 0);
+  examined_ = std::ranges::count(alike, 0) == 0 ? machines : std::min(machines, max_unlike_machines);
+  std::vector<Machine> all(static_cast<std::size_t>(examined_ * turns.conditions));
+  parallel::for_each_index(all.size(), [&](std::size_t i) {
+    const std::int64_t condition = static_cast<std::int64_t>(i) % turns.conditions;
+    const std::int64_t trial = turns.trial_of(static_cast<std::int64_t>(i) / turns.conditions, condition);
     const auto [softest, stiffest] =
         stiffness_range(study::study_trial(study, 0, trial).parameters, study.period);
-    machines_[i] = {trial, softest, stiffest};
+    all[i] = {trial, condition, softest, stiffest};
   });
-  if (alike) {
-    Machine all = machines_.front();
-    for (const Machine& one : machines_) {
-      all.softest = std::min(all.softest, one.softest);
-      all.stiffest = std::max(all.stiffest, one.stiffest);
+  for (const Machine& one : all) {
+    const auto like_it = std::ranges::find(machines_, one.condition, &Machine::condition);
+    if (alike[static_cast<std::size_t>(one.condition)] == 0 || like_it == machines_.end()) {
+      machines_.push_back(one);
+    } else {
+      like_it->softest = std::min(like_it->softest, one.softest);
+      like_it->stiffest = std::max(like_it->stiffest, one.stiffest);
     }
-    machines_ = {all};
   }
-  const auto by = [this](auto less) {
-    return static_cast<std::size_t>(std::ranges::min_element(machines_, less) - machines_.begin());
-  };
-  critical_ = {by([](const Machine& a, const Machine& b) { return a.softest < b.softest; }),
-               by([](const Machine& a, const Machine& b) { return a.stiffest > b.stiffest; })};
-  if (critical_[0] == critical_[1]) critical_.pop_back();
+  for (std::int64_t condition = 0; condition < turns.conditions; ++condition) {
+    add_critical(condition, [](const Machine& a, const Machine& b) { return a.softest < b.softest; });
+    add_critical(condition, [](const Machine& a, const Machine& b) { return a.stiffest > b.stiffest; });
+  }
+}
+
+template <class Less>
+void LoopExaminer::add_critical(std::int64_t condition, const Less& less) {
+  std::optional<std::size_t> first;
+  for (std::size_t i = 0; i < machines_.size(); ++i) {
+    if (machines_[i].condition != condition) continue;
+    if (!first || less(machines_[i], machines_[*first])) first = i;
+  }
+  if (std::ranges::find(critical_, *first) == critical_.end()) critical_.push_back(*first);
 }
 
 bool LoopExaminer::may_keep(const study::Study& candidate, const study::LoopMargins& margins,
@@ -221,13 +254,10 @@ SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool sli
     }
   });
   SmallestMargins all{true, none, none, longest_delay, examined_};
-  for (const SmallestMargins& one : found) {
-    all.stable = all.stable && one.stable;
-    all.gain = std::min(all.gain, one.gain);
-    all.phase = std::min(all.phase, one.phase);
-    all.delay = std::min(all.delay, one.delay);
-    all.before_sliding = all.before_sliding || one.before_sliding;
-    all.sliding = all.sliding || one.sliding;
+  all.conditions.resize(static_cast<std::size_t>(conditions_), all);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    include(all, found[i]);
+    if (conditions_ > 0) include(all.conditions[static_cast<std::size_t>(machines_[i].condition)], found[i]);
   }
   return all;
 }

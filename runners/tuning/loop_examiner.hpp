@@ -16,20 +16,21 @@ struct SmallestMargins {
   double gain{0.0};   ///< dB
   double phase{0.0};  ///< degrees
   double delay{0.0};  ///< samples by which the delay may grow until a loop is unstable; 10 means 10 or more
-  std::int64_t machines{0};    ///< that were examined
-  bool before_sliding{false};  ///< loops before the machines slide are among them
-  bool sliding{false};         ///< loops of sliding machines are among them
+  std::int64_t machines{0};                   ///< that were examined
+  bool before_sliding{false};                 ///< loops before the machines slide are among them
+  bool sliding{false};                        ///< loops of sliding machines are among them
+  std::vector<SmallestMargins> conditions{};  ///< [condition] those under each; empty without conditions
 };
 
-/// Examines whether the linear loops of the machines keep margins: at every stiffness of the contact before
-/// it slides, from k1 to k1 + k2 over the friction profile of the machine, or that of its bristles; and while
-/// the machines slide, if they do or friction has no stiffness.
+/// Examines whether the linear loops of the machines keep margins under every condition: at every stiffness
+/// of the contact before it slides, from k1 to k1 + k2 over the friction profile of the machine, or that of
+/// its bristles; and while the machines slide, if they do or friction has no stiffness.
 class LoopExaminer {
  public:
   /// Machines that differ in the stiffness of their spring alone are examined as one with the stiffness of
   /// all; of others the first 100.
-  /// @param study whose first trials are the machines; the friction must not depend on free parameters
-  /// @param machines number of these trials
+  /// @param study whose first draws are the machines; the friction must not depend on free parameters
+  /// @param machines number of these draws
   LoopExaminer(const study::Study& study, std::int64_t machines);
 
   /// Whether the loops have no transfer function: a plugin. Then nothing is examined and all is kept.
@@ -48,15 +49,21 @@ class LoopExaminer {
                              const std::stop_token& stop = {}) const;
 
  private:
-  /// A trial, and the range of stiffness of its machine.
+  /// A trial of a machine under a condition, and the range of stiffness there.
   struct Machine {
     std::int64_t trial;
+    std::int64_t condition;
     double softest;   ///< N m/rad
     double stiffest;  ///< N m/rad
   };
 
+  /// Adds the first machine under the condition in this order, if it is not there.
+  template <class Less>
+  void add_critical(std::int64_t condition, const Less& less);
+
   std::vector<Machine> machines_;
-  std::int64_t examined_{0};           ///< machines for which they stand
+  std::int64_t examined_{0};           ///< machines for which they stand, under each condition
+  std::int64_t conditions_{0};         ///< 0: none
   std::vector<std::size_t> critical_;  ///< indices of machines
 };
 

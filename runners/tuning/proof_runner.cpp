@@ -22,28 +22,54 @@
 namespace zerocount::tuning {
 namespace {
 
-/// Number of moves of a trial that the goal is about.
-std::int64_t asked_moves(const study::Study& study) {
-  return measures::asked_moves(measures::asked_of_moves(study).front(), study.moves);
-}
-
 constexpr std::int64_t usual_units = 500;  // at least, where the effort is enough for them
 
-/// The fewest units that can meet the goal.
+/// The fewest units that can meet one goal. @param each trials of a unit under each condition
+std::int64_t min_units_of(const study::Study& study, std::size_t goal, std::int64_t each,
+                          std::size_t points) {
+  const measures::CountedGoal counted = measures::asked_of_moves(study)[goal];
+  const bool on_rigs = study.rigs > 0;
+  std::int64_t fewest = 0;
+  for (const goal::Needs& one : goal::smallest_studies(
+           study.goals[goal], on_rigs, measures::asked_moves(counted, study.moves), points, study.worlds)) {
+    if (!on_rigs) fewest = std::max(fewest, one.trials);
+    if (on_rigs && one.trials <= each * one.rigs && (fewest == 0 || one.rigs < fewest)) fewest = one.rigs;
+  }
+  return fewest;
+}
+
+/// The fewest units that can meet all goals. @param each trials of a unit
 std::int64_t min_units_of(const study::Study& study, std::int64_t each, std::size_t points) {
   std::int64_t least = std::max<std::int64_t>(study.worlds, 1);
-  if (study.rigs == 0) {
-    for (const goal::Needs& one :
-         goal::smallest_studies(*study::first_goal(study), false, asked_moves(study), points, study.worlds))
-      least = std::max(least, one.trials);
-    return least;
+  for (std::size_t goal = 0; goal < study.goals.size(); ++goal)
+    least = std::max(least, min_units_of(study, goal, each / study::condition_count(study), points));
+  return least;
+}
+
+/// @param each trials of a rig
+measures::MoveCounts at_trials_each(measures::MoveCounts counts, std::int64_t each) {
+  for (statistics::RigMoves& rig : counts.rigs) {
+    const auto factor = static_cast<double>(each) / static_cast<double>(rig.trials);
+    counts.moves -= rig.moves;
+    counts.met -= rig.met;
+    rig.trials = each;
+    rig.moves = std::llround(static_cast<double>(rig.moves) * factor);
+    rig.met = std::llround(static_cast<double>(rig.met) * factor);
+    counts.moves += rig.moves;
+    counts.met += rig.met;
   }
-  std::int64_t fewest = 0;
-  for (const goal::Needs& one :
-       goal::smallest_studies(*study::first_goal(study), true, asked_moves(study), points, study.worlds)) {
-    if (one.trials <= each * one.rigs && (fewest == 0 || one.rigs < fewest)) fewest = one.rigs;
-  }
-  return std::max(least, fewest);
+  for (measures::MoveCounts& condition : counts.of_conditions)
+    condition = at_trials_each(std::move(condition), each / std::ssize(counts.of_conditions));
+  return counts;
+}
+
+/// The fewest units that decide what the counts are of with a probability of 1/2.
+/// @param most where no study decides it, a part of them
+std::int64_t deciding_units(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
+                            std::size_t parts, std::int64_t most) {
+  const goal::Needs needs = goal::needs_of(goal, counts, points, 0.5, parts);
+  if (needs.trials == 0) return most / 8;
+  return needs.rigs > 0 ? needs.rigs : needs.trials;
 }
 
 std::string_view key_of(std::string_view entry) {
@@ -111,46 +137,50 @@ void make_run(const study::Study& study, const std::filesystem::path& output, in
 
 }  // namespace
 
-measures::MoveCounts counts_of(const study::Study& study, const trials::Replicates& units,
-                               std::span<const UnitResult> results) {
-  measures::MoveCounts counts;
-  counts.worlds = study.worlds;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const UnitResult& unit = results[i];
-    if (study.rigs == 0) {
-      counts.add(static_cast<std::int64_t>(i), 0, unit.moves, unit.met);
-      continue;
+GoalCounts counts_of(const study::Study& study, const trials::Replicates& units,
+                     std::span<const UnitResult> results) {
+  const auto conditions = static_cast<std::size_t>(study::condition_count(study));
+  GoalCounts goals(study.goals.size());
+  for (std::size_t goal = 0; goal < goals.size(); ++goal) {
+    measures::MoveCounts& counts = goals[goal];
+    counts.tell_apart(study.worlds, std::ssize(study.conditions));
+    for (std::size_t unit = 0; unit < results.size(); ++unit) {
+      for (std::size_t condition = 0; condition < conditions; ++condition) {
+        const ClaimResult& claim = results[unit].claims[goal * conditions + condition];
+        const auto number = static_cast<std::int64_t>(unit);
+        if (study.rigs == 0) {
+          counts.add(trials::trial_of_replicate(study, units, number, static_cast<std::int64_t>(condition)),
+                     0, claim.moves, claim.met);
+        } else {
+          counts.add_rig(unit, condition,
+                         {units.trials_each / static_cast<std::int64_t>(conditions), claim.moves, claim.met});
+        }
+      }
     }
-    counts.moves += unit.moves;
-    counts.met += unit.met;
-    counts.rigs.push_back({units.trials_each, unit.moves, unit.met});
   }
+  return goals;
+}
+
+GoalCounts with_trials_each(GoalCounts counts, std::int64_t each) {
+  for (measures::MoveCounts& goal : counts) goal = at_trials_each(std::move(goal), each);
   return counts;
 }
 
-measures::MoveCounts with_trials_each(measures::MoveCounts counts, std::int64_t each) {
-  for (statistics::RigMoves& rig : counts.rigs) {
-    const auto factor = static_cast<double>(each) / static_cast<double>(rig.trials);
-    counts.moves -= rig.moves;
-    counts.met -= rig.met;
-    rig.trials = each;
-    rig.moves = std::llround(static_cast<double>(rig.moves) * factor);
-    rig.met = std::llround(static_cast<double>(rig.met) * factor);
-    counts.moves += rig.moves;
-    counts.met += rig.met;
-  }
-  return counts;
-}
-
-std::int64_t proof_units(const study::Study& study, const measures::MoveCounts& counts, std::int64_t each,
+std::int64_t proof_units(const study::Study& study, const GoalCounts& counts, std::int64_t each,
                          std::size_t points, std::int64_t max_trials) {
   const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
   const std::int64_t most = std::max<std::int64_t>(max_trials / each / worlds, 1) * worlds;
   const std::int64_t least = std::max(usual_units, min_units_of(study, each, points));
-  // Half as many more are taken below.
-  const goal::Needs needs = goal::needs_of(*study::first_goal(study), counts, points, 0.5);
-  const std::int64_t wanted = needs.trials == 0 ? most / 8 : (study.rigs > 0 ? needs.rigs : needs.trials);
-  return trials::in_equal_worlds(study, std::clamp(wanted + wanted / 2, std::min(least, most), most));
+  const auto conditions = static_cast<std::size_t>(study::condition_count(study));
+  std::int64_t wanted = 0;
+  for (std::size_t goal = 0; goal < counts.size(); ++goal) {
+    for (std::size_t condition = 0; condition < conditions; ++condition)
+      wanted = std::max(wanted,
+                        deciding_units(study.goals[goal], measures::under_condition(counts[goal], condition),
+                                       points, counts.size() * conditions, most));
+  }
+  wanted += wanted / 2;
+  return trials::in_equal_worlds(study, std::clamp(wanted, std::min(least, most), most));
 }
 
 std::int64_t min_proof_trials(const study::Study& study, int attempt) {

@@ -5,27 +5,27 @@
 #include <string>
 #include <vector>
 
-#include "analysis/measures/goal_counts.hpp"
 #include "experiments/study/study.hpp"
+#include "runners/tuning/race/proof.hpp"
 #include "runners/tuning/unit_runner.hpp"
 
 namespace zerocount::tuning {
 
-/// The counts of the goal in these units.
-measures::MoveCounts counts_of(const study::Study& study, const trials::Replicates& units,
-                               std::span<const UnitResult> results);
+/// The counts of the goals in these units, as those of a point of the study.
+GoalCounts counts_of(const study::Study& study, const trials::Replicates& units,
+                     std::span<const UnitResult> results);
 
 /// The counts as they would be with `each` trials of every machine, at the same rates.
-measures::MoveCounts with_trials_each(measures::MoveCounts counts, std::int64_t each);
+GoalCounts with_trials_each(GoalCounts counts, std::int64_t each);
 
 /// Units with which the proof of a candidate with such counts is expected to be decided, and half as many
 /// more.
 /// @param each trials of a unit @param points from which the bounds have to allow for a choice
 /// @param max_trials limit of the proof, at least min_proof_trials()
-std::int64_t proof_units(const study::Study& study, const measures::MoveCounts& counts, std::int64_t each,
+std::int64_t proof_units(const study::Study& study, const GoalCounts& counts, std::int64_t each,
                          std::size_t points, std::int64_t max_trials);
 
-/// Trials of the smallest proof in this attempt that can meet the goal, if no move misses it.
+/// Trials of the smallest proof in this attempt that can meet the goals, if no move misses one.
 std::int64_t min_proof_trials(const study::Study& study, int attempt);
 
 /// A finished run of some units.

@@ -36,12 +36,16 @@ bool lie_in_ranges(const Values& values, std::span<const study::FreeParameter> f
 }  // namespace
 
 std::int64_t trials_of_machine(const study::Study& study) {
-  if (!study::first_goal(study)->machines) return 1;
-  return std::max<std::int64_t>(study.trials / study.rigs, 10);
+  const std::int64_t conditions = study::condition_count(study);
+  const bool on_machines =
+      std::ranges::any_of(study.goals, [](const study::Goal& goal) { return goal.machines.has_value(); });
+  if (!on_machines) return conditions;
+  return std::max<std::int64_t>(study.trials / (study.rigs * conditions), 10) * conditions;
 }
 
 std::int64_t search_trials_of_machine(const study::Study& study) {
-  return std::min(trials_of_machine(study), max_search_trials_of_machine);
+  const std::int64_t conditions = study::condition_count(study);
+  return std::min(trials_of_machine(study) / conditions, max_search_trials_of_machine) * conditions;
 }
 
 StudySearch::StudySearch(const study::Study& study, std::vector<study::FreeParameter> free,

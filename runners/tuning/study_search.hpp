@@ -15,7 +15,8 @@
 
 namespace zerocount::tuning {
 
-/// Trials of a machine that tell whether it meets the goal; 1 where the goal does not ask for machines.
+/// Trials of a machine, under all conditions together, that tell whether it meets the goals; one under each
+/// condition where no goal asks for machines.
 std::int64_t trials_of_machine(const study::Study& study);
 
 /// Those of the search, which takes fewer.

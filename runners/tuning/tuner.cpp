@@ -200,18 +200,17 @@ class Tuner {
     const std::int64_t each = trials_of_machine(study_);
     ProofRun run;
     ProofProblem problem;
-    problem.goal = *study::first_goal(study_);
-    for (const Estimate& one : result_.estimates)
-      problem.promising.push_back(seems_to_meet(aim_of(study_), one));
+    problem.goals = study_.goals;
+    for (const Estimate& one : result_.estimates) problem.promising.push_back(seems_to_meet(one));
     problem.first_units = [&](std::size_t finalist, std::size_t correction) {
       const std::vector<UnitResult>& found = result_.finalists[finalist].units;
-      const measures::MoveCounts counts = counts_of(study_, search_.units(), found);
+      const GoalCounts counts = counts_of(study_, search_.units(), found);
       return proof_units(study_, with_trials_each(counts, each), each, correction, max_proof_trials());
     };
-    problem.more_units = [&](const measures::MoveCounts& counts, std::size_t correction) {
+    problem.more_units = [&](const GoalCounts& counts, std::size_t correction) {
       return proof_units(study_, counts, each, correction, max_proof_trials());
     };
-    problem.run = [&](const Attempt& attempt) -> std::optional<measures::MoveCounts> {
+    problem.run = [&](const Attempt& attempt) -> std::optional<GoalCounts> {
       const trials::Replicates units{attempt.units, each};
       line_.show([&] { return fmt::format("proof {}: {} trials", attempt.number, units.count * each); });
       std::vector<std::string> values =
@@ -249,15 +248,19 @@ class Tuner {
     answer_.status = proven.verdict.status;
     answer_.worst = worst_machine(run.study, 0, run.results);
     answer_.proof = Proof{std::move(run.study), proven.verdict, {}, proven.attempt.number};
+    const std::size_t worst_goal = proven.verdict.goal;
+    const study::Goal& goal = study_.goals[worst_goal];
     if (proven.verdict.status == goal::Status::undecided) {
       answer_.proof->needs =
-          goal::needs_of(*study::first_goal(study_), proven.counts, correction_of(proven.attempt.number));
+          goal::needs_of(goal, proven.counts[worst_goal], correction_of(proven.attempt.number),
+                         goal::probability_of_needs, study_.goals.size());
     }
     const Candidate by_proof{candidate.place, candidate.values, std::move(run.results)};
-    Aim aim = aim_of(study_);
+    const Aim aim = aim_of(study_);
     answer_.criterion = estimate_of(aim, by_proof, proven.attempt.units).criterion;
-    aim.quantile = aim.moves;
-    answer_.late_limit = estimate_of(aim, by_proof, proven.attempt.units).criterion;
+    const std::size_t worst_claim = claim_at(study_, {worst_goal, proven.verdict.condition});
+    answer_.late_limit = late_value(by_proof, worst_claim, proven.attempt.units, goal.moves) *
+                         criteria_of(study_)[worst_goal].scale;
     name_edges();
   }
 
@@ -296,7 +299,7 @@ class Tuner {
       find_part("a wider band", [&] {
         TunedStudy wider = details;
         wider.count = units_of_limits().count;
-        answer_.wider_band_rate = rate_in_wider_band(wider);
+        answer_.wider_band_rate = rate_in_wider_band(wider, answer_.proof->verdict.goal);
       });
     }
     add_alternatives(controls);
@@ -385,9 +388,11 @@ class Tuner {
     for (const std::string& one : trials::overrides_for(study, units)) fresh.push_back(one);
     const Candidate candidate{
         {}, values, results_of(trials::variant_of(study, fresh), units, units.count, nullptr, effort)};
-    alternative.verdict =
-        goal::judge_goal(*study::first_goal(study), counts_of(study, units, candidate.units), 1);
+    alternative.verdict = goal::judge_goals(study.goals, counts_of(study, units, candidate.units), 1);
     alternative.criterion = estimate_of(aim_of(study), candidate, units.count).criterion;
+    const ClaimPlace worst{alternative.verdict->goal, alternative.verdict->condition};
+    if (has_named_claims(study)) alternative.worst_goal = goal_name(study, worst);
+    alternative.worst_condition = condition_name(study, worst);
   }
 
   const study::Study& study_;

@@ -49,6 +49,7 @@ struct Alternative {
   std::vector<std::pair<std::string, double>> gains;  ///< empty if none keeps the margins
   std::optional<goal::Verdict> verdict{};             ///< on machines that the search for it never saw
   double criterion{0.0};                              ///< on these machines
+  std::optional<std::string> worst_goal{}, worst_condition{};  ///< of several goals, and with conditions
 };
 
 /// The result of tuning.
@@ -60,23 +61,25 @@ struct TuneAnswer {
   bool blind{false};                       ///< the loop has no transfer function: no margins
   std::optional<NearestPoint> nearest;     ///< where no candidate keeps them
   std::optional<Proof> proof;
-  double criterion{0.0};              ///< by the proof
-  double late_limit{0.0};             ///< quantile Aim::moves of the criterion's values, by the proof
-  std::optional<double> delay_lost;   ///< controller.delay from which on the goal seems to be lost
-  bool delay_sought{false};           ///< whether up to 5 samples more were tried
-  double delay{0.0};                  ///< controller.delay of the tuned study
-  std::vector<std::string> at_edges;  ///< free parameters at an end of their range, "controller.ki = 5000"
+  double criterion{0.0};  ///< by the proof
+  /// Quantile study::Goal::moves of the criterion's values of the worst goal, under its worst condition.
+  double late_limit{0.0};
+  std::optional<DelayLost> delay_lost;  ///< controller.delay from which on a goal seems to be lost
+  bool delay_sought{false};             ///< whether up to 5 samples more were tried
+  double delay{0.0};                    ///< controller.delay of the tuned study
+  std::vector<std::string> at_edges;    ///< free parameters at an end of their range, "controller.ki = 5000"
   std::vector<Room> room;
   std::vector<Alternative> alternatives;
   std::vector<Limit> limits;
   std::vector<TriedPoint> tried;     ///< by the search
   std::vector<TriedPoint> frontier;  ///< between success and speed, by the search
   std::vector<TuningMap> maps;
-  std::optional<double> wider_band_rate;  ///< of the goal with a band one count wider, where it is not met
-  std::optional<WorstMachine> worst;      ///< of the proof
-  std::int64_t examined{0};               ///< points whose margins were examined
-  std::int64_t points{0};                 ///< that were simulated
-  std::int64_t trials{0};                 ///< of the search, and of those for other controls
+  /// Of the worst goal by the proof with a band one count wider, where it is not met.
+  std::optional<double> wider_band_rate;
+  std::optional<WorstMachine> worst;  ///< of the proof
+  std::int64_t examined{0};           ///< points whose margins were examined
+  std::int64_t points{0};             ///< that were simulated
+  std::int64_t trials{0};             ///< of the search, and of those for other controls
   bool converged{false};
   double seconds{0.0};
   TuneBudget budget{};

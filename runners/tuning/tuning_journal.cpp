@@ -18,23 +18,32 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A unit as [moves, met, slid, value, …]; null is infinite.
+/// A unit as [slid, claim, …], a claim as [moves, met, value, …]; null is infinite.
 Json json_of(const UnitResult& unit) {
-  Json json{unit.moves, unit.met, unit.slid};
-  for (const double value : unit.values) json.push_back(std::isfinite(value) ? Json(value) : Json());
+  Json json{unit.slid};
+  for (const ClaimResult& claim : unit.claims) {
+    Json& one = json.emplace_back(Json{claim.moves, claim.met});
+    for (const double value : claim.values) one.push_back(std::isfinite(value) ? Json(value) : Json());
+  }
   return json;
 }
 
+ClaimResult claim_of(const Json& json) {
+  ClaimResult claim{json.at(0).get<std::int32_t>(), json.at(1).get<std::int32_t>(), {}};
+  for (std::size_t i = 2; i < json.size(); ++i)
+    claim.values.push_back(json[i].is_null() ? std::numeric_limits<double>::infinity()
+                                             : json[i].get<double>());
+  return claim;
+}
+
 UnitResult unit_of(const Json& json) {
-  UnitResult unit{json.at(0).get<std::int32_t>(), json.at(1).get<std::int32_t>(), {}, json.at(2).get<bool>()};
-  for (std::size_t i = 3; i < json.size(); ++i)
-    unit.values.push_back(json[i].is_null() ? std::numeric_limits<double>::infinity()
-                                            : json[i].get<double>());
+  UnitResult unit{.claims = {}, .slid = json.at(0).get<bool>()};
+  for (std::size_t i = 1; i < json.size(); ++i) unit.claims.push_back(claim_of(json[i]));
   return unit;
 }
 
 std::string header_of(const std::string& tuning) {
-  return Json{{"zerocount_tuning", 2}, {"tuning", tuning}}.dump();
+  return Json{{"zerocount_tuning", 3}, {"tuning", tuning}}.dump();
 }
 
 }  // namespace

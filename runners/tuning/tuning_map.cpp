@@ -28,8 +28,10 @@ void simulate(const TunedStudy& tuned, const LoopExaminer& examiner, const Value
   const Candidate candidate{
       {}, values, results_of(*study, tuned.units, units_of_cell, nullptr, tuned.effort)};
   cell.keeps_margins = examiner.may_keep(*study, study->tuning->margins, has_slid(candidate.units));
-  const Estimate estimate = estimate_of(aim_of(*study), candidate, units_of_cell);
+  const Aim aim = aim_of(*study);
+  const Estimate estimate = estimate_of(aim, candidate, units_of_cell);
   cell.rate = estimate.rate;
+  cell.seems_met = reaches(aim, estimate);
   cell.criterion = estimate.criterion;
 }
 

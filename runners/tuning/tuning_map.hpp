@@ -14,7 +14,8 @@ struct MapCell {
   double y{0.0};
   double x_from{0.0}, x_to{0.0};
   double y_from{0.0}, y_to{0.0};
-  double rate{0.0};       ///< of the goal, by the first units of the search
+  double rate{0.0};       ///< of the goal, by the first units of the search; of the worst of several
+  bool seems_met{false};  ///< all goals under all conditions
   double criterion{0.0};  ///< infinite for never
   bool keeps_margins{true};
 };

@@ -29,36 +29,43 @@ struct Part {
 
 double value_of(const Criterion& criterion, const trial::MoveOutcome& move) {
   const double value = measures::counted_value(*criterion.measure, move);
-  return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+  return std::isnan(value) ? std::numeric_limits<double>::infinity() : value / criterion.scale;
 }
 
 /// Adds the moves of a trial to the result of its unit.
 class TrialCounter {
  public:
   explicit TrialCounter(const study::Study& study)
-      : goal_(measures::asked_of_moves(study).front()), criterion_(criterion_of(study)) {}
+      : goals_(measures::asked_of_moves(study)),
+        criteria_(criteria_of(study)),
+        conditions_(static_cast<std::size_t>(study::condition_count(study))) {}
 
-  void add(std::span<const trial::MoveOutcome> moves, UnitResult& result) const {
-    for (const trial::MoveOutcome& move : moves) {
-      if (!measures::asks(goal_, move)) continue;
-      ++result.moves;
-      result.met += measures::meets(goal_, move) ? 1 : 0;
-      result.values.push_back(value_of(criterion_, move));
-      result.slid = result.slid || move.broke_away;
+  void add(std::span<const trial::MoveOutcome> moves, std::int64_t condition, UnitResult& result) const {
+    result.claims.resize(goals_.size() * conditions_);
+    for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
+      ClaimResult& claim = result.claims[goal * conditions_ + static_cast<std::size_t>(condition)];
+      for (const trial::MoveOutcome& move : moves) {
+        if (!measures::asks(goals_[goal], move)) continue;
+        ++claim.moves;
+        claim.met += measures::meets(goals_[goal], move) ? 1 : 0;
+        claim.values.push_back(value_of(criteria_[goal], move));
+        result.slid = result.slid || move.broke_away;
+      }
     }
   }
 
  private:
-  measures::CountedGoal goal_;
-  Criterion criterion_;
+  std::vector<measures::CountedGoal> goals_;
+  std::vector<Criterion> criteria_;
+  std::size_t conditions_;
 };
 
 std::vector<trial::TrialParameters> trials_of(const Part& part, const trials::Replicates& units) {
   std::vector<trial::TrialParameters> trials;
   for (std::int64_t unit = part.from; unit < part.to; ++unit) {
     for (std::int64_t i = 0; i < units.trials_each; ++i) {
-      trials.push_back(
-          study::study_trial(*part.entry->study, units.point, i * units.count + unit).parameters);
+      const std::int64_t trial = trials::trial_of_replicate(*part.entry->study, units, unit, i);
+      trials.push_back(study::study_trial(*part.entry->study, units.point, trial).parameters);
       if (part.entry->change != nullptr) (*part.entry->change)(trials.back());
     }
   }
@@ -68,9 +75,11 @@ std::vector<trial::TrialParameters> trials_of(const Part& part, const trials::Re
 void add_outcomes(const Part& part, const trials::Replicates& units,
                   std::span<const trial::TrialOutcome> outcomes) {
   const TrialCounter counter(*part.entry->study);
+  const std::int64_t conditions = study::condition_count(*part.entry->study);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    const auto unit = static_cast<std::size_t>(part.from) + i / static_cast<std::size_t>(units.trials_each);
-    counter.add(outcomes[i].moves, (*part.entry->results)[unit]);
+    const auto trial = static_cast<std::int64_t>(i);
+    const auto unit = static_cast<std::size_t>(part.from + trial / units.trials_each);
+    counter.add(outcomes[i].moves, trial % units.trials_each % conditions, (*part.entry->results)[unit]);
   }
 }
 
@@ -113,19 +122,24 @@ std::optional<Criterion> motion_criterion(const study::Study& study, std::string
   return std::nullopt;
 }
 
-}  // namespace
+/// Whether the text is of the settling times in the bands of the goals: "band_settling_time.p95".
+bool is_of_settling(std::string_view text) {
+  return text.starts_with("band_settling_time.");
+}
 
-Criterion criterion_of(const study::Study& study) {
-  const std::string default_text = study::Tuning{}.minimise;
-  const std::string of_goal = goal::settling_measure(goal::question_of(study)) + ".p95";
-  const std::string text =
-      study.tuning && study.tuning->minimise != default_text ? study.tuning->minimise : of_goal;
+Criterion criterion_of(const study::Study& study, std::size_t goal, const std::string& wanted_text) {
+  const goal::Question question = only(goal::question_of(study), goal);
+  const bool has_several = study.goals.size() > 1;
+  const bool is_default = wanted_text == study::Tuning{}.minimise;
+  const std::string text = is_default || (has_several && is_of_settling(wanted_text))
+                               ? goal::settling_measure(question) + wanted_text.substr(wanted_text.rfind('.'))
+                               : wanted_text;
   if (const std::optional<Criterion> criterion = motion_criterion(study, text)) return *criterion;
   const auto dot = text.rfind('.');
   const std::string name = text.substr(0, dot);
   const bool lacks_band = name.starts_with("band_") && !name.ends_with("]") && dot != std::string::npos;
   const std::string with_band =
-      lacks_band ? fmt::format("{}[{}]{}", name, study::first_goal(study)->band, text.substr(dot)) : text;
+      lacks_band ? fmt::format("{}[{}]{}", name, question.claim()->band, text.substr(dot)) : text;
   const auto quantity = comparison::find_requirable(with_band);
   if (!quantity || quantity->kind != comparison::RequirementKind::quantile) {
     throw Failure(ExitCode::bad_input,
@@ -145,9 +159,61 @@ Criterion criterion_of(const study::Study& study) {
                             study.name, text));
 }
 
+}  // namespace
+
+bool is_proportion_of_allowed(const study::Study& study) {
+  return study.goals.size() > 1 && (!study.tuning || is_of_settling(study.tuning->minimise));
+}
+
+std::vector<Criterion> criteria_of(const study::Study& study) {
+  const std::string text = study.tuning ? study.tuning->minimise : study::Tuning{}.minimise;
+  std::vector<Criterion> criteria;
+  for (std::size_t goal = 0; goal < std::max<std::size_t>(study.goals.size(), 1); ++goal) {
+    criteria.push_back(criterion_of(study, goal, text));
+    if (is_proportion_of_allowed(study)) criteria.back().scale = study.goals[goal].within;
+  }
+  return criteria;
+}
+
 Aim aim_of(const study::Study& study) {
-  const study::Goal claim = study.goals.empty() ? study::Goal{.moves = 1.0} : study.goals.front();
-  return {claim.moves, claim.machines, criterion_of(study).quantile, study.worlds};
+  Aim aim{.claims = {},
+          .conditions = static_cast<std::size_t>(study::condition_count(study)),
+          .quantile = criteria_of(study).front().quantile,
+          .worlds = study.worlds};
+  const std::vector<study::Goal> goals =
+      study.goals.empty() ? std::vector{study::Goal{.moves = 1.0}} : study.goals;
+  for (const study::Goal& goal : goals)
+    aim.claims.insert(aim.claims.end(), aim.conditions, {goal.moves, goal.machines});
+  return aim;
+}
+
+ClaimPlace place_of_claim(const study::Study& study, std::size_t claim) {
+  const auto conditions = static_cast<std::size_t>(study::condition_count(study));
+  return {claim / conditions, claim % conditions};
+}
+
+std::size_t claim_at(const study::Study& study, const ClaimPlace& place) {
+  return place.goal * static_cast<std::size_t>(study::condition_count(study)) + place.condition;
+}
+
+std::optional<std::string> goal_name(const study::Study& study, const ClaimPlace& place) {
+  if (study.goals.empty() || study.goals[place.goal].name.empty()) return std::nullopt;
+  return study.goals[place.goal].name;
+}
+
+std::optional<std::string> condition_name(const study::Study& study, const ClaimPlace& place) {
+  if (study.conditions.empty()) return std::nullopt;
+  return study.conditions[place.condition];
+}
+
+bool has_named_claims(const study::Study& study) {
+  return study.goals.size() > 1 || !study.conditions.empty();
+}
+
+std::string text_of_claim(const study::Study& study, const ClaimPlace& place) {
+  const std::optional<std::string> goal = study.goals.size() > 1 ? goal_name(study, place) : std::nullopt;
+  return (goal ? fmt::format(" of goal '{}'", *goal) : std::string()) +
+         study::condition_text(study, static_cast<std::int64_t>(place.condition));
 }
 
 void run_units(std::span<const UnitsToRun> entries, const trials::Replicates& units,
@@ -178,9 +244,11 @@ std::vector<UnitResult> results_of(const study::Study& study, const trials::Repl
 std::vector<UnitResult> results_in(const reading::AllTrialsFile& file, const study::Study& study,
                                    const trials::Replicates& units) {
   const TrialCounter counter(study);
+  const study::TrialTurns turns = study::turns_of(study);
   std::vector<UnitResult> results(static_cast<std::size_t>(units.count));
   measures::visit_trials(file, file.rows(), [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-    counter.add(moves, results[static_cast<std::size_t>(row % units.count)]);
+    counter.add(moves, turns.condition_of(row),
+                results[static_cast<std::size_t>(turns.draw_of(row) % units.count)]);
   });
   return results;
 }

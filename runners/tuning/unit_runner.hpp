@@ -29,16 +29,38 @@ std::optional<study::Study> at_values(const study::Study& study, std::span<const
 /// "controller.ki=5000", in digits that read back to the same value.
 std::vector<std::string> overrides_of(std::span<const study::FreeParameter> free, const Values& values);
 
-/// The quantity that tuning minimises.
+/// The quantity that tuning minimises, of the moves of one goal.
 struct Criterion {
   const layout::Measure* measure{nullptr};
   double quantile{0.95};
+  /// By which the values are divided: of several goals that are compared by their settling times the time
+  /// that each allows, else 1.
+  double scale{1.0};
 };
 
+/// [goal]; one of success without a goal. The criterion of a candidate is the largest of all goals and
+/// conditions.
 /// @throws Failure (bad_input) if Tuning::minimise names no quantile of a measure
-Criterion criterion_of(const study::Study& study);
+std::vector<Criterion> criteria_of(const study::Study& study);
+/// Whether the criterion is a settling time as a proportion of what its goal allows.
+bool is_proportion_of_allowed(const study::Study& study);
 
+/// The goals of the study under each of its conditions.
 Aim aim_of(const study::Study& study);
+/// The goal of a claim, and its condition: Aim::claims is goal by goal.
+struct ClaimPlace {
+  std::size_t goal{0};
+  std::size_t condition{0};
+};
+ClaimPlace place_of_claim(const study::Study& study, std::size_t claim);
+std::size_t claim_at(const study::Study& study, const ClaimPlace& place);
+/// " of goal 'small' under condition loaded", as far as the study has several goals, and conditions.
+std::string text_of_claim(const study::Study& study, const ClaimPlace& place);
+/// The name of the goal where goals have names, and of the condition where there are any.
+std::optional<std::string> goal_name(const study::Study& study, const ClaimPlace& place);
+std::optional<std::string> condition_name(const study::Study& study, const ClaimPlace& place);
+/// Whether there is more than one goal, or any condition.
+bool has_named_claims(const study::Study& study);
 
 /// Changes the parameters of a trial after they are drawn.
 using Change = std::function<void(trial::TrialParameters&)>;
@@ -48,7 +70,7 @@ struct UnitsToRun {
   const study::Study* study{nullptr};
   std::int64_t from{0};
   std::int64_t to{0};
-  std::vector<UnitResult>* results{nullptr};  ///< get one entry a unit
+  std::vector<UnitResult>* results{nullptr};  ///< get one entry a unit, [claim of aim_of()]
   const Change* change{nullptr};              ///< null: none
 };
 

@@ -39,17 +39,19 @@ constexpr std::size_t children = 32;
 struct BoxPoint {
   std::int64_t rig{0};
   std::vector<double> quantiles;
-  UnitResult result{};
+  ClaimResult result{};  ///< all goals together
 };
 
-/// A time beyond any that matters, s: ten times that of the goal, or the hold of a move.
+/// A time beyond any that matters, s: ten times that of the goal, or the hold of a move. Of several goals as
+/// a proportion of what each allows.
 double late_time(const study::Study& study, std::int64_t point) {
+  if (study.goals.size() > 1) return 10.0;
   if (study::first_goal(study)) return study::first_goal(study)->within * 10.0;
   return study::study_trial(study, point, 0).parameters.command.hold;
 }
 
 /// Mean of the criterion's values, where one that is never reached counts as `late`.
-double lateness(const UnitResult& unit, double late) {
+double lateness(const ClaimResult& unit, double late) {
   double sum = 0.0;
   for (const double value : unit.values) sum += std::min(value, late);
   return sum;
@@ -85,21 +87,33 @@ study::Study searched_study(const study::Study& study, const std::vector<study::
   return searched;
 }
 
-/// Number of the move with the largest value.
-std::int64_t latest_move(const UnitResult& unit) {
-  return std::ranges::max_element(unit.values) - unit.values.begin();
+double latest(const ClaimResult& result) {
+  return result.values.empty() ? 0.0 : *std::ranges::max_element(result.values);
 }
 
-double latest(const UnitResult& unit) {
-  return unit.values.empty() ? 0.0 : *std::ranges::max_element(unit.values);
+/// The claim that the unit meets in the fewest moves, the latest of equal ones.
+std::size_t worst_claim(const UnitResult& unit) {
+  const auto worst = std::ranges::min_element(unit.claims, [](const ClaimResult& a, const ClaimResult& b) {
+    return met_proportion(a) != met_proportion(b) ? met_proportion(a) < met_proportion(b)
+                                                  : latest(a) > latest(b);
+  });
+  return static_cast<std::size_t>(worst - unit.claims.begin());
 }
 
+void name_claim(const study::Study& study, WorstMachine& machine) {
+  if (has_named_claims(study)) machine.goal = goal_name(study, machine.claim);
+  machine.condition = condition_name(study, machine.claim);
+}
+
+/// The search under one condition.
 class MachineSearch {
  public:
-  MachineSearch(const study::Study& study, const trials::Replicates& units,
+  /// @param study under the condition alone, and its units @param condition its name; empty: there is none
+  MachineSearch(const study::Study& study, const trials::Replicates& units, std::string condition,
                 const std::optional<std::filesystem::path>& folder, const std::stop_token& stop)
       : given_(study),
         units_(units),
+        condition_(std::move(condition)),
         folder_(folder),
         inputs_(study::machine_inputs(study, units.point)),
         study_(searched_study(study, inputs_)),
@@ -152,12 +166,15 @@ class MachineSearch {
     std::vector<std::int64_t> order(results.size());
     std::iota(order.begin(), order.end(), std::int64_t{0});
     std::ranges::stable_sort(order, [&](std::int64_t a, std::int64_t b) {
-      return is_worse(results[static_cast<std::size_t>(a)], results[static_cast<std::size_t>(b)], late_);
+      return is_worse(worst_result(results[static_cast<std::size_t>(a)]),
+                      worst_result(results[static_cast<std::size_t>(b)]), late_);
     });
     return order;
   }
 
-  static bool is_worse(const UnitResult& a, const UnitResult& b, double late) {
+  static const ClaimResult& worst_result(const UnitResult& unit) { return unit.claims[worst_claim(unit)]; }
+
+  static bool is_worse(const ClaimResult& a, const ClaimResult& b, double late) {
     if (met_proportion(a) != met_proportion(b)) return met_proportion(a) < met_proportion(b);
     return lateness(a, late) > lateness(b, late);
   }
@@ -296,11 +313,17 @@ class MachineSearch {
                 });
   }
 
-  /// The moves that meet the goal, and the score of each; the largest double where it was never reached.
-  UnitResult result_of(std::span<const trial::TrialOutcome> outcomes) const {
-    UnitResult result;
+  bool is_asked(const trial::MoveOutcome& move) const {
+    return std::ranges::any_of(event_.goals, [&](const auto& goal) { return measures::asks(goal, move); });
+  }
+
+  /// The moves that meet the goals which ask them, and the score of each; the largest double where it was
+  /// never reached.
+  ClaimResult result_of(std::span<const trial::TrialOutcome> outcomes) const {
+    ClaimResult result;
     for (const trial::TrialOutcome& outcome : outcomes) {
       for (const trial::MoveOutcome& move : outcome.moves) {
+        if (!is_asked(move)) continue;
         const double score = measures::score_of(measures::MoveScore::event, event_, move);
         ++result.moves;
         result.met += measures::happens(event_, move) ? 0 : 1;
@@ -333,7 +356,8 @@ class MachineSearch {
 
   std::string manifest_of(const BoxPoint& point,
                           const std::vector<std::pair<std::string, double>>& values) const {
-    manifest_text::PointChanges changes{.values = values, .folder = folder_.value_or("")};
+    manifest_text::PointChanges changes{
+        .condition = condition_, .values = values, .folder = folder_.value_or("")};
     changes.removed = {"design", "worlds", "retain"};
     if (are_correlated(inputs_, *given_.plan)) changes.removed.emplace_back("correlation");
     for (const auto& [slot, value] : profiles()) {
@@ -350,7 +374,9 @@ class MachineSearch {
     if (has_profile_per_rig_) {
       changes.keys.emplace_back("rigs", fmt::format("{}", rigs_of(point)));
     } else {
-      changes.removed.insert(changes.removed.end(), {"rigs", "goal.machines"});
+      changes.removed.emplace_back("rigs");
+      for (const study::Goal& goal : given_.goals)
+        changes.removed.push_back(goal.name.empty() ? "goal.machines" : "goals." + goal.name + ".machines");
     }
     // A profile is drawn with the seed.
     if (!has_profile_) changes.keys.emplace_back("seed", fmt::format("{}", given_.seed + 1));
@@ -382,19 +408,21 @@ class MachineSearch {
       for (std::int64_t i = 0; i < trials_of_verdict; ++i)
         trials.push_back(trial_of(point, given_.trials + trials_of_search + i));
     }
-    UnitResult result;
+    ClaimResult result;
     trials::run(
         {trials_of_verdict, 1, [&](std::size_t) { return trials; }}, stop_,
         [&](std::size_t, std::span<const trial::TrialOutcome> outcomes) { result = result_of(outcomes); });
     machine.moves = result.moves;
     machine.met = met_proportion(result);
     const auto latest = std::ranges::max_element(result.values) - result.values.begin();
-    machine.trial = first + latest / given_.moves * rigs_of(point);
+    const std::int64_t asked = result.moves / trials_of_verdict;
+    machine.trial = first + latest / asked * rigs_of(point);
     return machine;
   }
 
   study::Study given_;
   trials::Replicates units_;
+  std::string condition_;
   std::optional<std::filesystem::path> folder_;
   std::vector<study::MachineInput> inputs_;
   study::Study study_;
@@ -411,30 +439,75 @@ class MachineSearch {
 WorstMachine worst_machine(const study::Study& study, std::int64_t point,
                            std::span<const UnitResult> results) {
   const auto worst = std::ranges::min_element(results, [](const UnitResult& a, const UnitResult& b) {
-    return met_proportion(a) != met_proportion(b) ? met_proportion(a) < met_proportion(b)
-                                                  : latest(a) > latest(b);
+    const ClaimResult& of_a = a.claims[worst_claim(a)];
+    const ClaimResult& of_b = b.claims[worst_claim(b)];
+    return met_proportion(of_a) != met_proportion(of_b) ? met_proportion(of_a) < met_proportion(of_b)
+                                                        : latest(of_a) > latest(of_b);
   });
-  WorstMachine machine{worst - results.begin(), 0, met_proportion(*worst), {}};
-  const auto machines = std::ssize(results);
-  machine.trial = machine.rig + latest_move(*worst) / study.moves * machines;
+  const std::size_t claim = worst_claim(*worst);
+  const ClaimResult& result = worst->claims[claim];
+  WorstMachine machine{worst - results.begin(), 0, met_proportion(result), {}, place_of_claim(study, claim)};
+  const std::int64_t asked =
+      measures::asked_moves(measures::asked_of_moves(study)[machine.claim.goal], study.moves);
+  const std::int64_t trial_under_condition =
+      (std::ranges::max_element(result.values) - result.values.begin()) / asked;
+  machine.trial = trials::trial_of_replicate(study, {.count = std::ssize(results)}, machine.rig,
+                                             trial_under_condition * study::condition_count(study) +
+                                                 static_cast<std::int64_t>(machine.claim.condition));
   const bool of_rig =
       study.rigs > 0 && (!study.columns.rigs.empty() || (study.worlds > 0 && !study.columns.worlds.empty()));
-  const std::vector<study::InputColumn>& columns = of_rig ? study.columns.rigs : study.columns.inputs;
-  const std::vector<double> inputs =
-      of_rig ? study::rig_inputs(study, machine.rig) : study::study_trial(study, point, machine.rig).inputs;
-  for (std::size_t i = 0; i < inputs.size(); ++i) machine.inputs.emplace_back(columns[i].name, inputs[i]);
-  if (of_rig && study.worlds > 0) {
+  const bool has_conditions = !study.conditions.empty();  // what they override is an input of trials
+  const std::vector<study::InputColumn>& columns =
+      of_rig && !has_conditions ? study.columns.rigs : study.columns.inputs;
+  const std::vector<double> inputs = of_rig && !has_conditions
+                                         ? study::rig_inputs(study, machine.rig)
+                                         : study::study_trial(study, point, machine.trial).inputs;
+  const auto is_of_machine = [&](const study::InputColumn& column) {
+    return !of_rig || !has_conditions || column.level < study::DrawLevel::trial;
+  };
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (is_of_machine(columns[i])) machine.inputs.emplace_back(columns[i].name, inputs[i]);
+  }
+  if (of_rig && !has_conditions && study.worlds > 0) {
     const std::vector<double> of_world = study::world_inputs(study, study::world_of(study, machine.rig));
     for (std::size_t i = 0; i < of_world.size(); ++i)
       machine.inputs.emplace_back(study.columns.worlds[i].name, of_world[i]);
   }
+  name_claim(study, machine);
   return machine;
 }
 
 WorstMachines worst_machines(const study::Study& study, const trials::Replicates& units,
                              const std::optional<std::filesystem::path>& folder,
                              const std::stop_token& stop) {
-  return MachineSearch(study, units, folder, stop).run();
+  std::vector<WorstMachines> under;  // [condition]
+  trials::Replicates alone = units;
+  alone.trials_each /= study::condition_count(study);
+  for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
+    const std::string name =
+        study.conditions.empty() ? "" : study.conditions[static_cast<std::size_t>(condition)];
+    WorstMachines& found =
+        under.emplace_back(MachineSearch(under_condition(study, condition), alone, name, folder, stop).run());
+    found.of_study.claim.condition = static_cast<std::size_t>(condition);
+    found.of_study.trial = study::turns_of(study).trial_of(found.of_study.trial, condition);
+    for (JudgedMachine* one : {&found.again, &found.in_box, &found.likely}) {
+      one->condition = condition;
+      one->condition_name = condition_name(study, found.of_study.claim);
+    }
+    name_claim(study, found.of_study);
+  }
+  const auto worst_by = [&](const auto& met) { return *std::ranges::min_element(under, {}, met); };
+  const WorstMachines of_study = worst_by([](const WorstMachines& one) { return one.of_study.met; });
+  const WorstMachines in_box = worst_by([](const WorstMachines& one) { return one.in_box.met; });
+  const WorstMachines likely = worst_by([](const WorstMachines& one) { return one.likely.met; });
+  return {
+      .of_study = of_study.of_study,
+      .again = of_study.again,
+      .in_box = in_box.in_box,
+      .in_box_is_of_study = in_box.in_box.condition == of_study.in_box.condition && in_box.in_box_is_of_study,
+      .likely = likely.likely,
+      .likely_is_in_box = likely.likely.condition == in_box.in_box.condition && likely.likely_is_in_box,
+      .with_profiles = in_box.with_profiles};
 }
 
 }  // namespace zerocount::tuning

@@ -21,16 +21,23 @@ struct WorstMachine {
   std::int64_t trial{0};  ///< its worst trial
   double met{0.0};        ///< proportion of its moves that meet the goal
   std::vector<std::pair<std::string, double>> inputs;
+  /// The goal that it meets in the fewest of its moves, and the condition: of these trial and met are.
+  ClaimPlace claim{};
+  std::optional<std::string> goal{}, condition{};  ///< their names; of one goal, and without conditions none
 };
 
-/// The machine with the fewest moves that meet the goal; of equal ones the one with the largest criterion.
+/// The machine with the fewest moves that meet a goal under a condition; of equal ones the one with the
+/// largest criterion.
 /// @param results of all units of the study
 WorstMachine worst_machine(const study::Study& study, std::int64_t point,
                            std::span<const UnitResult> results);
 
-/// A machine and its manifest: values in place of their distributions, nothing drawn that differs between
-/// machines. It is judged by the trials of that manifest, which neither the study nor a search has used.
+/// A machine under a condition, and its manifest: values in place of their distributions, nothing drawn that
+/// differs between machines, the overrides of the condition in the sections. It is judged by the trials of
+/// that manifest, which neither the study nor a search has used.
 struct JudgedMachine {
+  std::int64_t condition{0};
+  std::optional<std::string> condition_name{};  ///< without conditions none
   std::int64_t rig{0};    ///< of the study, from which it has its profiles; 0 without rigs
   std::int64_t trial{0};  ///< its worst trial, of the manifest
   std::int64_t moves{0};  ///< by which it is judged
@@ -55,9 +62,10 @@ struct WorstMachines {
   bool with_profiles{false};     ///< the machines have profiles of their rigs
 };
 
-/// Finds the machines with the fewest moves that meet the goal; of equal ones the one whose moves have the
+/// Finds the machines with the fewest moves that meet the goals; of equal ones the one whose moves have the
 /// larger score (measures::MoveScore::event, that of `rare` too). The search in the box begins at the worst
-/// machines of the study, at the corners, and at points that fill the box.
+/// machines of the study, at the corners, and at points that fill the box. With conditions it is made under
+/// each, and the answer is of the worst.
 /// @param folder from which the study's manifest names its files; none if it is not a file
 /// @throws trial::Interrupted; Failure (bad_input) if the study draws nothing that differs between machines
 WorstMachines worst_machines(const study::Study& study, const trials::Replicates& units,

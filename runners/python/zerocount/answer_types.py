@@ -1100,6 +1100,10 @@ class Proof(Record):
 
     Attributes
     ----------
+    goal : str or None
+        Name of the worst goal, of several.
+    condition : str or None
+        Name of the worst condition, with conditions.
     rate : float or None
         Proportion of moves that meet the goal, with one-sided bounds.
     rate_low : float or None
@@ -1124,6 +1128,8 @@ class Proof(Record):
 
     _records = {"worlds": TuneProofWorlds}
 
+    goal: str | None
+    condition: str | None
     rate: float | None
     rate_low: float | None
     rate_high: float | None
@@ -1141,6 +1147,10 @@ class Worst(Record):
 
     Attributes
     ----------
+    goal : str or None
+        The goal that it meets in the fewest moves, of several.
+    condition : str or None
+        The condition under which it does worst, with conditions.
     rig : int
         Number of the machine in the study: its rig, or its trial where no trials share a rig.
     trial : int
@@ -1151,6 +1161,8 @@ class Worst(Record):
         What it has drawn, by parameter.
     """
 
+    goal: str | None
+    condition: str | None
     rig: int
     trial: int
     met: float | None
@@ -1233,6 +1245,19 @@ class TuneAnswer(Answer):
         Whether the goal is met; unreachable: not in the ranges.
     gains : dict[str, float or None]
         Tuned values by parameter; none where no values keep the margins.
+    claims : pandas.DataFrame or None
+        Verdicts on each goal under each condition, where there are several.
+
+        - ``goal``: name of the goal, of several
+        - ``condition``: name of the condition, with conditions
+        - ``status``: verdict on the goal under the condition
+        - ``rate``: proportion of moves that meet the goal, with one-sided bounds
+        - ``rate_low``: lower bound
+        - ``rate_high``: upper bound
+        - ``machines``: proportion of machines that meet the goal, with one-sided bounds
+        - ``machines_low``: lower bound
+        - ``machines_high``: upper bound
+
     proof : Proof or None
         Trials of the tuned values on machines that the search never saw.
     needed : Needed or None
@@ -1266,6 +1291,8 @@ class TuneAnswer(Answer):
         - ``rate``: proportion of moves that meet the goal, with one-sided bounds
         - ``rate_low``: lower bound
         - ``rate_high``: upper bound
+        - ``goal_name``: name of the worst goal, of several
+        - ``condition``: name of the worst condition, with conditions
         - ``criterion``: quantity that is minimised; unknown for never
 
     limits : pandas.DataFrame
@@ -1274,6 +1301,9 @@ class TuneAnswer(Answer):
         - ``cause``: cause of failures that is switched off
         - ``rate``: proportion of moves, or of machines, that meet the question without it; unknown if it cannot be
           simulated
+        - ``goal``: the worst of several goals, which the rate is of
+        - ``condition``: the worst condition, which the rate is of
+        - ``rates``: the rates of all goals under all conditions, where there are several
         - ``note``: what the rate does not show, or why there is none
 
     frontier : pandas.DataFrame
@@ -1290,6 +1320,7 @@ class TuneAnswer(Answer):
     goal: str
     status: Literal["met", "unreachable", "undecided"]
     gains: dict[str, float | None]
+    claims: pandas.DataFrame | None
     proof: Proof | None
     needed: Needed | None
     at_edges: list[str]
@@ -1318,6 +1349,9 @@ class LimitsAnswer(Answer):
         - ``cause``: cause of failures that is switched off
         - ``rate``: proportion of moves, or of machines, that meet the question without it; unknown if it cannot be
           simulated
+        - ``goal``: the worst of several goals, which the rate is of
+        - ``condition``: the worst condition, which the rate is of
+        - ``rates``: the rates of all goals under all conditions, where there are several
         - ``note``: what the rate does not show, or why there is none
 
     """
@@ -1330,12 +1364,15 @@ class Again(Record):
 
     Attributes
     ----------
+    condition : str or None
+        The condition that it bears, with conditions.
     moves : int
         Moves by which the machine is judged.
     met : float or None
         Proportion of these moves that meet the goal.
     """
 
+    condition: str | None
     moves: int
     met: float | None
 
@@ -1349,6 +1386,8 @@ class Box(Record):
         Rig of the study with its profiles; 0 without rigs.
     trial : int
         Its worst trial, of its manifest.
+    condition : str or None
+        The condition that it bears, with conditions.
     moves : int
         Moves by which the machine is judged.
     met : float or None
@@ -1363,6 +1402,7 @@ class Box(Record):
 
     rig: int
     trial: int
+    condition: str | None
     moves: int
     met: float | None
     inputs: dict[str, float | None]
@@ -1379,6 +1419,8 @@ class Likely(Record):
         Rig of the study with its profiles; 0 without rigs.
     trial : int
         Its worst trial, of its manifest.
+    condition : str or None
+        The condition that it bears, with conditions.
     moves : int
         Moves by which the machine is judged.
     met : float or None
@@ -1393,6 +1435,7 @@ class Likely(Record):
 
     rig: int
     trial: int
+    condition: str | None
     moves: int
     met: float | None
     inputs: dict[str, float | None]
@@ -1405,6 +1448,10 @@ class WorstAnswer(Answer):
 
     Attributes
     ----------
+    goal : str or None
+        The goal that it meets in the fewest moves, of several.
+    condition : str or None
+        The condition under which it does worst, with conditions.
     rig : int
         Number of the machine in the study: its rig, or its trial where no trials share a rig.
     trial : int
@@ -1423,6 +1470,8 @@ class WorstAnswer(Answer):
 
     _records = {"again": Again, "box": Box, "likely": Likely}
 
+    goal: str | None
+    condition: str | None
     rig: int
     trial: int
     met: float | None

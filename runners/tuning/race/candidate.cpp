@@ -10,8 +10,8 @@
 namespace zerocount::tuning {
 namespace {
 
-bool machine_meets(const Aim& aim, const UnitResult& unit) {
-  return unit.met >= aim.moves * unit.moves;
+bool machine_meets(const Claim& claim, const ClaimResult& result) {
+  return result.met >= claim.moves * result.moves;
 }
 
 /// Sums over the units of a world.
@@ -30,68 +30,143 @@ std::size_t common_units(const Candidate& a, const Candidate& b) {
   return std::min(a.units.size(), b.units.size());
 }
 
-}  // namespace
+double logit(double proportion) {
+  return std::log(proportion / (1.0 - proportion));
+}
 
-Estimate estimate_of(const Aim& aim, const Candidate& candidate, std::int64_t units) {
-  const std::int64_t worlds = std::max<std::int64_t>(aim.worlds, 1);
-  std::vector<WorldCounts> counts(static_cast<std::size_t>(worlds));
-  std::vector<double> values;
-  units = std::min<std::int64_t>(units, std::ssize(candidate.units));
+/// What a candidate's first units show of one claim.
+struct ClaimEstimate {
+  double rate{0.0};
+  double moves{0.0};
+  double near_goal{0.0};
+  bool has_moves{false};
+};
+
+ClaimEstimate estimate_of_claim(const Aim& aim, std::size_t claim, const Candidate& candidate,
+                                std::int64_t units) {
+  const Claim& wanted = aim.claims[claim];
+  std::vector<WorldCounts> counts(worlds_of(aim));
   for (std::int64_t i = 0; i < units; ++i) {
-    const UnitResult& unit = candidate.units[static_cast<std::size_t>(i)];
-    WorldCounts& world = counts[static_cast<std::size_t>(i % worlds)];
-    world.moves += unit.moves;
-    world.met += unit.met;
-    world.machines += machine_meets(aim, unit) ? 1 : 0;
+    const auto unit = static_cast<std::size_t>(i);
+    const ClaimResult& result = candidate.units[unit].claims[claim];
+    WorldCounts& world = counts[unit % counts.size()];
+    world.moves += result.moves;
+    world.met += result.met;
+    world.machines += machine_meets(wanted, result) ? 1 : 0;
     ++world.units;
-    values.insert(values.end(), unit.values.begin(), unit.values.end());
   }
-  Estimate worst;
-  bool none = true;
+  ClaimEstimate worst;
   for (const WorldCounts& world : counts) {
     if (world.moves == 0) continue;
     const double moves = static_cast<double>(world.met) / static_cast<double>(world.moves);
     const double rate =
-        aim.machines ? static_cast<double>(world.machines) / static_cast<double>(world.units) : moves;
-    worst.moves = none ? moves : std::min(worst.moves, moves);
-    worst.rate = none ? rate : std::min(worst.rate, rate);
-    worst.near_goal += std::min(rate, wanted_rate(aim)) / static_cast<double>(worlds);
-    none = false;
+        wanted.machines ? static_cast<double>(world.machines) / static_cast<double>(world.units) : moves;
+    worst.moves = worst.has_moves ? std::min(worst.moves, moves) : moves;
+    worst.rate = worst.has_moves ? std::min(worst.rate, rate) : rate;
+    worst.near_goal += std::min(rate, wanted_rate(wanted)) / static_cast<double>(counts.size());
+    worst.has_moves = true;
   }
-  worst.units = worlds == 1 ? units : std::max<std::int64_t>(units / worlds, none ? 0 : 1);
-  if (none) return worst;
-  worst.criterion = values.empty() ? std::numeric_limits<double>::infinity()
-                                   : statistics::sample_quantile(std::move(values), aim.quantile);
   return worst;
 }
 
-bool seems_to_meet(const Aim& aim, const Estimate& estimate) {
-  const auto n = static_cast<double>(estimate.units);
-  const double cautious = (estimate.rate * n + 1.0) / (n + 2.0);
+/// Difference of the logits, finite for any rate of so many units.
+double margin_of(const Claim& claim, double rate, std::int64_t units) {
+  constexpr double almost_all = 1.0 - 1e-9;  // success is not claimed: of all moves
+  const auto n = static_cast<double>(units);
+  return logit((rate * n + 0.5) / (n + 1.0)) - logit(std::min(wanted_rate(claim), almost_all));
+}
+
+bool seems_to_hold(const Claim& claim, double rate, std::int64_t units) {
+  const auto n = static_cast<double>(units);
+  const double cautious = (rate * n + 1.0) / (n + 2.0);
   const double error = std::sqrt(cautious * (1.0 - cautious) / std::max(n, 1.0));
-  return estimate.units > 0 &&
-         estimate.rate >= wanted_rate(aim) + std::min(error, 0.5 * (1.0 - wanted_rate(aim)));
+  return rate >= wanted_rate(claim) + std::min(error, 0.5 * (1.0 - wanted_rate(claim)));
+}
+
+/// The claim by which the candidate is the latest, and its criterion.
+struct Latest {
+  std::size_t claim{0};
+  double value{0.0};
+};
+
+Latest latest_of(const Aim& aim, const Candidate& candidate, std::int64_t units) {
+  Latest latest{0, late_value(candidate, 0, units, aim.quantile)};
+  for (std::size_t claim = 1; claim < aim.claims.size(); ++claim) {
+    const double value = late_value(candidate, claim, units, aim.quantile);
+    if (value > latest.value) latest = {claim, value};
+  }
+  return latest;
+}
+
+}  // namespace
+
+Estimate estimate_of(const Aim& aim, const Candidate& candidate, std::int64_t units) {
+  units = std::min<std::int64_t>(units, std::ssize(candidate.units));
+  const auto worlds = static_cast<std::int64_t>(worlds_of(aim));
+  Estimate estimate;
+  std::vector<ClaimEstimate> claims;
+  bool has_moves = false;
+  for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
+    claims.push_back(estimate_of_claim(aim, claim, candidate, units));
+    has_moves = has_moves || claims.back().has_moves;
+  }
+  estimate.units = worlds == 1 ? units : std::max<std::int64_t>(units / worlds, has_moves ? 1 : 0);
+  std::vector<char> goal_is_missing((aim.claims.size() + aim.conditions - 1) / aim.conditions, 0);
+  for (std::size_t claim = 0; claim < claims.size(); ++claim) {
+    const ClaimEstimate& one = claims[claim];
+    const double margin = margin_of(aim.claims[claim], one.rate, estimate.units);
+    if (claim == 0 || margin < estimate.margin) {
+      estimate.worst = claim;
+      estimate.margin = margin;
+      estimate.rate = one.rate;
+      estimate.moves = one.moves;
+    }
+    estimate.rates.push_back(one.rate);
+    estimate.near_goal += one.near_goal / static_cast<double>(claims.size());
+    if (!seems_to_hold(aim.claims[claim], one.rate, estimate.units))
+      goal_is_missing[claim / aim.conditions] = 1;
+  }
+  estimate.missing = std::ranges::count(goal_is_missing, 1);
+  if (has_moves) estimate.criterion = latest_of(aim, candidate, units).value;
+  return estimate;
+}
+
+bool reaches(const Aim& aim, const Estimate& estimate) {
+  for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
+    if (estimate.rates[claim] < wanted_rate(aim.claims[claim])) return false;
+  }
+  return true;
 }
 
 bool is_better(const Aim& aim, const Estimate& a, const Estimate& b) {
-  const bool a_meets = seems_to_meet(aim, a);
-  if (a_meets != seems_to_meet(aim, b)) return a_meets;
-  if (a_meets && a.criterion != b.criterion) return a.criterion < b.criterion;
+  if (a.missing != b.missing) return a.missing < b.missing;
+  if (a.missing == 0 && a.criterion != b.criterion) return a.criterion < b.criterion;
   if (aim.worlds > 0 && a.near_goal != b.near_goal) return a.near_goal > b.near_goal;
-  if (a.rate != b.rate) return a.rate > b.rate;
+  if (a.margin != b.margin) return a.margin > b.margin;
   if (a.moves != b.moves) return a.moves > b.moves;
+  if (a.near_goal != b.near_goal) return a.near_goal > b.near_goal;
   return a.criterion < b.criterion;
 }
 
-double goal_loss(const Aim& aim, const UnitResult& unit) {
-  if (aim.machines) return machine_meets(aim, unit) ? 0.0 : 1.0;
-  return unit.moves == 0 ? 0.0 : 1.0 - met_proportion(unit);
+double goal_loss(const Claim& claim, const ClaimResult& result) {
+  if (claim.machines) return machine_meets(claim, result) ? 0.0 : 1.0;
+  return result.moves == 0 ? 0.0 : 1.0 - met_proportion(result);
 }
 
-double late_part(const UnitResult& unit, double limit) {
-  if (unit.values.empty()) return 0.0;
-  const auto late = std::ranges::count_if(unit.values, [limit](double value) { return value > limit; });
-  return static_cast<double>(late) / static_cast<double>(unit.values.size());
+double late_value(const Candidate& candidate, std::size_t claim, std::int64_t units, double quantile) {
+  std::vector<double> values;
+  for (std::int64_t i = 0; i < units; ++i) {
+    const ClaimResult& result = candidate.units[static_cast<std::size_t>(i)].claims[claim];
+    values.insert(values.end(), result.values.begin(), result.values.end());
+  }
+  return values.empty() ? std::numeric_limits<double>::infinity()
+                        : statistics::sample_quantile(std::move(values), quantile);
+}
+
+double late_part(const ClaimResult& result, double limit) {
+  if (result.values.empty()) return 0.0;
+  const auto late = std::ranges::count_if(result.values, [limit](double value) { return value > limit; });
+  return static_cast<double>(late) / static_cast<double>(result.values.size());
 }
 
 double evidence_of_increase(std::span<const double> differences) {
@@ -107,39 +182,52 @@ double evidence_of_increase(std::span<const double> differences) {
 
 bool surely_meets(const Aim& aim, const Candidate& candidate, double alpha) {
   const std::size_t worlds = worlds_of(aim);
-  for (std::size_t world = 0; world < worlds; ++world) {
-    std::vector<double> differences;
-    for (std::size_t i = world; i < candidate.units.size(); i += worlds)
-      differences.push_back(1.0 - wanted_rate(aim) - goal_loss(aim, candidate.units[i]));
-    if (evidence_of_increase(differences) <= 1.0 / alpha) return false;
+  for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
+    const Claim& wanted = aim.claims[claim];
+    for (std::size_t world = 0; world < worlds; ++world) {
+      std::vector<double> differences;
+      for (std::size_t i = world; i < candidate.units.size(); i += worlds)
+        differences.push_back(1.0 - wanted_rate(wanted) -
+                              goal_loss(wanted, candidate.units[i].claims[claim]));
+      if (evidence_of_increase(differences) <= 1.0 / alpha) return false;
+    }
   }
   return true;
 }
 
 bool surely_misses(const Aim& aim, const Candidate& candidate, const Candidate& reliable, double alpha) {
   const std::size_t worlds = worlds_of(aim);
-  const double wanted = static_cast<double>(worlds) / alpha;
-  for (std::size_t world = 0; world < worlds; ++world) {
-    std::vector<double> beyond_goal;
-    std::vector<double> beyond_reliable;
-    for (std::size_t i = world; i < common_units(candidate, reliable); i += worlds) {
-      const double loss = goal_loss(aim, candidate.units[i]);
-      beyond_goal.push_back(loss - (1.0 - wanted_rate(aim)));
-      beyond_reliable.push_back(loss - goal_loss(aim, reliable.units[i]));
+  const double wanted_evidence = static_cast<double>(worlds * aim.claims.size()) / alpha;
+  for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
+    const Claim& wanted = aim.claims[claim];
+    for (std::size_t world = 0; world < worlds; ++world) {
+      std::vector<double> beyond_goal;
+      std::vector<double> beyond_reliable;
+      for (std::size_t i = world; i < common_units(candidate, reliable); i += worlds) {
+        const double loss = goal_loss(wanted, candidate.units[i].claims[claim]);
+        beyond_goal.push_back(loss - (1.0 - wanted_rate(wanted)));
+        beyond_reliable.push_back(loss - goal_loss(wanted, reliable.units[i].claims[claim]));
+      }
+      if (evidence_of_increase(beyond_goal) > wanted_evidence &&
+          evidence_of_increase(beyond_reliable) > wanted_evidence)
+        return true;
     }
-    if (evidence_of_increase(beyond_goal) > wanted && evidence_of_increase(beyond_reliable) > wanted)
-      return true;
   }
   return false;
 }
 
 bool is_significantly_later(const Aim& aim, const Candidate& candidate, const Candidate& best, double alpha) {
   const std::size_t units = common_units(candidate, best);
-  const double limit = estimate_of(aim, best, static_cast<std::int64_t>(units)).criterion;
-  std::vector<double> differences;
-  for (std::size_t i = 0; i < units; ++i)
-    differences.push_back(late_part(candidate.units[i], limit) - late_part(best.units[i], limit));
-  return evidence_of_increase(differences) > 1.0 / alpha;
+  const Latest latest = latest_of(aim, best, static_cast<std::int64_t>(units));
+  const double wanted_evidence = static_cast<double>(aim.claims.size()) / alpha;
+  for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
+    std::vector<double> differences;
+    for (std::size_t i = 0; i < units; ++i)
+      differences.push_back(late_part(candidate.units[i].claims[claim], latest.value) -
+                            late_part(best.units[i].claims[latest.claim], latest.value));
+    if (evidence_of_increase(differences) > wanted_evidence) return true;
+  }
+  return false;
 }
 
 }  // namespace zerocount::tuning

@@ -35,10 +35,10 @@ std::optional<ProvenFinalist> prove(const ProofProblem& problem) {
   std::optional<ProvenFinalist> proven;
   std::optional<Attempt> attempt = Attempt{1, 0, problem.first_units(0, correction_of(1))};
   while (attempt) {
-    std::optional<measures::MoveCounts> counts = problem.run(*attempt);
+    std::optional<GoalCounts> counts = problem.run(*attempt);
     if (!counts) break;
     proven = ProvenFinalist{*attempt, std::move(*counts), {}};
-    proven->verdict = goal::judge_goal(problem.goal, proven->counts, correction_of(attempt->number));
+    proven->verdict = goal::judge_goals(problem.goals, proven->counts, correction_of(attempt->number));
     if (problem.rejects(*attempt)) proven->verdict.status = goal::Status::missed;
     if (attempt->number == max_attempts || !problem.goes_on()) break;
     attempt = next_attempt(problem, *proven);

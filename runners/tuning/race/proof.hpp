@@ -24,20 +24,23 @@ struct Attempt {
 /// found.
 inline constexpr int max_attempts = 3;
 
-/// The number of points for which judge_goal() corrects at this attempt: the reciprocal of its part of α.
+/// The number of points for which judge_goals() corrects at this attempt: the reciprocal of its part of α.
 std::size_t correction_of(int attempt);
 
+/// The moves that meet each goal, [goal].
+using GoalCounts = std::vector<measures::MoveCounts>;
+
 struct ProofProblem {
-  study::Goal goal;
-  std::vector<bool> promising;  ///< [finalist] whether it seems to meet the goal; the best first
-  /// trials::Replicates that are expected to decide the goal with this correction, by the results of the
+  std::vector<study::Goal> goals;  ///< all of which must be met
+  std::vector<bool> promising;     ///< [finalist] whether it seems to meet them; the best first
+  /// trials::Replicates that are expected to decide the goals with this correction, by the results of the
   /// search.
   std::function<std::int64_t(std::size_t finalist, std::size_t correction)> first_units;
-  /// trials::Replicates that are expected to decide it, by the results of an attempt.
-  std::function<std::int64_t(const measures::MoveCounts&, std::size_t correction)> more_units;
+  /// trials::Replicates that are expected to decide them, by the results of an attempt.
+  std::function<std::int64_t(const GoalCounts&, std::size_t correction)> more_units;
   /// Nothing if the effort ended before the attempt.
-  std::function<std::optional<measures::MoveCounts>(const Attempt&)> run;
-  /// Whether the last run shows that the finalist does not keep a condition; it misses the goal then.
+  std::function<std::optional<GoalCounts>(const Attempt&)> run;
+  /// Whether the last run shows that the finalist does not keep a margin; it misses the goal then.
   std::function<bool(const Attempt&)> rejects;
   std::function<bool()> goes_on;  ///< whether the effort is enough for another attempt
 };
@@ -45,7 +48,7 @@ struct ProofProblem {
 /// The last attempt and its verdict.
 struct ProvenFinalist {
   Attempt attempt;
-  measures::MoveCounts counts;
+  GoalCounts counts;
   goal::Verdict verdict;
 };
 
@@ -53,7 +56,7 @@ struct ProvenFinalist {
 ///
 ///     finalist = 0
 ///     for attempt = 1 … max_attempts, while the effort is enough:
-///       run the finalist on fresh units; verdict = judge_goal() with the attempt's part of α
+///       run the finalist on fresh units; verdict = judge_goals() with the attempt's part of α
 ///       met: done; missed: the next finalist; undecided: again on more units, if more are expected to decide
 ///
 /// @returns the last attempt; nothing if the effort ended before the first one

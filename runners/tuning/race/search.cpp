@@ -251,15 +251,15 @@ class Search {
   /// few units make fast points look as if they met the goal.
   void drop(std::vector<Candidate>& candidates, std::int64_t units) const {
     const Aim& aim = problem_.aim;
-    std::vector<std::size_t> by_rate(candidates.size());
+    std::vector<std::size_t> by_margin(candidates.size());
     std::vector<Estimate> estimates;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      by_rate[i] = i;
+      by_margin[i] = i;
       estimates.push_back(estimate_of(aim, candidates[i], units));
     }
     std::ranges::stable_sort(
-        by_rate, [&](std::size_t a, std::size_t b) { return estimates[a].rate > estimates[b].rate; });
-    const Candidate& reliable = candidates[by_rate.front()];
+        by_margin, [&](std::size_t a, std::size_t b) { return estimates[a].margin > estimates[b].margin; });
+    const Candidate& reliable = candidates[by_margin.front()];
     const auto sure = std::ranges::find_if(
         candidates, [&](const Candidate& one) { return surely_meets(aim, one, error_of_dropping); });
     const auto stays = [&](const Candidate& one) {
@@ -277,7 +277,7 @@ class Search {
     };
     for (std::size_t place = 0; place < candidates.size(); ++place) {
       choose(place);
-      choose(by_rate[place]);
+      choose(by_margin[place]);
     }
     std::vector<Candidate> left;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -291,9 +291,9 @@ class Search {
   }
 
   bool improves(const Estimate& before, const Estimate& now) const {
-    const bool met = seems_to_meet(problem_.aim, before);
-    if (met != seems_to_meet(problem_.aim, now)) return !met;
-    if (met) return now.criterion < before.criterion * (1.0 - min_improvement);
+    if (before.missing != now.missing) return now.missing < before.missing;
+    if (seems_to_meet(before)) return now.criterion < before.criterion * (1.0 - min_improvement);
+    if (before.worst != now.worst) return now.margin > before.margin;
     return now.rate > before.rate + 0.001;
   }
 

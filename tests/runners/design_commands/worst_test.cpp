@@ -47,8 +47,8 @@ class Worst : public ProgramTest {
     const study::Study study = layout::recorded_study(file.header(), "worst.h5");
     trials::Replicates units = trials::replicates_of(study, 0);
     if (study.rigs == 0) units = {1, study.trials, 0};
-    return met_proportion(
-        tuning::results_in(file, study, units)[static_cast<std::size_t>(study.rigs == 0 ? 0 : rig)]);
+    const auto results = tuning::results_in(file, study, units);
+    return met_proportion(results[static_cast<std::size_t>(study.rigs == 0 ? 0 : rig)].claims.front());
   }
 };
 

@@ -1,4 +1,7 @@
 // A study with other values is the same, to the bit, as the one whose manifest has these values.
+#include "runners/trials/variant.hpp"
+
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -12,7 +15,6 @@
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
-#include "runners/trials/variant.hpp"
 
 namespace zerocount::trials {
 namespace {
@@ -35,6 +37,10 @@ const char* const manifests[] = {
      "1.0e-3}\n"
      "controller: {units: si, sample_rate: 8000, kp: 2.0e+6, ki: 1.4e+9, kd: 4346}\n"
      "dac: {bits: 16, range: 60}\ngoal: {band: 2, within: 0.05, moves: 0.9}\n"),
+    ("zerocount: 1\nname: conditions\nseed: 8\ntrials: 8\ncommand: {targets: [12], hold: 0.2}\n"
+     "conditions: {empty: {}, loaded: {plant.inertia: 9.0e-4, controller.delay: {uniform: [1, 2]}}}\n"
+     "friction: {k1: {lognormal: {median: 110, cv: 0.2}}}\ncontroller: {ki: 3.85e-5, delay: 1}\n"
+     "goal: {band: 1, within: 0.15, moves: 0.9}\n"),
 };
 
 /// The study whose manifest has these values; nothing where they are refused.
@@ -56,6 +62,12 @@ double value_of(const study::Study& study, const std::string& name) {
   return study.plan->base[study::slots_named(study.plan->table, names).front()].number;
 }
 
+bool is_overridden(const study::StudyPlan& plan, std::size_t slot) {
+  return plan.has_conditions() &&
+         std::ranges::find(plan.axes[plan.condition_axis].assignments, slot, &study::Assignment::slot) !=
+             plan.axes[plan.condition_axis].assignments.end();
+}
+
 /// The numbers of the study that have one value, and an effect.
 std::vector<std::string> one_numbers(const study::Study& study) {
   std::vector<std::string> names;
@@ -66,7 +78,7 @@ std::vector<std::string> one_numbers(const study::Study& study) {
     const bool number =
         row.kind == parameters::ParameterKind::real || row.kind == parameters::ParameterKind::whole_number;
     const std::string name(row.name);
-    if (number && plan.base[slot].kind == study::Value::Kind::number &&
+    if (number && plan.base[slot].kind == study::Value::Kind::number && !is_overridden(plan, slot) &&
         parsed(study, {name}, {plan.base[slot].number}, refusal))
       names.push_back(name);
   }
@@ -127,6 +139,21 @@ TEST(Variant, WithValuesIsTheStudyWhoseManifestHasThem) {
   }
   EXPECT_GT(allowed, 60);
   EXPECT_GT(refused, 5);
+}
+
+// Each trial under a condition is one of the study under that condition alone, whatever was changed before.
+TEST(Variant, UnderAConditionAreTheTrialsOfThatCondition) {
+  const study::Study study = manifest::parse_study(manifests[std::size(manifests) - 1], "test");
+  const std::vector<std::string> names{"controller.ki"};
+  const study::Study edited = with_values(study, names, std::vector<double>{2.0e-5}).value();
+  for (const study::Study* one : {&study, &edited}) {
+    const study::TrialTurns turns = study::turns_of(*one);
+    for (std::int64_t trial = 0; trial < one->trials; ++trial) {
+      const study::Study alone = under_condition(*one, turns.condition_of(trial));
+      EXPECT_EQ(alone.trials, study::draw_count(*one));
+      EXPECT_EQ(motion_of(*one, trial), motion_of(alone, turns.draw_of(trial))) << trial;
+    }
+  }
 }
 
 TEST(Variant, AFreshSeedDiffersForEachPurpose) {

@@ -43,13 +43,13 @@ struct MadeUpProblem {
     };
     const double luck = std::sqrt(0.5) * (normal(1, everywhere) + normal(3, at));
     const bool met = 0.5 * std::erfc(luck / std::sqrt(2.0)) < rate(at);
-    return {1, met ? 1 : 0, {typical_time(at) * std::exp(0.3 * normal(5, everywhere))}};
+    return {.claims = {{1, met ? 1 : 0, {typical_time(at) * std::exp(0.3 * normal(5, everywhere))}}}};
   }
 
   SearchProblem problem(std::int64_t units) const {
     SearchProblem problem;
     problem.free = {{.name = "x", .low = 0.0, .high = 1.0}, {.name = "y", .low = 0.0, .high = 1.0}};
-    problem.aim = {.moves = goal.moves, .quantile = 0.95};
+    problem.aim = {.claims = {{.moves = goal.moves}}, .quantile = 0.95};
     problem.size = search_size({.free = problem.free.size(), .max_units = units}, std::int64_t{1} << 40);
     problem.evaluate = [this](std::span<Candidate* const> candidates, std::int64_t to) {
       for (Candidate* one : candidates) {

@@ -9,16 +9,15 @@
 namespace zerocount::tuning {
 namespace {
 
-measures::MoveCounts counts_of(const MadeUpProblem& truth, const Values& at, std::uint64_t first,
-                               std::int64_t units) {
+GoalCounts counts_of(const MadeUpProblem& truth, const Values& at, std::uint64_t first, std::int64_t units) {
   measures::MoveCounts counts;
   for (std::int64_t i = 0; i < units; ++i) {
-    const UnitResult unit = truth.result(at, first + static_cast<std::uint64_t>(i));
+    const ClaimResult unit = truth.result(at, first + static_cast<std::uint64_t>(i)).claims.front();
     counts.moves += unit.moves;
     counts.met += unit.met;
     counts.of_trials.add(unit.met, unit.moves);
   }
-  return counts;
+  return {counts};
 }
 
 TEST(Proof, ItsClaimsHoldAndThoseOfTheSearchDoNot) {
@@ -35,12 +34,11 @@ TEST(Proof, ItsClaimsHoldAndThoseOfTheSearchDoNot) {
     ASSERT_FALSE(found.finalists.empty());
 
     ProofProblem problem;
-    problem.goal = truth.goal;
-    for (const Estimate& one : found.estimates)
-      problem.promising.push_back(seems_to_meet({.moves = truth.goal.moves}, one));
+    problem.goals = {truth.goal};
+    for (const Estimate& one : found.estimates) problem.promising.push_back(seems_to_meet(one));
     problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{2000}; };
-    problem.more_units = [](const measures::MoveCounts&, std::size_t) { return std::int64_t{6000}; };
-    problem.run = [&](const Attempt& attempt) -> std::optional<measures::MoveCounts> {
+    problem.more_units = [](const GoalCounts&, std::size_t) { return std::int64_t{6000}; };
+    problem.run = [&](const Attempt& attempt) -> std::optional<GoalCounts> {
       const auto first = static_cast<std::uint64_t>(attempt.number) << 16U;
       return counts_of(truth, found.finalists[attempt.finalist].values, first, attempt.units);
     };
@@ -53,7 +51,7 @@ TEST(Proof, ItsClaimsHoldAndThoseOfTheSearchDoNot) {
     wrong_bounds += proven.verdict.moves.low > truth.rate(at) ? 1 : 0;
 
     const Values& best = found.finalists.front().values;
-    const goal::Verdict of_search = goal::judge_goal(truth.goal, counts_of(truth, best, 0, 256), 1);
+    const goal::Verdict of_search = goal::judge_goals({&truth.goal, 1}, counts_of(truth, best, 0, 256), 1);
     wrong_bounds_of_search += of_search.moves.low > truth.rate(best) ? 1 : 0;
   }
   std::cout << claims << " claims, " << wrong_claims << " of them wrong; bounds wrong: " << wrong_bounds
@@ -74,13 +72,13 @@ TEST(Proof, AttemptsShareTheErrorProbability) {
 TEST(Proof, GoesOnToTheNextFinalistAfterAMissAndToMoreUnitsWhenUndecided) {
   std::vector<Attempt> attempts;
   ProofProblem problem;
-  problem.goal = {.within = 1.0, .moves = 0.95};
+  problem.goals = {{.within = 1.0, .moves = 0.95}};
   problem.promising = {true, true};
   problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
-  problem.more_units = [](const measures::MoveCounts&, std::size_t) { return std::int64_t{4000}; };
+  problem.more_units = [](const GoalCounts&, std::size_t) { return std::int64_t{4000}; };
   problem.goes_on = [] { return true; };
   problem.rejects = [](const Attempt&) { return false; };
-  problem.run = [&](const Attempt& attempt) -> std::optional<measures::MoveCounts> {
+  problem.run = [&](const Attempt& attempt) -> std::optional<GoalCounts> {
     attempts.push_back(attempt);
     const double rate = attempt.finalist == 0 ? 0.8 : attempt.units == 1000 ? 0.955 : 0.97;
     measures::MoveCounts counts;
@@ -90,7 +88,7 @@ TEST(Proof, GoesOnToTheNextFinalistAfterAMissAndToMoreUnitsWhenUndecided) {
       counts.met += met ? 1 : 0;
       counts.of_trials.add(met ? 1 : 0, 1);
     }
-    return counts;
+    return GoalCounts{counts};
   };
   const ProvenFinalist proven = prove(problem).value();
   ASSERT_EQ(attempts.size(), 3U);
@@ -103,18 +101,18 @@ TEST(Proof, GoesOnToTheNextFinalistAfterAMissAndToMoreUnitsWhenUndecided) {
 // Such as margins of the sliding loop, where only the proof slides.
 TEST(Proof, GoesOnToTheNextFinalistWhereItRejectsOneThatMeetsTheGoal) {
   ProofProblem problem;
-  problem.goal = {.within = 1.0, .moves = 0.95};
+  problem.goals = {{.within = 1.0, .moves = 0.95}};
   problem.promising = {true, true};
   problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
   problem.goes_on = [] { return true; };
-  problem.run = [](const Attempt& attempt) -> std::optional<measures::MoveCounts> {
+  problem.run = [](const Attempt& attempt) -> std::optional<GoalCounts> {
     measures::MoveCounts counts;
     for (std::int64_t i = 0; i < attempt.units; ++i) {
       ++counts.moves;
       ++counts.met;
       counts.of_trials.add(1, 1);
     }
-    return counts;
+    return GoalCounts{counts};
   };
   problem.rejects = [](const Attempt& attempt) { return attempt.finalist == 0; };
   const ProvenFinalist proven = prove(problem).value();

@@ -47,14 +47,17 @@ class JerkStream {
     return taken_;
   }
 
-  bool at_end() const { return next_ == block_.size() && read_ == end_; }
+  bool at_end() { return next_ == block_.size() && !refill(); }
 
  private:
   bool refill() {
-    const std::int64_t count = std::min(jerks_at_once, end_ - read_);
-    block_ = file_.jerks_at(read_, count);
-    read_ += count;
+    block_.clear();
     next_ = 0;
+    while (block_.empty() && read_ < end_) {  // a block may have only jerks of other conditions
+      const std::int64_t count = std::min(jerks_at_once, end_ - read_);
+      block_ = file_.jerks_at(read_, count);
+      read_ += count;
+    }
     return !block_.empty();
   }
 

@@ -167,7 +167,9 @@ StudySummary summary_of(const reading::ResultsFile& file, const study::Study& st
   summary.name = file.header().name;
   summary.labels = file.point_labels();
   summary.axes = file.axes();
-  summary.predictions = measures::predictions_of(file.statistics(), file.header().trials, file.path());
+  const std::vector<layout::PointColumn> columns = file.statistics();
+  if (!columns.empty())
+    summary.predictions = measures::predictions_of(columns, file.header().trials, file.path());
   return summary;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "experiments/study/condition_study.hpp"
 
 namespace zerocount::reading {
 
@@ -12,14 +13,65 @@ AllTrialsFile::AllTrialsFile(const std::filesystem::path& path, Require require,
   layout::require_every_trial(path, header());
 }
 
-/// The positions of the rows in the tables. @throws Failure if the file does not hold them
+AllTrialsFile::AllTrialsFile(const AllTrialsFile& whole, std::int64_t condition)
+    : ResultsFile(whole.path(), Require::unfinished) {  // the whole is checked already
+  const study::Study& study = whole.study();
+  if (study.conditions.empty()) return;
+  condition_ = {study::turns_of(study), condition, study.trials};
+  show_study(study::under_condition(study, condition));
+}
+
+AllTrialsFile AllTrialsFile::under_condition(std::int64_t condition) const {
+  return {*this, condition};
+}
+
+std::int64_t AllTrialsFile::row_in_file(std::int64_t row) const {
+  if (!condition_) return row;
+  const std::int64_t draws = header().trials;
+  const std::int64_t point = row / draws;
+  if (row % draws == 0 && row > 0 && row == rows().end()) return point * condition_->trials;  // the end
+  return point * condition_->trials + condition_->turns.trial_of(row % draws, condition_->number);
+}
+
+/// @throws Failure if the file does not hold the rows
+void AllTrialsFile::require_rows(layout::RowRange range) const {
+  if (range.first >= rows().first && range.count >= 0 && range.end() <= rows().end()) return;
+  throw Failure(ExitCode::bad_data,
+                fmt::format("{}: trials {} to {} were asked for; it holds {} to {}", path().string(),
+                            range.first, range.end() - 1, rows().first, rows().end() - 1));
+}
+
 layout::RowRange AllTrialsFile::local(layout::RowRange range) const {
-  if (range.first < rows().first || range.count < 0 || range.end() > rows().end()) {
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: trials {} to {} were asked for; it holds {} to {}", path().string(),
-                              range.first, range.end() - 1, rows().first, rows().end() - 1));
+  require_rows(range);
+  if (!condition_ || range.count == 0) return trials()->positions_of({row_in_file(range.first), range.count});
+  const std::int64_t first = row_in_file(range.first);
+  return trials()->positions_of({first, row_in_file(range.end() - 1) + 1 - first});
+}
+
+template <class Value>
+std::vector<Value> AllTrialsFile::chosen(layout::RowRange range, std::vector<Value> read,
+                                         std::int64_t width) const {
+  if (!condition_ || range.count == 0) return read;
+  const std::int64_t first = row_in_file(range.first);
+  std::vector<Value> values;
+  values.reserve(static_cast<std::size_t>(range.count * width));
+  for (std::int64_t row = range.first; row < range.end(); ++row) {
+    const auto trial = read.begin() + (row_in_file(row) - first) * width;
+    values.insert(values.end(), trial, trial + width);
   }
-  return trials()->positions_of(range);
+  return values;
+}
+
+std::vector<double> AllTrialsFile::input(std::size_t column, layout::RowRange range) const {
+  return chosen(range, trials()->input(column, local(range)), 1);
+}
+
+std::vector<trial::MoveOutcome> AllTrialsFile::outcomes(layout::RowRange range) const {
+  return chosen(range, trials()->outcomes(local(range)), moves());
+}
+
+std::vector<double> AllTrialsFile::measure(std::string_view name, layout::RowRange range) const {
+  return chosen(range, trials()->measure(name, local(range)), moves());
 }
 
 std::vector<double> AllTrialsFile::inputs_of(std::int64_t row) const {
@@ -29,9 +81,24 @@ std::vector<double> AllTrialsFile::inputs_of(std::int64_t row) const {
   return values;
 }
 
+std::vector<layout::JerkRecord> AllTrialsFile::jerks_at(std::int64_t first, std::int64_t count) const {
+  std::vector<layout::JerkRecord> found = trials()->jerks_at(first, count);
+  if (!condition_) return found;
+  const auto& [turns, number, trials_of_point] = *condition_;
+  std::erase_if(found, [&](const layout::JerkRecord& jerk) {
+    return turns.condition_of(jerk.trial % trials_of_point) != number;
+  });
+  for (layout::JerkRecord& jerk : found) {
+    const std::int64_t point = jerk.trial / trials_of_point;
+    jerk.trial = point * header().trials + turns.draw_of(jerk.trial % trials_of_point);
+  }
+  return found;
+}
+
 std::vector<layout::JerkRecord> AllTrialsFile::jerks(layout::RowRange range) const {
-  local(range);
-  return trials()->jerks_of(range);
+  require_rows(range);
+  const std::int64_t first = first_jerk_from(range.first);
+  return jerks_at(first, first_jerk_from(range.end()) - first);
 }
 
 }  // namespace zerocount::reading

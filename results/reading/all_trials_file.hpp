@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,34 +24,33 @@ class AllTrialsFile : public ResultsFile {
   explicit AllTrialsFile(const std::filesystem::path& path, Require require = Require::complete,
                          const layout::MeasureTable* table = nullptr);
 
+  /// The trials under one condition, as the file of a study of its own (study::under_condition): all that is
+  /// read of trials, and header().trials and rows(), are of that study, whose row is point·trials + draw.
+  /// What the file has of its design points, rigs and traces stays that of all conditions. A file without
+  /// conditions is opened again as it is.
+  AllTrialsFile under_condition(std::int64_t condition) const;
+
   parameters::AxisKind axis() const { return features().axis; }
   std::int64_t moves() const { return trials()->moves(); }
 
   const std::vector<study::InputColumn>& input_columns() const { return trials()->input_columns(); }
-  std::vector<double> input(std::size_t column, layout::RowRange rows) const {  ///< [row]
-    return trials()->input(column, local(rows));
-  }
-  std::vector<double> inputs_of(std::int64_t row) const;  ///< [input column]
+  std::vector<double> input(std::size_t column, layout::RowRange rows) const;  ///< [row]
+  std::vector<double> inputs_of(std::int64_t row) const;                       ///< [input column]
 
   const std::vector<layout::RecordField<trial::MoveOutcome>>& measures() const {
     return trials()->measures();
   }
   const layout::MeasureTable& table() const { return trials()->table(); }
-  std::vector<trial::MoveOutcome> outcomes(layout::RowRange rows) const {
-    return trials()->outcomes(local(rows));
-  }
-  std::vector<double> measure(std::string_view name, layout::RowRange rows) const {
-    return trials()->measure(name, local(rows));
-  }
+  std::vector<trial::MoveOutcome> outcomes(layout::RowRange rows) const;
+  std::vector<double> measure(std::string_view name, layout::RowRange rows) const;
 
   void require_valid_values() const { trials()->require_valid_values(); }
 
-  std::int64_t jerk_count() const { return trials()->jerk_count(); }
-  std::vector<layout::JerkRecord> jerks_at(std::int64_t first, std::int64_t count) const {
-    return trials()->jerks_at(first, count);
-  }
+  std::int64_t jerk_count() const { return trials()->jerk_count(); }  ///< of all conditions
+  /// The jerks at these positions of the table; under a condition those among them that are of its trials.
+  std::vector<layout::JerkRecord> jerks_at(std::int64_t first, std::int64_t count) const;
   std::vector<layout::JerkRecord> jerks(layout::RowRange rows) const;
-  std::int64_t first_jerk_from(std::int64_t row) const { return trials()->first_jerk_from(row); }
+  std::int64_t first_jerk_from(std::int64_t row) const { return trials()->first_jerk_from(row_in_file(row)); }
 
   bool has_trace() const { return trials()->has_trace(); }
   std::int64_t trace_count() const { return trials()->trace_count(); }
@@ -59,7 +60,34 @@ class AllTrialsFile : public ResultsFile {
   }
 
  private:
+  /// The trials that are read: those of one condition of the study in the file.
+  struct OneCondition {
+    study::TrialTurns turns;
+    std::int64_t number{0};
+    std::int64_t trials{0};  ///< of a design point, of all conditions
+  };
+
+  AllTrialsFile(const AllTrialsFile& whole, std::int64_t condition);
+  /// The row of the study in the file that is this row.
+  std::int64_t row_in_file(std::int64_t row) const;
+  void require_rows(layout::RowRange rows) const;
+  /// The positions in the tables from the first to the last of these rows.
   layout::RowRange local(layout::RowRange rows) const;
+  /// Of values read from local(rows), those of the rows. @param width values of a trial
+  template <class Value>
+  std::vector<Value> chosen(layout::RowRange rows, std::vector<Value> read, std::int64_t width) const;
+
+  std::optional<OneCondition> condition_{};
 };
+
+/// Calls take(file, name) for the trials under each condition in turn; without conditions for the file
+/// itself, with an empty name.
+template <class Take>
+void for_each_condition(const AllTrialsFile& file, const Take& take) {
+  const std::vector<std::string>& conditions = file.study().conditions;
+  if (conditions.empty()) take(file, std::string());
+  for (std::size_t i = 0; i < conditions.size(); ++i)
+    take(file.under_condition(static_cast<std::int64_t>(i)), conditions[i]);
+}
 
 }  // namespace zerocount::reading

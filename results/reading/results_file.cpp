@@ -156,6 +156,13 @@ const study::Study& ResultsFile::study() const {
   return *study_;
 }
 
+void ResultsFile::show_study(study::Study study) {
+  header_.trials = study.trials;
+  header_.rows = {0, study::trial_count(study)};
+  study_ = std::make_shared<const study::Study>(std::move(study));
+  shows_part_ = true;
+}
+
 std::vector<std::string> ResultsFile::point_labels() const {
   if (!file_.contains("point")) return {};
   const hdf5::Dataset labels = file_.open_group("point").open_dataset("label");
@@ -182,6 +189,7 @@ std::vector<study::SweepAxis> ResultsFile::axes() const {
 
 std::vector<layout::PointColumn> ResultsFile::statistics() const {
   std::vector<layout::PointColumn> statistics;
+  if (shows_part_) return statistics;
   for (const auto& [name, dataset] : point_columns(file_, header_.points, "statistic")) {
     const layout::PointColumn column{name, dataset.text("units"), dataset.text("long_name"), {}};
     if (dataset.extent().size() == 2) {

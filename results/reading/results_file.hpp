@@ -68,7 +68,8 @@ class ResultsFile {
   const hdf5::Group& root() const { return file_; }  ///< for groups that this class does not know
   layout::RowRange rows() const { return header_.rows; }
 
-  /// Empty in a shard, like axes, statistics and their tables.
+  /// Empty in a shard, like axes, statistics and their tables. Statistics are also empty of a file that is
+  /// shown as the study of one condition (AllTrialsFile::under_condition).
   std::vector<std::string> point_labels() const;
   std::vector<study::SweepAxis> axes() const;
   std::vector<layout::PointColumn> statistics() const;
@@ -95,6 +96,10 @@ class ResultsFile {
   /// @throws ForeignFile if the file has no sums, because it keeps every trial
   layout::PointSums sums(std::int64_t index) const;
 
+ protected:
+  /// Shows the file as one of this study, a part of its own, with all trials.
+  void show_study(study::Study study);
+
  private:
   /// The sums of a file that has /sums.
   struct StoredSums {
@@ -109,6 +114,7 @@ class ResultsFile {
   hdf5::File file_;
   layout::FileHeader header_;
   mutable std::shared_ptr<const study::Study> study_;
+  bool shows_part_{false};  ///< study_ is not the whole study of the file
   std::optional<TrialTables> trials_;
   std::optional<StoredSums> sums_;
 };

@@ -5,11 +5,13 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/condition_study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::study {
@@ -82,6 +84,11 @@ std::string text_of(const std::vector<std::size_t>& overrides) {
   return "{" + text + "}";
 }
 
+/// The numbers, of which some may be NaN, to the last digit.
+std::string text_of(const std::vector<double>& numbers) {
+  return fmt::format("{}", fmt::join(numbers, " "));
+}
+
 void expect_equal_runs(const StudyTrial& a, const StudyTrial& b) {
   EXPECT_EQ(a.target_positions, b.target_positions);
   EXPECT_EQ(a.parameters.command.targets, b.parameters.command.targets);
@@ -127,6 +134,8 @@ TEST(Conditions, ATrialIsThatOfTheStudyWithTheOverrides) {
             for (const std::size_t one : overrides[static_cast<std::size_t>(c)])
               for (const std::string& set : override_pool()[one].in_manifest) alone.push_back(set);
             const Study other = study_of(manifest_with(""), alone);
+            const Study part = under_condition(study, c);
+            EXPECT_EQ(part.trials, other.trials);
             std::set<std::int64_t> draws;
             for (std::int64_t i = 0; i < study.trials; ++i) {
               const std::int64_t r = rigs > 0 ? rigs : 1;
@@ -140,6 +149,9 @@ TEST(Conditions, ATrialIsThatOfTheStudyWithTheOverrides) {
               for (std::int64_t point = 0; point < 2; ++point) {
                 const StudyTrial trial = study_trial(study, point, i);
                 const StudyTrial expected = study_trial(other, point, j);
+                const StudyTrial of_part = study_trial(part, point, j);
+                EXPECT_EQ(text_of(of_part.inputs), text_of(trial.inputs));
+                EXPECT_EQ(of_part.parameters.randomness.stream, trial.parameters.randomness.stream);
                 for (std::size_t column = 0; column < study.columns.inputs.size(); ++column) {
                   for (std::size_t k = 0; k < other.columns.inputs.size(); ++k) {
                     if (study.columns.inputs[column].name == other.columns.inputs[k].name) {

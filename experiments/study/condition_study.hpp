@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "experiments/study/study.hpp"
+
+namespace zerocount::study {
+
+/// The study under one of its conditions, as a study of its own: its manifest has the overrides of the
+/// condition in the sections, and its trial j is trial TrialTurns::trial_of(j, condition) of the study.
+/// Its columns and features are those of all conditions. Without conditions it is the study itself.
+/// @param condition number of one of Study::conditions
+Study under_condition(const Study& study, std::int64_t condition);
+
+/// "kp=400, loaded": a design point under a condition, in answers; the label alone without a condition.
+std::string label_under(std::string_view label, std::string_view condition);
+
+/// The number of the condition of this name.
+/// @throws Failure (bad_input) with the names that there are
+std::int64_t condition_named(const Study& study, std::string_view name);
+
+}  // namespace zerocount::study

@@ -79,6 +79,12 @@ PageSection success_section(const ReportedStudy& reported) {
   return section;
 }
 
+/// Says in the captions of figures of worst_of_conditions() which condition that is.
+std::vector<Figure> under_worst_condition(const ReportedStudy& reported, std::vector<Figure> figures) {
+  for (Figure& figure : figures) figure.caption = worst_condition_text(reported) + figure.caption;
+  return figures;
+}
+
 /// Zero counts, of a study that is judged by a goal.
 PageSection zero_count_section(const ReportedStudy& reported) {
   PageSection section{"zero-counts", "Zero counts", "", {}};
@@ -132,16 +138,18 @@ StudyReport study_report(const reading::AllTrialsFile& file, const ReportOptions
         answer_section("baseline", "Against the baseline", comparison_answer().of(*options.comparison)));
   if (options.history) add(page, history_section(*options.history, max_history_figures));
   add(page, success_section(reported));
-  add(page, {"worlds", "Worlds", "", world_figures(reported)});
+  const ReportedStudy& worst = worst_of_conditions(reported);
+  add(page, {"worlds", "Worlds", "", under_worst_condition(reported, world_figures(worst))});
   add(page, {"settling", "Arrival and settling", "", distribution_figures(reported)});
   add(page, zero_count_section(reported));
-  add(page,
-      {"jerks", "Jerks", "", reported.study.open_loop ? std::vector<Figure>{} : jerk_figures(reported)});
+  add(page, {"jerks", "Jerks", "",
+             reported.study.open_loop ? std::vector<Figure>{}
+                                      : under_worst_condition(reported, jerk_figures(worst))});
   if (std::optional<PageSection> sensitivity = sensitivity_section(reported))
     add(page, std::move(*sensitivity));
-  add(page, {"rotor", "Along the $track", "", rotor_figures(reported)});
-  if (std::optional<Figure> bode = bode_figure(reported))
-    add(page, {"loop", "Stability margins", "", {std::move(*bode)}});
+  add(page, {"rotor", "Along the $track", "", under_worst_condition(reported, rotor_figures(worst))});
+  if (std::optional<Figure> bode = bode_figure(worst))
+    add(page, {"loop", "Stability margins", "", under_worst_condition(reported, {std::move(*bode)})});
   if (reported.study.plugin) {
     add(page, {"traces", "Single trials", without_traces_html(*reported.study.plugin), {}});
   } else {

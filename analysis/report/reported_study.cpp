@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "analysis/goal/success_bounds.hpp"
 #include "analysis/summary/best_point.hpp"
+#include "analysis/summary/conditions_of_point.hpp"
 #include "analysis/summary/point_names.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/text/percent.hpp"
@@ -16,11 +18,10 @@
 
 namespace zerocount::report {
 
-ReportedStudy reported_study(const reading::AllTrialsFile& file, std::optional<std::int64_t> point) {
-  if (point && (*point < 0 || *point >= file.header().points)) {
-    throw Failure(ExitCode::bad_input, fmt::format("{}: unknown design point {}; expected 0 to {}",
-                                                   file.path().string(), *point, file.header().points - 1));
-  }
+namespace {
+
+/// The file with what its summary says, but for the point that the page speaks of.
+ReportedStudy summarised(const reading::AllTrialsFile& file) {
   ReportedStudy reported{file, file.study(), summary::summarise(file)};
   reported.bounds_name = reported.study.stop   ? "bounds that hold at whatever trial one stops"
                          : reported.study.rigs ? "Korn-Graubard bounds"
@@ -28,9 +29,54 @@ ReportedStudy reported_study(const reading::AllTrialsFile& file, std::optional<s
   for (const measures::PointSummary& one : reported.summary.points)
     reported.success_bounds.push_back(
         goal::bounds_of_chosen(one, 1, reported.summary.question.stopped, statistics::summary_confidence));
-  reported.chosen = summary::choose_point(reported.summary, point);
   reported.names = summary::short_labels(reported.summary.labels, reported.summary.axes);
   return reported;
+}
+
+void add_conditions(ReportedStudy& reported) {
+  const std::vector<std::string>& names = reported.study.conditions;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    auto file = std::make_shared<const reading::AllTrialsFile>(
+        reported.file.under_condition(static_cast<std::int64_t>(i)));
+    auto study = std::make_shared<ReportedStudy>(summarised(*file));
+    study->chosen = reported.chosen;
+    reported.conditions.push_back({names[i], std::move(file), std::move(study)});
+  }
+  if (names.empty()) return;
+  const goal::Question& question = question_of(reported);
+  const std::int64_t chosen = reported.chosen.point;
+  reported.worst_condition =
+      question.claim() ? verdict_on(question, point_of(reported, chosen)).condition
+                       : summary::worst_condition(summary::conditions_of_point(reported.summary, chosen));
+}
+
+}  // namespace
+
+ReportedStudy reported_study(const reading::AllTrialsFile& file, std::optional<std::int64_t> point) {
+  if (point && (*point < 0 || *point >= file.header().points)) {
+    throw Failure(ExitCode::bad_input, fmt::format("{}: unknown design point {}; expected 0 to {}",
+                                                   file.path().string(), *point, file.header().points - 1));
+  }
+  ReportedStudy reported = summarised(file);
+  reported.chosen = summary::choose_point(reported.summary, point);
+  if (!reported.study.open_loop) add_conditions(reported);
+  return reported;
+}
+
+const ReportedStudy& worst_of_conditions(const ReportedStudy& reported) {
+  return has_conditions(reported) ? *reported.conditions[reported.worst_condition].study : reported;
+}
+
+std::string worst_condition_text(const ReportedStudy& reported) {
+  if (!has_conditions(reported)) return "";
+  return fmt::format("Under {}, the worst condition. ", reported.conditions[reported.worst_condition].name);
+}
+
+std::vector<ReportedPart> parts_of(const ReportedStudy& reported) {
+  if (!has_conditions(reported)) return {{"", reported}};
+  std::vector<ReportedPart> parts;
+  for (const ReportedCondition& one : reported.conditions) parts.push_back({one.name, *one.study});
+  return parts;
 }
 
 std::string marked_label_of(const ReportedStudy& reported, std::int64_t point) {
@@ -55,6 +101,12 @@ goal::QuestionRate shown_rate(const ReportedStudy& reported, std::int64_t point)
 std::string shown_bounds(const ReportedStudy& reported) {
   if (!question_of(reported).claim()) return "95 % " + reported.bounds_name;
   return fmt::format("one-sided {} bounds", text::percent(question_of(reported).claim()->confidence));
+}
+
+std::string precision_text(const ReportedStudy& reported, const study::Goal& goal) {
+  return goal.tolerance
+             ? fmt::format("{:g} {}", *goal.tolerance, parameters::unit_on(reported.study.units.axis, "rad"))
+             : fmt::format("{} count{}", goal.band, goal.band == 1 ? "" : "s");
 }
 
 layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point) {

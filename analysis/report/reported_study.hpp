@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,15 @@
 
 namespace zerocount::report {
 
+struct ReportedStudy;
+
+/// The trials under one condition, as a study of its own.
+struct ReportedCondition {
+  std::string name;
+  std::shared_ptr<const reading::AllTrialsFile> file;  ///< that `study` refers to
+  std::shared_ptr<const ReportedStudy> study;          ///< with the chosen point of all
+};
+
 /// A results file with the data that several parts of the report need.
 struct ReportedStudy {
   const reading::AllTrialsFile& file;
@@ -26,7 +36,26 @@ struct ReportedStudy {
   std::string bounds_name{};                                     ///< kind of these bounds, for captions
   summary::ChosenPoint chosen{};                                 ///< that the page speaks of
   std::vector<std::string> names{};                              ///< [point] short labels
+  std::vector<ReportedCondition> conditions{};                   ///< empty without conditions
+  std::size_t worst_condition{0};                                ///< at the chosen point
 };
+
+/// Whether figures tell the conditions of the study apart.
+inline bool has_conditions(const ReportedStudy& reported) {
+  return !reported.conditions.empty();
+}
+/// The trials under the condition that is the worst at the chosen point; the study itself without conditions.
+const ReportedStudy& worst_of_conditions(const ReportedStudy& reported);
+/// "Under loaded, the worst condition. ", for what is of worst_of_conditions(); empty without conditions.
+std::string worst_condition_text(const ReportedStudy& reported);
+
+/// One line of a figure that compares points: of all trials, or of those under a condition.
+struct ReportedPart {
+  std::string condition;  ///< empty without conditions
+  const ReportedStudy& study;
+};
+/// A part for each condition; without conditions the study itself.
+std::vector<ReportedPart> parts_of(const ReportedStudy& reported);
 
 /// The label, the statistics and the success bounds of a point.
 inline const std::string& label_of(const ReportedStudy& reported, std::int64_t point) {
@@ -58,7 +87,10 @@ inline constexpr std::string_view dependence_sentence =
 inline constexpr std::string_view too_narrow_sentence =
     "Bounds assume independent trials, and are too narrow here.";
 
-/// Reads the whole file once.
+/// How near a move that settles is to its target: "1 count", "1e-08 m".
+std::string precision_text(const ReportedStudy& reported, const study::Goal& goal);
+
+/// Reads the whole file once, and under conditions once more for each.
 /// @param file a complete study.
 /// @param point that the page speaks of; nothing: the best
 /// @throws Failure (bad_input) if there is no such point

@@ -232,10 +232,7 @@ void add_goal_times(std::vector<std::string>& lines, const ReportedStudy& report
   const goal::Question& question = question_of(reported);
   for (const goal::GoalTimes& times : goal_times(question, point)) {
     const study::Goal& goal = *question.parts[times.part].claim;
-    const std::string within =
-        goal.tolerance
-            ? fmt::format("{:g} {}", *goal.tolerance, parameters::unit_on(reported.study.units.axis, "rad"))
-            : fmt::format("{} count{}", goal.band, goal.band == 1 ? "" : "s");
+    const std::string within = precision_text(reported, goal);
     const std::string which =
         goal.on.empty() ? "all moves" : fmt::format("the repetitions of move {}", fmt::join(goal.on, ", "));
     lines.push_back(

@@ -69,7 +69,6 @@ report::StudyReport report_of(const command_line::Arguments& arguments, const re
   }
   if (const auto database = arguments.value("history")) options.history = history_of_study(*database, file);
   const study::Study& study = file.study();
-  study::refuse_conditions(study, "zerocount report");
   options.check = [&](const report::ReplayedTrial& replayed) {
     auto [different, parting] = verification::compare_with_record(file, study, replayed.result);
     if (parting)

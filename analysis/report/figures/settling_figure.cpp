@@ -10,13 +10,14 @@
 #include "analysis/statistics/sums/histogram.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
+#include "experiments/study/condition_study.hpp"
 
 namespace zerocount::report {
 namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::int64_t max_curves = 6;
+constexpr std::int64_t max_curves = 6;   ///< of a figure; under conditions at least one for each
 constexpr std::int64_t max_steps = 160;  ///< of a curve
 
 /// Half-width of the simultaneous confidence band of a distribution function: √(ln(2M/α)/2n) for n
@@ -49,24 +50,25 @@ const measures::MeasureStatistics& settling_of(const ReportedStudy& reported, st
 /// The points with arrivals; if there are too many, evenly spaced ones from the best to the worst, of which
 /// the nearest ones are replaced by the leading points.
 std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
+  const std::int64_t most =
+      std::max<std::int64_t>(max_curves / std::max<std::int64_t>(std::ssize(reported.conditions), 1), 1);
   std::vector<std::int64_t> with_arrivals;
   const auto& points = reported.summary.points;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].of(&trial::MoveOutcome::settling_time).n > 0)
       with_arrivals.push_back(static_cast<std::int64_t>(i));
   }
-  if (std::ssize(with_arrivals) <= max_curves) return with_arrivals;
+  if (std::ssize(with_arrivals) <= most) return with_arrivals;
   std::stable_sort(with_arrivals.begin(), with_arrivals.end(), [&](std::int64_t a, std::int64_t b) {
     return settling_of(reported, a).n > settling_of(reported, b).n;
   });
   std::vector<std::int64_t> shown;
   for (const std::int64_t point : leading_points(reported)) {
-    if (settling_of(reported, point).n > 0) shown.push_back(point);
+    if (settling_of(reported, point).n > 0 && std::ssize(shown) < most) shown.push_back(point);
   }
-  for (const std::int64_t i : statistics::spread_over(std::ssize(with_arrivals), max_curves)) {
+  for (const std::int64_t i : statistics::spread_over(std::ssize(with_arrivals), most)) {
     const std::int64_t point = with_arrivals[static_cast<std::size_t>(i)];
-    if (std::ssize(shown) < max_curves && std::ranges::find(shown, point) == shown.end())
-      shown.push_back(point);
+    if (std::ssize(shown) < most && std::ranges::find(shown, point) == shown.end()) shown.push_back(point);
   }
   std::sort(shown.begin(), shown.end());
   return shown;
@@ -91,7 +93,14 @@ void add_curve(FigureData& data, const std::string& label, const statistics::His
       shown = arrived;
     }
   }
-  if (statistics::largest(times) < end) row(end, arrived);
+  if (times.size == 0 || statistics::largest(times) < end) row(end, arrived);
+}
+
+/// "kp=400, loaded"; of a study with one point "loaded".
+std::string label_of_curve(const ReportedStudy& reported, const ReportedPart& part, std::int64_t point) {
+  return has_conditions(reported) && reported.names.size() == 1
+             ? part.condition
+             : study::label_under(marked_label_of(reported, point), part.condition);
 }
 
 std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
@@ -108,16 +117,15 @@ std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
           ? "would contain the whole curve of a point with 95 % confidence if its trials were independent"
           : "contain the whole curve of a point with 95 % confidence",
       reported.study.rigs > 0 ? fmt::format("{} rigs", reported.study.rigs)
-                              : fmt::format("{} trials", points.front().trials),
+                              : fmt::format("{} trials", study::draw_count(reported.study)),
       reported.study.rigs == 0 && moves_per_trial > 1 ? fmt::format(" of {} moves each", moves_per_trial)
                                                       : "");
   const auto arriving = std::count_if(points.begin(), points.end(), [](const measures::PointSummary& point) {
     return point.of(&trial::MoveOutcome::settling_time).n > 0;
   });
   if (std::ssize(shown) < arriving) {
-    caption +=
-        fmt::format("Shown are {} of {} points: the chosen one, the first, the runner-up, and others. ",
-                    shown.size(), arriving);
+    caption += fmt::format("Shown are {} of {} points: the chosen one{}. ", shown.size(), arriving,
+                           shown.size() == 1 ? "" : ", the first, the runner-up, and others");
   }
   if (arriving < std::ssize(points))
     caption +=
@@ -135,9 +143,11 @@ std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
     start = std::min(start, settling_of(reported, point).median.value);
   }
   for (const std::int64_t point : shown) {
-    const measures::PointSummary& summary = point_of(reported, point);
-    add_curve(data, marked_label_of(reported, point), settling_times(reported, point), summary.moves,
-              band_of(reported, summary), end);
+    for (const ReportedPart& part : parts_of(reported)) {
+      const measures::PointSummary& summary = point_of(part.study, point);
+      add_curve(data, label_of_curve(reported, part, point), settling_times(part.study, point), summary.moves,
+                band_of(part.study, summary), end);
+    }
   }
   Figure figure = figure_of("settling-time", "settling-time", "Arrival", caption, {std::move(data)});
   ordered_json& x = figure.specification["encoding"]["x"];
@@ -148,7 +158,8 @@ std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
     x["axis"]["values"] = round_numbers(0.0, end, start / 4.0);
     figure.caption += "The time axis is linear near zero and logarithmic beyond.";
   }
-  if (shown.size() == 1) figure.specification["encoding"]["color"]["legend"] = nullptr;
+  if (shown.size() == 1 && !has_conditions(reported))
+    figure.specification["encoding"]["color"]["legend"] = nullptr;
   return figure;
 }
 
@@ -167,7 +178,7 @@ statistics::Histogram<double> times_in_band(const ReportedStudy& reported, std::
 }
 
 /// The time of the goal and its proportion of moves, as rules across the figure.
-void add_goal(Figure& figure, const goal::Question& question) {
+void add_goal(Figure& figure, const ReportedStudy& reported, const goal::Question& question) {
   const study::Goal& goal = *question.claim();
   figure.data.push_back({"goal",
                          {{"within", "within", "s"}, {"moves", "proportion of moves", "1"}},
@@ -182,13 +193,12 @@ void add_goal(Figure& figure, const goal::Question& question) {
   };
   add({{"x", {{"field", "within"}, {"type", "quantitative"}}}, {"y", start}, {"y2", {{"value", "height"}}}});
   add({{"x", start}, {"x2", {{"value", "width"}}}, {"y", {{"field", "moves"}, {"type", "quantitative"}}}});
-  figure.caption +=
-      fmt::format("The dashed lines are the goal: ±{} counts after {} s, in {} of the moves{}. ", goal.band,
-                  text::short_number(goal.within), text::percent(goal.moves),
-                  question.worlds > 0 ? " of each world" : "");
+  figure.caption += fmt::format("The dashed lines are the goal: ±{} after {} s, in {} of the moves{}. ",
+                                precision_text(reported, goal), text::short_number(goal.within),
+                                text::percent(goal.moves), question.worlds > 0 ? " of each world" : "");
 }
 
-/// Nothing for a file without bands.
+/// Of all bands, in one figure. Nothing for a file without bands.
 std::optional<Figure> band_figure(const ReportedStudy& reported) {
   const trial::ErrorBands& bands = reported.study.features.bands;
   const std::int64_t point = reported.chosen.point;
@@ -221,19 +231,128 @@ std::optional<Figure> band_figure(const ReportedStudy& reported) {
   encoding["x"]["title"] = "within the band for good from (s)";
   figure.specification["layer"][0]["encoding"]["y"]["title"] = "proportion of moves";
   if (reported.study.worlds > 0) figure.caption += "It is an average over the worlds. ";
-  for (const goal::JudgedPart& part : question_of(reported).parts)
-    if (part.claim && !part.claim->tolerance) add_goal(figure, only(question_of(reported), part.number));
+  if (question_of(reported).claim()) add_goal(figure, reported, question_of(reported));
   return figure;
+}
+
+/// What a figure of settled moves is of: a goal, or a band.
+struct SettledSubject {
+  std::string name;                       ///< of the figure
+  std::string precision;                  ///< "1 count"
+  measures::CountedGoal counted;          ///< the moves that are asked, and where they settle
+  std::optional<goal::Question> claim{};  ///< whose lines are drawn
+};
+
+std::vector<SettledSubject> settled_subjects(const ReportedStudy& reported) {
+  const goal::Question& question = question_of(reported);
+  std::vector<SettledSubject> subjects;
+  if (question.claim()) {
+    for (const goal::JudgedPart& part : question.parts) {
+      const std::string& name = part.claim->name;
+      subjects.push_back({name.empty() ? "settled" : "settled-" + name, precision_text(reported, *part.claim),
+                          part.counted, only(question, part.number)});
+    }
+    return subjects;
+  }
+  const trial::ErrorBands& bands = reported.study.features.bands;
+  for (std::size_t slot = 0; slot < bands.count; ++slot) {
+    const std::int64_t band = bands.values()[slot];
+    subjects.push_back(
+        {fmt::format("settled-{}", band), precision_text(reported, {.band = band}), {.slot = slot}});
+  }
+  return subjects;
+}
+
+/// The moves of the chosen point that are asked, and the times from which they are settled.
+struct SettledMoves {
+  statistics::Histogram<double> times;
+  std::int64_t asked{0};
+};
+
+SettledMoves settled_moves(const ReportedStudy& reported, const measures::CountedGoal& goal) {
+  SettledMoves settled;
+  measures::visit_trials(reported.file, rows_of(reported, reported.chosen.point),
+                         [&](std::int64_t, std::span<const trial::MoveOutcome> moves) {
+                           for (const trial::MoveOutcome& move : moves) {
+                             if (!measures::asks(goal, move)) continue;
+                             ++settled.asked;
+                             const double time = measures::settling_time(goal, move);
+                             if (!std::isnan(time)) settled.times.add(time);
+                           }
+                         });
+  return settled;
+}
+
+/// A curve for each condition. Nothing where no move settles.
+std::optional<Figure> settled_figure(const ReportedStudy& reported, const SettledSubject& subject) {
+  FigureData data{"steps",
+                  {{"label", "condition", ""},
+                   {"time", "settled for good from", "s"},
+                   {"share", "proportion of moves", "1"},
+                   {"low", "lower 95 % bound", "1"},
+                   {"high", "upper 95 % bound", "1"}}};
+  const std::vector<ReportedPart> parts = parts_of(reported);
+  std::vector<SettledMoves> settled;
+  double end = 0.0;
+  for (const ReportedPart& part : parts) {
+    settled.push_back(settled_moves(part.study, subject.counted));
+    if (settled.back().times.size > 0) end = std::max(end, statistics::largest(settled.back().times));
+  }
+  if (end == 0.0) return std::nullopt;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    add_curve(data, parts[i].condition, settled[i].times, settled[i].asked,
+              band_of(parts[i].study, point_of(parts[i].study, reported.chosen.point)), end);
+  const bool of_some = !subject.counted.on.empty();
+  Figure figure = figure_of(
+      "settling-time", subject.name,
+      subject.claim && has_names(*subject.claim)
+          ? fmt::format("Within ±{} for good: {}", subject.precision, subject.claim->claim()->name)
+          : fmt::format("Within ±{} for good", subject.precision),
+      fmt::format("Proportion of {} of {} whose error stays within ±{} from a time on to the end of the "
+                  "move{}. {}",
+                  of_some ? "the moves that the goal is about," : "all moves",
+                  label_of(reported, reported.chosen.point), subject.precision,
+                  has_conditions(reported) ? ", under each condition" : "",
+                  subject.counted.limits.empty() ? "" : "The limits of the goal are not in it. "),
+      {std::move(data)});
+  ordered_json& encoding = figure.specification["encoding"];
+  encoding["x"]["title"] = "within the band for good from (s)";
+  figure.specification["layer"][0]["encoding"]["y"]["title"] = "proportion of moves";
+  if (!has_conditions(reported)) encoding["color"]["legend"] = nullptr;
+  if (reported.study.worlds > 0) figure.caption += "It is an average over the worlds. ";
+  if (subject.claim) add_goal(figure, reported, *subject.claim);
+  return figure;
+}
+
+/// Whether one figure of all bands shows what the goal, if there is one, asks.
+bool bands_suffice(const ReportedStudy& reported) {
+  const goal::Question& question = question_of(reported);
+  if (has_conditions(reported) || has_several(question)) return false;
+  return !question.claim() || (!question.claim()->tolerance && question.claim()->on.empty());
+}
+
+std::vector<Figure> settled_figures(const ReportedStudy& reported) {
+  std::vector<Figure> figures;
+  const auto add = [&](std::optional<Figure> figure) {
+    if (figure) figures.push_back(std::move(*figure));
+  };
+  if (bands_suffice(reported)) {
+    add(band_figure(reported));
+  } else {
+    for (const SettledSubject& subject : settled_subjects(reported)) add(settled_figure(reported, subject));
+  }
+  return figures;
 }
 
 }  // namespace
 
 std::vector<Figure> distribution_figures(const ReportedStudy& reported) {
   std::vector<Figure> figures;
-  if (std::optional<Figure> arrival = arrival_figure(reported)) figures.push_back(std::move(*arrival));
-  if (reported.study.open_loop) return figures;
-  if (std::optional<Figure> settled = band_figure(reported)) figures.push_back(std::move(*settled));
-  if (question_of(reported).claim()) std::ranges::reverse(figures);  // what the goal is about comes first
+  std::optional<Figure> arrival = arrival_figure(reported);
+  if (!reported.study.open_loop) figures = settled_figures(reported);
+  // What the study is about comes first.
+  if (arrival)
+    figures.insert(question_of(reported).claim() ? figures.end() : figures.begin(), std::move(*arrival));
   return figures;
 }
 

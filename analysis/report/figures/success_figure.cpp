@@ -10,6 +10,7 @@
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/report/reported_study.hpp"
 #include "analysis/statistics/spread_over.hpp"
+#include "experiments/study/condition_study.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -33,10 +34,45 @@ std::vector<FigureColumn> common_columns(const ReportedStudy& reported) {
           {"trials", std::string(words.events), "1"}};
 }
 
-ordered_json row_of(const ReportedStudy& reported, std::int64_t point) {
-  const goal::QuestionRate rate = shown_rate(reported, point);
-  return ordered_json::array({marked_label_of(reported, point), datum(rate.value), datum(rate.bounds.low),
-                              datum(rate.bounds.high), rate.hits, rate.events});
+/// What a point has a line of its own for: a goal, of several, under a condition, where there are any.
+struct ShownSubject {
+  std::string name;  ///< "small, loaded"; empty where a point has one line
+  const ReportedStudy& study;
+  goal::Question question;
+
+  goal::QuestionRate rate(std::int64_t point) const {
+    return goal::rate_of(question, point_of(study, point));
+  }
+};
+
+std::vector<ShownSubject> subjects_of(const ReportedStudy& reported) {
+  std::vector<ShownSubject> subjects;
+  for (const goal::JudgedPart& part : question_of(reported).parts) {
+    const std::string goal = has_several(question_of(reported)) ? part.claim->name : "";
+    for (const ReportedPart& one : parts_of(reported))
+      subjects.push_back({goal.empty() ? one.condition : study::label_under(goal, one.condition), one.study,
+                          only(question_of(one.study), part.number)});
+  }
+  return subjects;
+}
+
+/// "kp=400 ★, small, loaded"; of the lines of a study with one point "small, loaded".
+std::string label_of_line(const ReportedStudy& reported, std::int64_t point, const ShownSubject& subject) {
+  return reported.names.size() == 1 && !subject.name.empty()
+             ? subject.name
+             : study::label_under(marked_label_of(reported, point), subject.name);
+}
+
+ordered_json row_of(const ReportedStudy& reported, std::int64_t point, const ShownSubject& subject) {
+  const goal::QuestionRate rate = subject.rate(point);
+  return ordered_json::array({label_of_line(reported, point, subject), datum(rate.value),
+                              datum(rate.bounds.low), datum(rate.bounds.high), rate.hits, rate.events});
+}
+
+/// " under each condition, for each goal"; empty where a point has one line.
+std::string subjects_text(const ReportedStudy& reported) {
+  return fmt::format("{}{}", has_conditions(reported) ? " under each condition" : "",
+                     has_several(question_of(reported)) ? ", for each goal" : "");
 }
 
 /// Puts the words of the question in place of those of success.
@@ -45,16 +81,17 @@ void speak_of_question(Figure& figure, const goal::QuestionWords& words) {
 }
 
 /// The points by decreasing rate; evenly spaced points of that order if there are too many.
-std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported) {
+std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported, std::int64_t lines_of_each) {
   std::vector<std::int64_t> order(reported.summary.points.size());
   std::iota(order.begin(), order.end(), std::int64_t{0});
-  if (std::ssize(order) <= max_lines) return order;
+  const std::int64_t most = std::max<std::int64_t>(max_lines / lines_of_each, 1);
+  if (std::ssize(order) <= most) return order;
   std::stable_sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
     return shown_rate(reported, a).value > shown_rate(reported, b).value;
   });
   std::vector<std::int64_t> shown;
   const std::vector<std::int64_t> leading = leading_points(reported);
-  const std::vector<std::int64_t> spread = statistics::spread_over(std::ssize(order), max_lines);
+  const std::vector<std::int64_t> spread = statistics::spread_over(std::ssize(order), most);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const bool wanted = std::ranges::binary_search(spread, static_cast<std::int64_t>(i)) ||
                         std::ranges::find(leading, order[i]) != leading.end();
@@ -64,11 +101,13 @@ std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported) {
 }
 
 Figure line_per_point(const ReportedStudy& reported) {
-  const std::vector<std::int64_t> shown = points_with_lines(reported);
+  const std::vector<ShownSubject> subjects = subjects_of(reported);
+  const std::vector<std::int64_t> shown = points_with_lines(reported, std::ssize(subjects));
   const goal::Question& question = question_of(reported);
   const goal::QuestionWords& words = words_of(question);
-  std::string caption = fmt::format("Proportion of the {}, of all of each point{}. ", words.meeting,
-                                    goal::is_of_worst_world(question) ? " in its worst world" : "");
+  std::string caption =
+      fmt::format("Proportion of the {}, of all of each point{}{}. ", words.meeting, subjects_text(reported),
+                  goal::is_of_worst_world(question) ? " in its worst world" : "");
   if (!reported.summary.features.dependent_trials) {
     caption +=
         "Points whose bounds do not overlap differ significantly. A dot at 100 % does not exclude failures: "
@@ -82,21 +121,24 @@ Figure line_per_point(const ReportedStudy& reported) {
   FigureData data{"points", common_columns(reported)};
   double lowest = 1.0;
   for (const std::int64_t point : shown) {
-    data.rows.push_back(row_of(reported, point));
-    lowest = std::min(lowest, shown_rate(reported, point).bounds.low);
+    for (const ShownSubject& subject : subjects) {
+      data.rows.push_back(row_of(reported, point, subject));
+      lowest = std::min(lowest, subject.rate(point).bounds.low);
+    }
   }
   Figure figure = figure_of("success", "success", fmt::format("{} at each point", words.title),
                             caption + bounds_note(reported), {std::move(data)});
   speak_of_question(figure, words);
   const double from = lowest > 0.9 ? std::floor(lowest * 100.0) / 100.0 : 0.0;
   figure.specification["layer"][0]["encoding"]["x"]["scale"]["domain"] = {from, 1};
-  set_rows(figure, shown.size(), 24);
+  set_rows(figure, shown.size() * subjects.size(), 24);
   return figure;
 }
 
 /// Evenly spaced groups, the nearest one replaced by that of the chosen point.
-std::vector<std::int64_t> groups_shown(const ReportedStudy& reported, const std::vector<PointGroup>& groups) {
-  std::vector<std::int64_t> shown = statistics::spread_over(std::ssize(groups), max_series);
+std::vector<std::int64_t> groups_shown(const ReportedStudy& reported, const std::vector<PointGroup>& groups,
+                                       std::int64_t most) {
+  std::vector<std::int64_t> shown = statistics::spread_over(std::ssize(groups), most);
   const auto chosen = std::ranges::find_if(groups, [&](const PointGroup& group) {
     return std::ranges::find(group.points, reported.chosen.point) != group.points.end();
   });
@@ -108,23 +150,28 @@ std::vector<std::int64_t> groups_shown(const ReportedStudy& reported, const std:
 Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
   const study::SweepAxis& swept = reported.summary.axes[axis];
   const goal::QuestionWords& words = words_of(question_of(reported));
+  const std::vector<ShownSubject> subjects = subjects_of(reported);
   const std::vector<PointGroup> groups = groups_along(reported, {axis});
+  const std::int64_t most = std::max<std::int64_t>(max_series / std::ssize(subjects), 1);
   std::string caption = fmt::format(
-      "Proportion of the {}, of all of each point (line), over {}. A star marks the chosen point. ",
-      words.meeting, axis_title(swept));
-  if (std::ssize(groups) > max_series) {
-    caption += fmt::format("Shown are {} of {} lines: that of the chosen point, and others evenly spaced. ",
-                           max_series, groups.size());
+      "Proportion of the {}, of all of each point{} (line), over {}. A star marks the chosen point. ",
+      words.meeting, subjects_text(reported), axis_title(swept));
+  if (std::ssize(groups) > most) {
+    caption += fmt::format("Shown are {} of {} lines{}: that of the chosen point, and others evenly spaced. ",
+                           most, groups.size(), subjects_text(reported));
   }
   FigureData data{"points", common_columns(reported)};
   data.columns.push_back({"x", swept.name, swept.unit});
   data.columns.push_back({"series", "", ""});
-  for (const std::int64_t group : groups_shown(reported, groups)) {
-    for (const std::int64_t point : groups[static_cast<std::size_t>(group)].points) {
-      ordered_json row = row_of(reported, point);
-      row.push_back(swept.numbers[static_cast<std::size_t>(point)]);
-      row.push_back(groups[static_cast<std::size_t>(group)].label);
-      data.rows.push_back(std::move(row));
+  for (const std::int64_t shown : groups_shown(reported, groups, most)) {
+    const PointGroup& group = groups[static_cast<std::size_t>(shown)];
+    for (const ShownSubject& subject : subjects) {
+      for (const std::int64_t point : group.points) {
+        ordered_json row = row_of(reported, point, subject);
+        row.push_back(swept.numbers[static_cast<std::size_t>(point)]);
+        row.push_back(group.label.empty() ? subject.name : study::label_under(group.label, subject.name));
+        data.rows.push_back(std::move(row));
+      }
     }
   }
   Figure figure = figure_of("success-along", "success", fmt::format("{} over {}", words.title, swept.name),
@@ -135,7 +182,7 @@ Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
   set_number_format(encoding["x"]["axis"], values_of(swept).back());
   if (spaced_by_ratio(values_of(swept))) encoding["x"]["scale"]["type"] = "log";
   encoding["x"]["scale"]["domain"] = {values_of(swept).front(), values_of(swept).back()};
-  if (groups.size() == 1) encoding["color"]["legend"] = nullptr;
+  if (groups.size() * subjects.size() == 1) encoding["color"]["legend"] = nullptr;
   return figure;
 }
 

@@ -98,10 +98,11 @@ std::vector<SampleTrial> sample_trials(const ReportedStudy& reported) {
 
 Figure trace_figure(const ReportedStudy& reported, const SampleTrial& trial, const ReplayedTrial& replayed) {
   std::string caption = fmt::format(
-      "Error and $torque over time of trial {} of point {}, simulated again: {}. The error should reach "
+      "Error and $torque over time of trial {} of point {}{}, simulated again: {}. The error should reach "
       "the dashed line and stay there. Its scale is linear within one count and logarithmic beyond. Samples "
       "are thinned, but all extremes are shown.",
       trial.index, label_of(reported, trial.point),
+      study::condition_text(reported.study, study::turns_of(reported.study).condition_of(trial.index)),
       course_of(question_of(reported), replayed.result.outcome.moves));
   using Sample = const trial::SampleRecord&;
   return figure_of(

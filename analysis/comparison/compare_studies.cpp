@@ -83,15 +83,19 @@ void require_independent_trials(const reading::AllTrialsFile& file,
                             file.path().string()));
 }
 
-goal::Status status_of_goal(const study::Goal& goal, const PointTrials& trials) {
-  return goal::judge_goal(goal, trials.judged->counts, 1).status;
+/// @param goal number of one of those that are judged @param claims as AlsoRead::claims
+goal::Status status_of_goal(std::size_t goal, const PointTrials& trials, std::size_t claims) {
+  const GoalTrials& judged = trials.judged[goal];
+  return goal::judge_goal(judged.goal, judged.counts, 1, claims).status;
 }
 
 PointComparison compare_point(const StudyComparison& comparison, const GateRules& rules,
                               const MatchedPoint& point, const PointTrials& baseline,
-                              const PointTrials& current) {
+                              const PointTrials& current, std::size_t claims) {
   PointComparison result;
   result.label = point.label;
+  result.design_point = point.design_point;
+  result.condition = point.condition;
   result.baseline_point = point.baseline;
   result.current_point = point.current;
   result.baseline_trials = baseline.trials;
@@ -103,8 +107,9 @@ PointComparison compare_point(const StudyComparison& comparison, const GateRules
   result.measures = paired ? compare_measures(rules, point.label, first_trials(baseline, result.pairs),
                                               first_trials(current, result.pairs), true)
                            : compare_measures(rules, point.label, baseline, current, false);
-  if (comparison.goal)
-    result.goal = {status_of_goal(*comparison.goal, baseline), status_of_goal(*comparison.goal, current)};
+  for (std::size_t goal = 0; goal < comparison.goals.size(); ++goal)
+    result.goals.push_back({comparison.goals[goal].name, status_of_goal(goal, baseline, claims),
+                            status_of_goal(goal, current, claims)});
   return result;
 }
 
@@ -167,7 +172,8 @@ void judge_points(StudyComparison& result, const GateRules& rules, const Compare
   const bool nothing = judges_nothing(data.current) || judges_nothing(data.baseline);
   for (const MatchedPoint& point : data.points) {
     const TrialsOfBoth trials = read_trials(data, point);
-    result.points.push_back(compare_point(result, rules, point, trials.baseline, trials.current));
+    result.points.push_back(compare_point(result, rules, point, trials.baseline, trials.current,
+                                          data.goals.size() * static_cast<std::size_t>(data.conditions)));
     PointComparison& compared = result.points.back();
     if (nothing) compared.measures.clear();
     for (const Requirement& requirement : requirements_of(rules, point.label)) {
@@ -190,6 +196,12 @@ std::array<std::int64_t, 2> units_of_samples(const StudyComparison& comparison, 
   if (comparison.layer == ComparisonLayer::two_samples) return {before, after};
   const std::int64_t pairs = std::min(before, after);
   return {pairs, count_requirements(rules, data.points) > 0 ? after : pairs};
+}
+
+/// The trials of a design point for so many under each condition.
+std::optional<double> under_all_conditions(std::optional<double> trials, const ComparedData& data) {
+  if (trials) *trials *= static_cast<double>(data.conditions);
+  return trials;
 }
 
 /// Finds the trials that would decide what is open. Reads the trials again: most comparisons leave nothing
@@ -220,22 +232,25 @@ void forecast(StudyComparison& result, const GateRules& rules, const ComparedDat
   const auto trials = static_cast<double>(std::max(samples.trials_of(0), samples.trials_of(1)));
   options.max_factor = std::max(options.max_factor, min_tried_trials / trials);
   const Forecast found = forecast_decision(samples, options);
-  if (all_forecast) result.max_trials_to_decide = found.max_trials;
-  if (all_forecast && result.verdict == GateVerdict::inconclusive) result.trials_to_decide = found.trials;
-  if (result.trials_to_decide > static_cast<double>(trial_limit(rules, data.current))) {
-    result.notes.push_back(
-        fmt::format("more than {} trials of each point are judged only with --max-trials (here {:.0f})",
-                    trial_limit(rules, data.current), *result.trials_to_decide));
+  if (all_forecast) result.max_trials_to_decide = *under_all_conditions(found.max_trials, data);
+  if (all_forecast && result.verdict == GateVerdict::inconclusive) {
+    if (found.trials > static_cast<double>(trial_limit(rules, data.current)))
+      result.notes.push_back(
+          fmt::format("more than {} trials of each point{} are judged only with --max-trials (here {:.0f})",
+                      trial_limit(rules, data.current), data.conditions > 1 ? " under each condition" : "",
+                      *found.trials));
+    result.trials_to_decide = under_all_conditions(found.trials, data);
   }
   auto next = found.judgements.begin();
   for (PointComparison& point : result.points) {
     for (MeasureComparison& measure : point.measures) {
       if (!result.equal_to_the_bit && has_finite_bounds(measure)) take_forecast(measure, *next++);
+      measure.trials_to_decide = under_all_conditions(measure.trials_to_decide, data);
     }
   }
   for (PointComparison& point : result.points) {
     for (RequirementResult& requirement : point.requirements) {
-      if (open(requirement)) requirement.trials_to_decide = next->trials;
+      if (open(requirement)) requirement.trials_to_decide = under_all_conditions(next->trials, data);
       ++next;
     }
   }
@@ -292,12 +307,14 @@ void note_undecided_moves(StudyComparison& result) {
   result.notes.emplace_back(measures::undecided_meaning);
 }
 
-void note_left_out(StudyComparison& result, const std::string& path, std::int64_t trials,
-                   std::int64_t judged) {
+/// @param file of one condition, or of a study without
+void note_left_out(StudyComparison& result, const reading::AllTrialsFile& file, std::int64_t judged,
+                   const ComparedData& data) {
+  const std::int64_t trials = file.header().trials;
   if (judged == trials) return;
   result.notes.push_back(
-      fmt::format("of the {} trials of each point in {}, the first {} are judged; more: --max-trials", trials,
-                  path, judged));
+      fmt::format("of the {} trials of each point{} in {}, the first {} are judged; more: --max-trials",
+                  trials, data.conditions > 1 ? " under each condition" : "", file.path().string(), judged));
 }
 
 void note_unpaired_trials(StudyComparison& result, const ComparedData& data) {
@@ -310,26 +327,27 @@ void note_unpaired_trials(StudyComparison& result, const ComparedData& data) {
 }
 
 void note_trials(StudyComparison& result, const ComparedData& data) {
-  note_left_out(result, result.baseline.path, result.baseline.header.trials, data.baseline_trials);
+  note_left_out(result, *data.points.front().in_baseline, data.baseline_trials, data);
   if (&data.current != &data.baseline)
-    note_left_out(result, result.current.path, result.current.header.trials, data.current_trials);
+    note_left_out(result, *data.points.front().in_current, data.current_trials, data);
   note_unpaired_trials(result, data);
 }
 
 /// Says by which goal the points are judged where the manifests do not have the same.
 void note_goal(StudyComparison& result, const ComparedData& data) {
-  if (!data.goal) return;
+  if (data.goals.empty()) return;
   const auto differs = [](const manifest_text::ManifestDifference& difference) {
-    return keys::is_within(difference.key, "goal");
+    return keys::is_within(difference.key, "goal") || keys::is_within(difference.key, "goals");
   };
   if (std::ranges::none_of(result.manifest_differences, differs)) return;
-  result.notes.push_back(fmt::format("the goals differ; both files are judged by that of {}",
-                                     data.goal_of_baseline ? result.baseline.path : result.current.path));
+  result.notes.push_back(fmt::format("the goals differ; both files are judged by {} of {}",
+                                     data.goals.size() > 1 ? "those" : "that",
+                                     data.goals_of_baseline ? result.baseline.path : result.current.path));
 }
 
 /// The judgements, and what follows from them.
 void judge(StudyComparison& result, const GateRules& rules, const ComparedData& data) {
-  result.goal = data.goal;
+  result.goals = data.goals;
   note_goal(result, data);
   note_trials(result, data);
   judge_points(result, rules, data);
@@ -344,7 +362,7 @@ void judge(StudyComparison& result, const GateRules& rules, const ComparedData& 
         "trials on more rigs, in the same proportion");
   }
   if (data.in_worlds) {
-    result.notes.emplace_back(result.goal
+    result.notes.emplace_back(!result.goals.empty()
                                   ? "means and rates, goal_rate and goal_machines too, are averages over the "
                                     "worlds; the goal itself is judged in the worst"
                                   : "means and rates are averages over the worlds");
@@ -391,27 +409,20 @@ std::vector<manifest_text::ManifestDifference> axis_differences(const reading::A
   return differences;
 }
 
-void require_no_conditions(const reading::AllTrialsFile& file) {
-  const manifest_text::ManifestValues values = layout::manifest_values(file.header(), file.path().string());
-  if (std::ranges::any_of(values,
-                          [](const auto& value) { return keys::is_within(value.first, "conditions"); }))
-    study::refuse_conditions(file.study(), "zerocount compare");
-}
-
 }  // namespace
 
 StudyComparison compare_studies(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
                                 const GateRules& rules) {
-  for (const reading::AllTrialsFile* file : {&baseline, &current}) require_no_conditions(*file);
-  std::vector<MatchedPoint> points = match_points(baseline, current);
+  const std::vector<MatchedPoint> design_points = match_points(baseline, current);
   manifest_text::ManifestValues old_values =
       layout::manifest_values(baseline.header(), baseline.path().string());
   manifest_text::ManifestValues new_values =
       layout::manifest_values(current.header(), current.path().string());
   layout::write_changed_defaults(old_values, baseline.header().version, new_values, current.header().version);
   require_same_kind(baseline, current, old_values, new_values);
+  const MatchedConditions conditions(baseline, current);
   const ComparedData data =
-      compared_data(baseline, old_values, current, new_values, std::move(points), rules);
+      compared_data(baseline, old_values, current, new_values, conditions.points(design_points), rules);
 
   StudyComparison result = begin(baseline, current, rules);
   result.manifest_differences = manifest_text::manifest_differences(old_values, new_values);
@@ -421,23 +432,29 @@ StudyComparison compare_studies(const reading::AllTrialsFile& baseline, const re
     require_independent_trials(current, new_values);
     pair_trials(result, compare_draws_of(data, old_values, new_values));
   }
-  judge(result, rules, data);
+  judge(result, rules_for(data, rules), data);
   return result;
 }
 
 StudyComparison compare_points(const reading::AllTrialsFile& file, std::int64_t baseline,
                                std::int64_t current, const GateRules& rules) {
-  require_no_conditions(file);
   const std::vector<std::string> labels = file.point_labels();
-  const MatchedPoint point{labels[static_cast<std::size_t>(current)], baseline, current};
+  const std::string& label = labels[static_cast<std::size_t>(current)];
+  const MatchedPoint point{.label = label,
+                           .baseline = baseline,
+                           .current = current,
+                           .design_point = label,
+                           .in_baseline = &file,
+                           .in_current = &file};
   const manifest_text::ManifestValues values = layout::manifest_values(file.header(), file.path().string());
   require_independent_trials(file, values);
   StudyComparison result = begin(file, file, rules);
   result.baseline_label = labels[static_cast<std::size_t>(baseline)];
   result.manifest_differences = axis_differences(file, point);
-  const ComparedData data = compared_data(file, values, file, values, {point}, rules);
+  const MatchedConditions conditions(file, file);
+  const ComparedData data = compared_data(file, values, file, values, conditions.points({point}), rules);
   pair_trials(result, compare_draws_within(data, values));
-  judge(result, rules, data);
+  judge(result, rules_for(data, rules), data);
   return result;
 }
 

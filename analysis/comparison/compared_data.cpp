@@ -1,11 +1,14 @@
 #include "analysis/comparison/compared_data.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/goal/question.hpp"
@@ -40,30 +43,33 @@ std::int64_t compared_trials(const GateRules& rules, const reading::AllTrialsFil
   return std::min(file.header().trials, std::max(trial_limit(rules, file), rigs));
 }
 
-/// The measure of the file's own bands in place of the one that a requirement names.
+/// The measure of the file's own error bands or tolerances in place of the one that a requirement names.
 GateMeasure in_file(const reading::AllTrialsFile& file, const GateMeasure& wanted) {
-  std::string bands;
+  const bool of_tolerance = wanted.measure->tolerance.has_value();
+  std::string limits;
   for (const layout::Measure& measure : file.table()) {
     if (measure.field.column.name == wanted.name) return {&measure, wanted.name, wanted.unit, wanted.margin};
-    if (measure.band && measure.field.column.name.starts_with("band_exits"))
-      bands += (bands.empty() ? "" : ", ") + std::to_string(*measure.band);
+    const bool is_limit =
+        of_tolerance ? measure.tolerance.has_value() : measure.field.column.name.starts_with("band_exits");
+    if (!is_limit) continue;
+    limits += (limits.empty() ? "" : ", ") +
+              (of_tolerance ? fmt::format("{}", *measure.tolerance) : std::to_string(measure.band.value()));
   }
-  throw Failure(ExitCode::bad_input,
-                fmt::format("{}: it has no {}; expected a requirement of one of its bands: {}",
-                            file.path().string(), wanted.name, bands.empty() ? "none" : bands));
+  throw Failure(
+      ExitCode::bad_input,
+      fmt::format("{}: it has no {}; expected a requirement of one of its {}: {}", file.path().string(),
+                  wanted.name, of_tolerance ? "tolerances" : "bands", limits.empty() ? "none" : limits));
 }
 
 constexpr const char* expected_goal = "expected one such as goal: {band: 1, within: 0.05, moves: 0.99}";
 
-/// The goal of the manifest.
-std::optional<study::Goal> goal_of(const reading::AllTrialsFile& file,
-                                   const manifest_text::ManifestValues& values) {
+/// The goals of the manifest.
+std::vector<study::Goal> goals_of(const reading::AllTrialsFile& file,
+                                  const manifest_text::ManifestValues& values) {
   const bool has_goal = std::any_of(values.begin(), values.end(), [](const auto& value) {
     return keys::is_within(value.first, "goal") || keys::is_within(value.first, "goals");
   });
-  if (!has_goal) return std::nullopt;
-  goal::require_one_goal(file.study(), file.path().string());
-  return file.study().goals.front();
+  return has_goal ? file.study().goals : std::vector<study::Goal>();
 }
 
 /// The goal as the moves of the file are counted by it.
@@ -77,39 +83,59 @@ TrialGoal counted_in(const reading::AllTrialsFile& file, const study::Goal& goal
                   file.path().string(), goal::goal_sentence(goal)));
 }
 
-/// The goal that a requirement asks for.
-std::optional<TrialGoal> required_goal(const GateRules& rules, const reading::AllTrialsFile& file,
-                                       const std::optional<study::Goal>& goal) {
-  if (!requires_goal(rules)) return std::nullopt;
-  if (goal) return counted_in(file, *goal);
+std::vector<TrialGoal> all_counted_in(const reading::AllTrialsFile& file,
+                                      const std::vector<study::Goal>& goals) {
+  std::vector<TrialGoal> counted;
+  for (const study::Goal& goal : goals) counted.push_back(counted_in(file, goal));
+  return counted;
+}
+
+/// The goals that a requirement asks for.
+std::vector<TrialGoal> required_goals(const GateRules& rules, const reading::AllTrialsFile& file,
+                                      const std::vector<study::Goal>& goals) {
+  if (!requires_goal(rules)) return {};
+  if (!goals.empty()) return all_counted_in(file, goals);
   throw Failure(ExitCode::bad_input,
                 fmt::format("{}: its manifest has no goal, which a requirement asks for; {}",
                             file.path().string(), expected_goal));
 }
 
-/// The goal whose measures are judged: that of the baseline, else that of the current file.
-std::optional<study::Goal> judged_goal(const GateRules& rules, const reading::AllTrialsFile& current,
-                                       const std::optional<study::Goal>& old_goal,
-                                       const std::optional<study::Goal>& new_goal) {
-  if (!judges_by_goal(rules)) return std::nullopt;
-  const std::optional<study::Goal>& goal = old_goal ? old_goal : new_goal;
-  if (!goal && names_goal_measure(rules)) {
+/// The goals whose measures are judged: those of the baseline, else those of the current file.
+std::vector<study::Goal> judged_goals(const GateRules& rules, const reading::AllTrialsFile& current,
+                                      const std::vector<study::Goal>& before,
+                                      const std::vector<study::Goal>& after) {
+  if (!judges_by_goal(rules)) return {};
+  const std::vector<study::Goal>& goals = before.empty() ? after : before;
+  if (goals.empty() && names_goal_measure(rules)) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: its manifest has no goal, by whose measures it is to be judged; {}",
                               current.path().string(), expected_goal));
   }
-  return goal;
+  return goals;
 }
 
-/// The trials of a file that its judgement by the goal needs.
-AlsoRead read_by(const std::optional<study::Goal>& goal, const reading::AllTrialsFile& file,
+/// The trials of a file that its judgement by the goals needs.
+AlsoRead read_by(const std::vector<study::Goal>& goals, const reading::AllTrialsFile& file,
                  const manifest_text::ManifestValues& values, std::int64_t clusters) {
   AlsoRead also;
   also.rigs = clusters;
   also.goal_rigs = whole_value(values, "rigs");
   also.worlds = whole_value(values, "worlds");
-  if (goal) also.judged = counted_in(file, *goal);
+  also.judged = all_counted_in(file, goals);
   return also;
+}
+
+std::vector<std::string> names_of(const std::vector<TrialGoal>& goals) {
+  std::vector<std::string> names;
+  for (const TrialGoal& one : goals) names.push_back(one.goal.name);
+  return names;
+}
+
+/// Number of different conditions of the points.
+std::int64_t conditions_of(const std::vector<MatchedPoint>& points) {
+  std::set<std::string> names;
+  for (const MatchedPoint& point : points) names.insert(point.condition);
+  return std::ssize(names);
 }
 
 }  // namespace
@@ -129,23 +155,42 @@ ComparedData compared_data(const reading::AllTrialsFile& baseline,
   data.other_worlds = other;
   data.in_worlds = manifest_text::value_or(new_values, "worlds", "0") != "0" ||
                    manifest_text::value_or(old_values, "worlds", "0") != "0";
-  data.baseline_trials = compared_trials(rules, baseline, data.baseline_rigs);
-  data.current_trials = compared_trials(rules, current, data.current_rigs);
-  const std::optional<study::Goal> old_goal = goal_of(baseline, old_values);
-  const std::optional<study::Goal> new_goal = &baseline == &current ? old_goal : goal_of(current, new_values);
-  data.goal = judged_goal(rules, current, old_goal, new_goal);
-  data.goal_of_baseline = old_goal.has_value();
-  data.of_baseline = read_by(data.goal, baseline, old_values, data.baseline_rigs);
-  data.of_current = read_by(data.goal, current, new_values, data.current_rigs);
-  data.of_current.required = required_goal(rules, current, new_goal);
-  for (const GateMeasure& measure : measures_of_bands(rules))
+  data.conditions = conditions_of(data.points);
+  const MatchedPoint& first = data.points.front();
+  data.baseline_trials = compared_trials(rules, *first.in_baseline, data.baseline_rigs);
+  data.current_trials = compared_trials(rules, *first.in_current, data.current_rigs);
+  const std::vector<study::Goal> before = goals_of(baseline, old_values);
+  const std::vector<study::Goal> after = &baseline == &current ? before : goals_of(current, new_values);
+  data.goals = judged_goals(rules, current, before, after);
+  data.goals_of_baseline = !before.empty();
+  data.of_baseline = read_by(data.goals, baseline, old_values, data.baseline_rigs);
+  data.of_current = read_by(data.goals, current, new_values, data.current_rigs);
+  data.of_current.required = required_goals(rules, current, after);
+  data.of_current.claims = std::max(after.size(), std::size_t{1}) * static_cast<std::size_t>(data.conditions);
+  for (const GateMeasure& measure : measures_of_limits(rules))
     data.of_current.bands.push_back(in_file(current, measure));
   return data;
 }
 
+GateRules rules_for(const ComparedData& data, const GateRules& rules) {
+  for (const std::string& measure : measures_of_named_goals(rules)) {
+    const bool judged = std::ranges::any_of(data.of_current.judged, [&](const TrialGoal& one) {
+      return name_of_goal_measure(without_goal(measure), one.goal.name) == measure;
+    });
+    if (judged) continue;
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: it has no goal for the margin of '{}'; expected one of its goals: {}",
+                              data.current.path().string(), measure,
+                              fmt::join(names_of(data.of_current.judged), ", ")));
+  }
+  std::multimap<std::string, std::string> labels;
+  for (const MatchedPoint& point : data.points) labels.emplace(point.design_point, point.label);
+  return expanded(rules, labels, names_of(data.of_current.required));
+}
+
 TrialsOfBoth read_trials(const ComparedData& data, const MatchedPoint& point) {
-  return {read_point_trials(data.baseline, point.baseline, data.baseline_trials, data.of_baseline),
-          read_point_trials(data.current, point.current, data.current_trials, data.of_current)};
+  return {read_point_trials(*point.in_baseline, point.baseline, data.baseline_trials, data.of_baseline),
+          read_point_trials(*point.in_current, point.current, data.current_trials, data.of_current)};
 }
 
 }  // namespace zerocount::comparison

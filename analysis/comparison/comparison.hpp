@@ -107,13 +107,16 @@ struct RequirementResult {
 
 /// The verdicts of both files on the goal at a design point, if it was chosen before.
 struct GoalStatuses {
+  std::string name{};  ///< of `goals`; empty of a goal without a name
   goal::Status baseline{goal::Status::undecided};
   goal::Status current{goal::Status::undecided};
 };
 
-/// One design point in the two files.
+/// One design point in the two files, under one condition where there are any.
 struct PointComparison {
-  std::string label;
+  std::string label;         ///< with the condition, if there is one
+  std::string design_point;  ///< its label without the condition
+  std::string condition;     ///< that its trials are under; empty without conditions
   std::int64_t baseline_point{0};
   std::int64_t current_point{0};
   std::int64_t baseline_trials{0};
@@ -124,7 +127,7 @@ struct PointComparison {
   GateVerdict verdict{GateVerdict::not_measured};
   std::vector<MeasureComparison> measures;
   std::vector<RequirementResult> requirements;
-  std::optional<GoalStatuses> goal;  ///< where the points are judged by one
+  std::vector<GoalStatuses> goals;  ///< where the points are judged by any
 };
 
 struct ComparedFile {
@@ -147,7 +150,7 @@ struct StudyComparison {
   double false_discovery_rate{0.05};
   std::int64_t tests{0};  ///< over which the false discoveries are controlled
   std::vector<PointComparison> points;
-  std::optional<study::Goal> goal;                 ///< by which the points are judged
+  std::vector<study::Goal> goals;                  ///< by which the points are judged
   GateVerdict verdict{GateVerdict::inconclusive};  ///< never not_measured
   std::optional<double>
       trials_to_decide;  ///< per design point, that decide the whole, with decision_probability

@@ -138,8 +138,23 @@ Description<PointComparison> point_description() {
                  [](const GoalStatuses& s) { return goal::text_of(s.baseline); })
           .value(with_words(in_data("current", "verdict on the file"), goal::status_words()),
                  [](const GoalStatuses& s) { return goal::text_of(s.current); });
+  const auto several = Description<PointComparison>().table(
+      {.key = "goals",
+       .meaning = "verdicts on each of several goals",
+       .shown = document::Shown::in_json,
+       .optional = true},
+      Description<GoalStatuses>()
+          .value(in_data("name", "name of the goal"), &GoalStatuses::name)
+          .include(
+              statuses, [](const GoalStatuses& s) -> const auto& { return s; }),
+      &PointComparison::goals);
   return Description<PointComparison>()
-      .value(in_data("label", "label of the design point"), &PointComparison::label)
+      .value(in_data("label", "label of the design point, with the condition"), &PointComparison::label)
+      .value({.key = "condition",
+              .meaning = "condition that the trials are under",
+              .shown = document::Shown::in_json,
+              .optional = true},
+             [](Point p) { return p.condition.empty() ? std::nullopt : std::optional(p.condition); })
       .value(with_words(in_data("verdict", "verdict of the gate"), gate_words()),
              [](Point p) { return to_string(p.verdict); })
       .value(in_data("baseline_point", "number of the point in the baseline"),
@@ -157,7 +172,8 @@ Description<PointComparison> point_description() {
       .table(in_data("requirements", "absolute requirements"), requirement_description(),
              &PointComparison::requirements)
       .object(in_data("goal", "verdicts on the goal, where the points are judged by one"), statuses,
-              &PointComparison::goal);
+              [](Point p) { return p.goals.size() == 1 ? &p.goals.front() : nullptr; })
+      .include(several, [](Point p) { return p.goals.size() > 1 ? &p : nullptr; });
 }
 
 Description<VerdictCounts> counts_description() {
@@ -266,7 +282,7 @@ void add_facts(Description<StudyComparison>& items) {
                         "label of the baseline's point, where two points of one file are compared"),
              baseline_label)
       .value(to_people("point"),
-             [](Comparison c) { return compares_points(c) ? c.points.front().label : std::string(); })
+             [](Comparison c) { return compares_points(c) ? c.points.front().design_point : std::string(); })
       .value(to_people("compared"),
              [](Comparison c) { return fmt::format("{}: {}", to_string(c.layer), c.layer_reason); })
       .value(with_words(in_data("layer", "what the files have in common"), {"bits", "paired", "two_samples"}),
@@ -278,7 +294,12 @@ void add_facts(Description<StudyComparison>& items) {
                         "first dataset that differs, with the place; empty if not searched for"),
              &StudyComparison::first_difference)
       .value(everywhere("goal", "goal", "the goal by which the points are judged"),
-             [](Comparison c) { return c.goal ? std::optional(goal::goal_sentence(*c.goal)) : std::nullopt; })
+             [](Comparison c) -> std::optional<std::string> {
+               std::vector<std::string> sentences;
+               for (const study::Goal& goal : c.goals) sentences.push_back(goal::goal_sentence(goal));
+               if (sentences.empty()) return std::nullopt;
+               return fmt::format("{}", fmt::join(sentences, "; "));
+             })
       .value(everywhere("changed_inputs", "changed inputs",
                         "drawn parameters whose values differ on the same draws"),
              &StudyComparison::changed_inputs)

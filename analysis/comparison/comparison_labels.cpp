@@ -123,18 +123,22 @@ std::string advice_text(const StudyComparison& comparison) {
                      fmt::join(open, ", "));
 }
 
-/// "better: success_rate, settling_time; worse: none; ..." of the point that is compared with another.
+/// "better: success_rate, settling_time; worse: none; ..." of the point that is compared with another, under
+/// each condition.
 std::string answer_text(const StudyComparison& comparison) {
-  const PointComparison& point = comparison.points.front();
   const auto measures_that_are = [&](ChangeVerdict change) {
     std::vector<std::string> names;
-    for (const MeasureComparison& measure : point.measures) {
-      if (measure.change == change) names.push_back(measure.measure);
+    for (const PointComparison& point : comparison.points) {
+      for (const MeasureComparison& measure : point.measures) {
+        if (measure.change != change) continue;
+        names.push_back(measure.measure);
+        if (!point.condition.empty()) names.back() += " under " + text::printable(point.condition);
+      }
     }
     return names.empty() ? "" : fmt::format("; {}: {}", to_string(change), fmt::join(names, ", "));
   };
-  std::string text =
-      fmt::format("{} against {}", text::printable(point.label), text::printable(comparison.baseline_label));
+  std::string text = fmt::format("{} against {}", text::printable(comparison.points.front().design_point),
+                                 text::printable(comparison.baseline_label));
   for (const ChangeVerdict change : {ChangeVerdict::better, ChangeVerdict::worse, ChangeVerdict::equivalent,
                                      ChangeVerdict::not_worse, ChangeVerdict::undecided})
     text += measures_that_are(change);
@@ -208,8 +212,8 @@ std::string detectable_sentence(const StudyComparison& comparison) {
 std::string value_text(double value, std::string_view quantity, std::string_view unit) {
   if (std::isnan(value)) return "–";
   if (std::isinf(value)) return value > 0.0 ? "∞" : "−∞";
-  if (quantity.ends_with("_rate") || quantity == "goal_machines")
-    return fmt::format("{:.4g} %", 100.0 * value);
+  const std::string_view measure = without_goal(quantity);
+  if (measure.ends_with("_rate") || measure == "goal_machines") return fmt::format("{:.4g} %", 100.0 * value);
   return unit == "1" ? text::short_number(value) : fmt::format("{} {}", text::short_number(value), unit);
 }
 

@@ -55,9 +55,12 @@ std::string undecided_remark(const PointComparison& point, std::string_view quan
 /// "goal undecided in the baseline, missed in the file" beside the proportion of moves in the goal; empty
 /// elsewhere.
 std::string goal_remark(const PointComparison& point, std::string_view measure) {
-  if (measure != "goal_rate" || !point.goal) return {};
-  return fmt::format("goal {} in the baseline, {} in the file", goal::text_of(point.goal->baseline),
-                     goal::text_of(point.goal->current));
+  for (const GoalStatuses& goal : point.goals) {
+    if (measure == name_of_goal_measure("goal_rate", goal.name))
+      return fmt::format("goal {} in the baseline, {} in the file", goal::text_of(goal.baseline),
+                         goal::text_of(goal.current));
+  }
+  return {};
 }
 
 ComparisonRow row_of(const PointComparison& point, const MeasureComparison& measure, double max_trials) {

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "results/layout/layout.hpp"
 
 namespace zerocount::comparison {
 namespace {
@@ -28,27 +31,73 @@ void add_quantities(std::vector<RequirableQuantity>& quantities, const std::stri
   }
 }
 
-/// The quantities of the bands of the table.
-void add_band_quantities(std::vector<RequirableQuantity>& quantities, const layout::MeasureTable& measures) {
+/// The quantities of the error bands and tolerances of the table.
+void add_limit_quantities(std::vector<RequirableQuantity>& quantities, const layout::MeasureTable& measures) {
   for (const layout::Measure& measure : measures) {
-    if (!measure.band) continue;
+    if (!measure.band && !measure.tolerance) continue;
     const layout::Column& column = measure.field.column;
     add_quantities(quantities, column.name, {&measure, column.name, column.unit, {}});
   }
 }
 
-/// The band in "band_settling_time[5].p95"; nothing for other names.
-std::optional<std::int64_t> band_in(std::string_view name) {
+/// The number in "band_settling_time[5].p95"; nothing where there is none.
+template <class Number>
+std::optional<Number> number_in(std::string_view name) {
   const std::size_t open = name.find('[');
   const std::size_t close = name.find(']');
-  if (!name.starts_with("band_") || open >= close || close == std::string_view::npos) return std::nullopt;
-  std::int64_t band = 0;
-  const auto [end, error] = std::from_chars(name.data() + open + 1, name.data() + close, band);
-  return error == std::errc{} && end == name.data() + close && band >= 0 ? std::optional(band) : std::nullopt;
+  if (open >= close || close == std::string_view::npos) return std::nullopt;
+  Number number{};
+  const auto [end, error] = std::from_chars(name.data() + open + 1, name.data() + close, number);
+  return error == std::errc{} && end == name.data() + close && number >= Number{} ? std::optional(number)
+                                                                                  : std::nullopt;
 }
 
-bool is_named(const GateRules& rules, std::string_view name) {
-  return std::find(rules.measures.begin(), rules.measures.end(), name) != rules.measures.end();
+/// The features of a study that has the error band, or the tolerance, in "band_settling_time[5].p95" or
+/// "tolerance_settling_time[1e-8].p95"; nothing for other names.
+std::optional<study::StudyFeatures> features_with_limit(std::string_view name) {
+  study::StudyFeatures features;
+  if (const auto band = number_in<std::int64_t>(name); band && name.starts_with("band_")) {
+    features.bands = {.limits = {*band}, .count = 1};
+    return features;
+  }
+  const auto tolerance = number_in<double>(name);
+  if (!tolerance || !std::isfinite(*tolerance) || *tolerance == 0.0 || !name.starts_with("tolerance_"))
+    return std::nullopt;
+  features.tolerances = {.limits = {*tolerance}, .count = 1};
+  return features;
+}
+
+/// The name as files have it: a tolerance can be written in several ways.
+std::string name_in_files(std::string_view name) {
+  const auto tolerance = number_in<double>(name);
+  if (!tolerance || !name.starts_with("tolerance_")) return std::string(name);
+  return layout::name_of_tolerance(name.substr(0, name.find('[')), *tolerance) +
+         std::string(name.substr(name.find(']') + 1));
+}
+
+/// The names that the rules may call a measure by, the most special one first.
+std::vector<std::string> names_in_rules(const std::string& measure) {
+  std::vector<std::string> names{measure};
+  if (const std::string_view whole = without_goal(measure); whole != measure) names.emplace_back(whole);
+  return names;
+}
+
+/// The names of all measures that the rules name, in the list of measures or with a margin.
+std::vector<std::string> named_measures(const GateRules& rules) {
+  std::vector<std::string> names = rules.measures;
+  const auto add = [&](const std::map<std::string, GateMargin>& margins) {
+    for (const auto& [name, margin] : margins) names.push_back(name);
+  };
+  add(rules.margins);
+  for (const auto& [label, margins] : rules.margins_at) add(margins);
+  return names;
+}
+
+/// Whether the rules list the measure, by one of its names.
+bool is_listed(const GateRules& rules, const std::string& measure) {
+  return std::ranges::any_of(names_in_rules(measure), [&](const std::string& name) {
+    return std::ranges::find(rules.measures, name) != rules.measures.end();
+  });
 }
 
 /// Whether the rules give the measure a margin, at every point or at some.
@@ -56,6 +105,30 @@ bool has_margin(const GateRules& rules, const std::string& name) {
   return rules.margins.contains(name) || std::ranges::any_of(rules.margins_at, [&](const auto& point) {
            return point.second.contains(name);
          });
+}
+
+const GateMargin* margin_in(const std::map<std::string, GateMargin>& margins, const std::string& measure) {
+  for (const std::string& name : names_in_rules(measure)) {
+    if (const auto found = margins.find(name); found != margins.end()) return &found->second;
+  }
+  return nullptr;
+}
+
+/// The requirement `goal` as one for each goal.
+std::vector<Requirement> for_each_goal(const std::vector<Requirement>& requirements,
+                                       std::span<const std::string> goals) {
+  std::vector<Requirement> all;
+  for (const Requirement& one : requirements) {
+    const bool of_goal = one.quantity.kind == RequirementKind::goal;
+    for (std::size_t goal = 0; goal < (of_goal ? goals.size() : 1); ++goal) {
+      all.push_back(one);
+      if (!of_goal) continue;
+      all.back().goal = goal;
+      all.back().quantity.name = name_of_goal_measure(one.quantity.name, goals[goal]);
+      all.back().text = name_of_goal_measure(one.text, goals[goal]);
+    }
+  }
+  return all;
 }
 
 std::vector<const Requirement*> all_requirements(const GateRules& rules) {
@@ -100,9 +173,18 @@ std::vector<GateMeasure> all_gate_measures() {
   return all;
 }
 
+std::string name_of_goal_measure(std::string_view measure, std::string_view goal) {
+  return goal.empty() ? std::string(measure) : fmt::format("{}[{}]", measure, goal);
+}
+
+std::string_view without_goal(std::string_view measure) {
+  return measure.starts_with("goal_") && measure.ends_with(']') ? measure.substr(0, measure.find('['))
+                                                                : measure;
+}
+
 std::optional<GateMeasure> find_gate_measure(std::string_view name) {
   const std::vector<GateMeasure> all = all_gate_measures();
-  const auto found = find_named(all, name);
+  const auto found = find_named(all, without_goal(name));
   return found == all.end() ? std::nullopt : std::optional(*found);
 }
 
@@ -110,16 +192,16 @@ std::vector<RequirableQuantity> requirable_quantities() {
   std::vector<RequirableQuantity> quantities;
   for (const GateMeasure& measure : gate_measures())
     add_quantities(quantities, std::string(measure.name), measure);
-  add_band_quantities(quantities, layout::measure_table());
+  add_limit_quantities(quantities, layout::measure_table());
   quantities.push_back({.name = "goal", .unit = "1", .kind = RequirementKind::goal});
   return quantities;
 }
 
 std::optional<RequirableQuantity> find_requirable(std::string_view name) {
   std::vector<RequirableQuantity> quantities = requirable_quantities();
-  if (const std::optional<std::int64_t> band = band_in(name))
-    add_band_quantities(quantities, layout::measure_table({.bands = {.limits = {*band}, .count = 1}}));
-  const auto found = find_named(quantities, name);
+  if (const std::optional<study::StudyFeatures> features = features_with_limit(name))
+    add_limit_quantities(quantities, layout::measure_table(*features));
+  const auto found = find_named(quantities, name_in_files(name));
   return found == quantities.end() ? std::nullopt : std::optional(*found);
 }
 
@@ -129,11 +211,11 @@ bool requires_goal(const GateRules& rules) {
   });
 }
 
-std::vector<GateMeasure> measures_of_bands(const GateRules& rules) {
+std::vector<GateMeasure> measures_of_limits(const GateRules& rules) {
   std::vector<GateMeasure> measures;
   for (const Requirement* one : all_requirements(rules)) {
     const GateMeasure& measure = one->quantity.measure;
-    if (measure.measure != nullptr && measure.measure->band &&
+    if (measure.measure != nullptr && (measure.measure->band || measure.measure->tolerance) &&
         find_named(measures, measure.name) == measures.end())
       measures.push_back(measure);
   }
@@ -141,25 +223,36 @@ std::vector<GateMeasure> measures_of_bands(const GateRules& rules) {
 }
 
 std::vector<GateMeasure> judged_measures(const GateRules& rules, const layout::MeasureTable& table,
-                                         JudgedGoal goal) {
-  std::vector<GateMeasure> judged = goal_measures();
-  std::erase_if(judged, [&](const GateMeasure& measure) {
-    return goal == JudgedGoal::none ||
-           (measure.statistic == GateStatistic::machines && goal != JudgedGoal::of_machines);
-  });
+                                         const std::vector<JudgedGoal>& goals) {
+  std::vector<GateMeasure> judged;
+  for (std::size_t goal = 0; goal < goals.size(); ++goal) {
+    for (GateMeasure& measure : goal_measures()) {
+      if (measure.statistic == GateStatistic::machines && !goals[goal].of_machines) continue;
+      measure.name = name_of_goal_measure(measure.name, goals[goal].name);
+      measure.goal = goal;
+      judged.push_back(std::move(measure));
+    }
+  }
   const std::vector<GateMeasure> others = gate_measures(table);
   judged.insert(judged.end(), others.begin(), others.end());
   std::erase_if(judged, [&](const GateMeasure& measure) {
-    if (!rules.measures.empty()) return !is_named(rules, measure.name);
-    return goal != JudgedGoal::none && !measure.of_goal() && !has_margin(rules, std::string(measure.name));
+    if (!rules.measures.empty()) return !is_listed(rules, measure.name);
+    return !goals.empty() && !measure.of_goal() && !has_margin(rules, measure.name);
   });
   return judged;
 }
 
 bool names_goal_measure(const GateRules& rules) {
-  return std::ranges::any_of(goal_measures(), [&](const GateMeasure& measure) {
-    return is_named(rules, measure.name) || has_margin(rules, std::string(measure.name));
+  return std::ranges::any_of(named_measures(rules), [](const std::string& name) {
+    const std::optional<GateMeasure> measure = find_gate_measure(name);
+    return measure && measure->of_goal();
   });
+}
+
+std::vector<std::string> measures_of_named_goals(const GateRules& rules) {
+  std::vector<std::string> names = named_measures(rules);
+  std::erase_if(names, [](const std::string& name) { return without_goal(name) == name; });
+  return names;
 }
 
 bool judges_by_goal(const GateRules& rules) {
@@ -167,12 +260,25 @@ bool judges_by_goal(const GateRules& rules) {
 }
 
 GateMargin margin_of(const GateRules& rules, const std::string& label, const GateMeasure& measure) {
-  const std::string name(measure.name);
   if (const auto point = rules.margins_at.find(label); point != rules.margins_at.end()) {
-    if (const auto own = point->second.find(name); own != point->second.end()) return own->second;
+    if (const GateMargin* own = margin_in(point->second, measure.name)) return *own;
   }
-  const auto general = rules.margins.find(name);
-  return general == rules.margins.end() ? measure.margin : general->second;
+  const GateMargin* const general = margin_in(rules.margins, measure.name);
+  return general == nullptr ? measure.margin : *general;
+}
+
+GateRules expanded(GateRules rules, const std::multimap<std::string, std::string>& others,
+                   std::span<const std::string> goals) {
+  rules.requirements = for_each_goal(rules.requirements, goals);
+  for (auto& [label, own] : rules.requirements_at) own = for_each_goal(own, goals);
+  for (const auto& [label, other] : others) {
+    if (label == other) continue;
+    if (const auto own = rules.margins_at.find(label); own != rules.margins_at.end())
+      rules.margins_at[other] = own->second;
+    if (const auto own = rules.requirements_at.find(label); own != rules.requirements_at.end())
+      rules.requirements_at[other] = own->second;
+  }
+  return rules;
 }
 
 std::vector<Requirement> requirements_of(const GateRules& rules, const std::string& label) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -35,11 +36,12 @@ enum class GateStatistic {
 /// One measure that a comparison judges.
 struct GateMeasure {
   const layout::Measure* measure{nullptr};  ///< of the program's own table; null for a measure of the goal
-  std::string_view name{};
+  std::string name{};                       ///< of a goal with a name "goal_rate[large]"
   std::string_view unit{};
   GateMargin margin{};  ///< the default
   GateStatistic statistic{GateStatistic::mean};
   layout::Worse worse{layout::Worse::more};
+  std::size_t goal{0};  ///< of the goals that are judged
 
   /// Judged by a proportion, of trials, moves or machines.
   bool proportion() const { return statistic != GateStatistic::mean && statistic != GateStatistic::quantile; }
@@ -53,11 +55,15 @@ std::vector<GateMeasure> gate_measures(const layout::MeasureTable& measures = la
 /// The measures that judge a study by the goal of its manifest, in the order of the report: goal_rate,
 /// goal_machines, goal_settling_time.
 std::vector<GateMeasure> goal_measures();
+/// "goal_rate[large]": a measure of a goal with this name; that of a goal without one has no brackets.
+std::string name_of_goal_measure(std::string_view measure, std::string_view goal);
+/// "goal_rate" of "goal_rate[large]", the name of a measure of whichever goal; other names as they are.
+std::string_view without_goal(std::string_view measure);
 
 /// Every measure that can be judged: those of the goal, then those of the program's own table.
 std::vector<GateMeasure> all_gate_measures();
 
-/// The measure of this name among all_gate_measures().
+/// The measure of this name among all_gate_measures(), those of the goal with its name or without.
 std::optional<GateMeasure> find_gate_measure(std::string_view name);
 
 /// Names of quantiles behind that of a measure, as in "settling_time.p95", and their probabilities.
@@ -84,7 +90,8 @@ struct RequirableQuantity {
 /// the mean of a sum, has the name of its gate measure; other measures have quantiles (NAME.median, .p95,
 /// .p99); "goal" has no limit of its own.
 std::vector<RequirableQuantity> requirable_quantities();
-/// The quantity of this name; a measure of an error band has any band: "band_settling_time[5].p95".
+/// The quantity of this name; a measure of an error band or a tolerance has any of them:
+/// "band_settling_time[5].p95", "tolerance_settling_time[1e-8].p95".
 std::optional<RequirableQuantity> find_requirable(std::string_view name);
 
 /// "success_rate ≥ 0.995".
@@ -93,6 +100,7 @@ struct Requirement {
   RequirableQuantity quantity{};
   bool at_least{true};
   double limit{0.0};
+  std::size_t goal{0};  ///< of a requirement of one of several goals, its number
 };
 
 /// Moves of each point that are compared, in whole trials, unless another number of trials is asked for. They
@@ -112,30 +120,38 @@ struct GateRules {
   std::map<std::string, std::vector<Requirement>> requirements_at;  ///< [label], beside those of every point
 };
 
-/// The goal by which two studies are judged, if any.
-enum class JudgedGoal {
-  none,
-  of_moves,    ///< that asks for a proportion of moves
-  of_machines  ///< that asks for a proportion of machines too
+/// A goal by which two studies are judged.
+struct JudgedGoal {
+  std::string name{};       ///< of `goals`; empty where the study has one goal
+  bool of_machines{false};  ///< it asks for a proportion of machines too
 };
 
-/// The measures that are judged, in the order of the report. A goal is the question of its study: with one,
-/// and unless the rules name measures, they are those of the goal, and those that have a margin in the rules.
+/// The measures that are judged, in the order of the report. A goal is the question of its study: with goals,
+/// and unless the rules name measures, they are those of the goals, and those that have a margin in the
+/// rules. "goal_rate" in the rules is that of every goal.
 std::vector<GateMeasure> judged_measures(const GateRules& rules, const layout::MeasureTable& table,
-                                         JudgedGoal goal);
+                                         const std::vector<JudgedGoal>& goals);
 
 /// Whether the rules name a measure of the goal.
 bool names_goal_measure(const GateRules& rules);
+/// The names of measures in the rules that are of one goal with its name.
+std::vector<std::string> measures_of_named_goals(const GateRules& rules);
 /// Whether a measure of the goal is judged where a study has one.
 bool judges_by_goal(const GateRules& rules);
 
-/// The margin of a measure at a point: the point's own, or that of all points, or the default.
+/// The margin of a measure at a point: the point's own, or that of all points, or the default. A margin of
+/// the measure of one goal comes before that of the measure of all goals.
 GateMargin margin_of(const GateRules& rules, const std::string& label, const GateMeasure& measure);
 
 /// Whether any requirement, at whatever point, is the goal.
 bool requires_goal(const GateRules& rules);
-/// The measures of requirements that are no gate measures: those of error bands.
-std::vector<GateMeasure> measures_of_bands(const GateRules& rules);
+/// The measures of requirements that are no gate measures: those of error bands and tolerances.
+std::vector<GateMeasure> measures_of_limits(const GateRules& rules);
+
+/// The rules with those of each of these labels given to the others that stand for it, and with the
+/// requirement `goal` as one for each goal. @param goals their names
+GateRules expanded(GateRules rules, const std::multimap<std::string, std::string>& others,
+                   std::span<const std::string> goals);
 
 /// The requirements at a point: those of every point and its own.
 std::vector<Requirement> requirements_of(const GateRules& rules, const std::string& label);

@@ -115,7 +115,7 @@ std::optional<RequirementParts> parts_of(std::string_view text) {
   };
   take(0);
   RequirementParts parts;
-  parts.name = take(text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_.0123456789[]"));
+  parts.name = take(text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_.0123456789[]+-"));
   for (const std::string_view relation : {"≥", ">=", "≤", "<="}) {
     if (parts.relation.empty() && text.starts_with(relation)) parts.relation = take(relation.size());
   }

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "core/failure/failure.hpp"
+#include "experiments/study/condition_study.hpp"
 
 namespace zerocount::comparison {
 namespace {
@@ -35,11 +36,42 @@ std::map<std::string, std::int64_t> points_by_label(const reading::AllTrialsFile
   return points;
 }
 
-std::vector<std::string> without_partner(const reading::AllTrialsFile& file,
-                                         const std::map<std::string, std::int64_t>& others) {
-  std::vector<std::string> lonely = file.point_labels();
-  std::erase_if(lonely, [&](const std::string& label) { return others.contains(label); });
-  return lonely;
+std::vector<std::string> without_partner(std::vector<std::string> names,
+                                         const std::vector<std::string>& others) {
+  const std::set<std::string> known(others.begin(), others.end());
+  std::erase_if(names, [&](const std::string& name) { return known.contains(name); });
+  return names;
+}
+
+/// @param what of the files has these names, "design points"
+/// @throws Failure (bad_data) that lists the names without a partner
+void require_same_names(const reading::AllTrialsFile& baseline, const std::vector<std::string>& before,
+                        const reading::AllTrialsFile& current, const std::vector<std::string>& after,
+                        std::string_view what) {
+  std::string problem;
+  if (const auto lonely = without_partner(before, after); !lonely.empty())
+    problem += fmt::format("; only {} has {}", baseline.path().string(), some_of(lonely));
+  if (const auto lonely = without_partner(after, before); !lonely.empty())
+    problem += fmt::format("; only {} has {}", current.path().string(), some_of(lonely));
+  if (!problem.empty())
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("the files cannot be compared: not the same {}{}", what, problem));
+}
+
+/// The names of the conditions; none of a manifest without them, which is not parsed for it.
+std::vector<std::string> conditions_of(const reading::AllTrialsFile& file) {
+  const auto conditions = file.conditions();
+  return conditions ? conditions->names : std::vector<std::string>();
+}
+
+/// The trials of the file under each of these conditions.
+std::vector<reading::AllTrialsFile> files_under(const reading::AllTrialsFile& file,
+                                                const std::vector<std::string>& conditions) {
+  std::vector<reading::AllTrialsFile> files;
+  files.reserve(conditions.size());
+  for (const std::string& name : conditions)
+    files.push_back(file.under_condition(study::condition_named(file.study(), name)));
+  return files;
 }
 
 bool has_cases(const std::vector<study::SweepAxis>& axes) {
@@ -97,15 +129,13 @@ const study::InputColumn* find_input(const reading::AllTrialsFile& file, const s
 }
 
 /// The worst relation of one parameter over all points.
-InputRelation relation_over_points(const reading::AllTrialsFile& baseline,
-                                   const reading::AllTrialsFile& current, std::size_t old_column,
-                                   std::size_t new_column, const std::vector<MatchedPoint>& points,
-                                   std::int64_t trials) {
+InputRelation relation_over_points(std::size_t old_column, std::size_t new_column,
+                                   const std::vector<MatchedPoint>& points, std::int64_t trials) {
   InputRelation worst = InputRelation::equal;
   for (const MatchedPoint& point : points) {
     const InputRelation relation =
-        relation_of(baseline.input(old_column, {point.baseline * baseline.header().trials, trials}),
-                    current.input(new_column, {point.current * current.header().trials, trials}));
+        relation_of(point.in_baseline->input(old_column, point.baseline_rows(trials)),
+                    point.in_current->input(new_column, point.current_rows(trials)));
     worst = std::max(worst, relation);
   }
   return worst;
@@ -127,21 +157,41 @@ std::vector<MatchedPoint> match_points(const reading::AllTrialsFile& baseline,
                                        const reading::AllTrialsFile& current) {
   const std::map<std::string, std::int64_t> old_points = points_by_label(baseline);
   const std::map<std::string, std::int64_t> new_points = points_by_label(current);
-  std::string problem;
-  if (const auto lonely = without_partner(baseline, new_points); !lonely.empty()) {
-    problem += fmt::format("; only {} has {}", baseline.path().string(), some_of(lonely));
-  }
-  if (const auto lonely = without_partner(current, old_points); !lonely.empty()) {
-    problem += fmt::format("; only {} has {}", current.path().string(), some_of(lonely));
-  }
-  if (!problem.empty()) {
-    throw Failure(ExitCode::bad_data, "the files cannot be compared: not the same design points" + problem);
-  }
+  require_same_names(baseline, baseline.point_labels(), current, current.point_labels(), "design points");
   std::vector<MatchedPoint> points;
   for (const std::string& label : baseline.point_labels()) {
-    points.push_back({label, old_points.at(label), new_points.at(label)});
+    points.push_back({.label = label,
+                      .baseline = old_points.at(label),
+                      .current = new_points.at(label),
+                      .design_point = label,
+                      .in_baseline = &baseline,
+                      .in_current = &current});
   }
   require_equal_axes(baseline, current, points);
+  return points;
+}
+
+MatchedConditions::MatchedConditions(const reading::AllTrialsFile& baseline,
+                                     const reading::AllTrialsFile& current)
+    : names_(conditions_of(baseline)) {
+  const bool one_file = &baseline == &current;
+  if (!one_file) require_same_names(baseline, names_, current, conditions_of(current), "conditions");
+  baseline_under_ = files_under(baseline, names_);
+  if (!one_file) current_under_ = files_under(current, names_);
+}
+
+std::vector<MatchedPoint> MatchedConditions::points(const std::vector<MatchedPoint>& design_points) const {
+  if (names_.empty()) return design_points;
+  std::vector<MatchedPoint> points;
+  for (const MatchedPoint& point : design_points) {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      MatchedPoint& one = points.emplace_back(point);
+      one.condition = names_[i];
+      one.label = study::label_under(point.label, names_[i]);
+      one.in_baseline = &baseline_under_[i];
+      one.in_current = current_under_.empty() ? &baseline_under_[i] : &current_under_[i];
+    }
+  }
   return points;
 }
 
@@ -165,8 +215,7 @@ DrawComparison compare_draws(const reading::AllTrialsFile& baseline, const readi
     const study::InputColumn* const partner = find_input(current, name);
     if (partner == nullptr) continue;
     const auto new_column = static_cast<std::size_t>(partner - current.input_columns().data());
-    const InputRelation relation =
-        relation_over_points(baseline, current, column, new_column, points, trials);
+    const InputRelation relation = relation_over_points(column, new_column, points, trials);
     if (relation == InputRelation::different) {
       return {false, fmt::format("trial i has other values of {}", name), {}};
     }

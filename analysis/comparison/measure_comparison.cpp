@@ -67,15 +67,14 @@ ComparedValues paired_values(const PointTrials& baseline, const PointTrials& cur
 }
 
 /// The proportion of the moves of each trial that meet the goal, [trial].
-std::vector<double> moves_in_goal(const PointTrials& trials) {
-  std::vector<double> met = trials.judged->moves_in_goal;
-  for (double& value : met) value /= static_cast<double>(trials.judged->asked_moves(trials.moves));
+std::vector<double> moves_in_goal(const PointTrials& trials, const GoalTrials& goal) {
+  std::vector<double> met = goal.moves_in_goal;
+  for (double& value : met) value /= static_cast<double>(goal.asked_moves(trials.moves));
   return met;
 }
 
 /// 1 for each rig that meets the goal in Goal::moves of its moves, else 0, [rig].
-std::vector<double> rigs_in_goal(const PointTrials& trials) {
-  const GoalTrials& goal = *trials.judged;
+std::vector<double> rigs_in_goal(const PointTrials& trials, const GoalTrials& goal) {
   const auto rigs = static_cast<std::size_t>(goal.rigs);
   std::vector<double> met(rigs, 0.0);
   std::vector<double> moves(rigs, 0.0);
@@ -92,9 +91,9 @@ std::vector<double> rigs_in_goal(const PointTrials& trials) {
 std::vector<double> qualities_of(const PointTrials& trials, const GateMeasure& measure) {
   switch (measure.statistic) {
     case GateStatistic::moves:
-      return moves_in_goal(trials);
+      return moves_in_goal(trials, trials.judged[measure.goal]);
     case GateStatistic::machines:
-      return rigs_in_goal(trials);
+      return rigs_in_goal(trials, trials.judged[measure.goal]);
     case GateStatistic::trials:
     case GateStatistic::mean:
     case GateStatistic::quantile:
@@ -115,13 +114,16 @@ std::vector<double> failures_of(const PointTrials& trials, const GateMeasure& me
 
 /// The clusters in which the failures_of() are: the number of rigs or worlds, 0 where each is independent.
 std::int64_t clusters_of_failures(const PointTrials& trials, const GateMeasure& measure) {
-  return measure.statistic == GateStatistic::machines && trials.rigs == trials.judged->rigs ? 0 : trials.rigs;
+  const bool of_rigs =
+      measure.statistic == GateStatistic::machines && trials.rigs == trials.judged[measure.goal].rigs;
+  return of_rigs ? 0 : trials.rigs;
 }
 
 /// Whether the failures_of() are independent, and each 0 or 1.
 bool are_whole(const PointTrials& trials, const GateMeasure& measure) {
   return clusters_of_failures(trials, measure) == 0 &&
-         (measure.statistic != GateStatistic::moves || trials.judged->asked_moves(trials.moves) == 1);
+         (measure.statistic != GateStatistic::moves ||
+          trials.judged[measure.goal].asked_moves(trials.moves) == 1);
 }
 
 /// The proportion of trials with a quality, where a proportion `failures` of them failed.
@@ -280,7 +282,7 @@ MeasureSample sample_of_proportion(const GateMeasure& measure, const PointTrials
 constexpr double judged_quantile = 0.95;
 
 two_samples::ClusteredValues clustered_times(const PointTrials& trials, const GateMeasure& measure) {
-  return {trials.of(measure), trials.judged->asked_moves(trials.moves), trials.rigs};
+  return {trials.of(measure), trials.judged[measure.goal].asked_moves(trials.moves), trials.rigs};
 }
 
 std::int64_t units_in(const PointTrials& trials) {
@@ -361,20 +363,24 @@ void compare_by_statistic(MeasureComparison& result, const GateMeasure& measure,
 }
 
 /// Machines are judged by the moves that were seen of each, so both files must show as many.
-std::pair<PointTrials, PointTrials> as_many_moves(const PointTrials& baseline, const PointTrials& current) {
-  const std::int64_t each = std::min(baseline.trials / std::max<std::int64_t>(baseline.judged->rigs, 1),
-                                     current.trials / std::max<std::int64_t>(current.judged->rigs, 1));
-  const auto first = [&](const PointTrials& all) { return first_trials(all, each * all.judged->rigs); };
+/// @param goal of machines
+std::pair<PointTrials, PointTrials> as_many_moves(const PointTrials& baseline, const PointTrials& current,
+                                                  std::size_t goal) {
+  const auto trials_of_rig = [goal](const PointTrials& all) {
+    return all.trials / std::max<std::int64_t>(all.judged[goal].rigs, 1);
+  };
+  const std::int64_t each = std::min(trials_of_rig(baseline), trials_of_rig(current));
+  const auto first = [&](const PointTrials& all) { return first_trials(all, each * all.judged[goal].rigs); };
   return {first(baseline), first(current)};
 }
 
 }  // namespace
 
 std::vector<GateMeasure> judged_measures(const GateRules& rules, const PointTrials& trials) {
-  const JudgedGoal goal = !trials.judged                                            ? JudgedGoal::none
-                          : trials.judged->goal.machines && trials.judged->rigs > 0 ? JudgedGoal::of_machines
-                                                                                    : JudgedGoal::of_moves;
-  return judged_measures(rules, *trials.table, goal);
+  std::vector<JudgedGoal> goals;
+  for (const GoalTrials& one : trials.judged)
+    goals.push_back({one.goal.name, one.goal.machines.has_value() && one.rigs > 0});
+  return judged_measures(rules, *trials.table, goals);
 }
 
 std::vector<MeasureSample> measure_samples(const GateRules& rules, std::span<const MeasureComparison> found,
@@ -383,7 +389,7 @@ std::vector<MeasureSample> measure_samples(const GateRules& rules, std::span<con
   std::vector<MeasureSample> samples;
   for (const GateMeasure& measure : judged_measures(rules, current)) {
     if (measure.statistic == GateStatistic::machines) {
-      const auto [before, after] = as_many_moves(baseline, current);
+      const auto [before, after] = as_many_moves(baseline, current, measure.goal);
       samples.push_back(sample_of_proportion(measure, before, after, paired));
     } else if (measure.statistic == GateStatistic::quantile) {
       samples.push_back(
@@ -406,10 +412,11 @@ std::vector<MeasureComparison> compare_measures(const GateRules& rules, const st
     result.measure = measure.name;
     result.unit = measure.unit;
     if (measure.statistic == GateStatistic::machines) {
-      const auto [before, after] = as_many_moves(baseline, current);
+      const auto [before, after] = as_many_moves(baseline, current, measure.goal);
       compare_by_statistic(result, measure, before, after, paired, rules.confidence);
       if (before.trials < baseline.trials || after.trials < current.trials)
-        result.note = fmt::format("by the first {} trials on each", after.trials / after.judged->rigs);
+        result.note =
+            fmt::format("by the first {} trials on each", after.trials / after.judged[measure.goal].rigs);
     } else {
       compare_by_statistic(result, measure, baseline, current, paired, rules.confidence);
     }

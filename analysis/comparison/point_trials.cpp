@@ -21,12 +21,12 @@ void add_to_goal(GoalTrials& goal, std::int64_t first, std::int64_t moves,
   }
 }
 
-/// Adds the settling times of the goal's band, s; of moves that do not settle infinity.
-void add_goal_times(PointTrials& trials, std::span<const trial::MoveOutcome> outcomes) {
-  std::vector<double>& times = trials.values["goal_settling_time"];
+/// Adds the settling times of the moves that the goal asks, s; of those that do not settle infinity.
+void add_goal_times(std::vector<double>& times, const TrialGoal& goal,
+                    std::span<const trial::MoveOutcome> outcomes) {
   for (const trial::MoveOutcome& move : outcomes) {
-    if (!measures::asks(trials.judged->counted, move)) continue;
-    const double time = measures::settling_time(trials.judged->counted, move);
+    if (!measures::asks(goal.counted, move)) continue;
+    const double time = measures::settling_time(goal.counted, move);
     times.push_back(std::isnan(time) ? std::numeric_limits<double>::infinity() : time);
   }
 }
@@ -37,11 +37,14 @@ PointTrials empty_trials(std::int64_t moves, const layout::MeasureTable& table, 
   trials.table = &table;
   trials.bands = also.bands;
   trials.rigs = also.rigs;
-  const auto counted_by = [&](const std::optional<TrialGoal>& goal) -> std::optional<GoalTrials> {
-    if (!goal) return std::nullopt;
-    GoalTrials counted{*goal, also.goal_rigs, {}, {}};
-    counted.counts.worlds = also.worlds;
-    return counted;
+  trials.claims = also.claims;
+  const auto counted_by = [&](const std::vector<TrialGoal>& goals) {
+    std::vector<GoalTrials> all;
+    for (const TrialGoal& goal : goals) {
+      all.push_back({goal, also.goal_rigs, {}, {}});
+      all.back().counts.worlds = also.worlds;
+    }
+    return all;
   };
   trials.required = counted_by(also.required);
   trials.judged = counted_by(also.judged);
@@ -51,17 +54,17 @@ PointTrials empty_trials(std::int64_t moves, const layout::MeasureTable& table, 
 }  // namespace
 
 void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcomes) {
-  if (trials.required) add_to_goal(*trials.required, trials.trials, trials.moves, outcomes);
-  if (trials.judged) {
-    add_to_goal(*trials.judged, trials.trials, trials.moves, outcomes);
-    add_goal_times(trials, outcomes);
+  for (GoalTrials& goal : trials.required) add_to_goal(goal, trials.trials, trials.moves, outcomes);
+  for (GoalTrials& goal : trials.judged) {
+    add_to_goal(goal, trials.trials, trials.moves, outcomes);
+    add_goal_times(trials.values[goal.settling_time()], goal, outcomes);
   }
   trials.trials += std::ssize(outcomes) / trials.moves;
   std::vector<GateMeasure> gathered = gate_measures(*trials.table);
   gathered.insert(gathered.end(), trials.bands.begin(), trials.bands.end());
   for (const GateMeasure& gated : gathered) {
     const layout::Measure& measure = *gated.measure;
-    std::vector<double>& values = trials.values[std::string(gated.name)];
+    std::vector<double>& values = trials.values[gated.name];
     if (layout::is_quality(measure) || measure.reduction == layout::MoveReduction::sum) {
       for (auto move = outcomes.begin(); move != outcomes.end(); move += trials.moves)
         values.push_back(measures::value_of_trial(measure, {move, move + trials.moves}));
@@ -100,7 +103,7 @@ PointTrials first_trials(const PointTrials& all, std::int64_t trials) {
   for (auto& [name, values] : some.values)
     values.resize(values.size() / static_cast<std::size_t>(all.trials) *
                   static_cast<std::size_t>(some.trials));
-  if (some.judged) some.judged->moves_in_goal.resize(static_cast<std::size_t>(some.trials));
+  for (GoalTrials& goal : some.judged) goal.moves_in_goal.resize(static_cast<std::size_t>(some.trials));
   return some;
 }
 

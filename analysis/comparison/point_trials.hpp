@@ -23,6 +23,8 @@ struct TrialGoal {
 
   /// Number of moves of a trial that it is about. @param moves of a trial
   std::int64_t asked_moves(std::int64_t moves) const { return measures::asked_moves(counted, moves); }
+  /// The name of its times among the values of trials: "goal_settling_time", "goal_settling_time[large]".
+  std::string settling_time() const { return name_of_goal_measure("goal_settling_time", goal.name); }
 };
 
 /// The trials of one design point as a goal counts them.
@@ -43,9 +45,10 @@ struct PointTrials {
   measures::UndecidedMoves undecided{};  ///< of all moves
   std::int64_t rigs{0};  ///< number of rigs, or of worlds: trial i on rig i mod rigs; 0: no trials share one
   const layout::MeasureTable* table{&layout::measure_table()};
-  std::vector<GateMeasure> bands{};      ///< measures of error bands that have values, too
-  std::optional<GoalTrials> required{};  ///< by the goal that a requirement asks for
-  std::optional<GoalTrials> judged{};    ///< by the goal whose measures are judged
+  std::vector<GateMeasure> bands{};    ///< measures of error bands that have values, too
+  std::vector<GoalTrials> required{};  ///< by the goals that a requirement asks for
+  std::vector<GoalTrials> judged{};    ///< by the goals whose measures are judged
+  std::size_t claims{1};               ///< as AlsoRead::claims
 
   const std::vector<double>& of(const GateMeasure& measure) const {
     return values.find(measure.name)->second;
@@ -55,8 +58,9 @@ struct PointTrials {
 /// Parts of the trials that are read besides the gate measures.
 struct AlsoRead {
   std::vector<GateMeasure> bands{};  ///< measures of error bands, which the file has
-  std::optional<TrialGoal> required{};
-  std::optional<TrialGoal> judged{};
+  std::vector<TrialGoal> required{};
+  std::vector<TrialGoal> judged{};
+  std::size_t claims{1};      ///< on a design point: goals times conditions, all of which must be met
   std::int64_t rigs{0};       ///< as PointTrials::rigs
   std::int64_t goal_rigs{0};  ///< as GoalTrials::rigs
   std::int64_t worlds{0};     ///< of the study

@@ -104,10 +104,10 @@ void judge_mean(RequirementResult& result, const std::vector<double>& values, do
 }
 
 /// The verdict of the goal; its confidence is that of the manifest.
-void judge_goal(RequirementResult& result, const PointTrials& trials) {
-  const study::Goal& asked = trials.required->goal;
-  const measures::MoveCounts& counts = trials.required->counts;
-  const goal::Verdict verdict = goal::judge_goal(asked, counts, 1);
+void judge_goal(RequirementResult& result, const GoalTrials& required, std::size_t claims) {
+  const study::Goal& asked = required.goal;
+  const measures::MoveCounts& counts = required.counts;
+  const goal::Verdict verdict = goal::judge_goal(asked, counts, 1, claims);
   const bool machines = asked.machines.has_value();
   const goal::BoundedProportion& judged = machines ? verdict.machines : verdict.moves;
   result.n = machines ? std::ssize(counts.rigs) : counts.moves;
@@ -134,8 +134,7 @@ RequirementSample by_group(RequirementSample sample, std::int64_t groups) {
 
 /// The moves of each rig or trial that meet the goal; if the goal asks for machines, whether the rig meets
 /// it.
-RequirementSample goal_sample(const PointTrials& trials) {
-  const GoalTrials& counted = *trials.required;
+RequirementSample goal_sample(const PointTrials& trials, const GoalTrials& counted) {
   const study::Goal& goal = counted.goal;
   RequirementSample sample{RequirementKind::goal, true, goal.machines.value_or(goal.moves), true, {}, {}};
   const std::size_t units =
@@ -167,7 +166,7 @@ std::vector<double> met_by_trial(const Requirement& requirement, const PointTria
 
 RequirementSample requirement_sample(const Requirement& requirement, const PointTrials& trials) {
   const RequirableQuantity& quantity = requirement.quantity;
-  if (quantity.kind == RequirementKind::goal) return goal_sample(trials);
+  if (quantity.kind == RequirementKind::goal) return goal_sample(trials, trials.required[requirement.goal]);
   RequirementSample sample{quantity.kind, requirement.at_least, requirement.limit, trials.rigs > 0, {}, {}};
   if (quantity.kind == RequirementKind::mean) {
     sample.hits = trial_means(trials, quantity.measure);
@@ -226,7 +225,7 @@ RequirementResult judge_requirement(const Requirement& requirement, const PointT
       judge_mean(result, trial_means(trials, quantity.measure), confidence, failing_confidence);
       break;
     case RequirementKind::goal:
-      judge_goal(result, trials);
+      judge_goal(result, trials.required[requirement.goal], trials.claims);
       break;
   }
   return result;

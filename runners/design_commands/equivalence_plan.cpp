@@ -107,7 +107,7 @@ comparison::PointTrials run_point(const study::Study& study, std::int64_t point,
   also.rigs = also.goal_rigs = study.rigs;
   also.worlds = study.worlds;
   if (study::first_goal(study))
-    also.judged = {*study::first_goal(study), measures::counted_goals(study).front()};
+    also.judged = {{*study::first_goal(study), measures::counted_goals(study).front()}};
   return comparison::gather_trials(outcomes, std::ssize(outcomes) / trials, also);
 }
 

@@ -77,7 +77,8 @@ Figure margins_figure(const comparison::StudyComparison& comparison,
 /// Figure of the change at each point of the success rate, or of the proportion of moves that meet the goal.
 Figure success_change(const comparison::StudyComparison& comparison,
                       const std::vector<ComparedMeasure>& measures) {
-  const std::string_view rate = comparison.goal ? "goal_rate" : "success_rate";
+  const bool by_goal = !comparison.goals.empty();
+  const std::string_view rate = by_goal ? "goal_rate" : "success_rate";
   FigureData data{"changes",
                   {{"label", "point", ""},
                    {"change", "change", "percentage points"},
@@ -86,25 +87,25 @@ Figure success_change(const comparison::StudyComparison& comparison,
                    {"verdict", "verdict", ""},
                    {"margin", "margin", "percentage points"}}};
   for (const ComparedMeasure& one : measures) {
-    if (one.measure->measure != rate || data.rows.size() == max_bars) continue;
+    const std::string& measure = one.measure->measure;
+    if (comparison::without_goal(measure) != rate || data.rows.size() == max_bars) continue;
     data.rows.push_back(ordered_json::array(
-        {one.point->label, datum(-100.0 * one.measure->effect), datum(-100.0 * one.measure->bounds.high),
+        {measure == rate ? one.point->label : fmt::format("{} {}", one.point->label, measure),
+         datum(-100.0 * one.measure->effect), datum(-100.0 * one.measure->bounds.high),
          datum(-100.0 * one.measure->bounds.low), std::string(comparison::to_string(one.measure->change)),
          datum(-100.0 * one.measure->margin)}));
   }
   std::string caption = fmt::format(
       "{} of each point minus that of the baseline (dot), with {:.0f} % bounds (bar). The tick is the "
       "margin: the largest accepted loss. A point passes if its whole bar lies right of the tick. ",
-      comparison.goal ? "Proportion of moves that meet the goal" : "Success rate",
-      100.0 * comparison.confidence);
+      by_goal ? "Proportion of moves that meet the goal" : "Success rate", 100.0 * comparison.confidence);
   if (comparison.points.size() > max_bars)
     caption += fmt::format("Shown are the {} of {} points with the worst verdicts. ", max_bars,
                            comparison.points.size());
   const std::size_t bars = data.rows.size();
-  Figure figure =
-      figure_of("success-change", "success-change",
-                comparison.goal ? "The goal against the baseline" : "Success against the baseline", caption,
-                {std::move(data)});
+  Figure figure = figure_of("success-change", "success-change",
+                            by_goal ? "The goal against the baseline" : "Success against the baseline",
+                            caption, {std::move(data)});
   set_rows(figure, bars, 24);
   return figure;
 }

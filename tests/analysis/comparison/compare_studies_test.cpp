@@ -340,7 +340,7 @@ TEST(Draws, RiseInTheSameOrderThroughAnotherDistribution) {
   EXPECT_TRUE(same.same);
   EXPECT_EQ(same.changed_inputs, std::vector<std::string>{"friction.k1"});
   const comparison::DrawComparison different =
-      comparison::compare_draws(before, other, {}, {}, points, trials);
+      comparison::compare_draws(before, other, {}, {}, comparison::match_points(before, other), trials);
   EXPECT_FALSE(different.same);
   EXPECT_EQ(different.reason, "trial i has other values of friction.k1");
   EXPECT_FALSE(comparison::compare_draws(before, scaled, {}, {{"design", "sobol"}}, points, trials).same);

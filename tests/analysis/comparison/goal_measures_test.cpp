@@ -59,7 +59,7 @@ PointTrials settled_trials(const Machines& machines, unsigned draws, unsigned ag
   comparison::AlsoRead also;
   also.rigs = also.goal_rigs = machines.rigs;
   const std::optional<double> asked = machines.rigs > 0 ? std::optional(0.9) : std::nullopt;
-  also.judged = {{.band = 0, .within = 0.03, .moves = 0.9, .machines = asked}, {0, 0.03}};
+  also.judged = {{{.band = 0, .within = 0.03, .moves = 0.9, .machines = asked}, {0, 0.03}}};
   return comparison::gather_trials(outcomes, machines.moves, also);
 }
 
@@ -107,7 +107,7 @@ TEST(GoalMeasures, AreJudgedInPlaceOfTheOthersUnlessTheRulesNameThese) {
   rules.measures = {"stable_rate", "goal_machines"};
   EXPECT_EQ(names(rules, of_machines), (Names{"goal_machines", "stable_rate"}));
   PointTrials without = of_moves;
-  without.judged.reset();
+  without.judged.clear();
   EXPECT_EQ(names({}, without).front(), "success_rate");
 }
 

@@ -49,7 +49,7 @@ points:
   EXPECT_FALSE(rules.changed_fails);
   std::vector<std::string> judged;
   for (const comparison::GateMeasure& one :
-       comparison::judged_measures(rules, layout::measure_table(), comparison::JudgedGoal::of_machines))
+       comparison::judged_measures(rules, layout::measure_table(), {{"", true}}))
     judged.emplace_back(one.name);
   EXPECT_EQ(judged, (std::vector<std::string>{"success_rate", "settling_time"}));
   ASSERT_EQ(comparison::requirements_of(rules, "a").size(), 1u);
@@ -138,10 +138,18 @@ TEST(MarginsFile, TakesRequirementsOfErrorBandsAndTheGoal) {
   EXPECT_EQ(rules.requirements[1].quantity.kind, comparison::RequirementKind::mean);
   EXPECT_EQ(rules.requirements[2].quantity.kind, comparison::RequirementKind::goal);
   EXPECT_TRUE(comparison::requires_goal(rules));
-  EXPECT_EQ(comparison::measures_of_bands(rules).size(), 2u);
+  EXPECT_EQ(comparison::measures_of_limits(rules).size(), 2u);
   EXPECT_NE(fault("require: goal ≥ 0.5\n").find("a goal with a limit; expected goal by itself"),
             std::string::npos);
-  EXPECT_NE(fault("require: band_settling_time[x].p95 ≤ 1\n").find("cannot be"), std::string::npos);
+  for (const std::string name : {"band_settling_time[x]", "tolerance_settling_time[x]",
+                                 "tolerance_settling_time[-1]", "tolerance_settling_time[inf]"})
+    EXPECT_NE(fault("require: " + name + ".p95 ≤ 1\n").find("cannot be"), std::string::npos) << name;
+  for (const std::string tolerance : {"1e-8", "1.0e-08", "0.00000001"}) {
+    const comparison::RequirableQuantity quantity =
+        read("require: 'tolerance_settling_time[" + tolerance + "].p95 ≤ 0.05'\n").requirements[0].quantity;
+    EXPECT_EQ(quantity.measure.measure->tolerance, 1e-8);
+    EXPECT_EQ(quantity.name, "tolerance_settling_time[1e-08].p95");
+  }
 }
 
 TEST(MarginsFile, RefusesARequirementWithoutAllItsParts) {

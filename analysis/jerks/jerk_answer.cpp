@@ -220,7 +220,13 @@ Description<PointReading> point_description() {
       .sentence(magnitude_sentences)
       .sentence(creep_sentence)
       .value(in_data("point", "number of the design point"), [](Point p) { return p.jerks.point; })
-      .value(in_data("label", "label of the design point"), [](Point p) { return p.jerks.label; })
+      .value(in_data("label", "label of the design point, with the condition"),
+             [](Point p) { return p.jerks.label; })
+      .value({.key = "condition",
+              .meaning = "condition that the trials are under",
+              .shown = document::Shown::in_json,
+              .optional = true},
+             [](Point p) { return p.jerks.condition; })
       .include(statistics_description(), &PointReading::statistics)
       .object(
           in_data("creep", "comparison with the closed form of creep at constant torque"),

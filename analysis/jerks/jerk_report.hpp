@@ -18,11 +18,11 @@ struct JerkReport {
   std::vector<PointJerks> points;
 };
 
-/// The jerks of `points` (all points if empty) of a complete results file. `creep_trials` trials of each
-/// point are simulated again and compared with the closed form of creep.
+/// The jerks of `points` (all points if empty) of a complete results file, under each condition.
+/// `creep_trials` trials of each point are simulated again and compared with the closed form of creep.
 /// @throws Failure as jerk_statistics.
-JerkReport jerk_report(const reading::AllTrialsFile& file, const study::Study& study,
-                       std::vector<std::int64_t> points, double confidence, std::int64_t creep_trials);
+JerkReport jerk_report(const reading::AllTrialsFile& file, std::vector<std::int64_t> points,
+                       double confidence, std::int64_t creep_trials);
 
 /// Whether any move arrived. Without an arrival there are no measurements.
 bool any_arrival(const JerkReport& report);

@@ -81,8 +81,9 @@ JerkStatistics jerk_statistics(const reading::AllTrialsFile& file, const study::
 /// The data of one point that the verb `jerks` reports.
 struct PointJerks {
   std::int64_t point{0};
-  std::string label;
-  JerkStatistics statistics;
+  std::string label;                       ///< with the condition, if there is one
+  std::optional<std::string> condition{};  ///< that its trials are under
+  JerkStatistics statistics{};
   CreepComparison creep;  ///< from trials simulated again
   CreepAgreement creep_agreement;
 };

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -66,10 +67,12 @@ struct OutputSensitivity {
   bool estimated{false};           ///< there is something in `factors`
 };
 
-/// All outputs asked for, at one design point.
+/// All outputs asked for, at one design point; under one of the conditions where there are any, so that the
+/// indices say what drives the trials within it.
 struct PointSensitivity {
   std::int64_t point{0};
-  std::string label;
+  std::string label;                       ///< with the condition, if there is one
+  std::optional<std::string> condition{};  ///< that its trials are under
   std::vector<OutputSensitivity> outputs;
 };
 
@@ -96,7 +99,8 @@ struct SensitivityOutput {
 };
 
 /// All of them, in the order of the help. The first two are asked about unless told otherwise: `goal` and
-/// `goal_settling_time` of a study with a goal, `success` and `settling_time` without one.
+/// `goal_settling_time` of a study with a goal, `success` and `settling_time` without one. Each of the goals
+/// with names has its own: `goal[large]`, `goal_settling_time[large]`.
 std::vector<SensitivityOutput> sensitivity_outputs(
     const layout::MeasureTable& measures = layout::measure_table(), const goal::Question& question = {});
 

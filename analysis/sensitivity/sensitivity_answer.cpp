@@ -93,7 +93,12 @@ Description<PointSensitivity> point_description() {
         return fmt::format("Point {}: {}", p.point, text::printable(p.label));
       })
       .value(in_data("point", "number of the design point"), &PointSensitivity::point)
-      .value(in_data("label", "label of the design point"), &PointSensitivity::label)
+      .value(in_data("label", "label of the design point, with the condition"), &PointSensitivity::label)
+      .value({.key = "condition",
+              .meaning = "condition that the trials are under",
+              .shown = document::Shown::in_json,
+              .optional = true},
+             &PointSensitivity::condition)
       .sections({.key = "outputs", .meaning = "outputs of the trials"}, output_description(),
                 &PointSensitivity::outputs);
 }

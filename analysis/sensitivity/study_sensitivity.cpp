@@ -12,6 +12,7 @@
 #include "analysis/text/percent.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/designs/random_key.hpp"
+#include "experiments/study/condition_study.hpp"
 #include "results/layout/header.hpp"
 
 namespace zerocount::sensitivity {
@@ -150,47 +151,71 @@ OutputSensitivity between_worlds(const study::Study& study, const PointInputs& w
   return result;
 }
 
+/// What is asked of the points of a study, under one condition or all of a study without.
+struct PointsAsked {
+  const SensitivityQuestion& question;
+  std::vector<std::int64_t> points;
+  std::vector<SensitivityOutput> outputs;
+  random::RandomStream bootstrap;  ///< the same for all outputs and points, as the trials are
+  std::function<void()> done;      ///< one output of one point
+};
+
+/// @param file of the trials under `condition`
+PointSensitivity sensitivity_at(const reading::AllTrialsFile& file, const std::string& condition,
+                                std::int64_t point, const PointsAsked& asked) {
+  const study::Study& study = file.study();
+  const std::int64_t trials = trials_read(study, asked.question);
+  PointSensitivity at_point{
+      point, study::label_under(file.point_labels().at(static_cast<std::size_t>(point)), condition), {}, {}};
+  if (!condition.empty()) at_point.condition = condition;
+  const PointInputs inputs = point_inputs(file, study, point, trials);
+  const PointInputs worlds = inputs_of_worlds(study, point);
+  const double confidence = asked.question.confidence;
+  for (const SensitivityOutput& output : asked.outputs) {
+    const TrialOutputs values = trial_outputs(file, study, point, trials, output);
+    OutputSensitivity result = output_sensitivity(inputs, output, values, confidence, asked.bootstrap);
+    if (trials < study.trials && study.rigs == 0)
+      result.notes.push_back(fmt::format("the first {} of {} trials are used", trials, study.trials));
+    put_on_axis(study.units.axis, result);
+    at_point.outputs.push_back(std::move(result));
+    if (study.worlds > 0) {
+      at_point.outputs.push_back(between_worlds(study, worlds, output, values, confidence, asked.bootstrap));
+      put_on_axis(study.units.axis, at_point.outputs.back());
+    }
+    asked.done();
+  }
+  return at_point;
+}
+
 }  // namespace
 
 StudySensitivity study_sensitivity(const reading::AllTrialsFile& file, const SensitivityQuestion& question) {
   check_confidence(question.confidence);
   const layout::FileHeader& header = file.header();
   const study::Study& study = file.study();
-  study::refuse_conditions(study, "zerocount sensitivity");
-  const std::vector<SensitivityOutput> outputs =
-      outputs_asked(question, file.table(), goal::question_of(study));
-  const std::vector<std::string> labels = file.point_labels();
-  // The resampling is the same for all outputs and points, as the trials are.
-  const random::RandomStream bootstrap{designs::random_key(header.seed, "sensitivity/bootstrap"), 0};
-
   StudySensitivity sensitivity{.name = header.name,
                                .from_saltelli = study.design == study::Design::saltelli,
                                .confidence = question.confidence,
                                .points = {}};
-  const std::vector<std::int64_t> points = points_asked(file, question);
-  const std::int64_t trials = trials_read(study, question);
-  const std::int64_t all = std::ssize(points) * std::ssize(outputs);
-  std::int64_t done = 0;
-  for (const std::int64_t point : points) {
-    PointSensitivity at_point{point, labels.at(static_cast<std::size_t>(point)), {}};
-    const PointInputs inputs = point_inputs(file, study, point, trials);
-    const PointInputs worlds = inputs_of_worlds(study, point);
-    for (const SensitivityOutput& output : outputs) {
-      const TrialOutputs values = trial_outputs(file, study, point, trials, output);
-      OutputSensitivity result = output_sensitivity(inputs, output, values, question.confidence, bootstrap);
-      if (trials < study.trials && study.rigs == 0)
-        result.notes.push_back(fmt::format("the first {} of {} trials are used", trials, study.trials));
-      put_on_axis(study.units.axis, result);
-      at_point.outputs.push_back(std::move(result));
-      if (study.worlds > 0) {
-        at_point.outputs.push_back(
-            between_worlds(study, worlds, output, values, question.confidence, bootstrap));
-        put_on_axis(study.units.axis, at_point.outputs.back());
-      }
-      if (question.progress) question.progress(++done, all);
-    }
-    sensitivity.points.push_back(std::move(at_point));
-  }
+  PointsAsked asked{.question = question,
+                    .points = points_asked(file, question),
+                    .outputs = outputs_asked(question, file.table(), goal::question_of(study)),
+                    .bootstrap = {designs::random_key(header.seed, "sensitivity/bootstrap"), 0},
+                    .done = {}};
+  const std::int64_t all =
+      study::condition_count(study) * std::ssize(asked.points) * std::ssize(asked.outputs);
+  asked.done = [&, done = std::int64_t{0}]() mutable {
+    if (question.progress) question.progress(++done, all);
+  };
+  // By point, then by condition.
+  const std::size_t conditions = static_cast<std::size_t>(study::condition_count(study));
+  sensitivity.points.resize(asked.points.size() * conditions);
+  std::size_t condition = 0;
+  reading::for_each_condition(file, [&](const reading::AllTrialsFile& one, const std::string& name) {
+    for (std::size_t i = 0; i < asked.points.size(); ++i)
+      sensitivity.points[i * conditions + condition] = sensitivity_at(one, name, asked.points[i], asked);
+    ++condition;
+  });
   return sensitivity;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -38,21 +39,28 @@ SensitivityOutput output_of(const layout::Measure& measure) {
           }};
 }
 
-/// What a study with a goal is judged by.
-std::vector<SensitivityOutput> goal_outputs(const goal::Question& question) {
+/// Whether all moves meet the goals, and the time that takes. @param name of one of several goals, in
+/// brackets; empty of all
+std::vector<SensitivityOutput> outputs_of(const goal::Question& question, const std::string& name) {
+  const bool several = has_several(question);
+  const std::string which = several ? "all goals" : name.empty() ? "the goal" : "this goal";
+  const std::string where = several ? "the band of its goal" : "the goal's band";
   return {
-      {.name = "goal",
+      {.name = "goal" + name,
        .unit = "1",
-       .meaning = "all moves met the goal",
+       .meaning = several || !question.counted().on.empty()
+                      ? fmt::format("all moves that {} {} about met {}", which, several ? "are" : "is",
+                                    several ? "them" : "it")
+                      : "all moves met the goal",
        .yes_or_no = true,
        .of_every_trial = true,
        .value = [question](std::span<const trial::MoveOutcome> moves,
                            const std::function<double()>&) { return meets(question, moves) ? 1.0 : 0.0; }},
-      {.name = "goal_settling_time",
+      {.name = "goal_settling_time" + name,
        .unit = "s",
-       .meaning =
-           "time until the error is within the goal's band for good, the longest of the trial's moves; a "
-           "move that ends outside counts with its duration",
+       .meaning = fmt::format("time until the error is within {} for good, the longest of the trial's moves; "
+                              "a move that ends outside counts with its duration",
+                              where),
        .of_every_trial = true,
        .never = "ended outside the goal's band",
        .value = [question](std::span<const trial::MoveOutcome> moves,
@@ -60,6 +68,18 @@ std::vector<SensitivityOutput> goal_outputs(const goal::Question& question) {
          const double time = settling_time(question, moves);
          return std::isfinite(time) ? time : duration();
        }}};
+}
+
+/// What a study with a goal is judged by.
+std::vector<SensitivityOutput> goal_outputs(const goal::Question& question) {
+  std::vector<SensitivityOutput> outputs = outputs_of(question, "");
+  for (const goal::JudgedPart& part : question.parts) {
+    if (!has_several(question)) break;
+    std::vector<SensitivityOutput> own =
+        outputs_of(only(question, part.number), fmt::format("[{}]", part.claim->name));
+    std::ranges::move(own, std::back_inserter(outputs));
+  }
+  return outputs;
 }
 
 }  // namespace

@@ -28,10 +28,8 @@ ExitCode print_jerks(const command_line::Arguments& arguments) {
   const std::int64_t creep_trials =
       arguments.whole_number("creep-trials", 0, 1'000'000).value_or(default_creep_trials);
   const reading::AllTrialsFile file(arguments.operands()[0]);
-  const study::Study& study = file.study();
-  study::refuse_conditions(study, "zerocount jerks");
-  const std::vector<std::int64_t> points = command_line::point_options(arguments, study.points.labels);
-  const jerks::JerkReport report = jerks::jerk_report(file, study, points, confidence, creep_trials);
+  const std::vector<std::int64_t> points = command_line::point_options(arguments, file.point_labels());
+  const jerks::JerkReport report = jerks::jerk_report(file, points, confidence, creep_trials);
   const ExitCode code = jerks::any_arrival(report) ? ExitCode::success : ExitCode::inconclusive;
   return answers::print(arguments, jerks::jerk_answer().of(report, code));
 }

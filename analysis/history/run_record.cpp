@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
+#include "experiments/study/condition_study.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/recorded_values.hpp"
 #include "results/storage/checksum_trailer.hpp"
@@ -45,9 +47,9 @@ RunValue value_of(const comparison::GateMeasure& measure, const measures::PointS
   return value;
 }
 
-RunValue proportion_value(const std::string& label, const char* measure, const goal::BoundedProportion& found,
+RunValue proportion_value(const std::string& label, std::string measure, const goal::BoundedProportion& found,
                           std::int64_t n) {
-  RunValue value{label, measure, "1"};
+  RunValue value{label, std::move(measure), "1"};
   value.kind = statistics::MeasurementKind::proportion;
   value.value = found.value;
   value.bounds = {found.low, found.high};
@@ -55,42 +57,50 @@ RunValue proportion_value(const std::string& label, const char* measure, const g
   return value;
 }
 
-/// What the study is judged by, with two-sided bounds as those of other values; with worlds in the worst,
-/// with bounds of the lowest of all. Empty without a goal: success is one of the gate measures.
-std::vector<RunValue> goal_values(const summary::StudySummary& summary, const measures::PointSummary& point,
-                                  const std::string& label) {
-  const goal::Question& question = summary.question;
-  if (!question.claim()) return {};
+/// What a goal says of a point, with two-sided bounds as those of other values; with worlds in the worst,
+/// with bounds of the lowest of all. @param question of this goal alone
+std::vector<RunValue> goal_values(const goal::Question& question, const measures::PointSummary& point,
+                                  const std::string& label, double confidence) {
   study::Goal both_sides = *question.claim();
-  both_sides.confidence = 0.5 * (1.0 + summary.confidence);
-  const goal::Verdict verdict = goal::judge_goal(both_sides, point.goals.front(), 1);
+  both_sides.confidence = 0.5 * (1.0 + confidence);
+  const measures::MoveCounts& counts = point.goals[question.parts.front().number];
+  const goal::Verdict verdict = goal::judge_goal(both_sides, counts, 1);
+  const auto name = [&](std::string_view measure) {
+    return comparison::name_of_goal_measure(measure, both_sides.name);
+  };
   std::vector<RunValue> values{
-      proportion_value(label, "goal_rate", verdict.moves, rate_of(question, point).events)};
+      proportion_value(label, name("goal_rate"), verdict.moves, rate_of(question, point).events)};
   if (goal::is_of_machines(question)) {
     const std::int64_t worlds = std::max<std::int64_t>(question.worlds, 1);
-    values.push_back(proportion_value(label, "goal_machines", verdict.machines, point.rigs.n / worlds));
+    values.push_back(proportion_value(label, name("goal_machines"), verdict.machines, point.rigs.n / worlds));
   }
   const statistics::Quantile& p95 = settling_of(question, point).p95;
-  RunValue time{label, "goal_settling_time", "s"};
+  RunValue time{label, name("goal_settling_time"), "s"};
   time.value = p95.value;
   time.bounds = {p95.low, p95.high};
-  time.n = point.moves;
+  time.n = counts.moves;
   values.push_back(std::move(time));
   return values;
 }
 
-std::vector<RunValue> values_of(const summary::StudySummary& summary) {
-  std::vector<RunValue> values;
+/// Adds the values of trials, all of one condition. @param condition empty without conditions
+void add_values(std::vector<RunValue>& values, const summary::StudySummary& summary,
+                const std::string& condition) {
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
-    const std::string& label = summary.labels[i];
-    std::vector<RunValue> of_point = goal_values(summary, summary.points[i], label);
+    const measures::PointSummary& point = summary.points[i];
+    const std::string label = study::label_under(summary.labels[i], condition);
+    std::vector<RunValue> of_point;
+    for (const goal::JudgedPart& part : summary.question.parts) {
+      if (!part.claim) continue;  // success is one of the gate measures
+      std::ranges::move(goal_values(only(summary.question, part.number), point, label, summary.confidence),
+                        std::back_inserter(of_point));
+    }
     for (const comparison::GateMeasure& measure : comparison::gate_measures(summary.table()))
-      of_point.push_back(value_of(measure, summary.points[i], label));
+      of_point.push_back(value_of(measure, point, label));
     for (RunValue& value : of_point) {
       if (std::isfinite(value.value)) values.push_back(std::move(value));
     }
   }
-  return values;
 }
 
 [[noreturn]] void fail_without_values(const std::string& name) {
@@ -122,11 +132,9 @@ std::string series_sha256(const reading::AllTrialsFile& file) {
 }
 
 RunRecord record_of(const reading::AllTrialsFile& file) {
-  study::refuse_conditions(file.study(), "zerocount history");
   const std::string name = file.path().string();
-  const summary::StudySummary summary =
-      summary::summarise(file, statistics::summary_confidence, /*bootstrap=*/true);
-  if (summary.features.dependent_trials) {
+  const study::StudyFeatures& features = file.study().features;
+  if (features.dependent_trials) {
     throw Failure(
         ExitCode::bad_input,
         fmt::format("{}: its trials depend on each other (design: saltelli), so that its bounds are "
@@ -143,9 +151,11 @@ RunRecord record_of(const reading::AllTrialsFile& file) {
                 header.provenance.zerocount_version,
                 header.provenance.git_commit,
                 header.provenance.created};
-  goal::require_one_goal(file.study(), file.path().string());
-  run.values = values_of(summary);
-  if (run.values.empty() || summary.features.open_loop) fail_without_values(name);
+  reading::for_each_condition(file, [&](const reading::AllTrialsFile& one, const std::string& condition) {
+    add_values(run.values, summary::summarise(one, statistics::summary_confidence, /*bootstrap=*/true),
+               condition);
+  });
+  if (run.values.empty() || features.open_loop) fail_without_values(name);
   return run;
 }
 

@@ -35,8 +35,8 @@ struct ValueComparison {
 
 /// The value of one measure at one point of a run.
 struct RunValue {
-  std::string point;
-  std::string measure;  ///< name of a gate measure, or of one of the goal
+  std::string point;    ///< label of the design point, with the condition if there is one: "high, loaded"
+  std::string measure;  ///< name of a gate measure, or of one of the goal: "goal_rate", "goal_rate[large]"
   std::string unit;
   statistics::MeasurementKind kind{statistics::MeasurementKind::mean};
   double value{statistics::unknown};
@@ -67,8 +67,8 @@ struct RunRecord {
 /// where something is drawn once per study: another seed is then another axis.
 std::string series_sha256(const reading::AllTrialsFile& file);
 
-/// The values of a complete results file, with the bounds of its summary: the measures of its goal if it has
-/// one (comparison::goal_measures), then the gate measures.
+/// The values of a complete results file, with the bounds of its summary: the measures of its goals if it has
+/// any (comparison::goal_measures), then the gate measures; of each point under each condition.
 /// @throws Failure: inconclusive where there is no value, bad_input where the trials are not independent,
 /// and as summarise().
 RunRecord record_of(const reading::AllTrialsFile& file);

@@ -29,7 +29,7 @@ RunRecord without_values(const RunRecord& run) {
 
 bool is_of_goal(const RunValue& value) {
   return std::ranges::any_of(comparison::goal_measures(), [&](const comparison::GateMeasure& measure) {
-    return measure.name == value.measure;
+    return measure.name == comparison::without_goal(value.measure);
   });
 }
 

@@ -40,8 +40,9 @@ document::Description<goal::Verdict> verdict_description(const goal::Question& q
         {.key = "name", .meaning = "name of the goal: of several the worst, which all of this is of"},
         [question](Verdict v) { return question.parts[v.goal].claim->name; });
   if (!question.conditions.empty())
-    description.value({.key = "condition", .meaning = "the worst condition, which all of this is under"},
-                      [question](Verdict v) { return question.conditions[v.condition]; });
+    description.value(
+        {.key = "condition", .meaning = "the worst condition, which all of this is under", .optional = true},
+        [question](Verdict v) { return question.conditions[v.condition]; });
   description
       .value({.key = "status", .meaning = "verdict on the goal", .words = goal::status_words()},
              [](Verdict v) { return goal::text_of(v.status); })

@@ -151,6 +151,7 @@ struct ConfirmationReading {
   /// goal.
   std::optional<statistics::ConfidenceInterval> bounds() const {
     if (confirmed.rigs > 0 && !has_one_trial_per_rig()) return std::nullopt;
+    if (!summary.conditions.empty()) return std::nullopt;  // a machine has a trial under each
     return statistics::clopper_pearson(confirmed.successes, confirmed.trials, summary.confidence);
   }
   std::optional<goal::Verdict> verdict() const {

@@ -33,16 +33,52 @@ RatesOfWorlds judged_rates(const goal::Question& question, const goal::Verdict& 
   return rates;
 }
 
-/// [world] whether it falls short of the goal, as observed; without one, whether it is shown to succeed less
-/// often than the median world.
-std::vector<bool> bad_worlds(const goal::Question& question, const PointWorlds& point,
-                             const measures::MoveCounts& succeeded, double confidence) {
-  std::vector<bool> bad;
-  if (point.goal) {
-    const double wanted = question.claim()->machines.value_or(question.claim()->moves);
-    for (const goal::BoundedProportion& world : point.asked.worlds) bad.push_back(world.value < wanted);
-    return bad;
+/// A goal under a condition, and the verdict on it.
+struct Claim {
+  const study::Goal& goal;
+  const goal::Verdict& verdict;
+};
+
+/// Each goal under each condition.
+std::vector<Claim> claims_of(const goal::Question& question, const goal::Verdict& verdict) {
+  std::vector<Claim> claims;
+  for (std::size_t i = 0; i < question.parts.size(); ++i) {
+    const goal::Verdict& of_goal = verdict.goals.empty() ? verdict : verdict.goals[i];
+    const study::Goal& goal = *question.parts[i].claim;
+    if (of_goal.conditions.empty()) claims.push_back({goal, of_goal});
+    for (const goal::Verdict& under : of_goal.conditions) claims.push_back({goal, under});
   }
+  return claims;
+}
+
+/// [world] the worst verdict of the claims on it.
+std::vector<goal::Status> worst_statuses(const std::vector<Claim>& claims) {
+  std::vector<goal::Status> worst(claims.front().verdict.worlds.size(), goal::Status::met);
+  for (const Claim& claim : claims) {
+    for (std::size_t world = 0; world < worst.size(); ++world)
+      worst[world] = std::min(worst[world], claim.verdict.worlds[world].status,
+                              [](auto a, auto b) { return goal::rank_of(a) < goal::rank_of(b); });
+  }
+  return worst;
+}
+
+/// [world] whether it falls short of a claim, as observed.
+std::vector<bool> short_of_claims(const std::vector<Claim>& claims) {
+  std::vector<bool> bad(claims.front().verdict.worlds.size(), false);
+  for (const auto& [goal, verdict] : claims) {
+    const double wanted = goal.machines.value_or(goal.moves);
+    for (std::size_t world = 0; world < bad.size(); ++world) {
+      const goal::WorldVerdict& one = verdict.worlds[world];
+      if ((goal.machines ? one.machines.value : one.moves.value) < wanted) bad[world] = true;
+    }
+  }
+  return bad;
+}
+
+/// [world] whether it is shown to succeed less often than the median world.
+std::vector<bool> below_median(const PointWorlds& point, const measures::MoveCounts& succeeded,
+                               double confidence) {
+  std::vector<bool> bad;
   const double each = statistics::confidence_of_each(confidence, static_cast<std::size_t>(succeeded.worlds));
   for (const measures::MoveCounts& world : measures::in_worlds(succeeded))
     bad.push_back(statistics::clustered_at_most(measures::clusters_of(world), each) < point.success.median);
@@ -77,7 +113,13 @@ PointWorlds point_worlds(const measures::PointSummary& point, const goal::Questi
   if (all.claim()) result.goal = verdict_on(all, point, points);
   const goal::Question question = result.goal ? only(all, result.goal->goal) : all;
   result.asked = result.goal ? judged_rates(question, *result.goal) : result.success;
-  result.bad = bad_worlds(question, result, succeeded, confidence);
+  if (result.goal) {
+    const std::vector<Claim> claims = claims_of(all, *result.goal);
+    result.statuses = worst_statuses(claims);
+    result.bad = short_of_claims(claims);
+  } else {
+    result.bad = below_median(result, succeeded, confidence);
+  }
   std::vector<double> rates;
   for (const goal::BoundedProportion& world : result.asked.worlds) rates.push_back(world.value);
   result.rule = find_rule({inputs.begin(), inputs.end()}, rates, result.bad, seed);

@@ -32,12 +32,15 @@ struct PointWorlds {
   RatesOfWorlds success;  ///< trials all of whose moves ended at zero error
   RatesOfWorlds asked;    ///< by the question: of machines, moves or trials; without a goal success
   std::optional<goal::Verdict> goal;  ///< of a study with a goal
-  std::vector<bool> bad;              ///< [world]
-  std::optional<WorldRule> rule;      ///< what the bad worlds have in common
+  /// [world] the worst verdict of all goals under all conditions; empty without a goal
+  std::vector<goal::Status> statuses;
+  std::vector<bool> bad;          ///< [world]
+  std::optional<WorldRule> rule;  ///< what the bad worlds have in common
 };
 
-/// A world is bad if fewer of its moves (or machines) than the goal asks for meet it. Without a goal it is
-/// bad if its rate of success is shown to be below the median.
+/// A world is bad if fewer of its moves (or machines) than a goal asks for meet it, under any condition.
+/// Without a goal it is bad if its rate of success, on average over the conditions, is shown to be below the
+/// median.
 /// @param point of a study with worlds @param inputs what differs between them there @param seed of the study
 /// @param points that the point was chosen from, as of goal::judge_goal()
 PointWorlds point_worlds(const measures::PointSummary& point, const goal::Question& all,

@@ -35,6 +35,8 @@ constexpr const char* learn_help =
     "Beside the unknowns it tests what follows from those of the friction, such as the extension at\n"
     "which creep ends. What decides need not be the cause.\n"
     "Without a goal, worlds fall short that are shown to succeed less often than the median world.\n"
+    "With several goals or conditions a world falls short where it does so of any goal under any\n"
+    "condition; without a goal success is averaged over the conditions.\n"
     "The last column names the record of 'zerocount identify' that tells the unknown;\n"
     "'zerocount experiment' designs it.\n"
     "The exit code is 3 if these trials are too few: the goal is undecided, and no unknown is named.\n"
@@ -85,7 +87,7 @@ struct Outcome {
   }
   /// Worlds of which the verdict says this; none without a goal.
   std::size_t worlds_that(goal::Status status) const {
-    return judged ? goal::worlds_that(status, judged->verdict).size() : 0;
+    return static_cast<std::size_t>(std::ranges::count(worlds.statuses, status));
   }
   std::vector<Measurement> measurements() const {
     std::vector<Measurement> all;
@@ -268,7 +270,6 @@ document::AnswerDescription<Outcome> learn_answer() {
 void require_worlds(const command_line::Arguments& arguments) {
   const std::string& path = arguments.operands()[0];
   const study::Study study = commands::described_study(path);
-  study::refuse_conditions(study, "zerocount learn");
   command_line::point_option(arguments, study.points.labels);
   if (study.worlds == 0) refuse_equal_worlds(path);
   if (study.open_loop) {

@@ -29,13 +29,14 @@ study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
                               "a study with targets",
                               file.path().string()));
   }
+  const std::int64_t conditions = study::condition_count(recorded);  // that each machine or draw bears
   const std::int64_t each =
-      !recorded.goals.empty() && recorded.rigs > 0 ? recorded.trials / recorded.rigs : 1;
+      !recorded.goals.empty() && recorded.rigs > 0 ? recorded.trials / recorded.rigs : conditions;
   const std::int64_t least = std::max<std::int64_t>(recorded.worlds, 2);
   const std::int64_t per_world = std::max<std::int64_t>(recorded.worlds, 1);
   const std::int64_t rigs = std::max(least, trials / each / per_world * per_world);
-  const trials::Replicates fresh = recorded.rigs > 0 ? trials::Replicates{rigs, each}
-                                                     : trials::Replicates{std::max(trials, recorded.worlds)};
+  const std::int64_t draws = std::max({trials / each, recorded.worlds, std::int64_t{1}});
+  const trials::Replicates fresh{recorded.rigs > 0 ? rigs : draws, each};
   layout::FileHeader header = file.header();
   header.trials = fresh.trials();
   header.overrides.push_back(fmt::format("seed={}", trials::fresh_seed(recorded.seed, "confirmation")));
@@ -53,7 +54,7 @@ summary_answer::Confirmation counted_in(const study::Study& study, std::int64_t 
   const std::vector<measures::CountedGoal> goals = measures::counted_goals(study);
   summary_answer::Confirmation counts;
   counts.goals.resize(goals.size());
-  for (measures::MoveCounts& goal : counts.goals) goal.worlds = study.worlds;
+  for (measures::MoveCounts& goal : counts.goals) goal.tell_apart(study.worlds, std::ssize(study.conditions));
   for (const trial::TrialOutcome& outcome : outcomes) {
     counts.successes += trial::succeeded(outcome.moves) ? 1 : 0;
     for (std::size_t i = 0; i < goals.size(); ++i)
@@ -68,7 +69,6 @@ summary_answer::Confirmation counted_in(const study::Study& study, std::int64_t 
 summary_answer::Confirmation confirm_point(const reading::ResultsFile& file, std::int64_t point,
                                            std::int64_t trials,
                                            std::shared_ptr<const plugin::ControllerPlugin> plugin) {
-  study::refuse_conditions(file.study(), "zerocount summary --confirm");
   const study::Study study = fresh_study(file, trials, std::move(plugin));
   if (study.plugin && study.plugin->functions == nullptr) {
     throw Failure(ExitCode::bad_input,

@@ -8,11 +8,14 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/experiment_design/experiment_design.hpp"
 #include "analysis/report/answer_page.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
+#include "core/failure/failure.hpp"
 #include "core/text/number_text.hpp"
+#include "experiments/study/condition_study.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
@@ -107,8 +110,13 @@ study::Study experiment_study(const command_line::Arguments& arguments, const Ex
   }
   command_line::require_places(arguments, {arguments.operands()[0]}, places);
   study::Study study = commands::load_study(arguments.operands()[0], arguments, places);
-  study::refuse_conditions(study, "zerocount experiment");
-  return study;
+  if (study.conditions.empty()) return study;
+  const std::optional<std::string> condition = arguments.value("condition");
+  if (condition) return study::under_condition(study, study::condition_named(study, *condition));
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}: it has the conditions {}, and a record is made under one of them; expected "
+                            "--condition with its name",
+                            arguments.operands()[0], fmt::join(study.conditions, ", ")));
 }
 
 document::AnswerDescription<experiment_design::ExperimentDesign> experiment_answer() {
@@ -171,6 +179,7 @@ commands::Command experiment_command() {
             {"machines", "N", "machines drawn from the manifest (default 16)"},
             {"budget", "B", "protocols to try (default 80), or a time such as 30s"},
             {"point", "P", "design point, by label or number from 0 (default 0)"},
+            {"condition", "NAME", "condition of the manifest under which the record is made"},
             {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
             answers::format_option(experiment_answer().complete_type()),
             {"quiet,q", "", "print no progress"},

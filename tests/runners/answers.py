@@ -42,6 +42,20 @@ goal: {band: 0, within: 0.2, moves: 0.8}
 friction: {alpha: {interval: [0.1, 8]}, k1: {interval: [40, 200]}}
 command: {targets: [5, 12], hold: 0.4}
 """
+CLAIMS = """
+zerocount: 1
+name: claims
+seed: 9
+trials: 240
+rigs: 20
+worlds: 4
+goals:
+  large: {"on": [0], band: 1, within: 0.05, moves: 0.9}
+  small: {"on": [1], band: 1, within: 0.02, moves: 0.6, machines: 0.5, limits: {overshoot: 30}}
+friction: {alpha: {interval: [0.1, 2]}, k1: {uniform: [70, 150]}}
+command: {targets: [20, 25], hold: 0.1}
+conditions: {empty: {}, loaded: {plant.inertia: 8.0e-4}}
+"""
 SLIDE = """
 zerocount: 1
 name: slide
@@ -56,6 +70,7 @@ FILES = {
     "sweep.yaml": AXIS + SWEEP,
     "tune.yaml": AXIS + TUNE,
     "worlds.yaml": WORLDS,
+    "claims.yaml": CLAIMS,
     "no-goal.yaml": re.sub("goal:.*\n", "", AXIS),
 }
 PREPARATIONS = [
@@ -64,6 +79,9 @@ PREPARATIONS = [
     "run sweep.yaml -o sweep.h5",
     "run worlds.yaml -o worlds.h5",
     "run no-goal.yaml -o no-goal.h5",
+    "run claims.yaml -o claims.h5",
+    "run claims.yaml -o claims-again.h5 --set seed=10",
+    "history add claims.h5 --database claims.sqlite",
     "new material-test -o material.yaml",
     "run material.yaml -o material.h5 --set trials=1",
     "new identification -o identification.yaml",
@@ -108,6 +126,13 @@ QUESTIONS = [
     "plan --success 0.97 --rigs-share 0.9",
     "plan --margin success_rate=0.1 axis.yaml",
     "sensitivity axis.h5",
+    "judge claims.h5",
+    "sensitivity claims.h5",
+    "jerks claims.h5",
+    "learn claims.h5",
+    "compare claims.h5 claims-again.h5",
+    "history show --database claims.sqlite",
+    "experiment claims.yaml --condition loaded --duration 1.6 --budget 1 --machines 1",
 ]
 SLOW = {"tune", "limits", "worst", "rare", "experiment", "identify"}
 """Their answers are made as all others are: from one run each, as a notebook gets them."""

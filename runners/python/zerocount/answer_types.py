@@ -222,6 +222,8 @@ class Goal(Record):
 
     Attributes
     ----------
+    condition : str or None
+        The worst condition, which all of this is under.
     status : Literal["met", "missed", "undecided"]
         Verdict on the goal.
     rate : float or None
@@ -241,6 +243,7 @@ class Goal(Record):
         Rigs all of whose moves meet the goal.
     """
 
+    condition: str | None
     status: Literal["met", "missed", "undecided"]
     rate: float | None
     rate_low: float | None
@@ -312,8 +315,8 @@ class SummaryAnswer(Answer):
         - ``point``: number of the design point
         - ``label``: label of the design point
         - ``axes``: values of the swept parameters; null where one has a distribution
-        - ``goal``.* (status, rate, rate_low, rate_high, machines, machines_low, machines_high, rigs_without_miss):
-          whether the point meets the goal, with bounds of this point alone
+        - ``goal``.* (condition, status, rate, rate_low, rate_high, machines, machines_low, machines_high,
+          rigs_without_miss): whether the point meets the goal, with bounds of this point alone
         - ``machines_together``: proportion of rigs that meet all goals on machines, as observed; nothing where only one
           claim is on machines
         - ``trials``: trials of the point
@@ -411,6 +414,21 @@ class SummaryAnswer(Answer):
           halfwidth_confidence, reached, of_rigs): what the rule that ended the study asked for, and what was reached
         - ``worlds``.* (n, success, success_rates, goal_rates, goal_status, met, missed, undecided, bad_worlds, rule):
           the worlds at the point
+        - ``claims``: each goal under each condition at the point
+          - ``goal``: name of the goal
+          - ``condition``: the condition under which it is judged
+          - ``moves``: moves that the goal asks, of all trials under the condition
+          - ``met``: of them, moves that meet the goal
+          - ``rate``: proportion of these moves, with one-sided bounds; with worlds of the worst world
+          - ``rate_low``: lower bound
+          - ``rate_high``: upper bound
+          - ``machines``: proportion of machines that meet the goal, with one-sided bounds
+          - ``machines_low``: lower bound
+          - ``machines_high``: upper bound
+          - ``settling_time_p95``: 95 % quantile of the settling time of these moves; null where it is not within the
+            hold, s
+          - ``within``: settling time that the goal allows, s
+          - ``status``: verdict on the goal under the condition
         - ``conditions``: the point under each condition
           - ``condition``: what every machine bears
           - ``trials``: trials under the condition
@@ -972,6 +990,10 @@ class JudgeAnswer(Answer):
         Label of the design point.
     goal : str
         The goal in words.
+    worst_goal : str or None
+        Name of the goal that the numbers are of, the worst of several.
+    worst_condition : str or None
+        The condition that they are under, the worst of several.
     status : Literal["met", "missed", "undecided"]
         Verdict on the goal.
     rate : float or None
@@ -990,16 +1012,22 @@ class JudgeAnswer(Answer):
         Study that would decide the goal.
     worlds : JudgeWorlds or None
         The worlds at the point.
-    conditions : pandas.DataFrame
-        The point under each condition.
+    claims : pandas.DataFrame
+        Each goal under each condition.
 
-        - ``condition``: what every machine bears
-        - ``trials``: trials under the condition
-        - ``success``: trials all of whose moves ended at zero error
-        - ``goal_met``: trials all of whose moves meet the goal
-        - ``rate``: proportion that the question is about, with one-sided bounds
+        - ``goal``: name of the goal
+        - ``condition``: the condition under which it is judged
+        - ``moves``: moves that the goal asks, of all trials under the condition
+        - ``met``: of them, moves that meet the goal
+        - ``rate``: proportion of these moves, with one-sided bounds; with worlds of the worst world
         - ``rate_low``: lower bound
         - ``rate_high``: upper bound
+        - ``machines``: proportion of machines that meet the goal, with one-sided bounds
+        - ``machines_low``: lower bound
+        - ``machines_high``: upper bound
+        - ``settling_time_p95``: 95 % quantile of the settling time of these moves; null where it is not within the
+          hold, s
+        - ``within``: settling time that the goal allows, s
         - ``status``: verdict on the goal under the condition
 
     """
@@ -1009,6 +1037,8 @@ class JudgeAnswer(Answer):
     point: int
     label: str
     goal: str
+    worst_goal: str | None
+    worst_condition: str | None
     status: Literal["met", "missed", "undecided"]
     rate: float | None
     rate_low: float | None
@@ -1018,7 +1048,7 @@ class JudgeAnswer(Answer):
     chosen_from: int
     needed: Needed | None
     worlds: JudgeWorlds | None
-    conditions: pandas.DataFrame
+    claims: pandas.DataFrame
 
 
 class LearnAnswer(Answer):
@@ -1717,7 +1747,8 @@ class JerksAnswer(Answer):
         The design points.
 
         - ``point``: number of the design point
-        - ``label``: label of the design point
+        - ``label``: label of the design point, with the condition
+        - ``condition``: condition that the trials are under
         - ``trials``: trials of the design point
         - ``moves``: moves of all trials
         - ``arrived``: moves that arrived; only these can jerk
@@ -1910,7 +1941,8 @@ class CompareAnswer(Answer):
     points : pandas.DataFrame
         The design points.
 
-        - ``label``: label of the design point
+        - ``label``: label of the design point, with the condition
+        - ``condition``: condition that the trials are under
         - ``verdict``: verdict of the gate
         - ``baseline_point``: number of the point in the baseline
         - ``current_point``: number of the point in the file
@@ -1957,6 +1989,10 @@ class CompareAnswer(Answer):
             quantile
           - ``trials_to_decide``: trials per design point that decide the requirement
         - ``goal``.* (baseline, current): verdicts on the goal, where the points are judged by one
+        - ``goals``: verdicts on each of several goals
+          - ``name``: name of the goal
+          - ``baseline``: verdict on the baseline
+          - ``current``: verdict on the file
 
     """
 
@@ -2251,7 +2287,8 @@ class SensitivityAnswer(Answer):
         The design points.
 
         - ``point``: number of the design point
-        - ``label``: label of the design point
+        - ``label``: label of the design point, with the condition
+        - ``condition``: condition that the trials are under
         - ``outputs``: outputs of the trials
           - ``output``: name of the output
           - ``unit``: unit of the mean and the standard deviation

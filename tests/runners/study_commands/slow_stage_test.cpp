@@ -25,7 +25,7 @@ constexpr const char* stage =
     "hold: 0.3}\n"
     "initial: {encoder_phase: {uniform: [0, 1]}, preload: {uniform: [-1, 1]}}\n"
     "verdict: {dwell: 0.02, window: 0.05}\n";
-constexpr std::int64_t moves = 240;
+constexpr std::int64_t moves_of_stage = 240;
 
 /// What the recorded moves say, counted here.
 struct Recorded {
@@ -72,11 +72,11 @@ class SlowStage : public ::testing::Test {
 TEST_F(SlowStage, IsCalledUndecidedWithTheHoldThatDecides) {
   ASSERT_EQ(run({"run", "stage.yaml", "-q", "-o", "slow.h5"}).code, 0);
   const Recorded counted = recorded("slow.h5");
-  EXPECT_LT(counted.arrived, moves / 5);
-  EXPECT_GT(counted.off_target, moves / 2);
+  EXPECT_LT(counted.arrived, moves_of_stage / 5);
+  EXPECT_GT(counted.off_target, moves_of_stage / 2);
 
   const nlohmann::json said = undecided("slow.h5");
-  EXPECT_EQ(said["moves"], moves);
+  EXPECT_EQ(said["moves"], moves_of_stage);
   EXPECT_EQ(said["off_target"], counted.off_target);
   EXPECT_EQ(said["still_falling"], counted.still_falling);
   // Of a time constant T·(k1 + k2)·Δx/(2·ki) of 0.16 to 0.24 s, up to ln(2·30) are needed.
@@ -98,14 +98,14 @@ TEST_F(SlowStage, IsCalledUndecidedWithTheHoldThatDecides) {
 }
 
 TEST_F(SlowStage, ArrivesWithTheAdvisedHold) {
-  EXPECT_GE(arrived_with_advised_hold({}), moves * 95 / 100);
+  EXPECT_GE(arrived_with_advised_hold({}), moves_of_stage * 95 / 100);
   EXPECT_EQ(undecided("advised.h5")["still_falling"], 0);
 }
 
 // The count chatters on its edges: some of these moves count as oscillating, and the last edge takes its
 // time.
 TEST_F(SlowStage, ArrivesWithTheAdvisedHoldUnderAProportionalGain) {
-  EXPECT_GE(arrived_with_advised_hold({"controller.kp=0.01"}), moves * 95 / 100);
+  EXPECT_GE(arrived_with_advised_hold({"controller.kp=0.01"}), moves_of_stage * 95 / 100);
   EXPECT_GT(undecided("slow.h5")["falling_with_ripple"], 0);
   const std::string table = run({"summary", "slow.h5"}).out;
   EXPECT_NE(table.find("; it was falling, with a ripple of one count, in "), std::string::npos) << table;

@@ -8,7 +8,11 @@
 #include <variant>
 #include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "analysis/parallel/parallel.hpp"
+#include "core/failure/failure.hpp"
 #include "core/trial/outcome.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/randomness/random_variables.hpp"
@@ -59,9 +63,15 @@ std::string_view kind_of(const randomness::RandomCoordinate& coordinate) {
   return coordinate.kind == randomness::RandomCoordinate::Kind::profile_at_start ? "score" : "value";
 }
 
+void require_one_condition(const study::Study& study) {
+  if (study.conditions.empty()) return;
+  throw Failure(ExitCode::bad_input, fmt::format("{}: a sample is of one condition; expected one of {}",
+                                                 study.name, fmt::join(study.conditions, ", ")));
+}
+
 /// The random variables of a point: {"names", "kinds", "units", "distributions", "correlations"}.
 py::dict variables_of(const study::Study& study, std::int64_t point) {
-  study::refuse_conditions(study, "variables of a point");
+  require_one_condition(study);
   const randomness::RandomVariables variables = randomness::random_variables(study, point);
   py::list names, kinds, units, forms;
   std::vector<double> correlations;
@@ -100,7 +110,7 @@ py::array values_at_scores(const study::Study& study, std::int64_t point, const 
 std::vector<trial::TrialOutcome> simulated(const study::Study& study, std::int64_t point,
                                            std::span<const double> x, std::span<const std::int64_t> numbers,
                                            const std::stop_token& stop) {
-  study::refuse_conditions(study, "trials at given values");
+  require_one_condition(study);
   const randomness::RandomVariables variables = randomness::random_variables(study, point);
   const std::size_t width = variables.variables.size();
   const auto draw = [&](std::int64_t number) {

@@ -19,6 +19,7 @@
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/sections/joint_draws.hpp"
+#include "experiments/study/condition_study.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
@@ -250,6 +251,7 @@ void register_study(py::module_& module) {
       .def_readonly("trials", &Study::trials)
       .def_readonly("rigs", &Study::rigs)
       .def_readonly("worlds", &Study::worlds)
+      .def_readonly("conditions", &Study::conditions)
       .def_readonly("moves", &Study::moves)
       .def_property_readonly("labels", [](const Study& s) { return s.points.labels; })
       .def_readonly("sha256", &Study::study_sha256)
@@ -267,6 +269,12 @@ void register_study(py::module_& module) {
       .def_property_readonly("goal", &goal_of)
       .def_property_readonly("goals", &goals_of)
       .def_property_readonly("descriptions", &descriptions)
+      .def(
+          "under",
+          [](const Study& s, const std::string& condition) {
+            return std::make_shared<Study>(study::under_condition(s, study::condition_named(s, condition)));
+          },
+          py::arg("condition"))
       .def("trace", &trace, py::arg("point"), py::arg("trial"), py::arg("law") = py::none());
   register_sampling(object);
 }

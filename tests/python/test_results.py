@@ -165,6 +165,37 @@ def test_trials_tell_how_moves_are_combined(small: zc.Results) -> None:
     assert set(small.moves()) - {"goal_met"} == set(told)
 
 
+@pytest.mark.parametrize("shared", [{"rigs": 6}, {"worlds": 3}, {"rigs": 6, "worlds": 3}], ids=str)
+def test_trials_under_a_condition_are_those_of_its_study(shared: dict[str, int], tmp_path: pathlib.Path) -> None:
+    """The trials under a condition are those of the study with its overrides, with rig and world."""
+    manifest: dict[str, Any] = {
+        "zerocount": 1,
+        "name": "conditions",
+        "seed": 3,
+        "trials": 24,
+        **shared,
+        "friction": {"k1": {"uniform": [90.0, 130.0]}},
+        "command": {"targets": [5, 8], "hold": 0.05},
+    }
+    if "worlds" in shared:
+        manifest["friction"]["alpha"] = {"interval": [0.1, 2.0]}
+    both = zc.study({**manifest, "trials": 48, "conditions": {"empty": {}, "loaded": {"plant.inertia": 9e-4}}})
+    assert both.conditions == ["empty", "loaded"]
+    found = both.run(tmp_path / "both.h5")
+    trials, moves, dataset = found.trials(), found.moves(inputs=True), found.dataset
+    counts = {one["condition"]: one["success"] for one in found.summary["points"][0]["conditions"]}
+    assert trials.groupby("condition", observed=True)["success"].sum().to_dict() == counts
+    assert moves["condition"].tolist() == np.repeat(trials["condition"].to_numpy(), 2).tolist()
+    assert dataset["condition"].values.tolist() == trials["condition"].tolist()
+    for condition, inertia in (("empty", None), ("loaded", 9e-4)):
+        plant = {} if inertia is None else {"plant": {"inertia": inertia}}
+        alone = zc.study({**manifest, **plant}).run(tmp_path / f"{condition}.h5").trials()
+        assert "condition" not in alone
+        mine = trials[trials["condition"] == condition]
+        for name in alone.columns.drop("index"):
+            assert mine[name].tolist() == alone[name].tolist() or same(mine[name].to_numpy(), alone[name].to_numpy()), name
+
+
 def test_the_goal_is_met_where_the_file_says_so(small: zc.Results, results_of: ResultsOf, axis: zc.Study, tmp_path: pathlib.Path) -> None:
     """Moves and trials that meet the goal are those that the program counted."""
     for r in (small, results_of("unknown-friction")):

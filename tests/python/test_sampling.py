@@ -371,6 +371,20 @@ def test_a_study_is_named_in_every_way(axis: zc.Study, first: zc.Results, folder
     assert all(f.names == functions[0].names and same(f(x), functions[0](x)) for f in functions)
 
 
+def test_a_sample_is_of_one_condition(axis: zc.Study) -> None:
+    """Under a condition the function is that of the study with its overrides; without one it is not defined."""
+    study = zc.study({**axis.to_dict(), "conditions": {"empty": {}, "loaded": {"plant.inertia": 9.0}}}).set(trials=32000)
+    with pytest.raises(zc.ManifestError, match="condition= one of empty, loaded"):
+        zc.sample(study, 2)
+    with pytest.raises(zc.ManifestError, match="no condition 'hot'; expected one of empty, loaded"):
+        zc.sample(study, 2, condition="hot")
+    for condition, alone in (("empty", axis), ("loaded", axis.set({"plant.inertia": 9.0}))):
+        f, g = zc.sample(study, 2, outcome="peak_torque", condition=condition), zc.sample(alone, 2, outcome="peak_torque")
+        x = g.draw(20)
+        assert f.names == g.names and same(f(x), g(x))
+        assert same(f.set({"controller.ki": 2e4})(x), g.set({"controller.ki": 2e4})(x))
+
+
 def test_worlds_stay_with_the_numbers_of_trials() -> None:
     """What is drawn for a world is no variable: it follows from the number of the trial."""
     study = shipped("unknown-friction")

@@ -266,8 +266,8 @@ class Results:
         -------
         pandas.DataFrame
             Index ``trial``, the row of the trial in the file. Columns: ``point``, ``index`` (of the trial at its
-            point), ``rig`` if trials share rigs, ``world`` if the study has worlds, the inputs, ``success``
-            (zero counts at the end of every move), ``goal_met`` (every move meets the goal), ``outcome`` (of the
+            point), ``rig`` if trials share rigs, ``world`` if the study has worlds, ``condition`` if it has
+            conditions, the inputs, ``success`` (zero counts at the end of every move), ``goal_met`` (every move meets the goal), ``outcome`` (of the
             worst move), and the measures of the moves, combined. ``attrs["combined"]`` tells how: ``all`` or
             ``any`` of the moves have the quality, the ``sum``, the ``largest`` magnitude (NaN if a move has none),
             or that of the last move (``last``).
@@ -293,7 +293,7 @@ class Results:
         point : int or str, optional
             Number or label of a design point; default: all.
         inputs : bool
-            Join point, index, rig, world and inputs of the trial.
+            Join point, index, rig, world, condition and inputs of the trial.
 
         Returns
         -------
@@ -393,8 +393,8 @@ class Results:
         Returns
         -------
         xarray.Dataset
-            Dimensions ``trial``, ``move`` and ``band``. Coordinates: ``point``, ``index``, the inputs. Variables:
-            the measures of a move. Units and meanings in ``attrs``.
+            Dimensions ``trial``, ``move`` and ``band``. Coordinates: ``point``, ``index``, ``condition`` if the study
+            has conditions, the inputs. Variables: the measures of a move. Units and meanings in ``attrs``.
 
         Examples
         --------
@@ -410,6 +410,8 @@ class Results:
         outcome = self._group("outcome")
         outcome.update(self._columns.meets(self._columns.by_band(outcome)))
         coordinates = {**self._group("trial"), **self._group("trial/input")}
+        if self.checked.conditions:
+            coordinates["condition"] = self._columns.shared(coordinates["index"].values)["condition"]
         names = {name: short_name(name, list(coordinates)) for name in coordinates}
         scales = {name: outcome.pop(name) for name in ("trial", "move")}
         result = xarray.Dataset(

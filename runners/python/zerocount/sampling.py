@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+import _zerocount
+
 from .datasets import Array
 from .errors import ManifestError
 from .optional import required
@@ -46,6 +48,8 @@ class Sample:
         ``[variable, variable]`` correlations of the normal scores: a Gaussian copula.
     outcome : str or callable
         What `__call__` gives of each trial.
+    condition : str, optional
+        The condition that the trials are under; None of a study without conditions.
     """
 
     names: list[str]
@@ -54,6 +58,7 @@ class Sample:
     distributions: list[dict[str, Any]]
     correlations: Numbers = dataclasses.field(repr=False)
     outcome: str | Callable[[dict[str, Array]], Array]
+    condition: str | None
     _study: Study = dataclasses.field(repr=False)
     _threads: int = dataclasses.field(repr=False)
 
@@ -113,8 +118,14 @@ class Sample:
         if not 0 <= first <= MAX_NUMBER - len(values):
             raise ManifestError(f"first = {first} is out of range; expected 0 to {MAX_NUMBER - len(values)}", 2)
         numbers = np.arange(first, first + len(values))
-        result: dict[str, Array] = self._study.checked.simulate(0, values, numbers, self._threads)
+        result: dict[str, Array] = self._checked.simulate(0, values, numbers, self._threads)
         return result
+
+    @property
+    def _checked(self) -> _zerocount.Study:
+        """The study under the condition."""
+        checked = self._study.checked
+        return checked if self.condition is None else checked.under(self.condition)
 
     def _values(self, x: Any) -> Numbers:
         """The values as numbers, those of a DataFrame by name."""
@@ -163,7 +174,9 @@ class Sample:
         ManifestError
             If the variables would be others.
         """
-        result = sample(self._study.set(values, **others), outcome=self.outcome, threads=self._threads)
+        result = sample(
+            self._study.set(values, **others), outcome=self.outcome, condition=self.condition, threads=self._threads
+        )
         if (result.names, result.distributions) != (self.names, self.distributions):
             raise ManifestError(f"the variables would not be the same {', '.join(self.names)}; set what is none of them", 2)
         return result
@@ -185,7 +198,7 @@ class Sample:
         """
         factor = np.linalg.cholesky(self.correlations)
         scores = np.random.default_rng(seed).standard_normal((trials, len(self.names))) @ factor.T
-        result: Numbers = self._study.checked.values_at_scores(0, scores)
+        result: Numbers = self._checked.values_at_scores(0, scores)
         return result
 
     @property
@@ -219,6 +232,7 @@ def sample(
     point: int | str = 0,
     *,
     outcome: str | Callable[[dict[str, Array]], Array] = "success",
+    condition: str | None = None,
     threads: int | None = None,
 ) -> Sample:
     """A design point of a study as a function from its random variables to an outcome, in this process.
@@ -236,6 +250,8 @@ def sample(
     outcome : str or callable
         ``"success"`` (zero counts at the end of every move), or the name of a measure, combined over the moves as
         in ``Results.trials``, or a function of the measures ``{name: [trial, move]}``.
+    condition : str, optional
+        Name of the condition that the trials are under, in a study with conditions.
     threads : int, optional
         Default: all cores.
 
@@ -246,7 +262,7 @@ def sample(
     Raises
     ------
     ManifestError
-        If there is no such measure or point, or nothing is drawn.
+        If there is no such measure, point or condition, or nothing is drawn.
 
     Examples
     --------
@@ -260,7 +276,9 @@ def sample(
     from .studies import study as study_of
 
     subject = (study.study if isinstance(study, Results) else study_of(study)).at(point)
-    variables = subject.checked.variables(0)
+    if condition is None and subject.conditions:
+        raise ManifestError(f"a sample is of one condition; expected condition= one of {', '.join(subject.conditions)}", 2)
+    variables = (subject.checked if condition is None else subject.checked.under(condition)).variables(0)
     measures = subject.checked.descriptions["outcome"]
     if not variables["names"]:
         raise ManifestError(f"{subject.name}: nothing is drawn for its trials; expected a distribution", 2)
@@ -275,6 +293,7 @@ def sample(
         variables["distributions"],
         variables["correlations"],
         outcome,
+        condition,
         subject,
         threads or len(os.sched_getaffinity(0)),
     )

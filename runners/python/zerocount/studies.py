@@ -310,6 +310,11 @@ class Study:
         return self.checked.worlds
 
     @property
+    def conditions(self) -> list[str]:
+        """Names of the conditions that every machine bears; empty: there is one, which the manifest describes."""
+        return self.checked.conditions
+
+    @property
     def moves(self) -> int:
         """Moves of each trial."""
         return self.checked.moves

@@ -30,9 +30,9 @@ class TrialColumns:
     study: _zerocount.Study
 
     def inputs(self, rows: slice | None) -> dict[str, Column]:
-        """[trial] what is known before trials are run: trial, point, index, rig, world and inputs."""
+        """[trial] what is known before trials are run: trial, point, index, rig, world, condition and inputs."""
         columns = self.file.group("trial", rows)
-        columns.update(self._shared(columns["index"].values))
+        columns.update(self.shared(columns["index"].values))
         columns.update(self.file.group("trial/input", rows))
         return columns
 
@@ -116,15 +116,23 @@ class TrialColumns:
                 result[name] = dataclasses.replace(column, values=values, dimensions=("trial",), words=[])
         return result
 
-    def _shared(self, index: Array) -> dict[str, Column]:
-        """[trial] what a trial shares with others: its rig and its world."""
-        counts = {
-            "rig": (self.study.rigs, "index of the rig, the machine of the trial"),
-            "world": (self.study.worlds, "index of the world"),
-        }
-        return {
-            name: Column(index % count, ("trial",), "1", meaning) for name, (count, meaning) in counts.items() if count > 0
-        }
+    def shared(self, index: Array) -> dict[str, Column]:
+        """[trial] what a trial shares with others: its rig, its world and its condition.
+
+        Trial i runs on rig i mod R, under condition i div R mod C, with the draws of i mod R + R * (i div RC).
+        """
+        rigs, conditions = max(self.study.rigs, 1), self.study.conditions
+        turns = rigs * max(len(conditions), 1)
+        draw = index % rigs + rigs * (index // turns)
+        columns = {}
+        if self.study.rigs > 0:
+            columns["rig"] = Column(index % rigs, ("trial",), "1", "index of the rig, the machine of the trial")
+        if self.study.worlds > 0:
+            columns["world"] = Column(draw % self.study.worlds, ("trial",), "1", "index of the world")
+        if conditions:
+            number = index // rigs % len(conditions)
+            columns["condition"] = Column(number, ("trial",), "1", "what the machine bears", conditions)
+        return columns
 
 
 def flat(columns: Mapping[str, Column], dimensions: tuple[str, ...]) -> dict[str, Column]:

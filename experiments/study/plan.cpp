@@ -23,27 +23,6 @@ void refuse_conditions(const Study& study, std::string_view verb) {
                   study.name, study.conditions.size(), verb));
 }
 
-Study under_condition(const Study& study, std::int64_t condition) {
-  Study one = study;
-  if (study.conditions.empty()) return one;
-  auto plan = std::make_shared<StudyPlan>(*study.plan);
-  PlanAxis& axis = plan->axes[plan->condition_axis];
-  const auto option = static_cast<std::size_t>(condition);
-  const std::vector<Assignment> overrides(axis.assignments.begin() + axis.first[option],
-                                          axis.assignments.begin() + axis.first[option + 1]);
-  axis = {{0, static_cast<std::uint32_t>(overrides.size())}, overrides};
-  plan->conditions = 0;
-  one.plan = std::move(plan);
-  one.conditions.clear();
-  one.trials = draw_count(study);
-  one.retained_trials.clear();
-  for (const std::int64_t trial : study.retained_trials) {
-    const TrialTurns turns = turns_of(study);
-    if (turns.condition_of(trial) == condition) one.retained_trials.push_back(turns.draw_of(trial));
-  }
-  return one;
-}
-
 std::size_t option_at(const StudyPlan& plan, std::size_t axis, std::size_t point) {
   for (std::size_t faster = plan.axes.size() - 1; faster > axis; --faster)
     point /= option_count(plan.axes[faster]);

@@ -310,11 +310,6 @@ inline std::int64_t draw_count(const Study& study) {
   return study.trials / condition_count(study);
 }
 
-/// The study under one of its conditions alone: trial j is the one with draw j under this condition
-/// (TrialTurns). Its manifest, and the hash of it, stay those of the whole. The study itself without
-/// conditions.
-Study under_condition(const Study& study, std::int64_t condition);
-
 /// The rig (0 … rigs − 1) of trial `trial_index` at every point, for a study with rigs.
 inline std::int64_t rig_of(const Study& study, std::int64_t trial_index) {
   return trial_index % study.rigs;

@@ -8,6 +8,7 @@
 
 #include "core/failure/failure.hpp"
 #include "experiments/rules/value_rules.hpp"
+#include "experiments/study/condition_study.hpp"
 #include "runners/tuning/idealisations.hpp"
 
 namespace zerocount::tuning {

@@ -16,6 +16,7 @@
 #include "experiments/designs/random_key.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest_text/point_manifest.hpp"
+#include "experiments/study/condition_study.hpp"
 #include "experiments/study/machine_inputs.hpp"
 #include "experiments/study/measured_machines.hpp"
 #include "experiments/study/plan.hpp"

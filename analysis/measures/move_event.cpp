@@ -87,6 +87,11 @@ MoveEvent parse_event(const study::Study& study, std::string_view text) {
   return event;
 }
 
+bool is_asked(const MoveEvent& event, const trial::MoveOutcome& move) {
+  return !event.text.empty() ||
+         std::ranges::any_of(event.goals, [&](const CountedGoal& goal) { return asks(goal, move); });
+}
+
 bool happens(const MoveEvent& event, const trial::MoveOutcome& move) {
   if (event.text.empty())
     return std::ranges::any_of(

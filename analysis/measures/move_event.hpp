@@ -29,6 +29,9 @@ MoveEvent missed_question(const study::Study& study);
 /// @throws Failure (bad_input) unless it is MEASURE, one of > >= < <=, and a number
 MoveEvent parse_event(const study::Study& study, std::string_view text);
 
+/// Whether the event can be that of this move: a goal is about it, or the event is not of goals.
+bool is_asked(const MoveEvent& event, const trial::MoveOutcome& move);
+
 /// Whether the event is that of this move. A time that the move never reached is later than any limit; a
 /// motion that was lost is above any limit.
 bool happens(const MoveEvent& event, const trial::MoveOutcome& move);

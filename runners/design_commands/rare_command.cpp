@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/goal/question.hpp"
 #include "analysis/parallel/parallel.hpp"
@@ -41,7 +43,8 @@ constexpr const char* rare_help =
     "Without a goal the event is a move that does not end at zero counts.\n"
     "--event asks for another event: MEASURE > x, such as 'settling_time > 0.5' or\n"
     "'band_settling_time[1] > 0.05', with a column of moves.csv of 'zerocount export'. Each trial is\n"
-    "on a machine of its own. Of several points --point chooses one, of several worlds --world.\n"
+    "on a machine of its own. Of several points --point chooses one, of several worlds --world, of\n"
+    "several conditions --condition. Of several goals a move misses one of those that are about it.\n"
     "\n"
     "It ends when high is at most --ratio (2) times low, or after --budget (1000000 trials). A budget\n"
     "in time, such as 5min, makes an undecided answer depend on the machine. FILE holds the weighted\n"
@@ -66,6 +69,26 @@ std::optional<std::int64_t> world_to_ask(const command_line::Arguments& argument
                               "'zerocount summary'",
                               arguments.operands()[0], study.worlds));
   return world;
+}
+
+std::optional<std::int64_t> condition_to_ask(const command_line::Arguments& arguments,
+                                             const study::Study& study) {
+  const std::optional<std::string> name = arguments.value("condition");
+  if (study.conditions.empty()) {
+    if (name) arguments.refuse("option '--condition': the study has no conditions");
+    return std::nullopt;
+  }
+  const std::string names = fmt::format("{}", fmt::join(study.conditions, ", "));
+  if (!name)
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: every machine bears each of its {} conditions, and a probability over all "
+                              "of them would be an average; expected --condition with one of {}",
+                              arguments.operands()[0], study.conditions.size(), names));
+  const auto found = std::ranges::find(study.conditions, *name);
+  if (found == study.conditions.end())
+    arguments.refuse(
+        fmt::format("option '--condition': '{}' is not a condition; expected one of {}", *name, names));
+  return found - study.conditions.begin();
 }
 
 measures::MoveEvent event_to_ask(const command_line::Arguments& arguments, const study::Study& study) {
@@ -101,10 +124,10 @@ document::AnswerDescription<rare::RareReading> rare_answer() {
 ExitCode rare(const command_line::Arguments& arguments) {
   const rare::RareSettings settings = settings_of(arguments);
   const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
-  study::refuse_conditions(study, "zerocount rare");
   const auto threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
-  const rare::Question question = rare::question_of(
-      study, named_point(arguments, study), world_to_ask(arguments, study), event_to_ask(arguments, study));
+  const rare::Population of{named_point(arguments, study), world_to_ask(arguments, study),
+                            condition_to_ask(arguments, study)};
+  const rare::Question question = rare::question_of(study, of, event_to_ask(arguments, study));
   if (question.coordinates.empty())
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: it draws nothing for each trial; expected distributions, such as "
@@ -133,6 +156,7 @@ commands::Command rare_command() {
             {"event", "EVENT", "in place of a missed goal: MEASURE > x, with > >= < or <="},
             named_point_option(),
             {"world", "W", "the world, of a study with worlds"},
+            {"condition", "NAME", "the condition, of a study with conditions"},
             {"confidence", "C", "of both bounds together (default 0.95)"},
             {"ratio", "R", "how narrow: high at most R times low (default 2)"},
             {"budget", "B", "a number of trials (default 1000000), or a time such as 60s, 5min or 2h"},

@@ -104,8 +104,9 @@ std::string rare_headline(Of r) {
                                  ? fmt::format("{:.3g} [{:.3g}, {:.3g}]", estimate.probability,
                                                estimate.bounds.low, estimate.bounds.high)
                                  : fmt::format("at most {:.3g}", estimate.bounds.high);
-  return fmt::format("the probability is {}, with {} confidence, that a move {}", number,
-                     text::percent(r.answer.confidence), event_text(r.question));
+  return fmt::format("the probability is {}, with {} confidence, that a move {}{}", number,
+                     text::percent(r.answer.confidence), event_text(r.question),
+                     study::condition_text(r.question.whole, r.question.of.condition.value_or(0)));
 }
 
 std::string status_sentence(Of r) {
@@ -354,10 +355,19 @@ void add_question(Description<RareReading>& items) {
                           ? std::string(goal::words_of(goal::question_of(r.question.study)).subject)
                           : r.question.event.text;
              })
-      .value(in_data("point", "number of the design point"), [](Of r) { return r.question.point; })
-      .value(in_data("label", "label of the design point"),
-             [](Of r) { return r.question.study.points.labels[static_cast<std::size_t>(r.question.point)]; })
-      .value(in_data("world", "the world, of a study with worlds"), [](Of r) { return r.question.world; });
+      .value(in_data("point", "number of the design point"), [](Of r) { return r.question.of.point; })
+      .value(
+          in_data("label", "label of the design point"),
+          [](Of r) { return r.question.study.points.labels[static_cast<std::size_t>(r.question.of.point)]; })
+      .value(in_data("world", "the world, of a study with worlds"), [](Of r) { return r.question.of.world; })
+      .value({.key = "condition",
+              .meaning = "the condition, of a study with conditions",
+              .shown = Shown::in_data,
+              .optional = true},
+             [](Of r) -> std::optional<std::string> {
+               if (!r.question.of.condition) return {};
+               return r.question.whole.conditions[static_cast<std::size_t>(*r.question.of.condition)];
+             });
 }
 
 void add_failures(Description<RareReading>& items) {

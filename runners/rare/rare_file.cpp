@@ -115,8 +115,10 @@ bool fits(const RareRecord& record, const Question& question) {
   const bool searches = std::ranges::all_of(record.state.searches, [](const ScoreSearch& search) {
     return search.score < measures::move_scores.size();
   });
-  const bool world =
-      record.world ? *record.world >= 0 && *record.world < question.study.worlds : question.study.worlds == 0;
+  const auto is_one_of = [](const std::optional<std::int64_t>& number, std::int64_t count) {
+    return number ? *number >= 0 && *number < count : count == 0;
+  };
+  const bool world = is_one_of(record.of.world, question.whole.worlds);
   const bool values = std::ranges::all_of(record.state.proposal.values, [&](const PinnedValue& one) {
     return one.draw < question.space.discrete.size() && one.value >= 0 &&
            one.value < question.space.discrete[one.draw].values();
@@ -185,14 +187,15 @@ void write_rare_file(const std::filesystem::path& path, const Question& question
   const storage::UnfinishedFile part(path);
   hdf5::File file = hdf5::File::create(part.path());
   layout::write_header(
-      file, layout::make_header(question.study, layout::FileKind::rare, layout::all_rows(question.study),
+      file, layout::make_header(question.whole, layout::FileKind::rare, layout::all_rows(question.whole),
                                 layout::current_provenance()));
-  const Json estimate{{"point", question.point},
-                      {"world", question.world ? Json(*question.world) : Json()},
-                      {"event", question.event.text},
-                      {"seconds", seconds},
-                      {"answer", answer},
-                      {"state", state_json(state)}};
+  Json estimate{{"point", question.of.point},
+                {"world", question.of.world ? Json(*question.of.world) : Json()},
+                {"event", question.event.text},
+                {"seconds", seconds},
+                {"answer", answer},
+                {"state", state_json(state)}};
+  if (question.of.condition) estimate["condition"] = *question.of.condition;
   layout::write_single_text(file, "estimate", estimate.dump(),
                             "question, answer and state of the estimate, as JSON");
   write_drawn(file, question, state);
@@ -208,8 +211,9 @@ RareRecord read_rare_file(const std::filesystem::path& path) {
   if (!text) file.fail("/estimate is missing");
   try {
     const Json estimate = Json::parse(*text);
-    record.point = estimate.at("point").get<std::int64_t>();
-    if (!estimate.at("world").is_null()) record.world = estimate.at("world").get<std::int64_t>();
+    record.of.point = estimate.at("point").get<std::int64_t>();
+    if (!estimate.at("world").is_null()) record.of.world = estimate.at("world").get<std::int64_t>();
+    if (estimate.contains("condition")) record.of.condition = estimate.at("condition").get<std::int64_t>();
     record.event = estimate.at("event").get<std::string>();
     record.seconds = estimate.at("seconds").get<double>();
     std::optional<EstimatorState> state = state_of(estimate.at("state"));
@@ -232,12 +236,17 @@ bool is_rare_file(const std::filesystem::path& path) {
 Question recorded_question(const RareRecord& record, const std::filesystem::path& path,
                            std::shared_ptr<const plugin::ControllerPlugin> plugin) {
   study::Study study = layout::recorded_study(record.header, path, std::move(plugin));
-  if (record.point < 0 || record.point >= study::point_count(study))
+  if (record.of.point < 0 || record.of.point >= study::point_count(study))
     throw Failure(ExitCode::bad_data,
                   fmt::format("{}: damaged: its manifest does not have the point", path.string()));
+  const std::int64_t condition = record.of.condition.value_or(0);
+  if (record.of.condition.has_value() == study.conditions.empty() || condition < 0 ||
+      condition >= study::condition_count(study))
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: damaged: its manifest does not have the condition", path.string()));
   measures::MoveEvent event =
       record.event.empty() ? measures::missed_question(study) : measures::parse_event(study, record.event);
-  return question_of(std::move(study), record.point, record.world, std::move(event));
+  return question_of(std::move(study), record.of, std::move(event));
 }
 
 }  // namespace zerocount::rare

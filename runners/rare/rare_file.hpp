@@ -16,8 +16,7 @@ namespace zerocount::rare {
 /// The contents of a file of `zerocount rare`: the header, the question, and the state of the estimate.
 struct RareRecord {
   layout::FileHeader header;
-  std::int64_t point{0};
-  std::optional<std::int64_t> world{};
+  Population of;
   std::string event;  ///< MoveEvent::text
   EstimatorState state;
   double seconds{0.0};  ///< that the estimate took so far

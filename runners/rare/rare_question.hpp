@@ -16,18 +16,27 @@
 /// file, and the report.
 namespace zerocount::rare {
 
+/// The trials of which a probability is: a probability over all worlds, or conditions, would be an average
+/// over what nobody knows, or over what every machine bears.
+struct Population {
+  std::int64_t point{0};
+  std::optional<std::int64_t> world{};      ///< of a study with worlds
+  std::optional<std::int64_t> condition{};  ///< of a study with conditions
+
+  bool operator==(const Population&) const = default;
+};
+
 /// The event whose probability is sought, and the trials that decide it: each on a machine of its own.
 struct Question {
-  study::Study study;
-  std::int64_t point{0};
-  std::optional<std::int64_t> world{};  ///< of a study with worlds
+  study::Study whole;  ///< of the manifest
+  study::Study study;  ///< under the condition
+  Population of;
   measures::MoveEvent event;
   std::vector<randomness::RandomCoordinate> coordinates;
   TrialSpace space;  ///< of the coordinates
 };
 
-Question question_of(study::Study study, std::int64_t point, std::optional<std::int64_t> world,
-                     measures::MoveEvent event);
+Question question_of(study::Study study, const Population& of, measures::MoveEvent event);
 
 /// The random numbers of a trial.
 study::GivenDraws draws_at(const Question& question, const TrialPoint& trial);
@@ -35,7 +44,7 @@ study::GivenDraws draws_at(const Question& question, const TrialPoint& trial);
 /// The parameters and inputs of a trial.
 study::StudyTrial trial_at(const Question& question, const TrialPoint& trial);
 
-/// Proportion of the moves to which the event happens, and the scores measures::move_scores.
+/// Proportion of the moves that are asked to which the event happens, and the scores measures::move_scores.
 PointResult result_of(const Question& question, std::span<const trial::MoveOutcome> moves);
 
 /// Runs trials with these random numbers on all cores; the results in their order.

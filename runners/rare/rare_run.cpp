@@ -28,11 +28,12 @@ constexpr double seconds_between_writes = 60.0;
 
 /// In what the file's question differs from this one; empty if it does not.
 std::string difference(const fs::path& file, const RareRecord& record, const Question& question) {
-  if (record.header.study_sha256 != question.study.study_sha256)
+  if (record.header.study_sha256 != question.whole.study_sha256)
     return fmt::format("its study is another: {}",
-                       layout::differences_from(file, record.header, question.study));
-  if (record.point != question.point) return "it is of another design point";
-  if (record.world != question.world) return "it is of another world";
+                       layout::differences_from(file, record.header, question.whole));
+  if (record.of.point != question.of.point) return "it is of another design point";
+  if (record.of.world != question.of.world) return "it is of another world";
+  if (record.of.condition != question.of.condition) return "it is of another condition";
   if (record.event != question.event.text) return "it is of another event";
   if (!layout::same_build(record.header.provenance, layout::current_provenance()))
     return "it was made by another build of the program";

@@ -124,7 +124,7 @@ ExitCode trace_rare(const command_line::Arguments& arguments, const std::filesys
   const rare::WeightedTrial& trial = record.state.drawn[static_cast<std::size_t>(index)];
   const study::StudyTrial drawn_trial = rare::trial_at(question, trial.point);
   const shards::TrialResult replayed =
-      write_trace_to(place, {question.study, question.point, index, drawn_trial}, json);
+      write_trace_to(place, {question.study, question.of.point, index, drawn_trial}, json);
   const std::vector<study::GivenDraws> draws{rare::draws_at(question, trial.point)};
   const double failed = rare::run_trials(question, draws, {}).front().failed;
   if (failed == trial.failed) {

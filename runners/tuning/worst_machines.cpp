@@ -314,17 +314,13 @@ class MachineSearch {
                 });
   }
 
-  bool is_asked(const trial::MoveOutcome& move) const {
-    return std::ranges::any_of(event_.goals, [&](const auto& goal) { return measures::asks(goal, move); });
-  }
-
   /// The moves that meet the goals which ask them, and the score of each; the largest double where it was
   /// never reached.
   ClaimResult result_of(std::span<const trial::TrialOutcome> outcomes) const {
     ClaimResult result;
     for (const trial::TrialOutcome& outcome : outcomes) {
       for (const trial::MoveOutcome& move : outcome.moves) {
-        if (!is_asked(move)) continue;
+        if (!measures::is_asked(event_, move)) continue;
         const double score = measures::score_of(measures::MoveScore::event, event_, move);
         ++result.moves;
         result.met += measures::happens(event_, move) ? 0 : 1;

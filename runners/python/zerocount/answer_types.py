@@ -1601,6 +1601,8 @@ class RareAnswer(Answer):
         Label of the design point.
     world : int or None
         The world, of a study with worlds.
+    condition : str or None
+        The condition, of a study with conditions.
     plain : Plain
         What the plain trials show.
     scores : pandas.DataFrame
@@ -1654,6 +1656,7 @@ class RareAnswer(Answer):
     point: int
     label: str
     world: int | None
+    condition: str | None
     plain: Plain
     scores: pandas.DataFrame
     values_: pandas.DataFrame

@@ -209,6 +209,44 @@ TEST_F(Rare, OtherVerbsSayThatItHoldsNoStudy) {
     expect_refused({verb, "rare.h5"}, "an estimate of 'zerocount rare'", 4);
 }
 
+// The estimate under a condition is that of the study whose manifest has its overrides, and goes on as such.
+TEST_F(Rare, IsOfOneCondition) {
+  const std::string text = spring(1e-4);
+  folder_.write("both.yaml", text + "conditions: {usual: {}, weak: {dac.bits: 11}}\n");
+  folder_.write("weak.yaml", text);
+  expect_refused({"rare", "both.yaml", "-o", "out.h5"}, "expected --condition with one of usual, weak");
+  expect_refused({"rare", "both.yaml", "-o", "out.h5", "--condition", "strong"},
+                 "'strong' is not a condition");
+  expect_refused({"rare", "weak.yaml", "-o", "out.h5", "--condition", "weak"}, "the study has no conditions");
+  for (const auto& [condition, bits] : {std::pair{"usual", "12"}, std::pair{"weak", "11"}}) {
+    const Json alone = answer_to({"rare", "weak.yaml", "-o", "alone.h5", "--force", "--set",
+                                  std::string("dac.bits=") + bits, "--set", "trials=50"});
+    const Json of_it = answer_to({"rare", "both.yaml", "-o", "rare.h5", "--force", "--condition", condition});
+    EXPECT_EQ(of_it["condition"], condition);
+    for (const char* const number : {"probability", "low", "high", "trials"})
+      EXPECT_EQ(of_it[number], alone[number]) << condition;
+    EXPECT_FALSE(alone.contains("condition"));
+  }
+  // The file knows its condition: it goes on with it, refuses another, and replays its trials.
+  answer_to({"rare", "both.yaml", "-o", "rare.h5", "--condition", "weak"});
+  expect_refused({"rare", "both.yaml", "-o", "rare.h5", "--condition", "usual"},
+                 "it is of another condition");
+  EXPECT_EQ(program({"trace", "rare.h5", "--trial", "0", "-o", "trial.csv"}).code, 0);
+}
+
+// A move that no goal is about does not dilute the probability.
+TEST_F(Rare, CountsTheMovesThatTheGoalIsAbout) {
+  const std::string text = spring(1e-3);
+  folder_.write("one.yaml", text);
+  const double one = answer_to({"rare", "one.yaml", "-o", "one.h5"})["probability"];
+  std::string two = text;
+  const std::string goal = "goal: {band: 0";
+  two.replace(two.find(goal), goal.size(), "goal: {on: [0], band: 0");
+  folder_.write("two.yaml", two);
+  const Json answer = answer_to({"rare", "two.yaml", "-o", "two.h5", "--set", "command.targets=[30, 0]"});
+  EXPECT_NEAR(answer["probability"].get<double>(), one, 0.4 * one);
+}
+
 TEST_F(Rare, SaysWhatIsMissing) {
   folder_.write("fixed.yaml",
                 "zerocount: 1\nname: fixed\nseed: 1\ntrials: 1\ncommand: {targets: [1], hold: 0.1}\n"

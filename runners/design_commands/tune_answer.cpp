@@ -195,9 +195,10 @@ std::string met_headline(Of tuning) {
   std::string text = study.goals.size() > 1
                          ? fmt::format("met: all {} goals are met by these values", study.goals.size())
                          : std::string("met: the goal is met by these values");
-  if (!tuning::has_named_claims(study)) return text;
+  if (study.goals.size() * static_cast<std::size_t>(study::condition_count(study)) < 2) return text;
   const tuning::ClaimPlace worst = worst_claim(tuning.answer.proof->verdict);
-  if (!study.conditions.empty()) text += fmt::format(" under each of {} conditions", study.conditions.size());
+  if (study.conditions.size() > 1)
+    text += fmt::format(" under each of {} conditions", study.conditions.size());
   text += study.goals.size() > 1 ? fmt::format(", '{}'", *tuning::goal_name(study, worst)) : ", that";
   return text + study::condition_text(study, static_cast<std::int64_t>(worst.condition)) + " by the least";
 }
@@ -576,18 +577,19 @@ Description<RoomRow> room_columns() {
       .value({.heading = "unit"}, [](Row row) { return row.unit; });
 }
 
-/// Where several goals and conditions end the room: "controller.kp above: of goal 'small' under condition
-/// loaded".
+/// What several goals and conditions lose beyond the room: "controller.kp above its room: the goal 'small' is
+/// lost under condition loaded".
 std::string ends_of_room_sentence(Of tuning) {
-  if (!tuning::has_named_claims(tuning.study)) return "";
+  const study::Study& study = tuning.study;
+  if (!tuning::has_named_claims(study)) return "";
   std::vector<std::string> ends;
   for (const tuning::Room& one : tuning.answer.room) {
     for (const auto& [lost, side] :
          {std::pair(one.lost_below, "below"), std::pair(one.lost_above, "above")}) {
-      if (lost)
-        ends.push_back(fmt::format(
-            "{} its room the goal is lost{} ({})", side,
-            tuning::text_of_claim(tuning.study, tuning::place_of_claim(tuning.study, *lost)), one.name));
+      if (!lost) continue;
+      const auto condition = static_cast<std::int64_t>(tuning::place_of_claim(study, *lost).condition);
+      ends.push_back(fmt::format("{} {} its room: the goal{} is lost{}", one.name, side,
+                                 lost_goal_text(study, *lost), study::condition_text(study, condition)));
     }
   }
   return fmt::format("{}", fmt::join(ends, "\n"));

@@ -67,7 +67,8 @@ std::optional<std::filesystem::path> page_option(const command_line::Arguments& 
   return page;
 }
 
-/// The answer with its figures, then the report on the results file of the proof, where there is one.
+/// The answer with its figures, then the report on the results file of the proof, where there is one that
+/// can be reported.
 report::ReportPage tuning_page(const Tuning& tuning) {
   report::ReportPage page =
       report::answer_page(tune_answer().of(tuning, ExitCode::success, document::Audience::people));
@@ -75,7 +76,8 @@ report::ReportPage tuning_page(const Tuning& tuning) {
   page.subtitle = tuning.study.description;
   page.sections.front().name = "tuning";
   page.sections.front().title = "Tuning";
-  if (!tuning.answer.proof) return page;
+  // A report does not tell conditions apart.
+  if (!tuning.answer.proof || !tuning.study.conditions.empty()) return page;
   for (report::PageSection& section :
        report::study_report(reading::AllTrialsFile(tuning.output)).page.sections)
     page.sections.push_back(std::move(section));

@@ -114,6 +114,70 @@ TEST(TuneAnswer, NamesWhatTheBudgetWasNotEnoughFor) {
   EXPECT_EQ(json_of(answer, study)["left_out"], (nlohmann::ordered_json{"room", "limits"}));
 }
 
+/// A verdict on each of two goals under each of two conditions: the second goal is the worst, under the
+/// second.
+goal::Verdict verdict_on_claims() {
+  goal::Verdict whole;
+  for (std::size_t goal = 0; goal < 2; ++goal) {
+    goal::Verdict of_goal;
+    for (std::size_t condition = 0; condition < 2; ++condition) {
+      goal::Verdict& one = of_goal.conditions.emplace_back();
+      one.status = goal::Status::met;
+      one.moves.value = 0.99 - 0.02 * static_cast<double>(goal) - 0.01 * static_cast<double>(condition);
+    }
+    of_goal.moves = of_goal.conditions[1].moves;
+    of_goal.condition = 1;
+    whole.goals.push_back(of_goal);
+  }
+  whole.status = goal::Status::met;
+  whole.moves = whole.goals[1].moves;
+  whole.goal = 1;
+  whole.condition = 1;
+  return whole;
+}
+
+TEST(TuneAnswer, NamesTheGoalAndTheConditionThatAreMetByTheLeast) {
+  const study::Study study = manifest::parse_study(R"(zerocount: 1
+name: axis
+seed: 1
+trials: 10
+command: {targets: [9, 0], hold: 0.1}
+conditions: {empty: {}, loaded: {plant.inertia: 8.0e-4}}
+controller: {ki: 2.0e-5}
+goals: {large: {on: [0], band: 1, within: 0.05, moves: 0.9}, small: {on: [1], band: 1, within: 0.02, moves: 0.9}}
+tune: {free: {controller.ki: {log: [1.0e-5, 1.0e-4]}, controller.kp: [0, 1.0e-3]}}
+)",
+                                                   "axis.yaml");
+  TuneAnswer answer = answer_for(study, goal::Status::met);
+  answer.proof->verdict = verdict_on_claims();
+  answer.criterion = 0.7;
+  answer.delay_sought = true;
+  answer.delay_lost = tuning::DelayLost{1.5, 0};
+  answer.delay = 1.0;
+  answer.room = {{"controller.ki", 1e-5, 2e-5, std::nullopt, 3}};
+  const nlohmann::ordered_json json = json_of(answer, study);
+  EXPECT_EQ(json["headline"],
+            "met: all 2 goals are met by these values under each of 2 conditions, 'small' under condition "
+            "loaded by the least");
+  ASSERT_EQ(json["claims"].size(), 4U);
+  EXPECT_EQ(json["claims"][1]["goal"], "large");
+  EXPECT_EQ(json["claims"][1]["condition"], "loaded");
+  EXPECT_EQ(json["claims"][2]["rate"], 0.97);
+  EXPECT_EQ(json["proof"]["goal"], "small");
+  EXPECT_EQ(json["proof"]["condition"], "loaded");
+  EXPECT_EQ(json["proof"]["rate"], 0.96);
+  const std::string text = text_of(answer, study);
+  EXPECT_THAT(text, HasSubstr("the worst of goal 'small' under condition loaded: 96 % of its moves meet it"));
+  EXPECT_THAT(text,
+              HasSubstr("the largest of all goals and conditions: 0.7 of the time that its goal allows\n"));
+  EXPECT_THAT(text, HasSubstr("with 0.5 samples more of controller.delay the goal 'large' seems lost, first "
+                              "under condition empty\n"));
+  EXPECT_THAT(text,
+              HasSubstr("controller.ki above its room: the goal 'small' is lost under condition loaded\n"));
+  const study::Study alone = axis();
+  EXPECT_FALSE(json_of(answer_for(alone, goal::Status::met), alone).contains("claims"));
+}
+
 // What is printed as soon as it is proven, and the rest, are the whole.
 TEST(TuneAnswer, IsTheProvenPartAndTheRest) {
   const study::Study study = axis();

@@ -251,9 +251,10 @@ class Description {
   template <class Part, class Get>
   Description& add_rows(Item item, Description<Part> parts, Get get) {
     item.members = parts.items();
+    const bool optional = item.optional;
     return add(std::move(item),
-               [parts = std::move(parts), get = std::move(get), optional = item.optional](
-                   const Row& row, Audience audience) -> Content {
+               [parts = std::move(parts), get = std::move(get), optional](const Row& row,
+                                                                          Audience audience) -> Content {
                  Rows rows;
                  auto&& found = std::invoke(get, row);
                  for (const Part& part : found) rows.rows.push_back(parts.members_of(part, audience));

@@ -109,7 +109,7 @@ class PointLimits {
     for (const Idealisation* one : switched_off) {
       if (!one->refusal.empty()) return one->refusal;
     }
-    if (const std::string refusal = rules::refusal_of(at); !switched_off.empty() && !refusal.empty())
+    if (std::string refusal = rules::refusal_of(at); !switched_off.empty() && !refusal.empty())
       return refusal;
     const Change change = [&](trial::TrialParameters& p) {
       for (const Idealisation* one : switched_off) {

@@ -115,6 +115,19 @@ TEST(Candidate, IsDroppedByTheClaimThatItMisses) {
   EXPECT_FALSE(surely_misses(two_goals, reliable, reliable, 0.01));
 }
 
+// The criterion is the largest of all claims: a claim with 3 % beyond the limit is as early as the latest of
+// `best`, of which 4 % are beyond it.
+TEST(Candidate, IsNotLaterByAClaimThatIsEarlierThanTheLatestOfTheBest) {
+  constexpr int units = 2000;
+  Candidate best = candidate_with({{1.0, 0.2}, {1.0, 0.2}, {1.0, 0.2}, {1.0, 0.4}}, units);
+  for (int i = 0; i < units; i += 25) best.units[static_cast<std::size_t>(i)].claims[3].values = {0.9};
+  Candidate other = best;
+  for (int i = 0; i < units; i += 33) other.units[static_cast<std::size_t>(i)].claims[0].values = {0.9};
+  EXPECT_FALSE(is_significantly_later(two_goals, other, best, 0.01));
+  for (int i = 0; i < units; i += 5) other.units[static_cast<std::size_t>(i)].claims[0].values = {0.9};
+  EXPECT_TRUE(is_significantly_later(two_goals, other, best, 0.01));
+}
+
 // The error probability holds for all numbers of units together, for differences of any shape.
 TEST(Candidate, EvidenceRarelyAccusesTheInnocent) {
   std::mt19937_64 random(7);

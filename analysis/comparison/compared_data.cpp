@@ -86,6 +86,7 @@ TrialGoal counted_in(const reading::AllTrialsFile& file, const study::Goal& goal
 std::vector<TrialGoal> all_counted_in(const reading::AllTrialsFile& file,
                                       const std::vector<study::Goal>& goals) {
   std::vector<TrialGoal> counted;
+  counted.reserve(goals.size());
   for (const study::Goal& goal : goals) counted.push_back(counted_in(file, goal));
   return counted;
 }
@@ -127,6 +128,7 @@ AlsoRead read_by(const std::vector<study::Goal>& goals, const reading::AllTrials
 
 std::vector<std::string> names_of(const std::vector<TrialGoal>& goals) {
   std::vector<std::string> names;
+  names.reserve(goals.size());
   for (const TrialGoal& one : goals) names.push_back(one.goal.name);
   return names;
 }

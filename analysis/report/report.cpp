@@ -73,8 +73,7 @@ PageSection success_section(const ReportedStudy& reported) {
   std::vector<Figure> maps = stability_maps(reported);
   // A study with a map has many points: the map shows them better than a long table.
   (maps.empty() ? section.html : section.html_after) = points_html(reported);
-  if (std::optional<Figure> success = success_figure(reported))
-    section.figures.push_back(std::move(*success));
+  section.figures = success_figures(reported);
   for (Figure& map : maps) section.figures.push_back(std::move(map));
   return section;
 }

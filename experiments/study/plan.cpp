@@ -19,7 +19,7 @@ void refuse_conditions(const Study& study, std::string_view verb) {
   throw Failure(
       ExitCode::bad_input,
       fmt::format("{}: it has {} conditions, which are not told apart by '{}'; expected a study without "
-                  "conditions (check, run, trace, summary, judge and export know them)",
+                  "conditions: the overrides of one of them can stand in its sections, or be given by --set",
                   study.name, study.conditions.size(), verb));
 }
 

@@ -84,13 +84,13 @@ std::vector<double> AllTrialsFile::inputs_of(std::int64_t row) const {
 std::vector<layout::JerkRecord> AllTrialsFile::jerks_at(std::int64_t first, std::int64_t count) const {
   std::vector<layout::JerkRecord> found = trials()->jerks_at(first, count);
   if (!condition_) return found;
-  const auto& [turns, number, trials_of_point] = *condition_;
+  const OneCondition& one = *condition_;
   std::erase_if(found, [&](const layout::JerkRecord& jerk) {
-    return turns.condition_of(jerk.trial % trials_of_point) != number;
+    return one.turns.condition_of(jerk.trial % one.trials) != one.number;
   });
   for (layout::JerkRecord& jerk : found) {
-    const std::int64_t point = jerk.trial / trials_of_point;
-    jerk.trial = point * header().trials + turns.draw_of(jerk.trial % trials_of_point);
+    const std::int64_t point = jerk.trial / one.trials;
+    jerk.trial = point * header().trials + one.turns.draw_of(jerk.trial % one.trials);
   }
   return found;
 }

@@ -10,8 +10,9 @@
 /// The figures of a report. A figure is omitted if the study lacks its data.
 namespace zerocount::report {
 
-/// Success per point with bounds: over a swept number if there is one, otherwise one line per point.
-std::optional<Figure> success_figure(const ReportedStudy& reported);
+/// Success per point with bounds: over a swept number if there is one, otherwise one line per point. Several
+/// goals have a figure each, and points a line under each condition.
+std::vector<Figure> success_figures(const ReportedStudy& reported);
 
 /// Success over two swept numbers, with the curves of the criteria (6) and (7): one map for each combination
 /// of the other axes.

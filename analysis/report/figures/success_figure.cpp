@@ -34,9 +34,9 @@ std::vector<FigureColumn> common_columns(const ReportedStudy& reported) {
           {"trials", std::string(words.events), "1"}};
 }
 
-/// What a point has a line of its own for: a goal, of several, under a condition, where there are any.
-struct ShownSubject {
-  std::string name;  ///< "small, loaded"; empty where a point has one line
+/// The trials that a point has a line of its own for: all, or those under a condition.
+struct ShownLine {
+  std::string condition;  ///< empty without conditions
   const ReportedStudy& study;
   goal::Question question;
 
@@ -45,34 +45,44 @@ struct ShownSubject {
   }
 };
 
-std::vector<ShownSubject> subjects_of(const ReportedStudy& reported) {
-  std::vector<ShownSubject> subjects;
+/// What a figure of rates is of: the study's question, or one of several goals.
+struct RateSubject {
+  std::string goal{};  ///< its name; empty where there are not several
+  std::vector<ShownLine> lines{};
+
+  std::string figure() const { return goal.empty() ? "success" : "success-" + goal; }
+  std::string title(std::string_view of_all) const {
+    return goal.empty() ? std::string(of_all) : fmt::format("{}: {}", of_all, goal);
+  }
+};
+
+std::vector<RateSubject> rate_subjects(const ReportedStudy& reported) {
+  std::vector<RateSubject> subjects;
   for (const goal::JudgedPart& part : question_of(reported).parts) {
-    const std::string goal = has_several(question_of(reported)) ? part.claim->name : "";
+    RateSubject& subject = subjects.emplace_back();
+    if (has_several(question_of(reported))) subject.goal = part.claim->name;
     for (const ReportedPart& one : parts_of(reported))
-      subjects.push_back({goal.empty() ? one.condition : study::label_under(goal, one.condition), one.study,
-                          only(question_of(one.study), part.number)});
+      subject.lines.push_back({one.condition, one.study, only(question_of(one.study), part.number)});
   }
   return subjects;
 }
 
-/// "kp=400 ★, small, loaded"; of the lines of a study with one point "small, loaded".
-std::string label_of_line(const ReportedStudy& reported, std::int64_t point, const ShownSubject& subject) {
-  return reported.names.size() == 1 && !subject.name.empty()
-             ? subject.name
-             : study::label_under(marked_label_of(reported, point), subject.name);
+/// "kp=400 ★, loaded"; of the lines of a study with one point "loaded".
+std::string label_of_line(const ReportedStudy& reported, std::int64_t point, const ShownLine& line) {
+  return reported.names.size() == 1 && !line.condition.empty()
+             ? line.condition
+             : study::label_under(marked_label_of(reported, point), line.condition);
 }
 
-ordered_json row_of(const ReportedStudy& reported, std::int64_t point, const ShownSubject& subject) {
-  const goal::QuestionRate rate = subject.rate(point);
-  return ordered_json::array({label_of_line(reported, point, subject), datum(rate.value),
-                              datum(rate.bounds.low), datum(rate.bounds.high), rate.hits, rate.events});
+ordered_json row_of(const ReportedStudy& reported, std::int64_t point, const ShownLine& line) {
+  const goal::QuestionRate rate = line.rate(point);
+  return ordered_json::array({label_of_line(reported, point, line), datum(rate.value), datum(rate.bounds.low),
+                              datum(rate.bounds.high), rate.hits, rate.events});
 }
 
-/// " under each condition, for each goal"; empty where a point has one line.
-std::string subjects_text(const ReportedStudy& reported) {
-  return fmt::format("{}{}", has_conditions(reported) ? " under each condition" : "",
-                     has_several(question_of(reported)) ? ", for each goal" : "");
+/// " under each condition"; empty where a point has one line.
+std::string_view lines_text(const ReportedStudy& reported) {
+  return has_conditions(reported) ? " under each condition" : "";
 }
 
 /// Puts the words of the question in place of those of success.
@@ -100,13 +110,12 @@ std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported, std::
   return shown;
 }
 
-Figure line_per_point(const ReportedStudy& reported) {
-  const std::vector<ShownSubject> subjects = subjects_of(reported);
-  const std::vector<std::int64_t> shown = points_with_lines(reported, std::ssize(subjects));
+Figure line_per_point(const ReportedStudy& reported, const RateSubject& subject) {
+  const std::vector<std::int64_t> shown = points_with_lines(reported, std::ssize(subject.lines));
   const goal::Question& question = question_of(reported);
   const goal::QuestionWords& words = words_of(question);
   std::string caption =
-      fmt::format("Proportion of the {}, of all of each point{}{}. ", words.meeting, subjects_text(reported),
+      fmt::format("Proportion of the {}, of all of each point{}{}. ", words.meeting, lines_text(reported),
                   goal::is_of_worst_world(question) ? " in its worst world" : "");
   if (!reported.summary.features.dependent_trials) {
     caption +=
@@ -121,17 +130,18 @@ Figure line_per_point(const ReportedStudy& reported) {
   FigureData data{"points", common_columns(reported)};
   double lowest = 1.0;
   for (const std::int64_t point : shown) {
-    for (const ShownSubject& subject : subjects) {
-      data.rows.push_back(row_of(reported, point, subject));
-      lowest = std::min(lowest, subject.rate(point).bounds.low);
+    for (const ShownLine& line : subject.lines) {
+      data.rows.push_back(row_of(reported, point, line));
+      lowest = std::min(lowest, line.rate(point).bounds.low);
     }
   }
-  Figure figure = figure_of("success", "success", fmt::format("{} at each point", words.title),
-                            caption + bounds_note(reported), {std::move(data)});
+  Figure figure =
+      figure_of("success", subject.figure(), subject.title(fmt::format("{} at each point", words.title)),
+                caption + bounds_note(reported), {std::move(data)});
   speak_of_question(figure, words);
   const double from = lowest > 0.9 ? std::floor(lowest * 100.0) / 100.0 : 0.0;
   figure.specification["layer"][0]["encoding"]["x"]["scale"]["domain"] = {from, 1};
-  set_rows(figure, shown.size() * subjects.size(), 24);
+  set_rows(figure, shown.size() * subject.lines.size(), 24);
   return figure;
 }
 
@@ -147,34 +157,34 @@ std::vector<std::int64_t> groups_shown(const ReportedStudy& reported, const std:
   return shown;
 }
 
-Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
+Figure along_axis(const ReportedStudy& reported, const RateSubject& subject, std::size_t axis) {
   const study::SweepAxis& swept = reported.summary.axes[axis];
   const goal::QuestionWords& words = words_of(question_of(reported));
-  const std::vector<ShownSubject> subjects = subjects_of(reported);
   const std::vector<PointGroup> groups = groups_along(reported, {axis});
-  const std::int64_t most = std::max<std::int64_t>(max_series / std::ssize(subjects), 1);
+  const std::int64_t most = std::max<std::int64_t>(max_series / std::ssize(subject.lines), 1);
   std::string caption = fmt::format(
       "Proportion of the {}, of all of each point{} (line), over {}. A star marks the chosen point. ",
-      words.meeting, subjects_text(reported), axis_title(swept));
+      words.meeting, lines_text(reported), axis_title(swept));
   if (std::ssize(groups) > most) {
     caption += fmt::format("Shown are {} of {} lines{}: that of the chosen point, and others evenly spaced. ",
-                           most, groups.size(), subjects_text(reported));
+                           most, groups.size(), lines_text(reported));
   }
   FigureData data{"points", common_columns(reported)};
   data.columns.push_back({"x", swept.name, swept.unit});
   data.columns.push_back({"series", "", ""});
   for (const std::int64_t shown : groups_shown(reported, groups, most)) {
     const PointGroup& group = groups[static_cast<std::size_t>(shown)];
-    for (const ShownSubject& subject : subjects) {
+    for (const ShownLine& line : subject.lines) {
       for (const std::int64_t point : group.points) {
-        ordered_json row = row_of(reported, point, subject);
+        ordered_json row = row_of(reported, point, line);
         row.push_back(swept.numbers[static_cast<std::size_t>(point)]);
-        row.push_back(group.label.empty() ? subject.name : study::label_under(group.label, subject.name));
+        row.push_back(group.label.empty() ? line.condition : study::label_under(group.label, line.condition));
         data.rows.push_back(std::move(row));
       }
     }
   }
-  Figure figure = figure_of("success-along", "success", fmt::format("{} over {}", words.title, swept.name),
+  Figure figure = figure_of("success-along", subject.figure(),
+                            subject.title(fmt::format("{} over {}", words.title, swept.name)),
                             caption + bounds_note(reported), {std::move(data)});
   speak_of_question(figure, words);
   ordered_json& encoding = figure.specification["encoding"];
@@ -182,16 +192,20 @@ Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
   set_number_format(encoding["x"]["axis"], values_of(swept).back());
   if (spaced_by_ratio(values_of(swept))) encoding["x"]["scale"]["type"] = "log";
   encoding["x"]["scale"]["domain"] = {values_of(swept).front(), values_of(swept).back()};
-  if (groups.size() * subjects.size() == 1) encoding["color"]["legend"] = nullptr;
+  if (groups.size() * subject.lines.size() == 1) encoding["color"]["legend"] = nullptr;
   return figure;
 }
 
 }  // namespace
 
-std::optional<Figure> success_figure(const ReportedStudy& reported) {
-  if (reported.study.open_loop) return std::nullopt;
+std::vector<Figure> success_figures(const ReportedStudy& reported) {
+  std::vector<Figure> figures;
+  if (reported.study.open_loop) return figures;
   const std::vector<std::size_t> numeric = numeric_axes(reported, 3);
-  return numeric.empty() ? line_per_point(reported) : along_axis(reported, numeric.front());
+  for (const RateSubject& subject : rate_subjects(reported))
+    figures.push_back(numeric.empty() ? line_per_point(reported, subject)
+                                      : along_axis(reported, subject, numeric.front()));
+  return figures;
 }
 
 }  // namespace zerocount::report

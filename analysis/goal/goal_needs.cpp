@@ -2,7 +2,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "analysis/goal/goal_chances.hpp"
 #include "analysis/goal/goal_verdict.hpp"
@@ -58,12 +60,13 @@ std::int64_t smallest(std::int64_t low, std::int64_t high, const Decides& decide
 
 constexpr std::int64_t max_more_trials = 1024;  ///< times the trials of a rig that are observed
 
-/// The worlds of a study, or the study itself. Worlds in which the same was observed have the same chances.
-class ObservedStudy {
+/// One claim: a goal, under one condition, in all worlds. Worlds in which the same was observed have the same
+/// chances.
+class ObservedClaim {
  public:
-  ObservedStudy(const study::Goal& goal, const std::vector<measures::MoveCounts>& worlds, std::size_t points,
-                std::size_t parts)
-      : worlds_(std::ssize(worlds)) {
+  /// @param claims of the study, of which this is one
+  ObservedClaim(const study::Goal& goal, const std::vector<measures::MoveCounts>& worlds, std::size_t points,
+                std::size_t claims) {
     std::map<std::array<double, 3>, std::size_t> known;  // of worlds without rigs
     for (const measures::MoveCounts& world : worlds) {
       const std::array<double, 3> key{static_cast<double>(world.met), static_cast<double>(world.moves),
@@ -72,15 +75,13 @@ class ObservedStudy {
       if (!is_new && world.rigs.empty()) {
         ++different_[at->second].second;
       } else {
-        different_.emplace_back(ObservedWorld(goal, world, points, parts * worlds.size()), 1);
+        different_.emplace_back(ObservedWorld(goal, world, points, claims * worlds.size()), 1);
       }
     }
   }
 
-  std::int64_t worlds() const { return worlds_; }
-
-  /// Probability that a study whose worlds have this size is decided: met in all of them, or missed in one.
-  double chance_of_decision(const PlannedSize& planned) {
+  /// Chances that it is met in all worlds, and that it is missed in one.
+  Chances chances_of(const PlannedSize& planned) {
     double all_met = 1.0;
     double none_missed = 1.0;
     for (auto& [world, alike] : different_) {
@@ -88,73 +89,143 @@ class ObservedStudy {
       all_met *= std::pow(chances.met, static_cast<double>(alike));
       none_missed *= std::pow(1.0 - chances.missed, static_cast<double>(alike));
     }
-    return all_met + 1.0 - none_missed;
+    return {all_met, 1.0 - none_missed};
   }
 
  private:
-  std::int64_t worlds_;
-  std::vector<std::pair<ObservedWorld, std::int64_t>> different_;  ///< and how many are like it
+  std::vector<std::pair<ObservedWorld, std::int64_t>> different_{};  ///< and how many are like it
 };
+
+/// All claims of a study: each goal under each condition. What is known of one says nothing of another.
+class ObservedStudy {
+ public:
+  ObservedStudy(std::span<const study::Goal> goals, std::span<const measures::MoveCounts> counts,
+                std::size_t points) {
+    const std::vector<measures::MoveCounts>& conditions = counts.front().of_conditions;
+    conditions_ = std::max<std::int64_t>(std::ssize(conditions), 1);
+    for (std::size_t i = 0; i < goals.size(); ++i) {
+      for (std::size_t c = 0; c < static_cast<std::size_t>(conditions_); ++c) {
+        const measures::MoveCounts& one = measures::under_condition(counts[i], c);
+        const auto worlds = one.worlds > 0 ? measures::in_worlds(one) : std::vector{one};
+        has_moves_ = has_moves_ && std::ranges::all_of(worlds, [](const auto& of) { return of.moves > 0; });
+        if (!has_moves_) return;
+        worlds_ = std::ssize(worlds);
+        if (!one.rigs.empty()) trials_of_rig_ = worlds.front().rigs.front().trials;
+        claims_.emplace_back(goals[i], worlds, points, goals.size() * static_cast<std::size_t>(conditions_));
+      }
+    }
+  }
+
+  bool has_moves() const { return has_moves_; }
+  std::int64_t worlds() const { return worlds_; }
+  std::int64_t conditions() const { return conditions_; }
+  std::int64_t trials_of_rig() const { return trials_of_rig_; }  ///< under one condition; 0 without rigs
+
+  /// Probability that a study whose worlds have this size is decided, at least, whatever the claims have in
+  /// common: it is if no claim is undecided, or if one is missed.
+  double chance_of_decision(const PlannedSize& planned) {
+    double undecided = 0.0;
+    double missed = 0.0;
+    for (ObservedClaim& claim : claims_) {
+      const Chances chances = claim.chances_of(planned);
+      undecided += 1.0 - chances.met - chances.missed;
+      missed = std::max(missed, chances.missed);
+    }
+    return std::max(1.0 - undecided, missed);
+  }
+
+ private:
+  std::vector<ObservedClaim> claims_{};
+  std::int64_t worlds_{1}, conditions_{1}, trials_of_rig_{0};
+  bool has_moves_{true};
+};
+
+/// The smallest number of machines, or without rigs of trials, that meets the goal if no move misses it; 0 if
+/// there is none. @param trials on each; 0: no trials share a rig
+std::int64_t smallest_without_miss(const AskedGoal& asked, std::int64_t trials, std::size_t points) {
+  const auto met = [&](const measures::MoveCounts& counts) {
+    return judge_goal(asked.goal, counts, points).status == Status::met;
+  };
+  const std::int64_t moves = asked.moves;
+  if (trials > 0) {
+    const std::vector<statistics::RigMoves> rig{{trials, trials * moves, trials * moves}};
+    return smallest(2, max_rigs, [&](std::int64_t n) { return met(rigs_like(rig, n)); });
+  }
+  const statistics::ClusterSums of_one = {.clusters = 1,
+                                          .hits = moves,
+                                          .events = moves,
+                                          .hits_squared = static_cast<double>(moves * moves),
+                                          .hits_by_events = static_cast<double>(moves * moves),
+                                          .events_squared = static_cast<double>(moves * moves)};
+  const measures::MoveCounts trial{moves, moves, of_one, {}};
+  return smallest(2, max_trials,
+                  [&](std::int64_t n) { return met(larger_study(trial, static_cast<double>(n))); });
+}
 
 }  // namespace
 
-Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
-               double probability, std::size_t parts) {
-  if (!counts.of_conditions.empty()) {
-    const std::size_t conditions = counts.of_conditions.size();
-    const std::size_t worst = judge_goal(goal, counts, points, parts).condition;
-    Needs needs = needs_of(goal, counts.of_conditions[worst], points, probability, parts * conditions);
-    needs.trials *= static_cast<std::int64_t>(conditions);
-    return needs;
-  }
-  const std::vector<measures::MoveCounts> all =
-      counts.worlds > 0 ? measures::in_worlds(counts) : std::vector{counts};
-  if (std::ranges::any_of(all, [](const measures::MoveCounts& world) { return world.moves == 0; })) return {};
-  ObservedStudy observed(goal, all, points, parts);
+std::vector<Needs> deciding_studies(std::span<const study::Goal> goals,
+                                    std::span<const measures::MoveCounts> counts, std::size_t points,
+                                    double probability) {
+  ObservedStudy observed(goals, counts, points);
+  if (!observed.has_moves()) return {};
   const std::int64_t worlds = observed.worlds();
   const auto smallest_with = [&](std::int64_t most, std::int64_t more) {
     return smallest(2, most, [&](std::int64_t units) {
       return observed.chance_of_decision({units, more}) >= probability;
     });
   };
-  if (counts.rigs.empty()) return {0, worlds * smallest_with(max_trials / worlds, 1)};
-  // More trials on each rig are needed where those observed cannot tell rigs that meet the goal from others.
-  for (std::int64_t more = 1; more <= max_more_trials; more *= 2) {
-    const std::int64_t each = more * counts.rigs.front().trials;
-    const std::int64_t rigs = smallest_with(std::min(max_rigs, max_trials / each / worlds), more);
-    if (rigs > 0) return {rigs * worlds, rigs * each * worlds};
-  }
-  return {};
-}
-
-std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_rigs, std::int64_t moves,
-                                    std::size_t points, std::int64_t worlds) {
-  if (worlds > 0) {
-    std::vector<Needs> studies = smallest_studies(goal, on_rigs, moves, points);
-    for (Needs& one : studies) one = {one.rigs * worlds, one.trials * worlds};
+  std::vector<Needs> studies;
+  if (observed.trials_of_rig() == 0) {
+    const std::int64_t trials = worlds * observed.conditions() * smallest_with(max_trials / worlds, 1);
+    if (trials > 0) studies.push_back({0, trials});
     return studies;
   }
-  const auto met = [&](const measures::MoveCounts& counts) {
-    return judge_goal(goal, counts, points).status == Status::met;
-  };
-  if (!on_rigs) {
-    const statistics::ClusterSums of_one = {.clusters = 1,
-                                            .hits = moves,
-                                            .events = moves,
-                                            .hits_squared = static_cast<double>(moves * moves),
-                                            .hits_by_events = static_cast<double>(moves * moves),
-                                            .events_squared = static_cast<double>(moves * moves)};
-    const measures::MoveCounts trial{moves, moves, of_one, {}};
-    const std::int64_t trials = smallest(
-        2, max_trials, [&](std::int64_t n) { return met(larger_study(trial, static_cast<double>(n))); });
-    return trials > 0 ? std::vector<Needs>{{0, trials}} : std::vector<Needs>{};
+  // More trials on each rig are needed where those observed cannot tell rigs that meet the goal from others.
+  const bool has_machines =
+      std::ranges::any_of(goals, [](const study::Goal& goal) { return goal.machines.has_value(); });
+  for (std::int64_t more = 1; more <= max_more_trials; more *= 2) {
+    const std::int64_t each = more * observed.trials_of_rig() * observed.conditions();
+    const std::int64_t most = studies.empty() ? max_rigs : studies.back().rigs / worlds - 1;
+    const std::int64_t rigs = smallest_with(std::min(most, max_trials / each / worlds), more);
+    if (rigs > 0) studies.push_back({rigs * worlds, rigs * each * worlds});
+    if (!studies.empty() && (!has_machines || rigs == 0)) break;
   }
+  return studies;
+}
+
+Needs needs_of(std::span<const study::Goal> goals, std::span<const measures::MoveCounts> counts,
+               std::size_t points, double probability) {
+  const std::vector<Needs> studies = deciding_studies(goals, counts, points, probability);
+  return studies.empty() ? Needs{} : cheapest(studies);
+}
+
+const Needs& cheapest(std::span<const Needs> studies) {
+  return *std::ranges::min_element(studies, {}, &Needs::trials);
+}
+
+std::vector<Needs> smallest_studies(std::span<const AskedGoal> goals, const StudyShape& shape,
+                                    std::size_t points) {
+  const std::int64_t worlds = std::max<std::int64_t>(shape.worlds, 1);
   std::vector<Needs> studies;
-  for (const std::int64_t trials : {1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000}) {
-    const std::vector<statistics::RigMoves> rig{{trials, trials * moves, trials * moves}};
-    const std::int64_t rigs = smallest(2, max_rigs, [&](std::int64_t n) { return met(rigs_like(rig, n)); });
-    const bool fewer = studies.empty() || rigs < studies.back().rigs;
-    if (rigs > 0 && fewer) studies.push_back({rigs, rigs * trials});
+  const std::vector<std::int64_t> on_each =
+      shape.on_rigs ? std::vector<std::int64_t>{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000}
+                    : std::vector<std::int64_t>{0};
+  for (const std::int64_t trials : on_each) {
+    std::int64_t units = 0;
+    bool can_be_met = true;
+    for (const AskedGoal& asked : goals) {
+      const std::int64_t needed = smallest_without_miss(asked, trials, points);
+      can_be_met = can_be_met && needed > 0;
+      units = std::max(units, needed);
+    }
+    if (!can_be_met) continue;
+    units *= worlds;
+    if (!shape.on_rigs) {
+      studies.push_back({0, units * shape.conditions});
+    } else if (studies.empty() || units < studies.back().rigs) {
+      studies.push_back({units, units * trials * shape.conditions});
+    }
   }
   return studies;
 }

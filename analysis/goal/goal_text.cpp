@@ -1,14 +1,18 @@
 #include "analysis/goal/goal_text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/statistics/clusters/rig_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/sample_size.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
+#include "core/numerics/bisection.hpp"
 
 namespace zerocount::goal {
 namespace {
@@ -88,6 +92,34 @@ std::string together_text(const Question& question, const measures::PointSummary
                      all->rigs, all->of);
 }
 
+/// "40 moves cannot show 99 % of one machine …": what the moves of one machine lack, a line. Empty where a
+/// machine without a miss is shown to meet the goal, or where the verdict is decided.
+std::string one_machine_text(const study::Goal& goal, const measures::MoveCounts& counts,
+                             const Verdict& verdict) {
+  const statistics::RigMoves& rig = counts.rigs.front();
+  const std::int64_t rigs = std::ssize(counts.rigs);
+  const statistics::RigStudy study{rigs, rig.trials, rig.moves};
+  const double at_limit = statistics::chance_to_show(study, goal.moves, rig.moves);
+  if (verdict.status != Status::undecided || at_limit <= 1.0 - goal.confidence) return {};
+  const bool one_move_each = rig.trials == rig.moves;
+  std::string text = fmt::format(
+      "  {} moves{} cannot show {} of one machine: {}{} without a miss are needed; one just below it has no "
+      "miss with a probability of {}{}",
+      rig.moves, one_move_each ? "" : fmt::format(" in {} trials", rig.trials), text::percent(goal.moves),
+      statistics::trials_for_claim(goal.moves, goal.confidence, 0), one_move_each ? "" : " trials",
+      one_move_each ? "" : "up to ", text::percent_near(at_limit));
+  // The lowest proportion at which all machines alike show so many without a miss.
+  const auto can_be_alike = [&](double p) {
+    return statistics::chance_to_show(study, p, rig.moves) >= verdict.without_miss.low;
+  };
+  const double alike = numerics::bisect({goal.moves, 0.0}, can_be_alike, numerics::within(1e-9)).holds;
+  const double shown = std::ceil(1e4 * alike) * 1e-4;
+  if (verdict.rigs_without_miss > 0 && at_limit >= verdict.without_miss.low && shown < goal.moves)
+    text +=
+        fmt::format("; all {} that had none may be at {}", verdict.rigs_without_miss, text::percent(shown));
+  return text + '\n';
+}
+
 }  // namespace
 
 std::string goal_sentence(const study::Goal& goal) {
@@ -162,15 +194,16 @@ std::string readings_text(const study::Goal& goal, const measures::MoveCounts& c
                                  with_bounds(verdict.moves));
   if (counts.rigs.empty()) return text;
   const std::int64_t rigs = std::ssize(counts.rigs);
-  if (goal.machines) {
-    text += fmt::format(
-        "  machines that meet it in at least {} of their moves: {} of {} by their {} moves; {} "
-        "of all machines\n",
-        text::percent(goal.moves), verdict.rigs_meeting, rigs, counts.rigs.front().moves,
-        with_bounds(verdict.machines));
-  }
-  return text + fmt::format("  machines without a miss in their {} moves: {} of {}\n",
-                            counts.rigs.front().moves, verdict.rigs_without_miss, rigs);
+  const std::int64_t moves = counts.rigs.front().moves;
+  text += fmt::format("  machines without a miss in their {} moves: {} of {}", moves,
+                      verdict.rigs_without_miss, rigs);
+  if (!goal.machines) return text + '\n';
+  text += fmt::format("; {} of all machines\n", with_bounds(verdict.without_miss));
+  text += fmt::format(
+      "  machines that meet it in at least {} of their moves: {} of {} by their {} moves; {} of all "
+      "machines\n",
+      text::percent(goal.moves), verdict.rigs_meeting, rigs, moves, with_bounds(verdict.machines));
+  return text + one_machine_text(goal, counts, verdict);
 }
 
 std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_rigs) {

@@ -47,6 +47,10 @@ Verdict judge_world(const study::Goal& goal, const measures::MoveCounts& counts,
   const statistics::RigProportion low = rigs(confidence.low);
   const double high = confidence.high == confidence.low ? low.high : rigs(confidence.high).high;
   verdict.rigs_meeting = low.meeting;
+  const std::int64_t all = std::ssize(counts.rigs);
+  verdict.without_miss = {statistics::rate(verdict.rigs_without_miss, all),
+                          statistics::proportion_at_least(verdict.rigs_without_miss, all, confidence.low),
+                          statistics::proportion_at_most(verdict.rigs_without_miss, all, confidence.high)};
   verdict.machines = {statistics::rate(low.meeting, std::ssize(counts.rigs)), low.low, high};
   verdict.status = status_of(verdict.machines, *goal.machines);
   return verdict;
@@ -62,6 +66,7 @@ Verdict judge_worlds(const study::Goal& goal, const measures::MoveCounts& counts
     const bool first = verdict.worlds.empty();
     verdict.moves = first ? one.moves : lowest(verdict.moves, one.moves);
     verdict.machines = first ? one.machines : lowest(verdict.machines, one.machines);
+    verdict.without_miss = first ? one.without_miss : lowest(verdict.without_miss, one.without_miss);
     verdict.rigs_meeting += one.rigs_meeting;
     verdict.rigs_without_miss += one.rigs_without_miss;
     verdict.worlds.push_back({one.status, one.moves, one.machines});

@@ -50,6 +50,7 @@ struct Verdict {
                                  ///< NaN, 0 and 1 where the goal does not ask for machines
   std::int64_t rigs_meeting{0};  ///< rigs that meet it in Goal::moves of their moves, as observed
   std::int64_t rigs_without_miss{0};   ///< rigs all of whose moves meet the goal
+  BoundedProportion without_miss{};    ///< of all axes, in as many moves; where the goal asks for machines
   std::vector<WorldVerdict> worlds{};  ///< [world]; empty without worlds
   double margin{0.0};        ///< logit of the lower bound of what is claimed, minus that of what is asked for
   std::size_t goal{0};       ///< of several, the worst: the one that all of this is of
@@ -94,18 +95,52 @@ struct Needs {
 /// Probability with which a study of the size of needs_of() is decided, unless another is asked for.
 inline constexpr double probability_of_needs = 0.9;
 
-/// The smallest study of which the verdict is decided with this probability, by what these counts leave
-/// likely (goal_chances.hpp). With rigs it has at most 10⁵ of them; they get more trials each where those
-/// that they have cannot tell rigs that meet the goal from others.
-Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
-               double probability = probability_of_needs, std::size_t parts = 1);
+/// Studies of which the verdict on all goals under all conditions is decided with this probability, at least,
+/// by what these counts leave likely (goal_chances.hpp), whatever goals and conditions have in common:
+///
+///   P(decided) ≥ max(1 − Σ P(a claim is undecided), max P(a claim is missed)).
+///
+/// Without rigs one study, the smallest; with rigs the fewest rigs, at most 10⁵, with trials on each as
+/// observed, and for goals on machines with twice, four times … as many, as long as these save rigs. Empty if
+/// none is large enough. @param counts [goal] @param points, as of judge_goal()
+std::vector<Needs> deciding_studies(std::span<const study::Goal> goals,
+                                    std::span<const measures::MoveCounts> counts, std::size_t points,
+                                    double probability = probability_of_needs);
 
-/// The smallest studies that can meet the goal, if no move misses it: with rigs the fewest rigs for several
-/// numbers of trials on each, without them one study. Empty if none of up to 10⁹ trials, or 10⁵ rigs, can.
-/// @param moves of a trial
-/// @param points that the best is chosen from
-/// @param worlds of the study, in each of which the goal must be met; 0: none
-std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_rigs, std::int64_t moves,
-                                    std::size_t points, std::int64_t worlds = 0);
+/// The study with the fewest trials. @param studies at least one
+const Needs& cheapest(std::span<const Needs> studies);
+
+/// The cheapest of deciding_studies().
+Needs needs_of(std::span<const study::Goal> goals, std::span<const measures::MoveCounts> counts,
+               std::size_t points, double probability = probability_of_needs);
+inline Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
+                      double probability = probability_of_needs) {
+  return needs_of({&goal, 1}, {&counts, 1}, points, probability);
+}
+
+/// A goal, and the number of moves of a trial that it asks.
+struct AskedGoal {
+  study::Goal goal;
+  std::int64_t moves{1};
+};
+
+/// What trials of a study share.
+struct StudyShape {
+  bool on_rigs{false};
+  std::int64_t worlds{0};      ///< in each of which the goals must be met; 0: none
+  std::int64_t conditions{1};  ///< under each of which they must be met
+};
+
+/// The smallest studies that can meet the goals, if no move misses them: with rigs the fewest rigs for
+/// several numbers of trials on each, without them one study. Empty if none of up to 10⁹ trials, or 10⁵ rigs,
+/// can. @param points that the best is chosen from
+std::vector<Needs> smallest_studies(std::span<const AskedGoal> goals, const StudyShape& shape,
+                                    std::size_t points);
+/// The same of one goal under one condition. @param moves of a trial
+inline std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_rigs, std::int64_t moves,
+                                           std::size_t points, std::int64_t worlds = 0) {
+  const AskedGoal asked{goal, moves};
+  return smallest_studies({&asked, 1}, {on_rigs, worlds}, points);
+}
 
 }  // namespace zerocount::goal

@@ -81,6 +81,19 @@ measures::MoveCounts successes_of(const measures::PointSummary& point) {
   return counts;
 }
 
+/// All claims, and the moves of a point that meet each.
+struct CountedClaims {
+  std::vector<study::Goal> goals{};
+  std::vector<measures::MoveCounts> counts{};
+
+  CountedClaims(const Question& question, const measures::PointSummary& point) {
+    for (const JudgedPart& part : question.parts) {
+      goals.push_back(part.claim.value());
+      counts.push_back(point.goals.at(part.number));
+    }
+  }
+};
+
 }  // namespace
 
 Question question_of(const study::Study& study) {
@@ -163,13 +176,19 @@ Verdict verdict_on(const Question& question, const measures::MoveCounts& counts,
 }
 
 Verdict verdict_on(const Question& question, const measures::PointSummary& point, std::size_t points) {
-  std::vector<study::Goal> claims;
-  std::vector<measures::MoveCounts> counts;
-  for (const JudgedPart& part : question.parts) {
-    claims.push_back(part.claim.value());
-    counts.push_back(point.goals.at(part.number));
-  }
-  return judge_goals(claims, counts, points);
+  const CountedClaims claims(question, point);
+  return judge_goals(claims.goals, claims.counts, points);
+}
+
+std::vector<Needs> deciding_studies(const Question& question, const measures::PointSummary& point,
+                                    std::size_t points) {
+  const CountedClaims claims(question, point);
+  return deciding_studies(claims.goals, claims.counts, points);
+}
+
+Needs needs_of(const Question& question, const measures::PointSummary& point, std::size_t points) {
+  const CountedClaims claims(question, point);
+  return needs_of(claims.goals, claims.counts, points);
 }
 
 measures::MoveCounts counts_of(const Question& question, const measures::PointSummary& point) {

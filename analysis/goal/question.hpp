@@ -106,6 +106,11 @@ Verdict verdict_on(const Question& question, const measures::MoveCounts& counts,
 /// The verdict on all claims at a point.
 Verdict verdict_on(const Question& question, const measures::PointSummary& point, std::size_t points = 1);
 
+/// deciding_studies() and needs_of() of all claims at a point.
+std::vector<Needs> deciding_studies(const Question& question, const measures::PointSummary& point,
+                                    std::size_t points);
+Needs needs_of(const Question& question, const measures::PointSummary& point, std::size_t points);
+
 /// The moves of a point (without a claim its trials, each as one move) that meet the question; of several
 /// goals those of the worst.
 measures::MoveCounts counts_of(const Question& question, const measures::PointSummary& point);

@@ -41,9 +41,7 @@ JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen) 
   const measures::PointSummary& statistics = statistics_of(summary, chosen.point);
   judged.verdict = verdict_on(summary.question, statistics, points);
   if (judged.verdict.status == goal::Status::undecided)
-    judged.needs = goal::needs_of(worst_goal(summary, judged.verdict),
-                                  statistics.goals[summary.question.parts[judged.verdict.goal].number],
-                                  points, goal::probability_of_needs, summary.question.parts.size());
+    judged.needs = needs_of(summary.question, statistics, points);
   return judged;
 }
 

@@ -4,6 +4,7 @@
 
 #include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
+#include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary_answer/parts.hpp"
 #include "analysis/text/percent.hpp"
 
@@ -51,15 +52,34 @@ document::Description<goal::Verdict> verdict_description(const goal::Question& q
                          "worst world",
               .unit = "1"},
              [](Verdict v) { return goal::bounded(v.moves); });
-  if (has_machines)
-    description.value({.key = "machines",
-                       .meaning = "proportion of machines that meet the goal, with one-sided bounds; with "
-                                  "worlds of the worst world; null where the goal is not on machines",
-                       .unit = "1"},
-                      [question](Verdict v) -> std::optional<document::Bounded> {
-                        if (!question.parts[v.goal].claim->machines) return std::nullopt;
-                        return goal::bounded(v.machines);
-                      });
+  if (has_machines) {
+    const auto of_machines = [question](goal::BoundedProportion goal::Verdict::*proportion) {
+      return [question, proportion](Verdict v) -> std::optional<document::Bounded> {
+        if (!question.parts[v.goal].claim->machines) return std::nullopt;
+        return goal::bounded(v.*proportion);
+      };
+    };
+    description
+        .value({.key = "machines",
+                .meaning = "proportion of machines that meet the goal, with one-sided bounds; with "
+                           "worlds of the worst world; null where the goal is not on machines",
+                .unit = "1"},
+               of_machines(&goal::Verdict::machines))
+        .value({.key = "without_miss",
+                .meaning = "proportion of machines without a miss in as many moves as these have, with "
+                           "one-sided bounds; null where the goal is not on machines",
+                .unit = "1"},
+               of_machines(&goal::Verdict::without_miss))
+        .value(
+            {.key = "trials_of_one_machine",
+             .meaning = "trials without a miss that show of one machine that it meets the goal; null where "
+                        "the goal is not on machines"},
+            [question](Verdict v) -> std::optional<std::int64_t> {
+              const study::Goal& claim = *question.parts[v.goal].claim;
+              if (!claim.machines) return std::nullopt;
+              return statistics::trials_for_claim(claim.moves, claim.confidence, 0);
+            });
+  }
   if (on_rigs)
     description.value({.key = "rigs_without_miss", .meaning = "rigs all of whose moves meet the goal"},
                       &goal::Verdict::rigs_without_miss);

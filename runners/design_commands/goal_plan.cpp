@@ -1,7 +1,10 @@
 #include "runners/design_commands/goal_plan.hpp"
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,6 +15,8 @@
 #include "analysis/goal/question.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/forecast/cost.hpp"
+#include "runners/status/progress.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -22,24 +27,83 @@ using document::with_words;
 
 constexpr std::string_view other_plans = ", or --success, --halfwidth or --margin";
 
-/// The smallest studies that can meet the goal of a manifest.
+/// A study, and the time that it takes with all cores of this machine, s, where that was measured.
+struct PlannedStudy {
+  goal::Needs needs;
+  std::optional<double> seconds{};
+};
+
+bool is_on_machines(const study::Study& study) {
+  return std::ranges::any_of(study.goals, [](const study::Goal& goal) { return goal.machines.has_value(); });
+}
+
+/// The studies with their times, where goals on machines leave a choice between rigs and trials on each.
+std::vector<PlannedStudy> with_times(const std::vector<goal::Needs>& studies, const study::Study& study) {
+  std::vector<PlannedStudy> planned;
+  for (const goal::Needs& one : studies) planned.push_back({one});
+  if (studies.empty() || !is_on_machines(study)) return planned;
+  const double seconds_per_trial =
+      forecast::measure_cost(study).seconds() / static_cast<double>(study.trials);  // of all points
+  for (PlannedStudy& one : planned) one.seconds = seconds_per_trial * static_cast<double>(one.needs.trials);
+  return planned;
+}
+
+document::Description<PlannedStudy> data_columns() {
+  return document::Description<PlannedStudy>()
+      .include(goal::needs_description(), &PlannedStudy::needs)
+      .value({.key = "seconds",
+              .meaning = "computing time with all cores of this machine; of goals on machines",
+              .unit = "s",
+              .shown = Shown::in_data,
+              .optional = true},
+             &PlannedStudy::seconds);
+}
+
+document::Description<PlannedStudy> study_columns() {
+  using Of = const PlannedStudy&;
+  return document::Description<PlannedStudy>()
+      .value({.heading = "rigs"}, [](Of one) { return one.needs.rigs; })
+      .value({.heading = "trials on each"}, [](Of one) { return one.needs.trials / one.needs.rigs; })
+      .value({.heading = "trials"}, [](Of one) { return one.needs.trials; })
+      .value({.heading = "time here", .numeric = true}, [](Of one) -> std::optional<std::string> {
+        if (!one.seconds) return std::nullopt;
+        return status::duration_text(*one.seconds);
+      });
+}
+
+/// "cheapest: 120 rigs with 100 trials on each"; empty where there is no choice.
+std::string cheapest_sentence(const std::vector<PlannedStudy>& studies) {
+  if (studies.size() < 2 || !studies.front().seconds) return {};
+  const PlannedStudy& best =
+      *std::ranges::min_element(studies, {}, [](const PlannedStudy& one) { return one.needs.trials; });
+  return fmt::format("cheapest: {} rigs with {} trials on each, {} on this machine", best.needs.rigs,
+                     best.needs.trials / best.needs.rigs, status::duration_text(*best.seconds));
+}
+
+/// The smallest studies that can meet the goals of a manifest.
 struct GoalPlans {
   const study::Study& study;
-  std::vector<goal::Needs> smallest;
+  std::vector<PlannedStudy> smallest;
 };
 
 std::string smallest_headline(const GoalPlans& plans) {
-  if (plans.smallest.empty()) return "no study of up to 10⁹ trials can meet the goal";
-  const goal::Needs& first = plans.smallest.front();
+  const bool several = plans.study.goals.size() > 1;
+  const std::string_view goals = several ? "goals" : "goal";
+  if (plans.smallest.empty()) return fmt::format("no study of up to 10⁹ trials can meet the {}", goals);
+  const goal::Needs& first = plans.smallest.front().needs;
   const bool on_rigs = plans.study.rigs > 0;
-  return fmt::format("the goal can be met from {} {} on, if no move misses it",
-                     on_rigs ? first.rigs : first.trials, on_rigs ? "rigs" : "trials");
+  return fmt::format("the {} can be met from {} {} on, if no move misses {}", goals,
+                     on_rigs ? first.rigs : first.trials, on_rigs ? "rigs" : "trials",
+                     several ? "them" : "it");
 }
 
 std::string extent_sentence(const GoalPlans& plans) {
   std::string lines;
   if (plans.study.worlds > 0)
     lines += fmt::format("in all {} worlds together, each with as many as the others\n", plans.study.worlds);
+  if (!plans.study.conditions.empty())
+    lines += fmt::format("under all {} conditions together, each with as many trials as the others\n",
+                         plans.study.conditions.size());
   if (const std::size_t points = plans.study.points.labels.size(); points > 1)
     lines += fmt::format("at the best of the {} points\n", points);
   return lines +
@@ -48,15 +112,8 @@ std::string extent_sentence(const GoalPlans& plans) {
 }
 
 /// The studies for people, who see those on rigs as a table.
-std::vector<goal::Needs> smallest_on_rigs(const GoalPlans& plans) {
-  return plans.study.rigs > 0 ? plans.smallest : std::vector<goal::Needs>();
-}
-
-document::Description<goal::Needs> study_columns() {
-  return document::Description<goal::Needs>()
-      .value({.heading = "rigs"}, &goal::Needs::rigs)
-      .value({.heading = "trials on each"}, [](const goal::Needs& one) { return one.trials / one.rigs; })
-      .value({.heading = "trials"}, &goal::Needs::trials);
+std::vector<PlannedStudy> smallest_on_rigs(const GoalPlans& plans) {
+  return plans.study.rigs > 0 ? plans.smallest : std::vector<PlannedStudy>();
 }
 
 document::AnswerDescription<GoalPlans> goal_answer() {
@@ -64,13 +121,13 @@ document::AnswerDescription<GoalPlans> goal_answer() {
       {.name = "plan-goal", .meaning = "the smallest studies that can meet the goal of a manifest"}, {}};
   answer.items.headline(smallest_headline)
       .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
-             [](const GoalPlans& plans) { return goal::goal_sentence(*study::first_goal(plans.study)); })
+             [](const GoalPlans& plans) { return goal::claim_sentence(goal::question_of(plans.study)); })
       .value(in_data("worlds", "worlds; 0 without worlds"),
              [](const GoalPlans& plans) { return plans.study.worlds; })
-      .table(in_data("plans", "studies, if no move misses the goal"), goal::needs_description(),
-             &GoalPlans::smallest)
+      .table(in_data("plans", "studies, if no move misses the goal"), data_columns(), &GoalPlans::smallest)
       .table({.heading = "the fewest rigs with which it can be met", .shown = Shown::to_people},
              study_columns(), smallest_on_rigs)
+      .sentence([](const GoalPlans& plans) { return cheapest_sentence(plans.smallest); })
       .sentence(extent_sentence);
   return answer;
 }
@@ -79,9 +136,11 @@ document::AnswerDescription<GoalPlans> goal_answer() {
 struct Pilot {
   const summary::StudySummary& summary;
   summary::JudgedPoint judged;
+  std::vector<PlannedStudy> studies{};  ///< that decide it, where it leaves a choice between rigs and trials
 };
 
-document::AnswerDescription<Pilot> pilot_answer() {
+/// @param leaves_choice between rigs and trials on each
+document::AnswerDescription<Pilot> pilot_answer(bool leaves_choice = true) {
   document::AnswerDescription<Pilot> answer{
       {.name = "plan-pilot", .meaning = "the study that decides the goal, by the results of a small one"},
       {}};
@@ -96,30 +155,48 @@ document::AnswerDescription<Pilot> pilot_answer() {
               [](const Pilot& p) { return goal::practicable(p.judged.needs); })
       .value(in_data("probability", "probability with which it decides", "1"),
              [](const Pilot&) { return goal::probability_of_needs; });
+  if (leaves_choice) {
+    document::Item studies = in_data("studies", "studies that decide it; of goals on machines");
+    studies.optional = true;
+    answer.items.table(std::move(studies), data_columns(), &Pilot::studies)
+        .table({.heading = "studies that decide it", .shown = Shown::to_people}, study_columns(),
+               &Pilot::studies)
+        .sentence([](const Pilot& p) { return cheapest_sentence(p.studies); });
+  }
   return answer;
 }
 
-/// Number of moves of a trial that the goal is about.
-std::int64_t asked_moves(const study::Study& study) {
-  return measures::asked_moves(measures::asked_of_moves(study).front(), study.moves);
+/// The goals with the numbers of moves of a trial that they ask.
+std::vector<goal::AskedGoal> asked_goals(const study::Study& study) {
+  std::vector<goal::AskedGoal> asked;
+  const std::vector<measures::CountedGoal> counted = measures::asked_of_moves(study);
+  for (std::size_t i = 0; i < study.goals.size(); ++i)
+    asked.push_back({study.goals[i], measures::asked_moves(counted[i], study.moves)});
+  return asked;
 }
 
 document::Answer plan_of_manifest(const command_line::Arguments& arguments) {
   const std::string& path = arguments.operands()[0];
   const study::Study study = commands::load_study(path, arguments);
-  study::refuse_conditions(study, "zerocount plan");
   goal::require_claim(study, path, other_plans);
-  goal::require_one_goal(study, path);
-  return goal_answer().of(
-      {study, goal::smallest_studies(*study::first_goal(study), study.rigs > 0, asked_moves(study),
-                                     study.points.labels.size(), study.worlds)});
+  const goal::StudyShape shape{study.rigs > 0, study.worlds, study::condition_count(study)};
+  const auto smallest = goal::smallest_studies(asked_goals(study), shape, study.points.labels.size());
+  return goal_answer().of({study, with_times(smallest, study)});
 }
 
 document::Answer plan_of_pilot(const std::string& path) {
-  study::refuse_conditions(commands::described_study(path), "zerocount plan");
+  const study::Study study = commands::described_study(path);
   const summary::StudySummary summary = summary::summarise_file(path);
   if (!summary.question.claim()) goal::require_claim({}, path, other_plans);
-  return pilot_answer().of({summary, summary::judge_point(summary, summary::choose_point(summary))});
+  Pilot pilot{summary, summary::judge_point(summary, summary::choose_point(summary)), {}};
+  if (pilot.judged.needs && study.rigs > 0 && is_on_machines(study)) {
+    const summary::ChosenPoint& chosen = pilot.judged.chosen;
+    pilot.studies = with_times(
+        goal::deciding_studies(summary.question, summary.points[static_cast<std::size_t>(chosen.point)],
+                               static_cast<std::size_t>(chosen.chosen_from)),
+        study);
+  }
+  return pilot_answer(!pilot.studies.empty()).of(pilot);
 }
 
 }  // namespace

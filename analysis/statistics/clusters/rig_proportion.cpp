@@ -10,15 +10,6 @@
 namespace zerocount::statistics {
 namespace {
 
-/// ε(c): how probably a rig on the proportion shows `met` or more.
-double false_pass(const RigStudy& study, double proportion, std::int64_t met) {
-  if (met <= 0) return 1.0;
-  if (study.trials == study.moves) return binomial_upper_tail(study.moves, proportion, met - 1);
-  const double mean = static_cast<double>(met) / static_cast<double>(study.moves);
-  if (mean <= proportion) return 1.0;
-  return std::exp(-static_cast<double>(study.trials) * bernoulli_divergence(mean, proportion));
-}
-
 /// The c of a mark is the lowest with ε(c) ≤ `wrong`, or n; its b the highest with 1 − ε(b) ≤ `left_out`.
 struct MarkRule {
   double wrong;
@@ -40,12 +31,12 @@ RigMark mark_of(const RigStudy& study, double q, const MarkRule& rule) {
   if (rule.left_out > 0.0) {
     mark.among = numerics::first_where(
                      0, study.moves + 1,
-                     [&](std::int64_t met) { return false_pass(study, q, met) < 1.0 - rule.left_out; }) -
+                     [&](std::int64_t met) { return chance_to_show(study, q, met) < 1.0 - rule.left_out; }) -
                  1;
   }
-  mark.met = numerics::first_where(0, study.moves,
-                                   [&](std::int64_t met) { return false_pass(study, q, met) <= rule.wrong; });
-  mark.wrong = false_pass(study, q, mark.met) / false_pass(study, q, mark.among);
+  mark.met = numerics::first_where(
+      0, study.moves, [&](std::int64_t met) { return chance_to_show(study, q, met) <= rule.wrong; });
+  mark.wrong = chance_to_show(study, q, mark.met) / chance_to_show(study, q, mark.among);
   return mark;
 }
 
@@ -76,6 +67,14 @@ double low_bound(std::span<const RigMoves> rigs, const RigClaim& claim) {
 }
 
 }  // namespace
+
+double chance_to_show(const RigStudy& study, double p, std::int64_t met) {
+  if (met <= 0) return 1.0;
+  if (study.trials == study.moves) return binomial_upper_tail(study.moves, p, met - 1);
+  const double mean = static_cast<double>(met) / static_cast<double>(study.moves);
+  if (mean <= p) return 1.0;
+  return std::exp(-static_cast<double>(study.trials) * bernoulli_divergence(mean, p));
+}
 
 RigBound::RigBound(const RigStudy& study, const RigClaim& claim) : study_(study), claim_(claim) {
   std::vector<Tested> marks;  // with their weights in place of errors

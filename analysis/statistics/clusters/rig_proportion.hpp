@@ -47,6 +47,10 @@ struct RigStudy {
   bool all_alike{true};    ///< all rigs have as many moves; otherwise these are the fewest
 };
 
+/// How probably a rig that meets the requirement in the proportion p of its moves shows `met` or more, at
+/// most (exactly for trials of one move): ε of RigBound.
+double chance_to_show(const RigStudy& study, double p, std::int64_t met);
+
 /// Rigs that pass a mark: c or more of their n moves meet the requirement.
 struct RigMark {
   std::int64_t met{0};    ///< c

@@ -121,7 +121,7 @@ std::string conditions_sentence(const StudySummary& summary,
                                 const std::vector<ConditionOfPoint>& conditions) {
   if (conditions.empty()) return {};
   const ConditionOfPoint& worst = conditions[worst_condition(conditions)];
-  const std::string lowest =
+  std::string lowest =
       fmt::format("lowest under condition {}: {} of {}", worst.name, text::percent_near(worst.rate.value),
                   goal::judged_meeting(summary.question));
   if (!summary.question.claim()) return lowest;

@@ -171,7 +171,7 @@ void check_rows(Manifest& m) {
 // "7 rigs", "7 rigs under each of 3 conditions".
 std::string turns_text(const study::Study& study) {
   const std::int64_t conditions = std::ssize(study.conditions);
-  const std::string under =
+  std::string under =
       conditions == 0 ? "" : fmt::format("{} condition{}", conditions, conditions == 1 ? "" : "s");
   if (study.rigs == 0) return under;
   return under.empty() ? fmt::format("{} rigs", study.rigs)

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "analysis/statistics/unknown.hpp"
+#include "experiments/study/condition_study.hpp"
 #include "runners/trials/trial_set.hpp"
 
 namespace zerocount::rare {

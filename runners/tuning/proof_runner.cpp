@@ -63,13 +63,13 @@ measures::MoveCounts at_trials_each(measures::MoveCounts counts, std::int64_t ea
   return counts;
 }
 
-/// The fewest units that decide what the counts are of with a probability of 1/2.
-/// @param most where no study decides it, a part of them
-std::int64_t deciding_units(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
-                            std::size_t parts, std::int64_t most) {
-  const goal::Needs needs = goal::needs_of(goal, counts, points, 0.5, parts);
-  if (needs.trials == 0) return most / 8;
-  return needs.rigs > 0 ? needs.rigs : needs.trials;
+/// The fewest units, with as many trials each, that decide all goals with a probability of 1/2.
+/// @param most where no study decides them, a part of them
+std::int64_t deciding_units(const study::Study& study, const GoalCounts& counts, std::size_t points,
+                            std::int64_t most) {
+  const std::vector<goal::Needs> studies = goal::deciding_studies(study.goals, counts, points, 0.5);
+  if (studies.empty()) return most / 8;
+  return studies.front().rigs > 0 ? studies.front().rigs : studies.front().trials;
 }
 
 std::string_view key_of(std::string_view entry) {
@@ -171,14 +171,7 @@ std::int64_t proof_units(const study::Study& study, const GoalCounts& counts, st
   const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
   const std::int64_t most = std::max<std::int64_t>(max_trials / each / worlds, 1) * worlds;
   const std::int64_t least = std::max(usual_units, min_units_of(study, each, points));
-  const auto conditions = static_cast<std::size_t>(study::condition_count(study));
-  std::int64_t wanted = 0;
-  for (std::size_t goal = 0; goal < counts.size(); ++goal) {
-    for (std::size_t condition = 0; condition < conditions; ++condition)
-      wanted = std::max(wanted,
-                        deciding_units(study.goals[goal], measures::under_condition(counts[goal], condition),
-                                       points, counts.size() * conditions, most));
-  }
+  std::int64_t wanted = deciding_units(study, counts, points, most);
   wanted += wanted / 2;
   return trials::in_equal_worlds(study, std::clamp(wanted, std::min(least, most), most));
 }

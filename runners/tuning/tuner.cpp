@@ -252,8 +252,7 @@ class Tuner {
     const study::Goal& goal = study_.goals[worst_goal];
     if (proven.verdict.status == goal::Status::undecided) {
       answer_.proof->needs =
-          goal::needs_of(goal, proven.counts[worst_goal], correction_of(proven.attempt.number),
-                         goal::probability_of_needs, study_.goals.size());
+          goal::needs_of(study_.goals, proven.counts, correction_of(proven.attempt.number));
     }
     const Candidate by_proof{candidate.place, candidate.values, std::move(run.results)};
     const Aim aim = aim_of(study_);

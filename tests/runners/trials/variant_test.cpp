@@ -12,8 +12,8 @@
 
 #include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
-#include "experiments/study/condition_study.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/condition_study.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/condition_study.hpp"
 
 namespace zerocount::tuning {
 namespace {

@@ -239,6 +239,15 @@ class Goal(Record):
         Lower bound.
     machines_high : float or None
         Upper bound.
+    without_miss : float or None
+        Proportion of machines without a miss in as many moves as these have, with one-sided bounds; null where the goal
+        is not on machines.
+    without_miss_low : float or None
+        Lower bound.
+    without_miss_high : float or None
+        Upper bound.
+    trials_of_one_machine : int or None
+        Trials without a miss that show of one machine that it meets the goal; null where the goal is not on machines.
     rigs_without_miss : int or None
         Rigs all of whose moves meet the goal.
     """
@@ -251,6 +260,10 @@ class Goal(Record):
     machines: float | None
     machines_low: float | None
     machines_high: float | None
+    without_miss: float | None
+    without_miss_low: float | None
+    without_miss_high: float | None
+    trials_of_one_machine: int | None
     rigs_without_miss: int | None
 
 
@@ -315,8 +328,9 @@ class SummaryAnswer(Answer):
         - ``point``: number of the design point
         - ``label``: label of the design point
         - ``axes``: values of the swept parameters; null where one has a distribution
-        - ``goal``.* (condition, status, rate, rate_low, rate_high, machines, machines_low, machines_high,
-          rigs_without_miss): whether the point meets the goal, with bounds of this point alone
+        - ``goal``.* (condition, status, rate, rate_low, rate_high, machines, machines_low, machines_high, without_miss,
+          without_miss_low, without_miss_high, trials_of_one_machine, rigs_without_miss): whether the point meets the
+          goal, with bounds of this point alone
         - ``machines_together``: proportion of rigs that meet all goals on machines, as observed; nothing where only one
           claim is on machines
         - ``trials``: trials of the point
@@ -2094,6 +2108,7 @@ class PlanGoalAnswer(Answer):
 
         - ``rigs``: machines; 0 without rigs
         - ``trials``: trials of a design point
+        - ``seconds``: computing time with all cores of this machine; of goals on machines, s
 
     """
 
@@ -2115,6 +2130,13 @@ class PlanPilotAnswer(Answer):
         Study that would decide the goal.
     probability : float or None
         Probability with which it decides.
+    studies : pandas.DataFrame or None
+        Studies that decide it; of goals on machines.
+
+        - ``rigs``: machines; 0 without rigs
+        - ``trials``: trials of a design point
+        - ``seconds``: computing time with all cores of this machine; of goals on machines, s
+
     """
 
     _records = {"needed": Needed}
@@ -2123,6 +2145,7 @@ class PlanPilotAnswer(Answer):
     status: Literal["met", "missed", "undecided"]
     needed: Needed | None
     probability: float | None
+    studies: pandas.DataFrame | None
 
 
 class Halfwidth(Record):

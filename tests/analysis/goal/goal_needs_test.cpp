@@ -169,5 +169,42 @@ TEST(GoalNeedsInWorlds, NineInTenStudiesAreDecided) {
   EXPECT_GE(decided, 167);  // 0.9·200 − 3 standard deviations
 }
 
+// The chance of several claims is a bound whatever they have in common: here half of the moves meet or miss
+// both goals together.
+TEST(GoalNeedsOfSeveral, NineInTenStudiesAreDecided) {
+  testing::Draws draws(17);
+  const std::vector<study::Goal> goals{{.within = 0.05, .moves = 0.9}, {.within = 0.05, .moves = 0.8}};
+  constexpr std::int64_t conditions = 2;
+  using Truth = std::vector<double>;  // [goal + 2·condition]
+  const auto study_of = [&](const Truth& truth, std::int64_t trials) {
+    std::vector<measures::MoveCounts> counts(goals.size());
+    for (measures::MoveCounts& one : counts) one.tell_apart(0, conditions);
+    for (std::int64_t trial = 0; trial < trials; ++trial) {
+      const double common = draws.uniform(0.0, 1.0);
+      const bool together = draws.chance(0.5);
+      for (std::size_t i = 0; i < goals.size(); ++i) {
+        const double own = together ? common : draws.uniform(0.0, 1.0);
+        counts[i].add(trial, 0, 1, own < truth[i + 2 * static_cast<std::size_t>(trial % conditions)]);
+      }
+    }
+    return counts;
+  };
+  int planned = 0;
+  int decided = 0;
+  while (planned < 100) {
+    Truth truth;
+    for (int i = 0; i < 4; ++i) truth.push_back(draws.uniform(i % 2 == 0 ? 0.86 : 0.75, 1.0));
+    const auto pilot = study_of(truth, 200);
+    if (judge_goals(goals, pilot, 1).status != Status::undecided) continue;
+    const Needs needs = needs_of(goals, pilot, 1);
+    if (needs.trials > 200'000) continue;  // keeps the test short; these are decided alike
+    ++planned;
+    if (needs.trials == 0) continue;
+    EXPECT_EQ(needs.trials % conditions, 0);
+    decided += judge_goals(goals, study_of(truth, needs.trials), 1).status == Status::undecided ? 0 : 1;
+  }
+  EXPECT_GE(decided, 81);  // 0.9·100 − 3 standard deviations
+}
+
 }  // namespace
 }  // namespace zerocount::goal

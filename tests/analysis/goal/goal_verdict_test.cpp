@@ -2,6 +2,7 @@
 #include "analysis/goal/goal_verdict.hpp"
 
 #include <random>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -116,6 +117,27 @@ TEST(GoalText, NamesTheGoalAndItsThreeReadings) {
   EXPECT_NE(text.find("machines that meet it in at least 99 % of their moves: 90 of 100"), std::string::npos)
       << text;
   EXPECT_NE(text.find("machines without a miss in their 10 moves: 90 of 100"), std::string::npos) << text;
+}
+
+// 372 of 400 machines pass 10 trials of 4 moves: a machine at 98 % whose trials fail as a whole often does.
+TEST(GoalText, SaysWhatTheMovesOfOneMachineLack) {
+  const study::Goal goal{.band = 1, .within = 0.05, .moves = 0.99, .machines = 0.95};
+  measures::MoveCounts counts{.moves = 16000, .met = 15888, .of_trials = {}, .rigs = {}};
+  for (int rig = 0; rig < 400; ++rig) counts.rigs.push_back({10, 40, rig < 372 ? 40 : 36});
+  const std::string text = readings_text(goal, counts, judge_goal(goal, counts, 1));
+  EXPECT_NE(text.find("40 moves in 10 trials cannot show 99 % of one machine: 299 trials without a miss are "
+                      "needed; one just below it has no miss with a probability of up to 90.4 %"),
+            std::string::npos)
+      << text;
+  EXPECT_LT(text.find("machines without a miss"), text.find("machines that meet it")) << text;
+  for (statistics::RigMoves& rig : counts.rigs)
+    rig = {10, 40, rig.met == 40 && &rig < &counts.rigs[330] ? 40 : 36};
+  const std::string fewer = readings_text(goal, counts, judge_goal(goal, counts, 1));
+  EXPECT_NE(fewer.find("; all 330 that had none may be at 97.6"), std::string::npos) << fewer;
+  for (statistics::RigMoves& rig : counts.rigs) rig = {300, 300, 300};
+  counts.rigs.resize(20);
+  const std::string enough = readings_text(goal, counts, judge_goal(goal, counts, 1));
+  EXPECT_EQ(enough.find("cannot show"), std::string::npos) << enough;
 }
 
 // The smallest study meets the goal without a miss, and one rig or trial fewer does not.

@@ -29,7 +29,8 @@ Study under_condition(const Study& study, std::int64_t condition) {
   Study one = study;
   if (study.conditions.empty()) return one;
   auto plan = std::make_shared<StudyPlan>(*study.plan);
-  plan->axes.back() = only_option(plan->axes.back(), static_cast<std::size_t>(condition));
+  PlanAxis& conditions = plan->axes[plan->condition_axis];
+  conditions = only_option(conditions, static_cast<std::size_t>(condition));
   plan->conditions = 0;
   one.plan = std::move(plan);
   one.trials = draw_count(study);

@@ -124,7 +124,7 @@ struct AskedGoal {
   std::int64_t moves{1};
 };
 
-/// What trials of a study share.
+/// The rigs and worlds that the trials of a study share.
 struct StudyShape {
   bool on_rigs{false};
   std::int64_t worlds{0};      ///< in each of which the goals must be met; 0: none

@@ -57,8 +57,8 @@ RunValue proportion_value(const std::string& label, std::string measure, const g
   return value;
 }
 
-/// What a goal says of a point, with two-sided bounds as those of other values; with worlds in the worst,
-/// with bounds of the lowest of all. @param question of this goal alone
+/// The judgement of a goal at a point, with two-sided bounds as those of other values; with worlds in the
+/// worst, with bounds of the lowest of all. @param question of this goal alone
 std::vector<RunValue> goal_values(const goal::Question& question, const measures::PointSummary& point,
                                   const std::string& label, double confidence) {
   study::Goal both_sides = *question.claim();

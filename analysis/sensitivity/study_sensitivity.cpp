@@ -151,7 +151,7 @@ OutputSensitivity between_worlds(const study::Study& study, const PointInputs& w
   return result;
 }
 
-/// What is asked of the points of a study, under one condition or all of a study without.
+/// The question that is asked of the points of a study, under one of its conditions, if it has any.
 struct PointsAsked {
   const SensitivityQuestion& question;
   std::vector<std::int64_t> points;

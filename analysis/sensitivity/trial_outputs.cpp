@@ -70,7 +70,7 @@ std::vector<SensitivityOutput> outputs_of(const goal::Question& question, const 
        }}};
 }
 
-/// What a study with a goal is judged by.
+/// The outputs by which a study with a goal is judged.
 std::vector<SensitivityOutput> goal_outputs(const goal::Question& question) {
   std::vector<SensitivityOutput> outputs = outputs_of(question, "");
   for (const goal::JudgedPart& part : question.parts) {

@@ -198,7 +198,7 @@ void add_goal(Figure& figure, const ReportedStudy& reported, const goal::Questio
                                 text::percent(goal.moves), question.worlds > 0 ? " of each world" : "");
 }
 
-/// Of all bands, in one figure. Nothing for a file without bands.
+/// The figure of all bands. Nothing for a file without bands.
 std::optional<Figure> band_figure(const ReportedStudy& reported) {
   const trial::ErrorBands& bands = reported.study.features.bands;
   const std::int64_t point = reported.chosen.point;
@@ -235,7 +235,7 @@ std::optional<Figure> band_figure(const ReportedStudy& reported) {
   return figure;
 }
 
-/// What a figure of settled moves is of: a goal, or a band.
+/// The subject of a figure of settled moves: a goal, or a band.
 struct SettledSubject {
   std::string name;                       ///< of the figure
   std::string precision;                  ///< "1 count"
@@ -350,7 +350,7 @@ std::vector<Figure> distribution_figures(const ReportedStudy& reported) {
   std::vector<Figure> figures;
   std::optional<Figure> arrival = arrival_figure(reported);
   if (!reported.study.open_loop) figures = settled_figures(reported);
-  // What the study is about comes first.
+  // The question of the study comes first.
   if (arrival)
     figures.insert(question_of(reported).claim() ? figures.end() : figures.begin(), std::move(*arrival));
   return figures;

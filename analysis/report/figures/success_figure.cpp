@@ -45,7 +45,7 @@ struct ShownLine {
   }
 };
 
-/// What a figure of rates is of: the study's question, or one of several goals.
+/// The subject of a figure of rates: the study's question, or one of several goals.
 struct RateSubject {
   std::string goal{};  ///< its name; empty where there are not several
   std::vector<ShownLine> lines{};

@@ -31,7 +31,7 @@ struct RigProportion {
   double high{1.0};
 };
 
-/// What is asked of rigs: that the proportion `wanted` of them meets the requirement in the proportion q of
+/// The claim on rigs: the proportion `wanted` of them meets the requirement in the proportion q of
 /// their moves.
 struct RigClaim {
   double proportion;  ///< q
@@ -75,7 +75,7 @@ struct RigMark {
 ///
 /// of which the former is the case b = 0. P(b) and P(c)/P(b) are proportions with Clopper–Pearson bounds.
 ///
-/// Which mark is best depends on the rigs: a high one where they hardly ever miss, a low one where they are
+/// The best mark depends on the rigs: a high one where they hardly ever miss, a low one where they are
 /// well above q and miss at times. So there are several, and the error 1 − γ is divided among them
 /// (Bonferroni); the bound is the best of theirs. A mark that cannot show a proportion π₀ even if all rigs
 /// pass takes no part in showing π₀ or more, and leaves its error to the others:

@@ -59,7 +59,7 @@ struct LaneTrial {
   trial::LastHalf last_half;       ///< of this move
 
   std::optional<LaneLoop> loop;  ///< of a trial that needs one
-  /// Of a trial that measures it without a LaneLoop, which does it otherwise.
+  /// Of a trial with a position error and without a LaneLoop, which would measure it.
   std::optional<trial::PositionError> position;
   std::optional<LaneDrive> drive;  ///< of a trial that needs one
 };

@@ -79,6 +79,7 @@ struct Item {
   std::string column{};              ///< name in CSV; empty: "<object>_<key>", without an object the key
   bool optional{false};              ///< JSON has no such member where there is no content; else null
   bool verbatim{false};              ///< a text whose lines are shown as they are, below the heading
+  bool free_keys{false};             ///< of an object: its members are alike, and a study gives their keys
   bool common_above{false};          ///< of a table: what all its rows say alike is said once, above it
 
   // Description sets the members below.

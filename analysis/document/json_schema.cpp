@@ -50,6 +50,8 @@ Json kind_schema(const Item& item) {
     case Kind::map:
       return {{"type", "object"}, {"additionalProperties", item_schema(item.members[0])}};
     case Kind::object:
+      if (item.free_keys)
+        return {{"type", "object"}, {"additionalProperties", item_schema(item.members.at(0))}};
       return object_schema(item.members);
     case Kind::table:
     case Kind::sections:

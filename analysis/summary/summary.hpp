@@ -52,7 +52,7 @@ struct StudySummary {
 
   /// The measures that the points have statistics of.
   const layout::MeasureTable& table() const {
-    if (points.empty()) return layout::measure_table();
+    if (points.empty()) return layout::measure_table(features);
     return *points[complete.empty() ? 0 : static_cast<std::size_t>(complete.front())].table;
   }
 };

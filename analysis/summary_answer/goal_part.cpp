@@ -37,9 +37,10 @@ document::Description<goal::Verdict> verdict_description(const goal::Question& q
   const bool has_machines = std::ranges::any_of(
       question.parts, [](const goal::JudgedPart& part) { return part.claim->machines.has_value(); });
   if (has_names(question))
-    description.value(
-        {.key = "name", .meaning = "name of the goal: of several the worst, which all of this is of"},
-        [question](Verdict v) { return question.parts[v.goal].claim->name; });
+    description.value({.key = "name",
+                       .meaning = "name of the goal: of several the worst, which all of this is of",
+                       .optional = true},
+                      [question](Verdict v) { return question.parts[v.goal].claim->name; });
   if (!question.conditions.empty())
     description.value(
         {.key = "condition", .meaning = "the worst condition, which all of this is under", .optional = true},
@@ -62,23 +63,25 @@ document::Description<goal::Verdict> verdict_description(const goal::Question& q
     description
         .value({.key = "machines",
                 .meaning = "proportion of machines that meet the goal, with one-sided bounds; with "
-                           "worlds of the worst world; null where the goal is not on machines",
-                .unit = "1"},
+                           "worlds of the worst world; left out where the goal is not on machines",
+                .unit = "1",
+                .optional = true},
                of_machines(&goal::Verdict::machines))
         .value({.key = "without_miss",
                 .meaning = "proportion of machines without a miss in as many moves as these have, with "
-                           "one-sided bounds; null where the goal is not on machines",
-                .unit = "1"},
+                           "one-sided bounds; left out where the goal is not on machines",
+                .unit = "1",
+                .optional = true},
                of_machines(&goal::Verdict::without_miss))
-        .value(
-            {.key = "trials_of_one_machine",
-             .meaning = "trials without a miss that show of one machine that it meets the goal; null where "
-                        "the goal is not on machines"},
-            [question](Verdict v) -> std::optional<std::int64_t> {
-              const study::Goal& claim = *question.parts[v.goal].claim;
-              if (!claim.machines) return std::nullopt;
-              return statistics::trials_for_claim(claim.moves, claim.confidence, 0);
-            });
+        .value({.key = "trials_of_one_machine",
+                .meaning = "trials without a miss that show of one machine that it meets the goal; left out "
+                           "where the goal is not on machines",
+                .optional = true},
+               [question](Verdict v) -> std::optional<std::int64_t> {
+                 const study::Goal& claim = *question.parts[v.goal].claim;
+                 if (!claim.machines) return std::nullopt;
+                 return statistics::trials_for_claim(claim.moves, claim.confidence, 0);
+               });
   }
   if (on_rigs)
     description.value({.key = "rigs_without_miss", .meaning = "rigs all of whose moves meet the goal"},
@@ -123,7 +126,10 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
                [question](const PointReading& p) {
                  return p.verdict ? question.parts[p.verdict->goal].claim->name : "–";
                })
-        .object({.key = "goals", .meaning = "each of the goals, by name", .shown = Shown::in_data},
+        .object({.key = "goals",
+                 .meaning = "each of the goals, by name",
+                 .shown = Shown::in_data,
+                 .free_keys = true},
                 goals_description(question, summary.features.rigs), &PointReading::verdict);
   }
   if (!question.conditions.empty())

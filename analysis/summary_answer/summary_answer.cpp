@@ -229,6 +229,7 @@ std::vector<document::Item> united(std::vector<document::Item> all, const std::v
   for (const document::Item& item : more) {
     if (!document::is_shown(item.shown, document::Audience::json)) continue;
     if (const auto known = find(all, item.key); known != all.end()) {
+      if (item.free_keys) continue;
       if (item.kind != document::Kind::list && item.kind != document::Kind::map)
         known->members = united(known->members, item.members);
       continue;
@@ -246,7 +247,10 @@ StudySummary full_study() {
   full.features.travel = full.features.phases = full.features.load = full.features.drive_torque = true;
   full.features.encoder_errors = full.features.final_error = full.features.stopping = true;
   full.features.own_controller = full.features.rigs = true;
-  full.question.parts.front().claim = study::Goal{.machines = 0.99};
+  full.question.parts.front().claim = study::Goal{.name = "goal", .machines = 0.99};
+  full.question.parts.push_back(full.question.parts.front());
+  full.features.position_error = true;
+  full.features.tolerances = {{1e-8}, 1};
   full.question.worlds = 1;
   full.conditions = full.question.conditions = {"empty"};
   full.predictions.resize(1);

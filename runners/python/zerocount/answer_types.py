@@ -222,6 +222,8 @@ class Goal(Record):
 
     Attributes
     ----------
+    name : str or None
+        Name of the goal: of several the worst, which all of this is of.
     condition : str or None
         The worst condition, which all of this is under.
     status : Literal["met", "missed", "undecided"]
@@ -233,25 +235,27 @@ class Goal(Record):
     rate_high : float or None
         Upper bound.
     machines : float or None
-        Proportion of machines that meet the goal, with one-sided bounds; with worlds of the worst world; null where the
-        goal is not on machines.
+        Proportion of machines that meet the goal, with one-sided bounds; with worlds of the worst world; left out where
+        the goal is not on machines.
     machines_low : float or None
         Lower bound.
     machines_high : float or None
         Upper bound.
     without_miss : float or None
-        Proportion of machines without a miss in as many moves as these have, with one-sided bounds; null where the goal
-        is not on machines.
+        Proportion of machines without a miss in as many moves as these have, with one-sided bounds; left out where the
+        goal is not on machines.
     without_miss_low : float or None
         Lower bound.
     without_miss_high : float or None
         Upper bound.
     trials_of_one_machine : int or None
-        Trials without a miss that show of one machine that it meets the goal; null where the goal is not on machines.
+        Trials without a miss that show of one machine that it meets the goal; left out where the goal is not on
+        machines.
     rigs_without_miss : int or None
         Rigs all of whose moves meet the goal.
     """
 
+    name: str | None
     condition: str | None
     status: Literal["met", "missed", "undecided"]
     rate: float | None
@@ -328,9 +332,27 @@ class SummaryAnswer(Answer):
         - ``point``: number of the design point
         - ``label``: label of the design point
         - ``axes``: values of the swept parameters; null where one has a distribution
-        - ``goal``.* (condition, status, rate, rate_low, rate_high, machines, machines_low, machines_high, without_miss,
-          without_miss_low, without_miss_high, trials_of_one_machine, rigs_without_miss): whether the point meets the
-          goal, with bounds of this point alone
+        - ``goal``.* (name, condition, status, rate, rate_low, rate_high, machines, machines_low, machines_high,
+          without_miss, without_miss_low, without_miss_high, trials_of_one_machine, rigs_without_miss): whether the
+          point meets the goal, with bounds of this point alone
+        - ``goals``: each of the goals, by name
+          - ``name``: name of the goal: of several the worst, which all of this is of
+          - ``condition``: the worst condition, which all of this is under
+          - ``status``: verdict on the goal
+          - ``rate``: proportion of moves that meet the goal, with one-sided bounds; with worlds of the worst world
+          - ``rate_low``: lower bound
+          - ``rate_high``: upper bound
+          - ``machines``: proportion of machines that meet the goal, with one-sided bounds; with worlds of the worst
+            world; left out where the goal is not on machines
+          - ``machines_low``: lower bound
+          - ``machines_high``: upper bound
+          - ``without_miss``: proportion of machines without a miss in as many moves as these have, with one-sided
+            bounds; left out where the goal is not on machines
+          - ``without_miss_low``: lower bound
+          - ``without_miss_high``: upper bound
+          - ``trials_of_one_machine``: trials without a miss that show of one machine that it meets the goal; left out
+            where the goal is not on machines
+          - ``rigs_without_miss``: rigs all of whose moves meet the goal
         - ``machines_together``: proportion of rigs that meet all goals on machines, as observed; nothing where only one
           claim is on machines
         - ``trials``: trials of the point
@@ -383,6 +405,7 @@ class SummaryAnswer(Answer):
         - ``encoder_disagreement``.* (trials, mean, max): statistics of encoder disagreement
         - ``rigs``.* (n, success_sd, without_failure, without_failure_low, without_failure_high, worst_5_percent):
           statistics of rigs
+        - ``true_overshoot``.* (n, mean, p95, max): statistics of true overshoot
         - ``stopped``: trials that were ended early, because a move had diverged
         - ``controller_failed``: trials that the controller ended by giving no finite torque
         - ``rest_error_rms``.* (n, mean, max, mean_low, mean_high): statistics of rest error rms
@@ -403,6 +426,10 @@ class SummaryAnswer(Answer):
           - ``settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
             p95_high, max, mean_low, mean_high): statistics of settling time
           - ``exits``.* (n, mean, sd, p95, max, total, mean_low, mean_high): statistics of exits
+        - ``tolerances``: statistics by tolerance of the position error
+          - ``tolerance``: largest position error within the tolerance, rad
+          - ``settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
+            p95_high, max, mean_low, mean_high): statistics of settling time
         - ``moves``: counts of trials by move
           - ``zero_count``: trials with this outcome of the move
           - ``one_count``: trials with this outcome of the move
@@ -448,6 +475,7 @@ class SummaryAnswer(Answer):
           - ``trials``: trials under the condition
           - ``success``: trials all of whose moves ended at zero error
           - ``goal_met``: trials all of whose moves meet the goal
+          - ``goal``: name of the goal that the next numbers are of
           - ``rate``: proportion that the question is about, with one-sided bounds
           - ``rate_low``: lower bound
           - ``rate_high``: upper bound

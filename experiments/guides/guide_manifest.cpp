@@ -85,15 +85,28 @@ std::string converter(const GuideAxis& axis, const Lowest& lowest) {
   return fmt::format("dac: {{bits: {}, range: {}}}   # N\n", bits, written(range));
 }
 
+/// Zero counts depend on noise and lag, which every axis has.
+std::string encoder_and_amplifier(const std::string& resolution, const std::string& unit) {
+  return fmt::format(
+      "# assumed: a reading that seldom leaves its count at rest, the current loop of a servo drive. Yours "
+      "are in "
+      "their data\n"
+      "# sheets; 0 states that there is none.\n"
+      "encoder: {{{}fine_errors: {{noise: 0.1}}}}   # {}counts rms\n"
+      "amplifier: {{bandwidth: 1000}}   # Hz\n",
+      resolution, unit);
+}
+
 std::string hardware(const Guide& guide, const GuideAxis& axis, const Lowest& lowest) {
   switch (guide.axis) {
     case AxisKind::rotary:
-      return "# encoder and converter: the defaults, which are those of the paper's rig\n" +
-             controller(axis.load.mass, lowest, 2000);
+      return "# counts of the encoder, and the converter: the defaults, which are those of the paper's "
+             "rig\n" +
+             encoder_and_amplifier("", "") + controller(axis.load.mass, lowest, 2000);
     case AxisKind::linear:
       break;
   }
-  return fmt::format("encoder: {{resolution: {}}}   # m per count\n", written(axis.resolution)) +
+  return encoder_and_amplifier(fmt::format("resolution: {}, ", written(axis.resolution)), "m per count; ") +
          converter(axis, lowest) + controller(axis.load.mass, lowest, 10000);
 }
 

@@ -13,6 +13,7 @@
 #include "experiments/manifest/checks.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/randomness/factors.hpp"
+#include "experiments/rules/premises.hpp"
 #include "experiments/sections/conditions.hpp"
 #include "experiments/sections/goal.hpp"
 #include "experiments/sections/observations.hpp"
@@ -346,6 +347,8 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version,
   study.plan = plan;
   if (problems.empty()) check_measured_machines(study, m.places, m.reading);
   if (problems.empty()) check_unseen_motions(study, m.places, m.reading);
+  study.premises = rules::premises_of(
+      *plan, [&](std::size_t slot) { return given_place(m.places, *plan, slot).has_value(); });
   study.warnings = std::move(m.reading.warnings);
   return study;
 }

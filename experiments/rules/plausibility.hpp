@@ -16,7 +16,7 @@ std::vector<ValueRule> plausible_dynamics(const study::StudyPlan& plan);
 /// Pre-sliding: the spring softens before it slides, and yields by more than a few counts.
 std::vector<ValueRule> plausible_contact(const study::StudyPlan& plan);
 
-/// The delay of the loop is not one in seconds.
+/// The delay of the loop is not one in seconds, or in microseconds.
 std::vector<ValueRule> plausible_delay(const study::StudyPlan& plan);
 
 /// Gains: one count of error is within the range of the converter.

@@ -15,6 +15,7 @@ using Faults = std::vector<ValueFault>;
 constexpr double lowest_natural_frequency = 2.0;  // Hz; that of a positioning axis is tens to hundreds
 
 constexpr double min_delay = 0.01;  // samples; nobody measures less
+constexpr double max_delay = 20.0;  // samples; a loop has some of them
 
 /// Stiffness at rest and its name; 0 for a law that is not characterised by these parameters.
 struct Stiffness {
@@ -34,6 +35,11 @@ Stiffness stiffness_at_rest(friction::FrictionModel model, double k1, double k2,
 std::vector<ValueRule> plausible_delay(const study::StudyPlan&) {
   return {plausibility_rule({"controller.delay", "controller.sample_rate"}, [](Limits l) -> Faults {
     const double delay = l[0].typical;
+    if (delay > max_delay)
+      return {{fmt::format("a delay of {:.6g} samples is {:.3g} s at {:.6g} Hz", delay, delay / l[1].typical,
+                           l[1].typical),
+               fmt::format("a number of samples, at most {}; {:.6g} µs are {:.6g} samples", max_delay, delay,
+                           1e-6 * delay * l[1].typical)}};
     if (delay == 0.0 || delay >= min_delay) return {};
     return {{fmt::format("a delay of {:.6g} samples is {:.3g} s at {:.6g} Hz", delay, delay / l[1].typical,
                          l[1].typical),

@@ -176,6 +176,19 @@ struct ObservedCounts {
   std::int64_t of{1};         ///< trials, all on one rig
 };
 
+/// What a study says of an effect of a real axis.
+enum class PremiseState {
+  considered,   ///< it acts in some trials
+  stated_none,  ///< the manifest gives its parameter as 0
+  assumed       ///< the manifest does not name it, and the trials are without it
+};
+
+/// The assumption that an effect of a real axis is absent.
+struct Premise {
+  std::string_view assumption;  ///< "no delay"
+  PremiseState state{PremiseState::assumed};
+};
+
 /// A manifest as it was given.
 struct ManifestSource {
   std::string text;                    ///< exact bytes
@@ -205,6 +218,7 @@ struct Study {
   std::string name;
   std::string description;
   std::vector<std::string> warnings;  ///< possibly unintended input, one line each
+  std::vector<Premise> premises{};    ///< which effects the trials have, and which they leave out
 
   // The trials to run, and the question to answer.
   parameters::StudyUnits units;

@@ -1,5 +1,6 @@
 #include "runners/commands/command.hpp"
 
+#include "analysis/theory/goal_plausibility.hpp"
 #include "analysis/theory/loop_plausibility.hpp"
 #include "runners/status/status.hpp"
 
@@ -26,6 +27,7 @@ ExitCode exit_code_of(goal::Status status) {
 void print_warnings(const study::Study& study) {
   for (const std::string& warning : study.warnings) status::tell("warning: {}\n", warning);
   for (const std::string& warning : theory::doubtful_loops(study)) status::tell("warning: {}\n", warning);
+  for (const std::string& warning : theory::doubtful_goals(study)) status::tell("warning: {}\n", warning);
 }
 
 }  // namespace zerocount::commands

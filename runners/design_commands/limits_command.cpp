@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/examined_point.hpp"
 #include "runners/status/interruption.hpp"
+#include "runners/tuning/additions.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -27,10 +29,11 @@ constexpr const char* limits_help =
     "Tells what stands between a point and its goal: the rate of the goal with each cause of\n"
     "failures switched off alone, and with the best pair of causes: creep, the converter (16 times\n"
     "finer), the encoder (4 times finer), the sample rate (twice), delay and amplifier lag, noise,\n"
-    "disturbance, missed and late samples. The gains are not tuned again. All are simulated with\n"
-    "the same random numbers. Without a goal the rate is that of moves that end at zero counts. Of\n"
-    "several goals and conditions each rate is that of the worst. Of several points --point chooses\n"
-    "one.\n"
+    "disturbance, missed and late samples. The gains are not tuned again. Then with effects added\n"
+    "that a study may assume away: encoder noise, a sample of delay, and a mode of the load, of the\n"
+    "lowest frequency that costs at most 1 %. All are simulated with the same random numbers.\n"
+    "Without a goal the rate is that of moves that end at zero counts. Of several goals and\n"
+    "conditions each rate is that of the worst. Of several points --point chooses one.\n"
     "\n"
     "Example: zerocount limits my-axis.yaml\n";
 
@@ -103,7 +106,23 @@ std::string not_simulated(const std::vector<Limit>& limits) {
 struct PointLimits {
   const study::Study& study;
   std::vector<Limit> limits;
+  std::vector<tuning::Addition> additions;
 };
+
+document::Description<tuning::Addition> addition_columns() {
+  using tuning::Addition;
+  return document::Description<Addition>()
+      .value({.key = "effect", .heading = "added", .meaning = "effect that is added to those of the study"},
+             &Addition::effect)
+      .value({.key = "rate",
+              .heading = "rate",
+              .meaning = "proportion of moves, or of machines, that meet the question with it",
+              .unit = "1",
+              .notation = Notation::percent},
+             &Addition::rate)
+      .value({.key = "note", .heading = "remark", .meaning = "what is assumed of it, or found"},
+             &Addition::note);
+}
 
 /// "96.5 % of the moves meet the goal; most of them, 100 %, with twice the sample rate".
 std::string limits_headline(const PointLimits& found) {
@@ -125,18 +144,24 @@ document::AnswerDescription<PointLimits> limits_answer() {
   document::AnswerDescription<PointLimits> answer{
       {.name = "limits", .meaning = "what stands between a point and its goal", .csv_table = "limits"}, {}};
   answer.items.headline(limits_headline)
-      .include(limits_description("with causes of failures switched off"), &PointLimits::limits);
+      .include(limits_description("with causes of failures switched off"), &PointLimits::limits)
+      .table({.key = "additions",
+              .heading = "with effects added that every axis has",
+              .meaning = "rates with an effect added to those of the study"},
+             addition_columns(), &PointLimits::additions);
   return answer;
 }
 
 ExitCode limits(const command_line::Arguments& arguments) {
   const ExaminedPoint examined = point_to_examine(arguments);
   const status::InterruptionWatch interruption;
-  const PointLimits found{examined.study, unless_interrupted([&] {
-                            return tuning::limits_of(examined.study,
-                                                     trials::replicates_of(examined.study, examined.point),
-                                                     interruption.token());
-                          })};
+  const PointLimits found = unless_interrupted([&]() -> PointLimits {
+    const trials::Replicates units = trials::replicates_of(examined.study, examined.point);
+    std::vector<Limit> limits = tuning::limits_of(examined.study, units, interruption.token());
+    std::vector<tuning::Addition> additions =
+        tuning::additions_to(examined.study, units, limits.front().rate.value(), interruption.token());
+    return {examined.study, std::move(limits), std::move(additions)};
+  });
   return answers::print(arguments, limits_answer(), found);
 }
 

@@ -31,7 +31,8 @@ namespace {
 
 constexpr const char* check_help =
     "Reports every error of the manifest with its place. Without errors, prints the plan (design\n"
-    "points, trials, cost, size) and the theory of each design point:\n"
+    "points, trials, cost, size), the effects of a real axis that it assumes away (noise, delay, ...;\n"
+    "a key that is given as 0 is a statement), and the theory of each design point:\n"
     "  - the bounds of ki by the paper's criteria (6) and (7), which ignore sampling, delay and\n"
     "    amplifier, and the bound of the sampled loop at the lowest stiffness k1, which includes\n"
     "    them; both also at the lowest k1 of the study (the low end of its distribution, or the\n"
@@ -202,6 +203,15 @@ void add_inputs(document::Description<Plan>& description, document::Item item,
   });
 }
 
+/// The assumptions of the study in this state.
+std::vector<std::string_view> assumptions(const Plan& plan, study::PremiseState state) {
+  std::vector<std::string_view> found;
+  for (const study::Premise& premise : plan.study.premises) {
+    if (premise.state == state) found.push_back(premise.assumption);
+  }
+  return found;
+}
+
 document::Description<PointReading> point_description() {
   using document::in_data;
   return document::Description<PointReading>()
@@ -280,6 +290,11 @@ document::Description<Plan> plan_description() {
                return p.study.correlations.empty() ? std::optional<std::string>()
                                                    : study::correlations_text(p.study.correlations);
              })
+      .value(
+          {"assumed_away", "assumes away", "effects of a real axis that the study leaves out without a word"},
+          [](Of p) { return assumptions(p, study::PremiseState::assumed); })
+      .value({"stated_none", "states as absent", "effects of a real axis whose keys the manifest gives as 0"},
+             [](Of p) { return assumptions(p, study::PremiseState::stated_none); })
       .sentence(theory_text)
       .value(in_data("points_left_out", "points without their theory here"), &Plan::points_left_out)
       .table({.key = "theory",

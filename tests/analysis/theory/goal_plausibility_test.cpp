@@ -1,0 +1,207 @@
+// Goals that no loop can meet are told, with the bound that keeps them from it.
+#include "analysis/theory/goal_plausibility.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "analysis/theory/trial_loops.hpp"
+#include "core/trial/trial.hpp"
+#include "experiments/manifest/load_study.hpp"
+
+namespace zerocount::theory {
+namespace {
+
+constexpr double count = 1e-8;  // m
+
+/// A linear axis with k1 = 1e6 N/m and counts of 10 nm.
+study::Study study_with(const std::string& goal, const std::string& more = "",
+                        const std::string& encoder = "resolution: 1.0e-8") {
+  return manifest::parse_study(
+      fmt::format(
+          "zerocount: 1\nname: goals\naxis: linear\nseed: 1\ntrials: 2\n{}\n"
+          "plant: {{inertia: 2, sliding_damping: 10, presliding_damping: 300}}\n"
+          "friction: {{k1: 1.0e+6, k2: 4.0e+6, beta: 1.0e+6, breakaway: 10, alpha: 0, coulomb_ratio: 1, "
+          "lambda: 1.0e+7, stribeck_velocity: 1.0e-3}}\n"
+          "encoder: {{{}}}\ncommand: {{targets: [20], hold: 0.2}}\n"
+          "controller: {{units: si, sample_rate: 4000, ki: 1.0e+7, kp: 1.0e+5, kd: 100}}\n{}",
+          goal, encoder, more),
+      "m.yaml", {});
+}
+
+std::vector<std::string> doubts(const std::string& goal, const std::string& dac = "bits: 20, range: 50",
+                                const std::string& encoder = "resolution: 1.0e-8") {
+  return doubtful_goals(study_with("goal: {" + goal + "}", "dac: {" + dac + "}\n", encoder));
+}
+
+class GoalPlausibility : public testing::Test {
+ protected:
+  double log_uniform(double low, double high) {
+    return std::exp(std::uniform_real_distribution(std::log(low), std::log(high))(random_));
+  }
+  /// Just inside or outside of 1.
+  double near_one() { return std::bernoulli_distribution()(random_) ? 1.02 : 0.98; }
+  std::mt19937_64& random() { return random_; }
+  static constexpr int rounds = 40;
+
+ private:
+  std::mt19937_64 random_{7};
+};
+
+TEST_F(GoalPlausibility, AToleranceIsAtLeastHalfACount) {
+  for (int i = 0; i < rounds; ++i) {
+    const double resolution = log_uniform(1e-9, 1e-7);
+    const double ratio = near_one();
+    const auto told = doubts(fmt::format("tolerance: {:.17g}, within: 0.1", ratio * 0.5 * resolution),
+                             "bits: 24, range: 50", fmt::format("resolution: {:.17g}", resolution));
+    if (ratio > 1.0) {
+      EXPECT_TRUE(told.empty()) << told.front();
+      continue;
+    }
+    ASSERT_EQ(told.size(), 1U) << resolution;
+    EXPECT_TRUE(told.front().starts_with("point 0 (all): a tolerance of ")) << told.front();
+    EXPECT_NE(told.front().find(fmt::format("expected at least {:.3g} m", 0.5 * resolution)),
+              std::string::npos)
+        << told.front();
+  }
+}
+
+// (1 - 2 Q((b + 1/2)/noise))^n, n the samples from `within` on.
+TEST_F(GoalPlausibility, ABandHoldsTheNoiseOfAnAxisThatStandsStill) {
+  int told = 0;
+  for (int i = 0; i < rounds; ++i) {
+    const int band = std::uniform_int_distribution(0, 3)(random());
+    const double noise = log_uniform(0.1, 0.4) * (band + 0.5);
+    const double within = log_uniform(0.01, 0.19);
+    const int samples = 800 - static_cast<int>(std::floor(within * 4000.0));
+    const double inside = std::erf((band + 0.5) / noise / std::numbers::sqrt2);
+    const double rate = std::pow(inside, samples);
+    const double moves = std::clamp(rate * near_one(), 0.001, 0.999);
+    const auto lines = doubts(fmt::format("band: {}, within: {:.17g}, moves: {:.17g}", band, within, moves),
+                              "bits: 20, range: 50",
+                              fmt::format("resolution: 1.0e-8, fine_errors: {{noise: {:.17g}}}", noise));
+    ASSERT_EQ(lines.size(), moves > rate ? 1U : 0U) << rate << " " << moves;
+    if (lines.empty()) continue;
+    ++told;
+    EXPECT_NE(lines.front().find(fmt::format("at most {:.3g} % of the moves", 100.0 * rate)),
+              std::string::npos)
+        << lines.front();
+  }
+  EXPECT_GT(told, rounds / 5);
+  EXPECT_LT(told, rounds * 4 / 5);
+}
+
+// The bound is one: no trial of a loop, stable and ideal but for its noise, does better by more than chance.
+TEST_F(GoalPlausibility, MovesMeetABandNoOftenerThanTold) {
+  constexpr int trials = 400;
+  for (const double noise : {0.14, 0.15, 0.16}) {
+    const study::Study study = manifest::parse_study(
+        fmt::format("zerocount: 1\nname: noise\nseed: 3\ntrials: {}\ngoal: {{band: 0, within: 0.1}}\n"
+                    "encoder: {{fine_errors: {{noise: {}}}}}\ncommand: {{targets: [5], hold: 0.2}}\n"
+                    "friction: {{alpha: 0}}\ncontroller: {{ki: 2.0e-5}}\n",
+                    trials, noise),
+        "m.yaml", {});
+    int met = 0;
+    for (int i = 0; i < trials; ++i) {
+      const trial::TrialOutcome outcome = trial::run_trial(study::study_trial(study, 0, i).parameters);
+      met += outcome.moves[0].bands[0].settling_time <= 0.1 ? 1 : 0;
+    }
+    const double bound = highest_rate_within_band(0.0, noise, 200.0);
+    EXPECT_LE(met, trials * bound + 4.0 * std::sqrt(trials * bound * (1.0 - bound))) << noise;
+  }
+}
+
+TEST_F(GoalPlausibility, OneCodeMovesTheAxisByLessThanTheBand) {
+  for (int i = 0; i < rounds; ++i) {
+    const int band = std::uniform_int_distribution(0, 3)(random());
+    const bool tolerance = std::bernoulli_distribution()(random());
+    const double ratio = near_one();
+    const double width = (2.0 * band + 1.0) * count;
+    const std::string goal = tolerance ? fmt::format("tolerance: {:.17g}, within: 0.1", 0.5 * width)
+                                       : fmt::format("band: {}, within: 0.1", band);
+    const std::string dac = fmt::format("bits: 24, resolution: {:.17g}", ratio * 5e6 * width);
+    const auto lines = doubts(goal, dac);
+    ASSERT_EQ(lines.size(), ratio > 1.0 ? 1U : 0U) << goal << (lines.empty() ? "" : lines.front());
+    if (!lines.empty()) {
+      EXPECT_NE(lines.front().find(fmt::format("a code of at most {:.3g} N", 5e6 * width)), std::string::npos)
+          << lines.front();
+    }
+    EXPECT_TRUE(doubts(goal, dac + ", sigma_delta: true").empty());
+  }
+}
+
+// Of a spring that does not soften, so that the loop is linear but for its rounding.
+TEST_F(GoalPlausibility, NoiseMovesTheAxisByTheLinearLoop) {
+  for (const double bandwidth : {std::numeric_limits<double>::infinity(), 100.0}) {
+    for (const double noise : {5.0, 20.0}) {
+      const std::string of_bandwidth =
+          std::isfinite(bandwidth) ? fmt::format(", noise_bandwidth: {}", bandwidth) : "";
+      const study::Study study =
+          study_with("", "dac: {bits: 24, range: 50}\n",
+                     fmt::format("resolution: 1.0e-8, fine_errors: {{noise: {}{}}}", noise, of_bandwidth));
+      trial::TrialParameters p = study::study_trial(study, 0, 0).parameters;
+      p.friction.uniform.k2 = 0.0;
+      p.command.hold = 5.0;
+      const double predicted = motion_by_noise(trial_loops(p).front().loop, noise, count, bandwidth);
+      double sum = 0.0;
+      double squares = 0.0;
+      int samples = 0;
+      trial::TrialObservers observers;
+      observers.sample = [&](const trial::SampleRecord& sample) {
+        if (sample.t < 0.5) return;
+        sum += sample.theta;
+        squares += sample.theta * sample.theta;
+        ++samples;
+      };
+      trial::run_trial(p, observers);
+      const double mean = sum / samples;
+      EXPECT_NEAR(std::sqrt(squares / samples - mean * mean) / predicted, 1.0, 0.1)
+          << noise << " " << bandwidth;
+    }
+  }
+}
+
+TEST_F(GoalPlausibility, AToleranceHoldsTheMotionByNoise) {
+  for (int i = 0; i < rounds; ++i) {
+    const double noise = log_uniform(2, 20);
+    const std::string encoder = fmt::format("resolution: 1.0e-8, fine_errors: {{noise: {:.17g}}}", noise);
+    double least = std::numeric_limits<double>::infinity();
+    const trial::TrialParameters p =
+        study::study_trial(study_with("", "dac: {bits: 20, range: 50}\n", encoder), 0, 0).parameters;
+    for (const TrialLoop& loop : trial_loops(p)) {
+      if (!loop.slides)
+        least = std::min(least,
+                         motion_by_noise(loop.loop, noise, count, std::numeric_limits<double>::infinity()));
+    }
+    const double tolerance = log_uniform(0.5, 4) * least;
+    const double rate = std::erf(tolerance / least / std::numbers::sqrt2);
+    const double moves = std::clamp(rate * near_one(), 0.001, 0.999);
+    const auto lines =
+        doubts(fmt::format("tolerance: {:.17g}, within: 0.1, moves: {:.17g}", tolerance, moves),
+               "bits: 24, range: 50", encoder);
+    const bool is_told = std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
+      return line.find("rms moves the axis by") != std::string::npos;
+    });
+    EXPECT_EQ(is_told, moves > rate) << tolerance / least << " " << moves;
+  }
+}
+
+TEST_F(GoalPlausibility, TheGoalAndItsConditionAreNamed) {
+  const study::Study study = study_with(
+      "goals: {coarse: {band: 2, within: 0.1}, fine: {tolerance: 1.0e-8, within: 0.1}}\n"
+      "conditions: {cold: {dac.resolution: 1.0e-5}, warm: {dac.resolution: 0.15}}",
+      "dac: {bits: 20}\n");
+  const auto lines = doubtful_goals(study);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_TRUE(lines.front().starts_with("point 0 (all) under condition warm: goal fine: one code of the DAC"))
+      << lines.front();
+  EXPECT_TRUE(doubtful_goals(study_with("")).empty());
+}
+
+}  // namespace
+}  // namespace zerocount::theory

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analysis/parallel/parallel.hpp"
+#include "analysis/theory/load_mode.hpp"
 #include "analysis/theory/trial_loops.hpp"
 #include "core/friction/law.hpp"
 #include "core/friction/parameters.hpp"
@@ -15,6 +16,7 @@
 #include "core/theory/margins.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/plan.hpp"
+#include "runners/tuning/loop_spread.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -23,6 +25,8 @@ constexpr std::int64_t max_unlike_machines = 100;
 constexpr int places_on_profile = 64;
 constexpr int stiffnesses = 4;  // from the softest to the stiffest
 constexpr double longest_delay = 10.0;
+constexpr double lowest_mode_tried = 1.0;  // of a mode, Hz
+constexpr double frequency_ratio = 1.05;  // of one mode that is tried and the next
 
 /// What is examined of a machine.
 struct MachineLoops {
@@ -93,20 +97,28 @@ double degrees(double phase) {
   return std::isnan(phase) ? std::numeric_limits<double>::infinity() : std::abs(phase);
 }
 
+bool is_wanted(const study::LoopMargins& margins) {
+  return margins.gain || margins.phase || margins.delay || margins.sensitivity;
+}
+
+bool keeps_margins(const theory::FrozenLoop& loop, const study::LoopMargins& margins) {
+  if (margins.gain || margins.phase) {
+    const theory::StabilityMargins found = theory::stability_margins(loop);
+    if (margins.gain && decibels(found.gain.value) < *margins.gain) return false;
+    if (margins.phase && degrees(found.phase.value) < *margins.phase) return false;
+  }
+  return !margins.sensitivity || theory::peak_sensitivity(loop).value <= *margins.sensitivity;
+}
+
 bool keeps_margins(const trial::TrialParameters& p, const MachineLoops& machine,
                    const study::LoopMargins& margins) {
-  if (!margins.gain && !margins.phase && !margins.delay) return true;
   const Loops of = loops_of(p, machine, 0.0);
   if (!none_unstable(of)) return false;
   for (const double share : {0.5, 1.0}) {
     if (margins.delay && !none_unstable(loops_of(p, machine, share * *margins.delay))) return false;
   }
-  if (!margins.gain && !margins.phase) return true;
-  return std::ranges::all_of(of.loops, [&](const theory::FrozenLoop& one) {
-    const theory::StabilityMargins found = theory::stability_margins(one);
-    return !(margins.gain && decibels(found.gain.value) < *margins.gain) &&
-           !(margins.phase && degrees(found.phase.value) < *margins.phase);
-  });
+  return std::ranges::all_of(of.loops,
+                             [&](const theory::FrozenLoop& one) { return keeps_margins(one, margins); });
 }
 
 /// The delay (samples) by which the loop may grow until it is unstable, to 0.01.
@@ -128,16 +140,9 @@ double delay_margin(const trial::TrialParameters& p, const MachineLoops& machine
 bool differ_in_stiffness_alone(const study::Study& study, std::int64_t condition,
                                friction::FrictionModel model) {
   if (!friction::has_spring(model) && friction::traits_of(model).has_presliding_motion) return false;
-  const study::StudyPlan& plan = *study.plan;
-  for (std::size_t column = 0; column < study.columns.inputs.size(); ++column) {
-    const std::string_view name = study.columns.inputs[column].name;
-    if (name.starts_with("friction.") || name.starts_with("initial.") || name.starts_with("command."))
-      continue;
-    const study::Value& value =
-        *study::value_at_point(plan, plan.inputs[column].slot, study::plan_point(plan, 0, condition));
-    if (!plan.has_conditions() || value.kind != study::Value::Kind::number) return false;
-  }
-  return true;
+  return !draws(study, condition, [](std::string_view name) {
+    return !name.starts_with("friction.") && !name.starts_with("initial.") && !name.starts_with("command.");
+  });
 }
 
 /// The softest and the stiffest contact over the friction profile of a trial.
@@ -154,12 +159,38 @@ std::pair<double, double> stiffness_range(const trial::TrialParameters& p, doubl
   return {softest, stiffest};
 }
 
+/// Of no loop at all.
+SmallestMargins no_limit() {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  return {.gain = none, .phase = none, .delay = longest_delay};
+}
+
+SmallestMargins margins_of_machine(const trial::TrialParameters& p, const MachineLoops& machine) {
+  const Loops of = loops_of(p, machine, 0.0);
+  SmallestMargins smallest = no_limit();
+  smallest.delay = delay_margin(p, machine);
+  smallest.before_sliding = of.before_sliding;
+  smallest.sliding = of.sliding;
+  for (const theory::FrozenLoop& each : of.loops) {
+    smallest.stable = smallest.stable && !is_unstable(each, of.hold);
+    const theory::StabilityMargins margins = theory::stability_margins(each);
+    smallest.gain = std::min(smallest.gain, decibels(margins.gain.value));
+    smallest.phase = std::min(smallest.phase, degrees(margins.phase.value));
+    smallest.sensitivity = std::max(smallest.sensitivity, theory::peak_sensitivity(each).value);
+    const double crossover = theory::gain_crossover(each).frequency;
+    if (crossover > smallest.crossover) smallest.crossover = crossover;
+  }
+  return smallest;
+}
+
 /// Lets margins be the smallest of other machines too.
 void include(SmallestMargins& all, const SmallestMargins& one) {
   all.stable = all.stable && one.stable;
   all.gain = std::min(all.gain, one.gain);
   all.phase = std::min(all.phase, one.phase);
   all.delay = std::min(all.delay, one.delay);
+  all.sensitivity = std::max(all.sensitivity, one.sensitivity);
+  all.crossover = std::max(all.crossover, one.crossover);
   all.before_sliding = all.before_sliding || one.before_sliding;
   all.sliding = all.sliding || one.sliding;
 }
@@ -181,7 +212,7 @@ LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
     const std::int64_t trial = turns.trial_of(static_cast<std::int64_t>(i) / turns.conditions, condition);
     const auto [softest, stiffest] =
         stiffness_range(study::study_trial(study, 0, trial).parameters, study.period);
-    all[i] = {trial, condition, softest, stiffest};
+    all[i] = {trial, condition, spread_of_undrawn(study, condition), softest, stiffest};
   });
   for (const Machine& one : all) {
     const auto like_it = std::ranges::find(machines_, one.condition, &Machine::condition);
@@ -208,12 +239,24 @@ void LoopExaminer::add_critical(std::int64_t condition, const Less& less) {
   if (std::ranges::find(critical_, *first) == critical_.end()) critical_.push_back(*first);
 }
 
+bool LoopExaminer::keeps(const study::Study& candidate, const Machine& machine,
+                         const study::LoopMargins& margins, bool slides) {
+  if (!is_wanted(margins)) return true;
+  return std::ranges::all_of(corners(candidate, machine), [&](const trial::TrialParameters& p) {
+    return keeps_margins(p, {machine.softest, machine.stiffest, slides}, margins);
+  });
+}
+
+std::vector<trial::TrialParameters> LoopExaminer::corners(const study::Study& candidate,
+                                                          const Machine& machine) {
+  return corners_of(study::study_trial(candidate, 0, machine.trial).parameters, machine.spread);
+}
+
 bool LoopExaminer::may_keep(const study::Study& candidate, const study::LoopMargins& margins,
                             bool slides) const {
   return std::ranges::all_of(critical_, [&](std::size_t index) {
     const Machine& one = machines_[index];
-    return keeps_margins(study::study_trial(candidate, 0, one.trial).parameters,
-                         {one.softest, one.stiffest, slides}, margins);
+    return keeps(candidate, one, margins, slides);
   });
 }
 
@@ -222,11 +265,7 @@ bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins
   std::vector<char> kept(machines_.size(), 1);
   parallel::for_each_index(machines_.size(), [&](std::size_t i) {
     if (stop.stop_requested()) throw trial::Interrupted{};
-    const Machine& one = machines_[i];
-    kept[i] = keeps_margins(study::study_trial(candidate, 0, one.trial).parameters,
-                            {one.softest, one.stiffest, slides}, margins)
-                  ? 1
-                  : 0;
+    kept[i] = keeps(candidate, machines_[i], margins, slides) ? 1 : 0;
   });
   const auto broken = std::ranges::find(kept, 0);
   if (broken == kept.end()) return true;
@@ -237,29 +276,41 @@ bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins
 
 SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool slides,
                                          const std::stop_token& stop) const {
-  std::vector<SmallestMargins> found(machines_.size());
-  constexpr double none = std::numeric_limits<double>::infinity();
+  std::vector<SmallestMargins> found(machines_.size(), no_limit());
   parallel::for_each_index(machines_.size(), [&](std::size_t i) {
     if (stop.stop_requested()) throw trial::Interrupted{};
     const MachineLoops machine{machines_[i].softest, machines_[i].stiffest, slides};
-    const trial::TrialParameters p = study::study_trial(candidate, 0, machines_[i].trial).parameters;
-    const Loops of = loops_of(p, machine, 0.0);
-    SmallestMargins& smallest = found[i];
-    smallest = {true, none, none, delay_margin(p, machine), 1, of.before_sliding, of.sliding};
-    for (const theory::FrozenLoop& each : of.loops) {
-      smallest.stable = smallest.stable && !is_unstable(each, of.hold);
-      const theory::StabilityMargins margins = theory::stability_margins(each);
-      smallest.gain = std::min(smallest.gain, decibels(margins.gain.value));
-      smallest.phase = std::min(smallest.phase, degrees(margins.phase.value));
-    }
+    for (const trial::TrialParameters& p : corners(candidate, machines_[i]))
+      include(found[i], margins_of_machine(p, machine));
   });
-  SmallestMargins all{true, none, none, longest_delay, examined_};
+  SmallestMargins all = no_limit();
+  all.machines = examined_;
+  if (!machines_.empty()) all.spread = machines_.front().spread;
   all.conditions.resize(static_cast<std::size_t>(conditions_), all);
   for (std::size_t i = 0; i < found.size(); ++i) {
     include(all, found[i]);
     if (conditions_ > 0) include(all.conditions[static_cast<std::size_t>(machines_[i].condition)], found[i]);
   }
   return all;
+}
+
+std::optional<double> LoopExaminer::lowest_mode(const study::Study& candidate, bool slides,
+                                                const std::stop_token& stop) const {
+  const auto bears = [&](double frequency) {
+    if (stop.stop_requested()) throw trial::Interrupted{};
+    return std::ranges::all_of(critical_, [&](std::size_t index) {
+      const Machine& one = machines_[index];
+      trial::TrialParameters p = study::study_trial(candidate, 0, one.trial).parameters;
+      p.plant = theory::with_load_mode(p.plant, frequency);
+      return none_unstable(loops_of(p, {one.softest, one.stiffest, slides}, 0.0));
+    });
+  };
+  if (is_blind()) return std::nullopt;
+  const trial::TrialParameters first = study::study_trial(candidate, 0, machines_.front().trial).parameters;
+  double borne = 0.5 * first.controller.sample_rate;
+  if (motion::has_load(first.plant) || !bears(borne)) return std::nullopt;
+  while (borne > lowest_mode_tried && bears(borne / frequency_ratio)) borne /= frequency_ratio;
+  return borne;
 }
 
 }  // namespace zerocount::tuning

@@ -52,6 +52,10 @@ LoopStability stability_of(const FrozenLoop& loop, double hold) {
   return stability_of(poles_of(loop), loop.sample_time, hold);
 }
 
+double log_growth(const FrozenLoop& loop, double hold) {
+  return growth_of(poles_of(loop)) * hold / loop.sample_time;
+}
+
 double slowest_time_constant(const Eigen::VectorXcd& poles, double sample_time) {
   constexpr double gone_at_once = 1e-6;  // eigenvalues that are 0 up to rounding
   double slowest = 0.0;

@@ -47,6 +47,10 @@ enum class LoopStability {
 LoopStability stability_of(const Eigen::VectorXcd& poles, double sample_time, double hold);
 LoopStability stability_of(const FrozenLoop& loop, double hold);
 
+/// The logarithm of the factor by which the motion that grows fastest, or dies out last, changes within
+/// `hold` (s); below 0 where it dies out.
+double log_growth(const FrozenLoop& loop, double hold);
+
 /// The slowest time constant of an approach without oscillation, s: −T/ln z of the largest real pole z in
 /// (1e-6, 1); 0 without one, infinite where a pole does not decay.
 double slowest_time_constant(const Eigen::VectorXcd& poles, double sample_time);

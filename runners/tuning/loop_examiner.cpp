@@ -26,7 +26,7 @@ constexpr int places_on_profile = 64;
 constexpr int stiffnesses = 4;  // from the softest to the stiffest
 constexpr double longest_delay = 10.0;
 constexpr double lowest_mode_tried = 1.0;  // of a mode, Hz
-constexpr double frequency_ratio = 1.05;  // of one mode that is tried and the next
+constexpr double frequency_ratio = 1.05;   // of one mode that is tried and the next
 
 /// What is examined of a machine.
 struct MachineLoops {
@@ -119,6 +119,41 @@ bool keeps_margins(const trial::TrialParameters& p, const MachineLoops& machine,
   }
   return std::ranges::all_of(of.loops,
                              [&](const theory::FrozenLoop& one) { return keeps_margins(one, margins); });
+}
+
+/// The part of a margin that is missing; 0 where nothing is.
+double missing_part(double found, double wanted) {
+  return wanted > 0.0 ? std::max(1.0 - found / wanted, 0.0) : 0.0;
+}
+
+/// How fast loops grow that shall be stable, above 0; 0 where they all are.
+double instability(const Loops& of) {
+  double fastest = 0.0;
+  for (const theory::FrozenLoop& one : of.loops) {
+    if (is_unstable(one, of.hold)) fastest = std::max(fastest, std::log1p(theory::log_growth(one, of.hold)));
+  }
+  return fastest;
+}
+
+double shortfall_of(const trial::TrialParameters& p, const MachineLoops& machine,
+                    const study::LoopMargins& margins) {
+  const Loops of = loops_of(p, machine, 0.0);
+  if (const double fastest = instability(of); fastest > 0.0) return 1.0 + fastest;
+  double missing = 0.0;
+  for (const double share : {0.5, 1.0}) {
+    if (!margins.delay) break;
+    const double fastest = instability(loops_of(p, machine, share * *margins.delay));
+    missing = std::max(missing, fastest / (1.0 + fastest));
+  }
+  for (const theory::FrozenLoop& one : of.loops) {
+    const theory::StabilityMargins found = theory::stability_margins(one);
+    if (margins.gain) missing = std::max(missing, missing_part(decibels(found.gain.value), *margins.gain));
+    if (margins.phase) missing = std::max(missing, missing_part(degrees(found.phase.value), *margins.phase));
+    if (!margins.sensitivity) continue;
+    const double peak = theory::peak_sensitivity(one).value;
+    missing = std::max(missing, missing_part(1.0 / (peak - 1.0), 1.0 / (*margins.sensitivity - 1.0)));
+  }
+  return missing;
 }
 
 /// The delay (samples) by which the loop may grow until it is unstable, to 0.01.
@@ -258,6 +293,18 @@ bool LoopExaminer::may_keep(const study::Study& candidate, const study::LoopMarg
     const Machine& one = machines_[index];
     return keeps(candidate, one, margins, slides);
   });
+}
+
+double LoopExaminer::shortfall(const study::Study& candidate, const study::LoopMargins& margins,
+                               bool slides) const {
+  double largest = 0.0;
+  if (!is_wanted(margins)) return largest;
+  for (const std::size_t index : critical_) {
+    const Machine& one = machines_[index];
+    for (const trial::TrialParameters& p : corners(candidate, one))
+      largest = std::max(largest, shortfall_of(p, {one.softest, one.stiffest, slides}, margins));
+  }
+  return largest;
 }
 
 bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins& margins, bool slides,

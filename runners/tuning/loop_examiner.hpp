@@ -43,6 +43,9 @@ class LoopExaminer {
   /// Whether the machines that were critical so far keep the margins.
   /// @param slides whether machines of the candidate slide
   bool may_keep(const study::Study& candidate, const study::LoopMargins& margins, bool slides) const;
+  /// How far the critical machines are from keeping the margins: 0 where they keep them; below 1 the largest
+  /// part of a margin that is missing; from 1 on a loop is unstable, and the faster it grows the larger.
+  double shortfall(const study::Study& candidate, const study::LoopMargins& margins, bool slides) const;
   /// Whether all machines keep them; one that does not counts as critical from now on.
   /// @throws trial::Interrupted
   bool keeps(const study::Study& candidate, const study::LoopMargins& margins, bool slides,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <utility>
 
 #include "analysis/parallel/parallel.hpp"
@@ -78,6 +79,7 @@ SearchResult StudySearch::run(const SearchSettings& settings, std::vector<Values
     evaluate(candidates, to);
   };
   problem.admissible = [this](std::span<const Candidate> candidates) { return admissible(candidates); };
+  problem.shortfall = [this](std::span<const Values> values) { return shortfall(values); };
   problem.verified = [this](const Candidate& candidate) { return verified(candidate); };
   return search(problem, settings);
 }
@@ -135,6 +137,17 @@ std::vector<bool> StudySearch::admissible(std::span<const Candidate> candidates)
     if (candidates[i].units.empty()) examined_.push_back(candidates[i].values);
   }
   return {kept.begin(), kept.end()};
+}
+
+std::vector<double> StudySearch::shortfall(std::span<const Values> values) const {
+  std::vector<double> found(values.size(), std::numeric_limits<double>::infinity());
+  parallel::for_each_index(values.size(), [&](std::size_t i) {
+    if (stop_.stop_requested()) return;
+    if (const std::optional<study::Study> study = examined_if_allowed(values[i]))
+      found[i] = examiner_.shortfall(*study, study_.tuning->margins, false);
+  });
+  if (stop_.stop_requested()) throw trial::Interrupted{};
+  return found;
 }
 
 bool StudySearch::verified(const Candidate& one) {

@@ -55,6 +55,8 @@ class StudySearch {
  private:
   void evaluate(std::span<Candidate* const> candidates, std::int64_t to);
   std::vector<bool> admissible(std::span<const Candidate> candidates);
+  /// That of values whose units are not run yet.
+  std::vector<double> shortfall(std::span<const Values> values) const;
   bool verified(const Candidate& candidate);
 
   /// What the margins of a candidate depend on: its values, and whether it slid.

@@ -21,6 +21,14 @@ constexpr int patience = 4;                 // generations without improvement
 constexpr double min_improvement = 0.005;   // of the criterion
 constexpr double examining = 0.3;           // of the time left, at most, to find candidates of a generation
 
+// Of differential evolution.
+constexpr std::size_t walkers = 24;
+constexpr std::int64_t first_places = 96;  // the best of which become walkers
+constexpr int rounds_of_walkers = 60;
+constexpr int tries_before_walking = 8;  // for a later generation
+constexpr double walked_part = 0.6;      // of the difference of two others
+constexpr double crossover = 0.9;        // probability that a coordinate moves
+
 class Search {
  public:
   Search(const SearchProblem& problem, const SearchSettings& settings)
@@ -122,6 +130,72 @@ class Search {
       add_admissible(places, wanted, candidates);
       return candidates.size() < wanted && drawn < most;
     });
+    if (!problem_.shortfall) return;
+    approach(candidates, wanted, face, [&](std::int64_t i) { return spread_place(start, i); });
+  }
+
+  struct Walker {
+    UnitCubePoint place;
+    double shortfall{0.0};
+  };
+
+  std::vector<Walker> at_places(std::vector<UnitCubePoint> places) const {
+    std::vector<Values> values;
+    values.reserve(places.size());
+    for (const UnitCubePoint& place : places) values.push_back(values_at(problem_.free, place));
+    const std::vector<double> shortfalls = problem_.shortfall(values);
+    std::vector<Walker> walking;
+    for (std::size_t i = 0; i < places.size(); ++i) walking.push_back({std::move(places[i]), shortfalls[i]});
+    return walking;
+  }
+
+  /// Adds candidates that differential evolution finds where `shortfall` is 0, up to `wanted` of all.
+  /// @param face parameters that stay at their low ends. @param first places at which it may begin, 0, 1, …
+  void approach(std::vector<Candidate>& candidates, std::size_t wanted, const std::vector<std::size_t>& face,
+                const std::function<UnitCubePoint(std::int64_t)>& first) {
+    if (candidates.size() >= wanted) return;
+    std::vector<Walker> walking;
+    int round = 0;
+    find(candidates, [&] {
+      std::vector<UnitCubePoint> places;
+      if (walking.empty()) {
+        for (std::int64_t i = 0; i < first_places; ++i) places.push_back(first(i));
+      } else {
+        for (const Walker& one : walking) places.push_back(moved(one, walking));
+      }
+      for (UnitCubePoint& place : places) {
+        for (const std::size_t parameter : face) place[parameter] = 0.0;
+      }
+      std::vector<Walker> found = at_places(std::move(places));
+      std::vector<UnitCubePoint> admissible;
+      for (const Walker& one : found) {
+        if (one.shortfall == 0.0) admissible.push_back(one.place);
+      }
+      add_admissible(admissible, wanted, candidates);
+      if (walking.empty()) {
+        std::ranges::stable_sort(found, {}, &Walker::shortfall);
+        found.resize(walkers);
+        walking = std::move(found);
+      } else {
+        for (std::size_t i = 0; i < walking.size(); ++i) {
+          if (found[i].shortfall <= walking[i].shortfall) walking[i] = std::move(found[i]);
+        }
+      }
+      return candidates.size() < wanted && ++round < rounds_of_walkers;
+    });
+  }
+
+  UnitCubePoint moved(const Walker& walker, const std::vector<Walker>& walking) {
+    const UnitCubePoint& base = walking[index_below(walking.size())].place;
+    const UnitCubePoint& from = walking[index_below(walking.size())].place;
+    const UnitCubePoint& to = walking[index_below(walking.size())].place;
+    const std::size_t always = index_below(base.size());
+    UnitCubePoint place = walker.place;
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      if (i != always && numbers_.uniform() >= crossover) continue;
+      place[i] = std::clamp(base[i] + walked_part * (to[i] - from[i]), 0.0, 1.0);
+    }
+    return place;
   }
 
   /// A place near an elite, moved along the difference of two others: their spread knows the direction of a
@@ -142,7 +216,8 @@ class Search {
     return place;
   }
 
-  /// Where few places are admissible, they are near those that are: each try takes shorter steps.
+  /// Where few places are admissible, they are near those that are: each try takes shorter steps; and walkers
+  /// that start around the elites go farther along a thin region.
   void next_generation() {
     std::vector<Candidate> candidates;
     const auto wanted = static_cast<std::size_t>(problem_.size.candidates);
@@ -152,8 +227,11 @@ class Search {
       for (std::size_t i = candidates.size(); i < wanted; ++i)
         places.push_back(place_near_elites(step_ / (1.0 + 0.2 * tries)));
       add_admissible(places, wanted, candidates);
-      return ++tries < tries_of_candidate && candidates.size() < wanted;
+      return ++tries < (problem_.shortfall ? tries_before_walking : tries_of_candidate) &&
+             candidates.size() < wanted;
     });
+    if (problem_.shortfall)
+      approach(candidates, wanted, {}, [&](std::int64_t) { return place_near_elites(step_); });
     race(std::move(candidates));
     step_ *= step_ratio;
   }

@@ -34,6 +34,9 @@ struct SearchProblem {
   /// [candidate] whether it may be tried at all, or go on after what its units did. Cheap: called for many
   /// candidates.
   std::function<std::vector<bool>(std::span<const Candidate>)> admissible;
+  /// How far values are from being admissible before any unit is run: 0 where they are. Where it is given,
+  /// the first generation walks to what is admissible if the ranges have little of it.
+  std::function<std::vector<double>(std::span<const Values>)> shortfall{};
   /// Whether a candidate keeps all conditions, also those that are costly to examine. Called for candidates
   /// that lead; what `admissible` says may become stricter by it.
   std::function<bool(const Candidate&)> verified;
@@ -69,13 +72,16 @@ struct SearchResult {
 /// Seeks the best values within the effort.
 ///
 ///     candidates = points that fill the ranges and the faces, and `starts`       // first generation
+///     if too few of them are admissible: those that differential evolution of `shortfall` finds
 ///     repeat until generations improve nothing, or the effort is spent:
 ///       for units = first_units, 2·first_units, … max_units:                     // race
 ///         evaluate all candidates up to `units`
 ///         drop those not admissible, significantly worse than the best, or beyond max_after(units)
 ///       population = the best `elites`; candidates = points near them
 ///
-/// Where the effort ends within a race, the candidates with the most units stay.
+/// Where the effort ends within a race, the candidates with the most units stay. Differential evolution is
+/// that of Storn and Price (Journal of Global Optimization 11, 1997), rand/1/bin: once its walkers are in an
+/// admissible region they fill it, because any move within it is taken.
 /// @throws trial::Interrupted
 SearchResult search(const SearchProblem& problem, const SearchSettings& settings);
 

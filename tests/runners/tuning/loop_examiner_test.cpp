@@ -179,6 +179,32 @@ TEST(LoopExaminer, KeepsASensitivityThatIsTheLargestOfAnyLoop) {
   }
 }
 
+// Along a line of gains, from no control to far beyond what any loop bears.
+TEST(LoopExaminer, FallsShortOfTheMarginsWhereItDoesNotKeepThem) {
+  int kept = 0;
+  int stable = 0;
+  constexpr int steps = 40;
+  for (int i = 0; i < steps; ++i) {
+    const double factor = std::pow(10.0, 4.0 * i / steps - 2.0);
+    const study::Study study =
+        with_margins("{gain: 6, sensitivity: 1.8}", "",
+                     fmt::format("kp: {}, ki: {}, kd: {}", 20 * factor, 1000 * factor, 0.3 * factor));
+    const LoopExaminer examiner(study, 4);
+    for (const bool slides : {false, true}) {
+      const double shortfall = examiner.shortfall(study, study.tuning->margins, slides);
+      const bool keeps = examiner.may_keep(study, study.tuning->margins, slides);
+      EXPECT_EQ(shortfall == 0.0, keeps) << factor;
+      const bool is_stable = examiner.margins_of(study, slides).stable;
+      EXPECT_EQ(shortfall < 1.0, is_stable) << factor;
+      kept += keeps ? 1 : 0;
+      stable += is_stable ? 1 : 0;
+    }
+  }
+  EXPECT_GT(kept, 5);
+  EXPECT_GT(stable, kept);
+  EXPECT_LT(stable, 2 * steps);
+}
+
 // At the lowest mode that is borne the loops are stable, and a little below it one is not.
 TEST(LoopExaminer, FindsTheLowestModeOfALoadThatTheLoopsBear) {
   const study::Study study = with_margins("off");

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <string>
 
 #include "core/random/random_numbers.hpp"
 #include "experiments/study/study.hpp"
@@ -10,8 +11,8 @@
 
 namespace zerocount::tuning {
 
-/// A problem of two parameters in [0, 1] with a known truth: the rate of the goal falls with the distance
-/// from `reliable`, the settling time with that from `fast`.
+/// A problem of parameters in [0, 1], two unless `reliable` and `fast` have more, with a known truth: the
+/// rate of the goal falls with the distance from `reliable`, the settling time with that from `fast`.
 struct MadeUpProblem {
   std::uint64_t seed{1};
   double highest_rate{0.99};
@@ -21,21 +22,25 @@ struct MadeUpProblem {
   study::Goal goal{.within = 1.0, .moves = 0.95};
 
   static double squared_distance(const Values& a, const Values& b) {
-    return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return sum;
   }
   double rate(const Values& at) const { return highest_rate - fall * squared_distance(at, reliable); }
   double typical_time(const Values& at) const { return 0.01 + squared_distance(at, fast); }
 
   double uniform(std::uint64_t stream, std::uint64_t unit, const Values& at) const {
     const auto hash = [](double x) { return static_cast<std::uint64_t>(x * 1e9); };
+    std::uint64_t place = 0;
+    for (const double x : at) place = place * 0x9E3779B97F4A7C15U + hash(x);
     return random::open_uniform(
         random::random_bits({{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(stream)}, 0},
-                            unit + (hash(at[0]) << 20U) + (hash(at[1]) << 42U), random::Draw::trial));
+                            unit + (place << 20U), random::Draw::trial));
   }
 
   /// The result of a unit: half of its luck is the machine's, the same at all points, half that of the point.
   UnitResult result(const Values& at, std::uint64_t unit) const {
-    const Values everywhere{0.0, 0.0};
+    const Values everywhere(at.size(), 0.0);
     const auto normal = [&](std::uint64_t stream, const Values& place) {
       const double u = uniform(stream, unit, place);
       return std::sqrt(-2.0 * std::log(u)) *
@@ -48,7 +53,8 @@ struct MadeUpProblem {
 
   SearchProblem problem(std::int64_t units) const {
     SearchProblem problem;
-    problem.free = {{.name = "x", .low = 0.0, .high = 1.0}, {.name = "y", .low = 0.0, .high = 1.0}};
+    for (std::size_t i = 0; i < fast.size(); ++i)
+      problem.free.push_back({.name = std::string(1, "xyzw"[i]), .low = 0.0, .high = 1.0});
     problem.aim = {.claims = {{.moves = goal.moves}}, .quantile = 0.95};
     problem.size = search_size({.free = problem.free.size(), .max_units = units}, std::int64_t{1} << 40);
     problem.evaluate = [this](std::span<Candidate* const> candidates, std::int64_t to) {

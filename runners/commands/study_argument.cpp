@@ -1,19 +1,52 @@
 #include "runners/commands/study_argument.hpp"
 
+#include <algorithm>
 #include <string>
 
+#include <fmt/format.h>
+
+#include "analysis/summary/best_point.hpp"
+#include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/sections/joint_draws.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/hdf5/array_file.hpp"
 #include "results/layout/header.hpp"
+#include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
+#include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/plugins/plugin_library.hpp"
 
 namespace zerocount::commands {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// The study whose trials a complete results file holds.
+study::Study study_in_file(const fs::path& path, const command_line::Arguments& arguments, bool writes) {
+  if (!arguments.values("set").empty())
+    arguments.refuse("option '--set': changes a manifest, not a results file; expected a manifest");
+  const reading::ResultsFile file(path);
+  if (file.header().plugin)
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: its controller is a plugin, which the file does not contain; expected its "
+                              "manifest",
+                              path.string()));
+  const auto differs = [&](const parameters::EarlierDefault& earlier) {
+    return file.header().version <= earlier.until_version;
+  };
+  if (writes && std::ranges::any_of(parameters::earlier_defaults(), differs))
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: the program that wrote it had other defaults, so that its manifest now "
+                              "means another study; expected a manifest",
+                              path.string()));
+  return file.study();
+}
+
+}  // namespace
 
 bool is_results_file(const fs::path& path) {
   if (path.extension() == ".h5") return true;
@@ -24,21 +57,35 @@ study::Study described_study(const fs::path& path) {
   return layout::recorded_study(shards::inspect_header(path, layout::Checksum::not_yet), path);
 }
 
-study::Study load_study(const fs::path& manifest, const command_line::Arguments& arguments,
+study::Study load_study(const fs::path& operand, const command_line::Arguments& arguments,
                         std::span<const fs::path> outputs) {
-  const fs::path folder = yaml::is_stream(manifest) ? fs::path() : manifest.parent_path();
+  const fs::path folder = yaml::is_stream(operand) ? fs::path() : operand.parent_path();
   const auto input = [&](const fs::path& path) {
     for (const fs::path& output : outputs) command_line::require_no_input(arguments, output, {&path, 1});
     return path;
   };
+  if (is_results_file(operand)) return study_in_file(input(operand), arguments, !outputs.empty());
   const auto load_plugin = [&](const std::string& path) {
     return plugins::load_plugin(input(folder / path));
   };
   const auto read_samples = [&](const std::string& path) {
     return yaml::read_text(input(folder / path), sections::max_samples_size, "a table of samples");
   };
-  return manifest::load_study(input(manifest), arguments.values("set"),
+  return manifest::load_study(input(operand), arguments.values("set"),
                               {.plugin = load_plugin, .samples = read_samples});
+}
+
+std::optional<std::int64_t> study_point(const command_line::Arguments& arguments, const study::Study& study) {
+  const std::vector<std::string>& labels = study.points.labels;
+  if (arguments.value("point") != "best" || std::ranges::find(labels, "best") != labels.end())
+    return command_line::point_option(arguments, labels);
+  const std::string& operand = arguments.operands()[0];
+  if (is_results_file(operand)) return summary::best_point(summary::summarise_file(operand));
+  if (labels.size() > 1)
+    arguments.refuse(
+        "option '--point': a manifest has no results to tell which of its points is best; "
+        "expected a results file, or a point by label or number");
+  return 0;
 }
 
 }  // namespace zerocount::commands

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 
 #include "experiments/study/study.hpp"
@@ -15,11 +17,19 @@ bool is_results_file(const std::filesystem::path& path);
 /// @throws Failure as layout::recorded_study and shards::inspect_header
 study::Study described_study(const std::filesystem::path& path);
 
-/// The study of a manifest with the overrides of `--set`. The files that it names are found from its folder,
-/// or from the current one if the manifest is a stream.
-/// @param outputs none of them may be the manifest or a file that it names, even with --force
-/// @throws Failure (bad_input) with every error of the manifest
-study::Study load_study(const std::filesystem::path& manifest, const command_line::Arguments& arguments,
+/// The study of `MANIFEST|FILE`: that of a manifest, with the overrides of `--set`, or the one whose trials a
+/// complete results file holds. The files that a manifest names are found from its folder, or from the
+/// current one if it is a stream.
+/// @param outputs none of them may be the operand or a file that it names, even with --force
+/// @throws Failure: bad_input with every error of the manifest; of a results file with --set, with a plugin,
+/// which the file does not contain, or with outputs and written by a program with other defaults; otherwise
+/// as reading::ResultsFile
+study::Study load_study(const std::filesystem::path& operand, const command_line::Arguments& arguments,
                         std::span<const std::filesystem::path> outputs = {});
+
+/// `--point` of `MANIFEST|FILE`: a point by label or number, or `best`, which is summary::best_point() of a
+/// results file and the only point of a manifest; nothing without the option.
+/// @throws Failure: bad_input for `best` of a manifest with several points; as summary::summarise_file
+std::optional<std::int64_t> study_point(const command_line::Arguments& arguments, const study::Study& study);
 
 }  // namespace zerocount::commands

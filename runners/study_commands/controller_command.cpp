@@ -9,7 +9,6 @@
 
 #include "core/loop/encoder.hpp"
 #include "experiments/study/study.hpp"
-#include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
@@ -65,7 +64,7 @@ ExitCode write_controller(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
   const std::filesystem::path output = command_line::text_place(arguments, "output").value_or("-");
   const study::Study study = commands::load_study(input, arguments, std::span(&output, 1));
-  const std::int64_t point = command_line::point_option(arguments, study.points.labels).value_or(0);
+  const std::int64_t point = commands::study_point(arguments, study).value_or(0);
   require_values(arguments, study);
   const trial::TrialParameters p = study::study_trial(study, point, 0).parameters;
   if (!p.command.torque.levels.empty())
@@ -92,8 +91,9 @@ ExitCode write_controller(const command_line::Arguments& arguments) {
 
 commands::Command controller_command() {
   return {{"controller",
-           "MANIFEST",
-           {{"point", "P", "the design point, by label or number; default: the first"},
+           "MANIFEST|FILE",
+           {{"point", "P",
+             "the design point, by label or number, or 'best' of a results file; default: the first"},
             {"output,o", "FILE", "the file to write; default: standard output"},
             command_line::choice_option("language", "LANGUAGE", {"c", "linuxcnc"}),
             {"set", "KEY=VALUE", "override a manifest key, e.g. controller.ki=3e-5; may be repeated", true},

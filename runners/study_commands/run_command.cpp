@@ -160,7 +160,7 @@ ExitCode run(const command_line::Arguments& arguments) {
 
 commands::Command run_command() {
   return {{"run",
-           "MANIFEST -o FILE",
+           "MANIFEST|FILE -o FILE",
            {{"output,o", "FILE", "the results file to make (required)"},
             {"threads", "N", "threads to use; default: all cores"},
             command_line::choice_option("engine", "NAME", {"batch", "reference"},

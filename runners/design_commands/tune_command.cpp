@@ -1,6 +1,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -10,6 +12,8 @@
 #include "analysis/report/page.hpp"
 #include "analysis/report/report.hpp"
 #include "core/failure/failure.hpp"
+#include "experiments/manifest_text/point_manifest.hpp"
+#include "experiments/yaml/text_file.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/output_lock.hpp"
@@ -27,7 +31,9 @@
 #include "runners/status/interruption.hpp"
 #include "runners/status/status.hpp"
 #include "runners/trials/study_runner.hpp"
+#include "runners/tuning/proof_runner.hpp"
 #include "runners/tuning/tuner.hpp"
+#include "runners/tuning/unit_runner.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -50,11 +56,12 @@ constexpr const char* tune_help =
     "is a number of trials, with which the answer depends on the seed alone, or a time such as 60s\n"
     "or 5min. What it is not enough for is named. Without it the search takes 500000 trials, and the\n"
     "proof and the rest what they need.\n"
+    "-m writes the manifest with the tuned values, text and comments kept.\n"
     "Ctrl-C keeps the simulated points; the same command goes on with them.\n"
     "The exit code is 0 if the goal is met, 1 if no values in the ranges meet it, 3 if the proof\n"
     "does not decide it.\n"
     "\n"
-    "Example: zerocount tune my-axis.yaml -o tuned.h5\n";
+    "Example: zerocount tune my-axis.yaml -o tuned.h5 -m tuned.yaml\n";
 
 /// `--report`, once it can be written.
 std::optional<std::filesystem::path> page_option(const command_line::Arguments& arguments,
@@ -82,6 +89,32 @@ report::ReportPage tuning_page(const Tuning& tuning) {
        report::study_report(reading::AllTrialsFile(tuning.output)).page.sections)
     page.sections.push_back(std::move(section));
   return page;
+}
+
+/// `--manifest`, once it can be written.
+std::optional<std::filesystem::path> manifest_option(const command_line::Arguments& arguments,
+                                                     const study::Study& study,
+                                                     std::vector<std::filesystem::path> others) {
+  std::optional<std::filesystem::path> place = command_line::text_place(arguments, "manifest");
+  if (!place) return place;
+  const std::filesystem::path operand = arguments.operands()[0];
+  others.push_back(operand);
+  command_line::require_places(arguments, others, {*place});
+  const bool is_beside = !commands::is_results_file(operand) && !yaml::is_stream(operand) &&
+                         operand.parent_path() == place->parent_path();
+  if ((study.plugin || study.samples) && !is_beside)
+    arguments.refuse(
+        "option '--manifest': the manifest names files from its own folder; expected a place in this folder");
+  return place;
+}
+
+/// The manifest of the study with the tuned values: its text with its comments, or, where the text cannot
+/// take a value, its content.
+std::string tuned_manifest(const study::Study& study, const tuning::TuneAnswer& answer) {
+  const study::Study tuned =
+      tuning::with_values_in_text(study, tuning::overrides_of(answer.free, answer.gains));
+  if (tuned.manifest.overrides.empty()) return tuned.manifest.text;
+  return manifest_text::manifest_of_point(tuned, 0, {.folder = "."});
 }
 
 tuning::TuneSettings tune_settings(const command_line::Arguments& arguments) {
@@ -125,6 +158,9 @@ ExitCode tune(const command_line::Arguments& arguments) {
   const std::optional<std::filesystem::path> page = page_option(arguments, settings.output);
   const bool in_html = arguments.choice("format") == "html";
   settings.maps = page || in_html;
+  std::vector<std::filesystem::path> others{settings.output};
+  if (page) others.push_back(*page);
+  const std::optional<std::filesystem::path> manifest = manifest_option(arguments, study, others);
   if (settings.maps) report::require_drawing_libraries();
   const parallel::ThreadLimit limit(trials::threads_to_use(settings.threads));
   commands::print_warnings(study);
@@ -137,9 +173,11 @@ ExitCode tune(const command_line::Arguments& arguments) {
   commands::print_fallback_lock(lock, settings.output);
   TunePrinter printer(arguments);
   settings.proven = [&](const tuning::TuneAnswer& proven) {
+    if (manifest) command_line::write_text(*manifest, tuned_manifest(study, proven));
     printer.print_proven({proven, study, settings.output});
   };
   const tuning::TuneAnswer found = tuning::tune(study, settings, interruption.token());
+  if (manifest && found.gains.empty()) status::tell("no values to write into {}\n", manifest->string());
   if (page)
     command_line::write_text(*page, report::html_page(tuning_page({found, study, settings.output, true})));
   return printer.print_rest({found, study, settings.output, in_html});
@@ -153,6 +191,7 @@ commands::Command tune_command() {
            {{"output,o", "FILE", "the results file of the proof (required)"},
             answers::format_option(tune_answer().complete_type()),
             {"budget", "B", "of all: a number of trials, or a time such as 60s or 5min"},
+            {"manifest,m", "TUNED", "write the manifest with the tuned values"},
             {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"},
             {"threads", "N", "threads to use; default: all cores"},
             set_option(),

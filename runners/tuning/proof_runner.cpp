@@ -86,29 +86,6 @@ std::vector<std::string> last_of_each(const std::vector<std::string>& entries) {
   return kept;
 }
 
-/// The study with these values ("key=value") written into the text of its manifest, where its comments stay.
-/// Overrides of the study become part of the text too. A value that the text cannot take, such as a list,
-/// stays an override.
-study::Study with_values_in_text(const study::Study& study, const std::vector<std::string>& values) {
-  std::vector<std::string> all = study.manifest.overrides;
-  all.insert(all.end(), values.begin(), values.end());
-  std::string text = study.manifest.text;
-  std::vector<std::string> overrides;
-  for (const std::string& one : last_of_each(all)) {
-    const std::string_view key = key_of(one);
-    const std::optional<std::string> edited =
-        manifest_text::with_override(text, key, std::string_view(one).substr(key.size() + 1));
-    if (edited) {
-      text = *edited;
-    } else {
-      overrides.push_back(one);
-    }
-  }
-  study::Study edited = manifest::parse_study(text, study.name, overrides, sections::companions_of(study));
-  edited.engine = study.engine;
-  return edited;
-}
-
 bool holds_run(const std::filesystem::path& output, const study::Study& study) {
   std::error_code error;
   if (!std::filesystem::exists(output, error)) return false;
@@ -179,6 +156,26 @@ std::int64_t proof_units(const study::Study& study, const GoalCounts& counts, st
 std::int64_t min_proof_trials(const study::Study& study, int attempt) {
   const std::int64_t each = trials_of_machine(study);
   return trials::in_equal_worlds(study, min_units_of(study, each, correction_of(attempt))) * each;
+}
+
+study::Study with_values_in_text(const study::Study& study, const std::vector<std::string>& values) {
+  std::vector<std::string> all = study.manifest.overrides;
+  all.insert(all.end(), values.begin(), values.end());
+  std::string text = study.manifest.text;
+  std::vector<std::string> overrides;
+  for (const std::string& one : last_of_each(all)) {
+    const std::string_view key = key_of(one);
+    const std::optional<std::string> edited =
+        manifest_text::with_override(text, key, std::string_view(one).substr(key.size() + 1));
+    if (edited) {
+      text = *edited;
+    } else {
+      overrides.push_back(one);
+    }
+  }
+  study::Study edited = manifest::parse_study(text, study.name, overrides, sections::companions_of(study));
+  edited.engine = study.engine;
+  return edited;
 }
 
 ProofRun run_proof(const study::Study& study, std::vector<std::string> values,

@@ -34,6 +34,11 @@ struct ProofRun {
   std::vector<UnitResult> results;
 };
 
+/// The study with these values ("key=value") written into the text of its manifest, where its comments stay.
+/// Overrides of the study become part of the text too. A value that the text cannot take, such as one in a
+/// list, stays an override.
+study::Study with_values_in_text(const study::Study& study, const std::vector<std::string>& values);
+
 /// Runs the study with these values ("key=value") in its text on fresh units, into a results file that keeps
 /// its trials. A file with the same run is not made again.
 /// @throws Failure: interrupted; the finished trials are kept in shards. trials::Spent: the effort ended

@@ -49,7 +49,7 @@ class Tune : public ProgramTest {
 TEST_F(Tune, ProvesTheGainsThatItFinds) {
   write_axis("goal: {band: 1, within: 0.05, moves: 0.95}\n" + std::string(two_gains));
   EXPECT_EQ(tune({"--report", "page.txt"}).code, 2);
-  const ProgramResult result = tune({"--report", "page.html"});
+  const ProgramResult result = tune({"--report", "page.html", "-m", "tuned.yaml"});
   ASSERT_EQ(result.code, 0) << result.out << result.err;
   const Json answer = Json::parse(result.out);
   EXPECT_EQ(answer["status"], "met");
@@ -73,6 +73,13 @@ TEST_F(Tune, ProvesTheGainsThatItFinds) {
   EXPECT_NE(manifest.find("# machines"), std::string::npos) << "comments stay";
   EXPECT_EQ(manifest.find("seed: 7\n"), std::string::npos);
   EXPECT_TRUE(file.header().overrides.empty());
+
+  // The user's manifest with the tuned values.
+  const std::string tuned = folder_.read("tuned.yaml");
+  EXPECT_NE(tuned.find("seed: 7\ntrials: 200\nrigs: 100   # machines\n"), std::string::npos) << tuned;
+  const std::string point = program({"controller", "tuned.h5", "--point", "best"}).out;
+  EXPECT_EQ(program({"controller", "tuned.yaml"}).out, point);
+  EXPECT_FALSE(point.empty());
 
   // The page, of which the browser test looks at every figure.
   const std::string page = folder_.read("page.html");

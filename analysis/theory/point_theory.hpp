@@ -122,6 +122,9 @@ PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t 
 /// below: 1.5e-04 N m/count". Loops are for data; people have a table of loop_description().
 document::Description<PointTheory> point_theory_description();
 
+/// "stable", "unstable in some trials" …
+std::string stability_text(const LoopRanges& loop);
+
 /// A loop and its margins.
 document::Description<LoopRanges> loop_description();
 

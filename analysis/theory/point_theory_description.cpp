@@ -60,19 +60,6 @@ void add_range(Description<Row>& description, const Item& item, Get get) {
                     });
 }
 
-string stability_text(const LoopRanges& loop) {
-  const std::set<LoopStability>& stability = loop.stability;
-  if (stability == std::set{LoopStability::stable}) {
-    if (loop.slow.empty()) return "stable";
-    return fmt::format("stable, with a time constant of {} s, longer than the hold", range_text(loop.slow));
-  }
-  if (stability == std::set{LoopStability::unstable}) return "unstable";
-  if (stability.count(LoopStability::unstable) > 0) return "unstable in some trials";
-  return stability.count(LoopStability::stable) > 0
-             ? "stable; in some trials marginal: a motion neither grows nor dies out within the hold"
-             : "marginal: a motion neither grows nor dies out within the hold";
-}
-
 std::string_view to_string(LoopStability stability) {
   switch (stability) {
     case LoopStability::stable:
@@ -344,6 +331,19 @@ string slowness_text(const Approach& approach) {
                        arrival.empty() ? "" : "; ", arrival);
   }
   return fmt::format(" is {:.3g} s; {}, longer than the hold of {:.4g} s", slowest, arrival, approach.hold);
+}
+
+string stability_text(const LoopRanges& loop) {
+  const std::set<LoopStability>& stability = loop.stability;
+  if (stability == std::set{LoopStability::stable}) {
+    if (loop.slow.empty()) return "stable";
+    return fmt::format("stable, with a time constant of {} s, longer than the hold", range_text(loop.slow));
+  }
+  if (stability == std::set{LoopStability::unstable}) return "unstable";
+  if (stability.count(LoopStability::unstable) > 0) return "unstable in some trials";
+  return stability.count(LoopStability::stable) > 0
+             ? "stable; in some trials marginal: a motion neither grows nor dies out within the hold"
+             : "marginal: a motion neither grows nor dies out within the hold";
 }
 
 Description<LoopRanges> loop_description() {

@@ -4,31 +4,46 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "analysis/theory/point_theory.hpp"
+#include "core/failure/failure.hpp"
 #include "core/loop/encoder.hpp"
+#include "core/trial/trial.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
-#include "runners/controller_code/c_code.hpp"
+#include "runners/controller_code/written_controller.hpp"
+#include "runners/status/interruption.hpp"
 #include "runners/status/status.hpp"
+#include "runners/study_commands/precision_effect.hpp"
 #include "runners/study_commands/study_commands.hpp"
 
 namespace zerocount::study_commands {
 namespace {
 
 constexpr const char* controller_help =
-    "Writes the controller of a design point as one C99 file without dependencies: its state in a\n"
-    "struct, controller_start() and controller_step(). It computes the same bits as the simulation.\n"
+    "Writes the controller of a design point in a language without dependencies, one step a sample,\n"
+    "with its constants by name and the margins of its loops in the heading.\n"
     "\n"
-    "With -DZEROCOUNT_PLUGIN the file is a plugin (docs/your-own-controller.md), so that the code\n"
-    "that goes to the machine can be simulated itself. --language linuxcnc writes a component of\n"
-    "LinuxCNC's HAL, which halcompile installs; its name is that of the file. The converter, its\n"
-    "noise shaping among it, is not part of the file.\n"
+    "  --language c         one C99 file: its state in a struct, controller_start() and\n"
+    "                       controller_step(). With -DZEROCOUNT_PLUGIN it is a plugin\n"
+    "                       (docs/your-own-controller.md), so that the code that goes to the machine\n"
+    "                       can be simulated itself\n"
+    "  --language linuxcnc  a component of LinuxCNC's HAL, which halcompile installs; its name is\n"
+    "                       that of the file\n"
+    "  --language st        a function block in Structured Text (IEC 61131-3), named after the file\n"
     "\n"
-    "Example: zerocount controller my-axis.yaml --point 2 -o controller.c\n";
+    "In double precision it computes the same bits as the simulation. With --precision single,\n"
+    "trials of the point are simulated in both precisions, and what changes is printed and stands\n"
+    "in the heading. The converter, its noise shaping among it, is not part of the file.\n"
+    "\n"
+    "Examples:\n"
+    "  zerocount controller my-axis.yaml --point 2 -o controller.c\n"
+    "  zerocount controller tuned.h5 --point best --language st --precision single -o axis.st\n";
 
 /// Refuses a controller with drawn values, which has no gains of its own.
 void require_values(const command_line::Arguments& arguments, const study::Study& study) {
@@ -46,18 +61,80 @@ void require_values(const command_line::Arguments& arguments, const study::Study
   }
 }
 
-/// The stem of the file, which a component has as its name.
-std::string component_name(const command_line::Arguments& arguments, const std::filesystem::path& output) {
+/// The stem of the file, after which the written program is named.
+/// @param fits whether a program of the language can have the name @param example of a fitting file
+std::string stem_of(const command_line::Arguments& arguments, const std::filesystem::path& output,
+                    std::string_view what, bool (*fits)(std::string_view stem), std::string_view example) {
   std::string stem = output == "-" ? "controller" : output.stem().string();
-  const bool fits =
+  const bool is_word =
       !stem.empty() && std::isalpha(static_cast<unsigned char>(stem[0])) != 0 &&
       std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
-  if (!fits)
-    arguments.refuse(
-        fmt::format("option '--output': a component cannot have the name '{}'; expected a file "
-                    "whose name has letters, digits and _ alone, such as axis_x.comp",
-                    stem));
+  if (!is_word || !fits(stem))
+    arguments.refuse(fmt::format(
+        "option '--output': {} cannot have the name '{}'; expected a file whose name has letters, "
+        "digits and _ alone, such as {}",
+        what, stem, example));
   return stem;
+}
+
+std::string component_name(const command_line::Arguments& arguments, const std::filesystem::path& output) {
+  return stem_of(
+      arguments, output, "a component", [](std::string_view) { return true; }, "axis_x.comp");
+}
+
+/// With a suffix, because many words are reserved.
+std::string function_block_name(const command_line::Arguments& arguments,
+                                const std::filesystem::path& output) {
+  const auto fits = [](std::string_view stem) {
+    return stem.find("__") == std::string_view::npos && !stem.ends_with('_');
+  };
+  const std::string stem = stem_of(arguments, output, "a function block", fits, "axis_x.st");
+  return stem == "controller" ? "position_controller" : stem + "_controller";
+}
+
+/// The smallest margin over the trials.
+std::string margin_text(const theory::Range& margin, std::string_view unit, std::string_view none) {
+  return margin.empty() ? std::string(none) : fmt::format("{:.3g} {}", margin.low, unit);
+}
+
+/// The margins of each loop of the point, the smallest over the examined machines.
+std::vector<std::string> margin_lines(const study::Study& study, std::int64_t point) {
+  std::vector<std::string> lines;
+  std::vector<theory::KnownRotor> rotors;
+  for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
+    for (const theory::LoopRanges& loop : theory::examine(study, point, condition, rotors).loops) {
+      lines.push_back(fmt::format("  {}{}: {}; gain margin {}, phase margin {}", loop.name,
+                                  study::condition_text(study, condition), theory::stability_text(loop),
+                                  margin_text(loop.gain, "dB", "infinite"),
+                                  margin_text(loop.phase, "deg", "infinite")));
+    }
+  }
+  if (!lines.empty())
+    lines.insert(lines.begin(),
+                 "Loops by linear theory, with the smallest margins of the examined machines:");
+  return lines;
+}
+
+PrecisionEffect simulated_effect(const study::Study& study, std::int64_t point,
+                                 const controller_code::ControllerToWrite& chain) {
+  const status::InterruptionWatch interruption;
+  try {
+    return effect_of_single_precision(study, point, chain, interruption.token());
+  } catch (const trial::Interrupted&) {
+    throw Failure(ExitCode::interrupted, "interrupted: nothing was written");
+  }
+}
+
+std::string written_text(const command_line::Arguments& arguments, const std::filesystem::path& output,
+                         const controller_code::ControllerToWrite& chain,
+                         controller_code::Precision precision) {
+  const controller_code::Program program = controller_code::chain_program(chain, precision);
+  const std::string language = arguments.choice("language");
+  if (language == "linuxcnc")
+    return controller_code::linuxcnc_component(chain, program, component_name(arguments, output));
+  if (language == "st")
+    return controller_code::structured_text(chain, program, function_block_name(arguments, output));
+  return controller_code::c_code(chain, program);
 }
 
 ExitCode write_controller(const command_line::Arguments& arguments) {
@@ -69,18 +146,24 @@ ExitCode write_controller(const command_line::Arguments& arguments) {
   const trial::TrialParameters p = study::study_trial(study, point, 0).parameters;
   if (!p.command.torque.levels.empty())
     arguments.refuse("the loop of this study is open: it has no controller");
-  if (const std::string_view why = controller_code::why_not_writable(p.controller); !why.empty())
+  const auto precision = arguments.choice("precision") == "single"
+                             ? controller_code::Precision::single_precision
+                             : controller_code::Precision::double_precision;
+  if (const std::string_view why = controller_code::why_not_writable(p.controller, precision); !why.empty())
     arguments.refuse(std::string(why));
   const std::string name =
       study.points.labels.size() > 1
           ? fmt::format("{}, {}", study.name, study.points.labels[static_cast<std::size_t>(point)])
           : study.name;
-  const controller_code::ControllerToWrite chain{p.controller, loop::fine_resolution(p.encoder), p.dac,
-                                                 p.initial.integral, name};
-  const bool linuxcnc = arguments.choice("language") == "linuxcnc";
-  command_line::write_text(
-      output, linuxcnc ? controller_code::linuxcnc_component(chain, component_name(arguments, output))
-                       : controller_code::c_code(chain));
+  controller_code::ControllerToWrite chain{
+      p.controller,     loop::fine_resolution(p.encoder), p.dac, p.initial.integral, name,
+      study.units.axis, margin_lines(study, point)};
+  if (precision == controller_code::Precision::single_precision) {
+    const std::vector<std::string> lines = precision_lines(simulated_effect(study, point, chain), study);
+    for (const std::string& line : lines) status::tell("{}\n", line);
+    chain.remarks.insert(chain.remarks.end(), lines.begin(), lines.end());
+  }
+  command_line::write_text(output, written_text(arguments, output, chain, precision));
   if (p.dac.sigma_delta)
     status::tell("the noise shaping of the converter (dac.sigma_delta) is not part of the controller\n");
   if (output != "-") status::tell("wrote {}\n", output.string());
@@ -95,10 +178,11 @@ commands::Command controller_command() {
            {{"point", "P",
              "the design point, by label or number, or 'best' of a results file; default: the first"},
             {"output,o", "FILE", "the file to write; default: standard output"},
-            command_line::choice_option("language", "LANGUAGE", {"c", "linuxcnc"}),
+            command_line::choice_option("language", "LANGUAGE", {"c", "linuxcnc", "st"}),
+            command_line::choice_option("precision", "PRECISION", {"double", "single"}),
             {"set", "KEY=VALUE", "override a manifest key, e.g. controller.ki=3e-5; may be repeated", true},
             command_line::needing({"output"}, command_line::force_option())}},
-          "write the controller of a point as C",
+          "write the controller of a point for a machine",
           controller_help,
           write_controller};
 }

@@ -1,0 +1,441 @@
+#include "runners/controller_code/chain_program.hpp"
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/loop/controller/cascade.hpp"
+#include "core/loop/controller/controller.hpp"
+#include "core/loop/controller/disturbance_observer.hpp"
+#include "core/loop/controller/filter.hpp"
+#include "core/loop/controller/pid.hpp"
+#include "core/loop/controller/torque_hold.hpp"
+#include "core/loop/dac.hpp"
+
+namespace zerocount::controller_code {
+namespace {
+
+/// A sum without the terms that are 0.
+class Sum {
+ public:
+  Sum() = default;
+  explicit Sum(const Term& first) : sum_(first) {}
+
+  void add(const std::optional<Term>& coefficient, const Term& factor) {
+    if (coefficient) add(*coefficient * factor);
+  }
+  void subtract(const std::optional<Term>& coefficient, const Term& factor) {
+    if (coefficient) sum_ = sum_ ? *sum_ - *coefficient * factor : -*coefficient * factor;
+  }
+  void add(const Term& term) { sum_ = sum_ ? *sum_ + term : term; }
+
+  Term term() const { return sum_.value_or(0.0); }
+
+ private:
+  std::optional<Term> sum_;
+};
+
+class ChainWriter {
+ public:
+  ChainWriter(const ControllerToWrite& of, Precision precision)
+      : of_(of),
+        blocks_(of.controller.blocks),
+        sample_rate_(of.controller.sample_rate),
+        single_(precision == Precision::single_precision),
+        torque_unit_(parameters::unit_on(of.axis, "N m")),
+        angle_unit_(parameters::unit_on(of.axis, "rad")),
+        write_(precision, angle_unit_, torque_unit_) {}
+
+  Program program() {
+    start();
+    write_error();
+    if (!cascade_) write_standstill();
+    if (blocks_.hold.enter < 0.0) {
+      write_chain();
+    } else {
+      write_hold();
+    }
+    if (last_count_) write_.assign(*last_count_, count_);
+    write_.assign(started_, Term(1.0));
+    write_dither();
+    return write_.finished(u_);
+  }
+
+ private:
+  Term state(const std::string& name, const std::string& meaning, Type type = Type::number,
+             double initial = 0.0) {
+    return write_.variable({name, Role::state, type, meaning, initial});
+  }
+  Term local(const std::string& name, Type type = Type::number) {
+    return write_.variable({name, Role::local, type});
+  }
+  /// The coefficient as a constant; nothing if it is 0.
+  std::optional<Term> coefficient(const std::string& name, double value, const std::string& meaning) {
+    if (value == 0.0) return {};
+    return write_.constant(name, value, meaning);
+  }
+  /// "N m/count".
+  std::string torque_per(std::string_view divisor) const {
+    return fmt::format("{}/{}", torque_unit_, divisor);
+  }
+
+  Term difference_of_counts(const Term& a, const Term& b) const {
+    return single_ ? Term(Operation::count_difference, {a, b}) : a - b;
+  }
+
+  /// What has to be remembered of the first sample.
+  void start() {
+    const bool differs = cascade_ || of_.controller.kd != 0.0 || (stands_ && blocks_.standstill.kd != 0.0);
+    if (differs) last_count_ = state("last_count", "at the sample before, counts", Type::count);
+    if (blocks_.observer.bandwidth > 0.0)
+      first_count_ = state("first_count", "at the first sample, counts", Type::count);
+    if (!last_count_ && !first_count_) return;
+    write_.branch(!started_, [&] {
+      if (last_count_) write_.assign(*last_count_, count_);
+      if (first_count_) write_.assign(*first_count_, count_);
+    });
+  }
+
+  /// e′.
+  void write_error() {
+    const loop::ErrorDeadbandConstants<double> zone = loop::error_deadband_constants(blocks_.error_deadband);
+    if (!(zone.band > 0.0)) return;
+    const Term band = write_.constant("error_deadband", zone.band, "errors that count as 0, counts");
+    const Term beyond = zone.subtracted > 0.0 ? choice(error_ > 0.0, error_ - band, error_ + band) : error_;
+    e_ = local("acting_error");
+    write_.assign(e_, choice(magnitude(error_) <= band, 0.0, beyond));
+  }
+
+  /// For how many samples |error| has been within the band.
+  void write_run(const Term& run, const Term& band, const Term& restarts) {
+    write_.branch(restarts, [&] { write_.assign(run, 0.0); });
+    write_.assign(run, choice(magnitude(error_) <= band, run + 1.0, 0.0));
+  }
+
+  void write_standstill() {
+    if (!stands_) return;
+    const loop::StandstillConstants<double> c = loop::standstill_constants(blocks_.standstill, sample_rate_);
+    write_.remark("the gains at standstill act once the error has stayed within the band");
+    const Term still = state("still", "samples for which the error has been within the band of standstill");
+    const Term band = write_.constant("standstill_band", c.band, "counts");
+    const Term dwell = write_.constant("standstill_dwell", c.dwell, "samples");
+    stands_now_ = local("stands", Type::flag);
+    write_run(still, band, new_target_);
+    write_.assign(*stands_now_, both(still >= dwell, !new_target_));
+  }
+
+  void write_hold() {
+    const loop::HoldConstants<double> c = loop::hold_constants(blocks_.hold, sample_rate_);
+    write_.remark("hold of the torque at standstill");
+    const Term within = state("within", "samples for which the error has been within the hold");
+    const Term holding = state("holding", "the torque is held", Type::flag);
+    const Term held = state("held", "wanted at the sample before, " + torque_unit_);
+    const Term enter = write_.constant("hold_enter", c.enter, "counts");
+    const Term leave = c.leave == c.enter ? enter : write_.constant("hold_leave", c.leave, "counts");
+    const Term dwell = write_.constant("hold_dwell", c.dwell, "samples");
+    const Term fresh = local("fresh", Type::flag);
+    write_.assign(fresh, either(new_target_, !started_));
+    write_run(within, enter, fresh);
+    write_.assign(holding, both(!fresh, either(within >= dwell, both(holding, magnitude(error_) <= leave))));
+    // The chain is written first, because it decides what has to be remembered.
+    write_.branch(
+        !holding,
+        [&] {
+          write_chain();
+          write_.assign(held, u_);
+        },
+        [&] {
+          if (cascade_) {
+            if (last_velocity_error_) write_.assign(*last_velocity_error_, velocity_error());
+          } else if (last_error_) {
+            write_.assign(*last_error_, e_);
+          }
+          write_.assign(u_, held);
+        });
+  }
+
+  void write_chain() {
+    if (cascade_) {
+      write_cascade();
+    } else {
+      write_pid();
+    }
+    write_filters();
+    write_feedforward();
+    write_observer();
+  }
+
+  /// d, counts.
+  void write_difference() {
+    const double pole = loop::derivative_pole(blocks_, sample_rate_);
+    const Term change = difference_of_counts(count_, *last_count_);
+    const bool remembered = pole != 0.0 || (cascade_ && blocks_.hold.enter >= 0.0);
+    difference_ =
+        remembered ? state("difference", "of successive counts, filtered, counts") : local("difference");
+    if (pole == 0.0) {
+      write_.assign(*difference_, change);
+      return;
+    }
+    const Term a = write_.constant("derivative_pole", pole, "of the filter of the difference of counts");
+    const Term b = write_.constant("derivative_gain", 1.0 - pole, "of the filter: 1 - derivative_pole");
+    write_.assign(*difference_, a * *difference_ + b * change);
+  }
+
+  /// I ← clamp(ρ·I + increment), under its conditions.
+  Term write_integral(const std::optional<Term>& increment) {
+    const loop::TorqueRange range = loop::integral_range(
+        of_.controller.anti_windup, loop::lowest_torque(of_.dac), loop::highest_torque(of_.dac));
+    const loop::IntegralConstants<double> c = loop::integral_constants(blocks_, sample_rate_, range);
+    const Term integral = state("integral_torque", "I, " + torque_unit_, Type::number, of_.initial_integral);
+    std::optional<Term> changes;
+    if (c.enter >= 0.0) {
+      const Term inside = state("inside", "the error is within the deadband of the integral", Type::flag);
+      const Term enter = write_.constant("deadband", c.enter, "in which the integral stays, counts");
+      const Term bound = c.leave == c.enter
+                             ? enter
+                             : choice(inside, write_.constant("deadband_leave", c.leave, "counts"), enter);
+      write_.assign(inside, magnitude(error_) <= bound);
+      changes = !inside;
+    }
+    if (std::isfinite(c.zone)) {
+      const Term is_near = magnitude(error_) <= write_.constant("integrator_zone", c.zone, "counts");
+      changes = changes ? both(*changes, is_near) : is_near;
+    }
+    Sum sum;
+    if (c.retention == 1.0) {
+      sum.add(integral);
+    } else {
+      sum.add(write_.constant("retention", c.retention, "of the integral, per sample") * integral);
+    }
+    if (increment) sum.add(*increment);
+    Term changed = sum.term();
+    if (std::isfinite(c.lowest))
+      changed =
+          Term(Operation::limited,
+               {changed, write_.constant("lowest_torque", c.lowest, "of the converter, " + torque_unit_),
+                write_.constant("highest_torque", c.highest, "of the converter, " + torque_unit_)});
+    const auto change = [&] { write_.assign(integral, changed); };
+    changes ? write_.branch(*changes, change) : change();
+    return integral;
+  }
+
+  struct SiUnit {
+    double factor;  ///< from the gain per count
+    std::string_view unit;
+  };
+
+  /// A gain of the PID law, N m/count; nothing if it is always 0.
+  std::optional<Term> gain(const std::string& name, std::string_view meaning, double usual,
+                           double at_standstill, const SiUnit& si) {
+    const auto constant = [&](const std::string& of, double value) {
+      return coefficient(of, value,
+                         fmt::format("{}, {} ({:.6g} {} in SI units)", meaning, torque_per("count"),
+                                     value * si.factor, parameters::unit_on(of_.axis, si.unit)));
+    };
+    const std::optional<Term> one = constant(name, usual);
+    if (!stands_now_) return one;
+    const std::optional<Term> still = constant("standstill_" + name, at_standstill);
+    if (!one && !still) return {};
+    return choice(*stands_now_, still.value_or(0.0), one.value_or(0.0));
+  }
+
+  void write_pid() {
+    write_.remark("PID law");
+    const loop::ControllerParameters& c = of_.controller;
+    const loop::Standstill& still = blocks_.standstill;
+    const double per_radian = 1.0 / of_.resolution;
+    const std::optional<Term> ki = gain("ki", "integral gain of the trapezoidal rule", c.ki, still.ki,
+                                        {2.0 * sample_rate_ * per_radian, "N m/(rad s)"});
+    const std::optional<Term> kp = gain("kp", "proportional gain", c.kp, still.kp, {per_radian, "N m/rad"});
+    const std::optional<Term> kd = gain("kd", "gain of the difference of successive counts", c.kd, still.kd,
+                                        {per_radian / sample_rate_, "N m s/rad"});
+    if (last_count_) write_difference();
+    Sum sum;
+    if (ki || of_.initial_integral != 0.0) {
+      std::optional<Term> increment;
+      if (ki) {
+        last_error_ = state("last_error", "of the sample before, counts");
+        increment = *ki * (e_ + *last_error_);
+      }
+      sum.add(write_integral(increment));
+    }
+    sum.add(kp, e_);
+    if (difference_) sum.subtract(kd, *difference_);
+    write_.assign(u_, sum.term());
+    if (last_error_) write_.assign(*last_error_, e_);
+  }
+
+  Term velocity_error() const { return *kv_ * e_ - *velocity_ * *difference_; }
+
+  void write_cascade() {
+    write_.remark("position loop around a velocity loop");
+    const loop::CascadeConstants<double> c =
+        loop::cascade_constants(blocks_.cascade, sample_rate_, of_.resolution);
+    kv_ = write_.constant("kv", c.kv,
+                          fmt::format("{0}/s per count ({1:.6g} 1/s)", angle_unit_, blocks_.cascade.kv));
+    velocity_ = write_.constant("velocity_per_count", c.velocity,
+                                angle_unit_ + "/s per count of difference between samples");
+    const std::string unit = parameters::unit_on(of_.axis, "N m s/rad");
+    const std::optional<Term> kp = coefficient("kp", c.kp, "of the velocity loop, " + unit);
+    const std::optional<Term> ki =
+        coefficient("ki", c.ki,
+                    fmt::format("of the velocity loop by the trapezoidal rule, {} ({:.6g} {} in SI units)",
+                                unit, blocks_.cascade.ki, parameters::unit_on(of_.axis, "N m/rad")));
+    write_difference();
+    const Term w = local("velocity_error");
+    write_.assign(w, velocity_error());
+    Sum sum;
+    sum.add(kp, w);
+    if (ki || of_.initial_integral != 0.0) {
+      std::optional<Term> increment;
+      if (ki) {
+        last_velocity_error_ = state("last_velocity_error", "of the sample before, " + angle_unit_ + "/s");
+        increment = *ki * (w + *last_velocity_error_);
+      }
+      sum.add(write_integral(increment));
+    }
+    write_.assign(u_, sum.term());
+    if (last_velocity_error_) write_.assign(*last_velocity_error_, w);
+  }
+
+  void write_filters() {
+    if (blocks_.filters.empty()) return;
+    const Term x = local("unfiltered");
+    for (std::size_t i = 0; i < blocks_.filters.size(); ++i) {
+      const loop::BiquadConstants<double> c = loop::discretised(blocks_.filters[i], sample_rate_);
+      const std::string name = fmt::format("filter{}", i);
+      write_.remark(fmt::format("{}: (b0 + b1/z + b2/z^2)/(1 + a1/z + a2/z^2)", name));
+      const auto part = [&](const char* letter, double value) {
+        return coefficient(fmt::format("{}_{}", name, letter), value, "of " + name);
+      };
+      const std::optional<Term> b0 = part("b0", c.b0);
+      const std::optional<Term> b1 = part("b1", c.b1);
+      const std::optional<Term> b2 = part("b2", c.b2);
+      const std::optional<Term> a1 = part("a1", c.a1);
+      const std::optional<Term> a2 = part("a2", c.a2);
+      const Term first = state(name + "_first", torque_unit_);
+      const Term second = state(name + "_second", torque_unit_);
+      write_.assign(x, u_);
+      Sum output;
+      output.add(b0, x);
+      output.add(first);
+      write_.assign(u_, output.term());
+      Sum to_first;
+      to_first.add(b1, x);
+      to_first.subtract(a1, u_);
+      to_first.add(second);
+      write_.assign(first, to_first.term());
+      Sum to_second;
+      to_second.add(b2, x);
+      to_second.subtract(a2, u_);
+      write_.assign(second, to_second.term());
+    }
+  }
+
+  void write_feedforward() {
+    const auto& [velocity, acceleration, friction] = blocks_.feedforward;
+    const auto part = [&](const char* name, double value, std::string_view unit) {
+      return coefficient(fmt::format("feedforward_{}", name), value, parameters::unit_on(of_.axis, unit));
+    };
+    Sum sum;
+    const Term speed = write_.input(Input::velocity);
+    sum.add(part("velocity", velocity, "N m s/rad"), speed);
+    sum.add(part("acceleration", acceleration, "N m s^2/rad"), write_.input(Input::acceleration));
+    const std::optional<Term> constant = part("friction", friction, "N m");
+    if (constant) sum.add(choice(speed > 0.0, *constant, choice(speed < 0.0, -*constant, 0.0)));
+    if (velocity == 0.0 && acceleration == 0.0 && friction == 0.0) return;
+    write_.remark("feed-forward");
+    write_.assign(u_, u_ + sum.term());
+  }
+
+  void write_observer() {
+    if (!first_count_) return;
+    const loop::ObserverConstants<double> c =
+        loop::observer_constants(blocks_.observer, sample_rate_, of_.resolution);
+    write_.remark("disturbance observer");
+    const std::optional<Term> acceleration =
+        coefficient("observer_inertia", c.acceleration, torque_per("count"));
+    const Term q = write_.constant("observer_q", c.q, "gain of its filter");
+    const std::optional<Term> a1 = coefficient("observer_a1", c.a1, "of its filter");
+    const std::optional<Term> a2 = coefficient("observer_a2", c.a2, "of its filter");
+    const Term first = state("observer_first", torque_unit_);
+    const Term second = state("observer_second", torque_unit_);
+    const Term inertia = local("inertia");
+    const Term filtered = local("filtered");
+    const Term estimate = local("estimate");
+    Sum travelled;
+    travelled.add(acceleration, difference_of_counts(count_, *first_count_));
+    write_.assign(inertia, travelled.term());
+    write_.assign(filtered, q * write_.input(Input::torque));
+    write_.assign(estimate, inertia - filtered + first);
+    Sum to_first(Term(-2.0) * (inertia + filtered));
+    to_first.subtract(a1, estimate);
+    to_first.add(second);
+    write_.assign(first, to_first.term());
+    Sum to_second(inertia - filtered);
+    to_second.subtract(a2, estimate);
+    write_.assign(second, to_second.term());
+    write_.assign(u_, u_ - estimate);
+  }
+
+  void write_dither() {
+    const loop::Dither& dither = of_.controller.dither;
+    if (dither.amplitude == 0.0) return;
+    write_.remark("dither");
+    const Term amplitude = write_.constant("dither_amplitude", dither.amplitude, torque_unit_);
+    if (single_) {
+      const double step = std::fmod(2.0 * dither.frequency / sample_rate_, 2.0);
+      const Term half_periods = write_.constant("dither_step", step, "half periods of the dither per sample");
+      const Term phase = state("phase", "of the dither, half periods");
+      write_.assign(u_, u_ + choice(phase < 1.0, amplitude, -amplitude));
+      write_.assign(phase, phase + half_periods);
+      write_.branch(phase >= 2.0, [&] { write_.assign(phase, phase - 2.0); });
+      return;
+    }
+    const Term frequency = write_.constant("dither_frequency", dither.frequency, "Hz");
+    const Term rate = write_.constant("sample_rate", sample_rate_, "Hz");
+    const Term sample = state("sample", "its number, from 0");
+    const Term half_periods = local("half_periods");
+    write_.assign(half_periods, 2.0 * frequency * sample / rate);
+    write_.assign(u_, u_ + choice(Term(Operation::is_even, {half_periods}), amplitude, -amplitude));
+    write_.assign(sample, sample + 1.0);
+  }
+
+  const ControllerToWrite& of_;
+  const loop::ControlBlocks& blocks_;
+  double sample_rate_;
+  bool single_;
+  bool cascade_{blocks_.structure == loop::ControlStructure::cascade};
+  bool stands_{blocks_.standstill.band >= 0.0 && !cascade_};
+  std::string torque_unit_, angle_unit_;
+  ProgramWriter write_;
+
+  Term error_{write_.input(Input::error)};
+  Term count_{write_.input(Input::count)};
+  Term new_target_{write_.input(Input::new_target)};
+  Term e_{error_};  ///< e′
+  Term u_{local("wanted")};
+  Term started_{state("started", "there has been a sample", Type::flag)};
+  std::optional<Term> last_count_, first_count_, difference_, stands_now_;
+  std::optional<Term> last_error_;                           ///< of the PID law
+  std::optional<Term> kv_, velocity_, last_velocity_error_;  ///< of the cascade
+};
+
+}  // namespace
+
+std::string_view why_not_writable(const loop::ControllerParameters& controller, Precision precision) {
+  if (controller.user.plugin) return "the controller is a plugin, whose code is its own";
+  if (loop::has_coarse_phase(controller)) return "a control with two phases cannot be written yet";
+  if (precision == Precision::single_precision && controller.encoder == loop::EncoderChoice::coarse)
+    return "a loop closed by the coarse encoder, whose counts are parts of fine ones, cannot be written in "
+           "single precision";
+  return {};
+}
+
+Program chain_program(const ControllerToWrite& chain, Precision precision) {
+  return ChainWriter(chain, precision).program();
+}
+
+}  // namespace zerocount::controller_code

@@ -1,0 +1,179 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace zerocount::controller_code {
+
+/// A controller as statements, of which every language is written, and which can be run (program_run.hpp).
+///
+///     at each sample: the statements of `step`, which read inputs and states; then `wanted` has the torque
+
+enum class Precision { double_precision, single_precision };
+
+enum class Operation {
+  literal,
+  constant,
+  variable,
+  negative,
+  sum,
+  difference,
+  product,
+  quotient,
+  count_difference,  ///< of two counts, as a number
+  magnitude,
+  limited,   ///< of x, lowest and highest
+  is_even,   ///< whether ⌊x⌋ is even, x ≥ 0
+  choice,    ///< of a condition, the value where it holds, and the other
+  at_most,   ///< ≤
+  at_least,  ///< ≥
+  below,     ///< <
+  above,     ///< >
+  negation,
+  both,
+  either
+};
+
+/// An expression.
+class Term {
+ public:
+  Term(double literal)  // NOLINT(google-explicit-constructor): 2.0 * x
+      : Term(Operation::literal, {}, 0, literal) {}
+  Term(Operation operation, std::vector<Term> operands, std::size_t index = 0, double value = 0.0)
+      : node_(std::make_shared<const Node>(Node{operation, std::move(operands), index, value})) {}
+
+  Operation operation() const { return node_->operation; }
+  const std::vector<Term>& operands() const { return node_->operands; }
+  std::size_t index() const { return node_->index; }  ///< of a constant or variable in the program
+  double value() const { return node_->value; }       ///< of a literal
+
+ private:
+  struct Node {
+    Operation operation;
+    std::vector<Term> operands;
+    std::size_t index;
+    double value;
+  };
+  std::shared_ptr<const Node> node_;
+};
+
+inline Term operator-(const Term& a) {
+  return {Operation::negative, {a}};
+}
+inline Term operator+(const Term& a, const Term& b) {
+  return {Operation::sum, {a, b}};
+}
+inline Term operator-(const Term& a, const Term& b) {
+  return {Operation::difference, {a, b}};
+}
+inline Term operator*(const Term& a, const Term& b) {
+  return {Operation::product, {a, b}};
+}
+inline Term operator/(const Term& a, const Term& b) {
+  return {Operation::quotient, {a, b}};
+}
+inline Term operator<=(const Term& a, const Term& b) {
+  return {Operation::at_most, {a, b}};
+}
+inline Term operator>=(const Term& a, const Term& b) {
+  return {Operation::at_least, {a, b}};
+}
+inline Term operator<(const Term& a, const Term& b) {
+  return {Operation::below, {a, b}};
+}
+inline Term operator>(const Term& a, const Term& b) {
+  return {Operation::above, {a, b}};
+}
+inline Term operator!(const Term& a) {
+  return {Operation::negation, {a}};
+}
+inline Term both(const Term& a, const Term& b) {
+  return {Operation::both, {a, b}};
+}
+inline Term either(const Term& a, const Term& b) {
+  return {Operation::either, {a, b}};
+}
+inline Term magnitude(const Term& x) {
+  return {Operation::magnitude, {x}};
+}
+inline Term choice(const Term& condition, const Term& where_it_holds, const Term& otherwise) {
+  return {Operation::choice, {condition, where_it_holds, otherwise}};
+}
+
+/// A number with a name.
+struct Constant {
+  std::string name;
+  double value{0.0};
+  std::string meaning;  ///< with its unit
+};
+
+enum class Role {
+  input,
+  state,  ///< keeps its value to the next sample
+  local
+};
+enum class Type {
+  number,
+  count,  ///< a number in double precision; in single precision, which cannot tell all counts, a whole number
+  flag
+};
+
+struct Variable {
+  std::string name;
+  Role role{Role::local};
+  Type type{Type::number};
+  std::string meaning{};  ///< with its unit
+  double initial{0.0};    ///< of a state
+};
+
+/// An assignment, a branch with a condition, or a remark.
+struct Statement {
+  enum class Kind { assignment, branch, remark };
+  Kind kind;
+  Term term{0.0};                               ///< the assigned value, or the condition
+  std::size_t variable{0};                      ///< that is assigned
+  std::vector<Statement> holds{}, otherwise{};  ///< the branches
+  std::string text{};                           ///< of a remark
+};
+using Statements = std::vector<Statement>;
+
+/// The inputs of every program, in the order of its variables.
+enum class Input { error, count, velocity, acceleration, torque, new_target };
+
+struct Program {
+  Precision precision{Precision::double_precision};
+  std::vector<Constant> constants{};
+  std::vector<Variable> variables{};  ///< the inputs first
+  Statements step{};
+  std::size_t wanted{0};  ///< the variable with the result
+};
+
+/// Makes a program, statement by statement.
+class ProgramWriter {
+ public:
+  /// @param angle, torque units: "rad" and "N m"
+  ProgramWriter(Precision precision, const std::string& angle, const std::string& torque);
+
+  Term input(Input input) const;
+  /// @throws std::logic_error if the program has another with this name
+  Term constant(const std::string& name, double value, const std::string& meaning);
+  Term variable(const Variable& variable);
+
+  void remark(const std::string& text);
+  void assign(const Term& variable, const Term& value);
+  void branch(const Term& condition, const std::function<void()>& holds,
+              const std::function<void()>& otherwise = {});
+
+  Program finished(const Term& wanted);
+
+ private:
+  Statements statements_of(const std::function<void()>& write);
+
+  Program program_;
+  Statements* at_;
+};
+
+}  // namespace zerocount::controller_code

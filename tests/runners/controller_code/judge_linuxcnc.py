@@ -1,5 +1,5 @@
 """The controller written as a component of LinuxCNC: compiled by halcompile, its function decides on the recorded inputs of a
-trial what the trial decided. Skipped (77) where halcompile is not installed."""
+trial what the trial decided, and in single precision what the C code decides. Skipped (77) where halcompile is not installed."""
 
 import csv
 import io
@@ -19,6 +19,24 @@ CONTROLLERS = [
     "{structure: cascade, cascade: {kv: 100, kp: 0.1, ki: 10}, observer: {bandwidth: 20}}",
 ]
 
+C_CODE_AT_THE_CONVERTER = f"""
+#include "controller.c"
+#include <math.h>
+#include <stdio.h>
+int main(void) {{
+  controller_state state;
+  double target, reference, count, last = NAN, given = 0.0;
+  controller_start(&state);
+  while (scanf("%lf %lf %lf", &target, &reference, &count) == 3) {{
+    const controller_input in = {{.error = reference - count, .count = count, .torque = given, .new_target = !isnan(last) && target != last}};
+    const double wanted = controller_step(&state, &in);
+    given = fmin(fmax(rint(wanted / {RESOLUTION}), -2048), 2047) * {RESOLUTION};
+    last = target;
+    printf("%.17g\\n", wanted);
+  }}
+}}
+"""
+
 if shutil.which("halcompile") is None:
     print("halcompile is not installed")
     sys.exit(77)
@@ -33,16 +51,29 @@ for number, controller in enumerate(CONTROLLERS):
         def run(*words, **options):
             return subprocess.run(words, check=True, capture_output=True, text=True, cwd=here, **options).stdout
 
-        run(PROGRAM, "controller", "axis.yaml", "--language", "linuxcnc", "-o", "axis_x.comp")
-        run("halcompile", "--preprocess", "axis_x.comp")
-        run("cc", "-DRTAPI", "-I/usr/include/linuxcnc", "-O2", "-ffp-contract=off", "axis_x.c", str(HARNESS), "-o", "harness")
+        def torques_of_component(precision):
+            run(PROGRAM, "controller", "axis.yaml", "--language", "linuxcnc", "--precision", precision, "--force", "-o", "axis_x.comp")
+            run("halcompile", "--preprocess", "axis_x.comp")
+            run("cc", "-DRTAPI", "-I/usr/include/linuxcnc", "-O2", "-ffp-contract=off", "axis_x.c", str(HARNESS), "-o", "harness")
+            return [float(line) for line in run("./harness", input=inputs).split()]
+
+        def torques_of_c_code(precision):
+            run(PROGRAM, "controller", "axis.yaml", "--precision", precision, "-o", "controller.c")
+            (here / "main.c").write_text(C_CODE_AT_THE_CONVERTER)
+            run("cc", "-O2", "-ffp-contract=off", "main.c", "-lm", "-o", "main")
+            return [float(line) for line in run("./main", input=inputs).split()]
+
         samples = list(csv.DictReader(io.StringIO(run(PROGRAM, "trace", "axis.yaml"))))
         inputs = "".join(f"{s['target']} {s['target']} {s['count']}\n" for s in samples)
-        torques = [float(line) for line in run("./harness", input=inputs).split()]
+        torques = torques_of_component("double")
         assert len(torques) == len(samples)
         for sample, torque in zip(samples, torques):
             code = min(max(round(torque / RESOLUTION), -2048), 2047)
             if code != int(sample["code"]):
                 sys.exit(f"{controller}, sample {sample['k']}: {code} of the component, {sample['code']} of the trial")
+        if (component := torques_of_component("single")) != torques_of_c_code("single"):
+            sys.exit(f"{controller}: in single precision the component decides otherwise than the C code")
+        if "ki" in controller and component == torques:
+            sys.exit(f"{controller}: nothing is in single precision")
         print(f"{controller}: {len(samples)} samples, codes {min(int(s['code']) for s in samples)} to "
               f"{max(int(s['code']) for s in samples)}")

@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include "core/trial/named_measures.hpp"
-#include "results/layout/layout.hpp"
+#include "results/layout/fields.hpp"
+#include "results/layout/measure_table.hpp"
 
 namespace zerocount::measures {
 namespace {
@@ -18,20 +19,15 @@ std::optional<std::size_t> slot_of(std::span<const Value> values, Value value) {
 
 std::optional<CountedLimit> counted_limit(const study::GoalLimit& limit,
                                           const study::StudyFeatures& features) {
-  for (const trial::NamedMeasure& measure : trial::named_measures()) {
-    if (measure.name != limit.measure) continue;
-    const bool is_measured =
-        (!measure.of_motion || features.motion) && (!measure.of_position || features.position_error);
-    return is_measured ? std::optional(CountedLimit{measure.value, limit.largest}) : std::nullopt;
-  }
-  const trial::ErrorBands& bands = features.bands;
-  for (const trial::NamedBandMeasure& measure : trial::named_band_measures()) {
-    for (std::size_t slot = 0; slot < bands.count; ++slot) {
-      if (layout::name_of_band(measure.name, bands.limits[slot]) != limit.measure) continue;
+  const auto named = std::ranges::find(trial::named_measures(), limit.measure, &trial::NamedMeasure::name);
+  if (named != trial::named_measures().end() &&
+      ((named->of_motion && !features.motion) || (named->of_position && !features.position_error)))
+    return std::nullopt;
+  for (const layout::Measure& measure : layout::measure_table(features)) {
+    if (measure.field.column.name == limit.measure)
       return CountedLimit{
-          [slot, value = measure.value](const trial::MoveOutcome& move) { return move.bands[slot].*value; },
+          [&field = measure.field](const trial::MoveOutcome& move) { return layout::value_of(field, move); },
           limit.largest};
-    }
   }
   return std::nullopt;
 }

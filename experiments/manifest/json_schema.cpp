@@ -283,11 +283,12 @@ Json limits_schema() {
   Json measures = Json::object();
   for (const trial::NamedMeasure& measure : trial::named_measures())
     measures[std::string(measure.name)] = largest;
-  Json of_bands = Json::object();
-  for (const trial::NamedBandMeasure& measure : trial::named_band_measures())
-    of_bands[fmt::format("^{}\\[[0-9]+\\]$", measure.name)] = largest;
+  Json in_brackets{
+      {fmt::format(R"(^{}\[[0-9]*\.?[0-9]+([eE][-+]?[0-9]+)?\]$)", trial::tolerance_measure), largest}};
+  for (const std::string_view measure : trial::named_band_measures())
+    in_brackets[fmt::format("^{}\\[[0-9]+\\]$", measure)] = largest;
   Json schema = object_of(std::move(measures));
-  schema["patternProperties"] = std::move(of_bands);
+  schema["patternProperties"] = std::move(in_brackets);
   schema["minProperties"] = 1;
   return schema;
 }

@@ -1,12 +1,15 @@
 #include "experiments/sections/goal.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "core/text/number_text.hpp"
 #include "core/trial/named_measures.hpp"
 #include "experiments/keys/key_reading.hpp"
 #include "experiments/rules/value_rules.hpp"
@@ -82,14 +85,32 @@ void read_moves(const yaml::Field& field, const study::StudyPlan& plan, std::vec
   }
 }
 
-/// The names of the measures that a limit can be of, in this study.
+/// The names of the measures that a limit can be of, in this study, but for those of tolerances.
 std::vector<std::string> limited_measures(const study::StudyPlan& plan) {
   std::vector<std::string> names;
   for (const trial::NamedMeasure& measure : trial::named_measures()) names.emplace_back(measure.name);
-  for (const trial::NamedBandMeasure& measure : trial::named_band_measures())
+  for (const std::string_view measure : trial::named_band_measures())
     for (const std::int64_t band : plan.common.verdict.bands.values())
-      names.push_back(fmt::format("{}[{}]", measure.name, band));
+      names.push_back(fmt::format("{}[{}]", measure, band));
   return names;
+}
+
+/// The tolerance (rad) in "tolerance_settling_time[1e-8]"; nothing in other names.
+std::optional<double> limited_tolerance(std::string_view name) {
+  if (!name.starts_with(trial::tolerance_measure)) return std::nullopt;
+  name.remove_prefix(trial::tolerance_measure.size());
+  if (!name.starts_with('[') || !name.ends_with(']')) return std::nullopt;
+  const auto tolerance = text::parse_number<double>(name.substr(1, name.size() - 2));
+  return tolerance && std::isfinite(*tolerance) && *tolerance > 0.0 ? tolerance : std::nullopt;
+}
+
+/// Lets the trials measure settling within the tolerance.
+void measure_tolerance(const yaml::Field& field, double tolerance, keys::Reading& reading) {
+  trial::VerdictParameters& verdict = reading.plan.common.verdict;
+  verdict.position_error = true;
+  if (!add_limit(verdict.tolerances, tolerance))
+    reading.problems.add(field, "its tolerance is one too many",
+                         fmt::format("at most {} different tolerances", verdict.tolerances.limits.size()));
 }
 
 bool measures_motion(const study::StudyPlan& plan) {
@@ -107,11 +128,19 @@ void read_limits(const yaml::Field& of_goal, keys::Reading& reading, study::Goal
   const std::vector<std::string> known = limited_measures(reading.plan);
   for (const yaml::YamlEntry& entry : field.node->entries) {
     const yaml::Field item = yaml::entry_of(field, entry);
-    if (std::ranges::find(known, entry.key) == known.end()) {
+    std::string measure = entry.key;
+    if (const auto tolerance = limited_tolerance(entry.key)) {
+      measure_tolerance(item, *tolerance, reading);
+      measure = fmt::format("{}[{}]", trial::tolerance_measure, *tolerance);  // one spelling
+    } else if (std::ranges::find(known, entry.key) == known.end()) {
       const std::string_view nearest = yaml::nearest_name(entry.key, known);
-      reading.problems.add(item, "no measure of a move of this study has this name",
-                           nearest.empty() ? "a measure of a move, such as overshoot or peak_torque"
-                                           : fmt::format("'{}'?", nearest));
+      std::string names = "a measure of a move, such as overshoot or peak_torque";
+      if (entry.key.starts_with(trial::tolerance_measure)) {
+        names = fmt::format("{}[t] of a tolerance t above 0, in rad or m", trial::tolerance_measure);
+      } else if (!nearest.empty()) {
+        names = fmt::format("'{}'?", nearest);
+      }
+      reading.problems.add(item, "no measure of a move of this study has this name", names);
       continue;
     }
     const auto named = std::ranges::find(trial::named_measures(), entry.key, &trial::NamedMeasure::name);
@@ -121,7 +150,7 @@ void read_limits(const yaml::Field& of_goal, keys::Reading& reading, study::Goal
       if (named->of_position) reading.plan.common.verdict.position_error = true;
     }
     if (const auto largest = yaml::read_real(item, numerics::at_least(0), reading.problems))
-      goal.limits.push_back({entry.key, *largest});
+      goal.limits.push_back({std::move(measure), *largest});
   }
 }
 
@@ -137,10 +166,7 @@ void measure_for(const yaml::Field& field, const study::Goal& goal, keys::Readin
   }
   if (const auto band = yaml::find_field(field, "band"))
     reading.problems.add(*band, "the goal has a tolerance too", "one of them");
-  verdict.position_error = true;
-  if (!add_limit(verdict.tolerances, *goal.tolerance))
-    reading.problems.add(field, "its tolerance is one too many",
-                         fmt::format("at most {} different tolerances", verdict.tolerances.limits.size()));
+  measure_tolerance(field, *goal.tolerance, reading);
 }
 
 /// Reads one goal, and adds its band, or its tolerance, to those of the plan.

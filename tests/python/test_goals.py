@@ -15,7 +15,7 @@ rigs: 20
 trials: 100
 goals:
   first: {on: [0], tolerance: 4.0e-6, within: 0.2, moves: 0.5, machines: 0.5, limits: {overshoot: 3}}
-  second: {on: [1], band: 1, within: 0.1, moves: 0.5, limits: {"band_exits[1]": 0}}
+  second: {on: [1], band: 1, within: 0.1, moves: 0.5, limits: {"band_exits[1]": 0, "tolerance_settling_time[1.0e-5]": 0.05}}
 friction: {k1: {uniform: [90, 130]}}
 controller: {sample_rate: 2000, ki: {uniform: [2.0e-5, 6.0e-5]}}
 command: {targets: [{integers: [1, 30]}, {integers: [-30, 30]}], hold: 0.3}
@@ -37,6 +37,9 @@ def test_moves_meet_the_goals_that_are_about_them(results: zc.Results) -> None:
     moves = results.moves().reset_index()
     first = (moves["tolerance_settling_time[4e-06]"] <= 0.2 * (1 + 1e-9)) & (moves["overshoot"] <= 3)
     second = (moves["band_settling_time[1]"] <= 0.1 * (1 + 1e-9)) & (moves["band_exits[1]"] == 0)
+    in_time = moves["tolerance_settling_time[1e-05]"] <= 0.05 * (1 + 1e-9)
+    assert (second & ~in_time).any()
+    second &= in_time
     expected = first.where(moves["move"] == 0, second)
     assert 0.02 < expected.mean() < 0.98
     assert (moves["goal_met"] == expected).all()
@@ -59,4 +62,4 @@ def test_several_goals_are_named(results: zc.Results) -> None:
     """A study with several goals has no single one."""
     assert results.study.goal is None
     assert [goal["name"] for goal in results.study.goals] == ["first", "second"]
-    assert results.study.goals[1]["limits"] == {"band_exits[1]": 0.0}
+    assert results.study.goals[1]["limits"] == {"band_exits[1]": 0.0, "tolerance_settling_time[1e-05]": 0.05}

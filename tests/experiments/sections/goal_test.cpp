@@ -64,6 +64,17 @@ TEST(Goals, HaveNamesMovesAndLimits) {
   EXPECT_TRUE(study.features.position_error);
 }
 
+TEST(Goals, LimitSettlingWithinTolerancesOfTheirOwn) {
+  const study::Study study =
+      study_of(minimal_manifest("goal: {tolerance: 2.0e-6, within: 0.1, moves: 0.9, limits: "
+                                "{\"tolerance_settling_time[1.0e-5]\": 0.05, "
+                                "\"tolerance_settling_time[0.000001]\": 0.2}}"));
+  EXPECT_TRUE(std::ranges::equal(study.features.tolerances.values(), std::vector{1e-6, 2e-6, 1e-5}));
+  ASSERT_EQ(study.goals[0].limits.size(), 2U);
+  EXPECT_EQ(study.goals[0].limits[0].measure, "tolerance_settling_time[1e-05]");  // as in files
+  EXPECT_EQ(study.goals[0].limits[1].measure, "tolerance_settling_time[1e-06]");
+}
+
 TEST(Goals, MeasureThePositionOnlyWhereItIsAskedFor) {
   const auto measures_position = [](const char* goal) {
     const study::Study study = study_of(minimal_manifest(goal));
@@ -72,12 +83,25 @@ TEST(Goals, MeasureThePositionOnlyWhereItIsAskedFor) {
   EXPECT_FALSE(measures_position("goal: {within: 0.1, moves: 0.9, limits: {overshoot: 3}}"));
   EXPECT_TRUE(measures_position("goal: {within: 0.1, moves: 0.9, limits: {true_overshoot: 3}}"));
   EXPECT_TRUE(measures_position("goal: {tolerance: 1.0e-6, within: 0.1, moves: 0.9}"));
+  EXPECT_TRUE(measures_position(
+      "goal: {within: 0.1, moves: 0.9, limits: {\"tolerance_settling_time[1.0e-6]\": 0.1}}"));
 }
 
 struct GoalRefusal {
   const char* lines;
   const char* faults;
 };
+
+/// A goal with limits of more tolerances than a study may have.
+const char* nine_tolerances() {
+  static const std::string goal = [] {
+    std::string limits;
+    for (int i = 1; i <= 9; ++i)
+      limits += fmt::format("{}\"tolerance_settling_time[{}]\": 1", i == 1 ? "" : ", ", i);
+    return "goal: {within: 0.1, moves: 0.9, limits: {" + limits + "}}";
+  }();
+  return goal.c_str();
+}
 
 class RefusedGoal : public testing::TestWithParam<GoalRefusal> {};
 
@@ -114,6 +138,11 @@ INSTANTIATE_TEST_SUITE_P(
         GoalRefusal{"goal: {within: 0.1, moves: 0.9, on: []}", "6:37: goal.on | empty"},
         GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {overshot: 1}}",
                     "6:52: goal.limits.overshot | no measure"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {\"tolerance_settling_time[0]\": 1}}",
+                    "6:72: goal.limits.tolerance_settling_time[0] | above 0"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {tolerance_settling_time: 1}}",
+                    "6:67: goal.limits.tolerance_settling_time | no measure"},
+        GoalRefusal{nine_tolerances(), "6:336: goal.limits.tolerance_settling_time[9] | one too many"},
         GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {rest_error_rms: 1}}",
                     "6:58: goal.limits.rest_error_rms | not measured"},
         GoalRefusal{"goal: {within: 0.1, moves: 0.9, limits: {overshoot: -1}}",

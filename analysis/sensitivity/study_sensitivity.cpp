@@ -61,8 +61,9 @@ std::int64_t trials_read(const study::Study& study, const SensitivityQuestion& q
   return std::min(study.trials, std::max(question.max_trials, study.rigs));
 }
 
-PointInputs point_inputs(const reading::AllTrialsFile& file, const study::Study& study, std::int64_t point,
+PointInputs point_inputs(const reading::AllTrialsFile& file, std::int64_t point, bool under_condition,
                          std::int64_t trials) {
+  const study::Study& study = file.study();
   PointInputs inputs{.design = study.design,
                      .factors = study.factors,
                      .inputs = {},
@@ -75,6 +76,7 @@ PointInputs point_inputs(const reading::AllTrialsFile& file, const study::Study&
   };
   const layout::RowRange rows{point * file.header().trials, trials};
   for (std::size_t column = 0; column < file.input_columns().size(); ++column) {
+    if (under_condition && !study::differs_under_condition(study, column)) continue;
     const std::string& name = file.input_columns()[column].name;
     if (!is_of_world(name)) inputs.inputs.push_back({name, file.input(column, rows)});
   }
@@ -168,7 +170,7 @@ PointSensitivity sensitivity_at(const reading::AllTrialsFile& file, const std::s
   PointSensitivity at_point{
       point, study::label_under(file.point_labels().at(static_cast<std::size_t>(point)), condition), {}, {}};
   if (!condition.empty()) at_point.condition = condition;
-  const PointInputs inputs = point_inputs(file, study, point, trials);
+  const PointInputs inputs = point_inputs(file, point, !condition.empty(), trials);
   const PointInputs worlds = inputs_of_worlds(study, point);
   const double confidence = asked.question.confidence;
   for (const SensitivityOutput& output : asked.outputs) {

@@ -9,6 +9,7 @@
 #include "experiments/designs/random_key.hpp"
 #include "experiments/manifest/manifest.hpp"
 #include "experiments/randomness/factors.hpp"
+#include "experiments/study/condition_study.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study_table.hpp"
 
@@ -20,18 +21,29 @@ std::string profile_mean_name(std::string_view parameter) {
   return fmt::format("{}.profile.mean", parameter);
 }
 
-// [slot] whether an axis assigns the slot.
-std::vector<bool> swept_slots(const study::StudyPlan& plan) {
-  std::vector<bool> swept(plan.base.size(), false);
-  for (const study::PlanAxis& axis : plan.axes) {
-    for (const study::Assignment& assignment : axis.assignments) swept[assignment.slot] = true;
+// [slot] whether an axis assigns the slot, or one that it follows.
+struct AssignedSlots {
+  std::vector<bool> swept;       // by an axis of the sweep
+  std::vector<bool> overridden;  // by the axis of the conditions
+
+  bool differs(std::size_t slot) const { return swept[slot] || overridden[slot]; }
+};
+
+AssignedSlots assigned_slots(const study::StudyPlan& plan) {
+  AssignedSlots slots{std::vector<bool>(plan.base.size(), false), std::vector<bool>(plan.base.size(), false)};
+  for (std::size_t axis = 0; axis < plan.axes.size(); ++axis) {
+    const bool of_conditions = plan.has_conditions() && axis == plan.condition_axis;
+    for (const study::Assignment& assignment : plan.axes[axis].assignments)
+      (of_conditions ? slots.overridden : slots.swept)[assignment.slot] = true;
   }
   for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
     if (plan.base[slot].kind != study::Value::Kind::following) continue;
-    for (const std::uint32_t source : plan.following[plan.base[slot].index].from)
-      swept[slot] = swept[slot] || swept[source];
+    for (const std::uint32_t source : plan.following[plan.base[slot].index].from) {
+      slots.swept[slot] = slots.swept[slot] || slots.swept[source];
+      slots.overridden[slot] = slots.overridden[slot] || slots.overridden[source];
+    }
   }
-  return swept;
+  return slots;
 }
 
 // Whether the slot's value at some design point is drawn anew at each contact.
@@ -161,33 +173,48 @@ std::optional<study::DrawLevel> drawn_mean(const study::StudyPlan& plan, std::si
   return level;
 }
 
-void add_column(const study::InputColumn& column, const study::InputSource& source, bool swept,
-                study::StudyPlan& plan, study::Study& study) {
-  study.columns.inputs.push_back(column);
-  plan.inputs.push_back(source);
-  if (swept) return;
-  if (column.level == study::DrawLevel::rig) {
-    study.columns.rigs.push_back(column);
-    plan.rig_inputs.push_back(source);
-  } else if (column.level == study::DrawLevel::world) {
-    study.columns.worlds.push_back(column);
-    plan.world_inputs.push_back(source);
+// Lists what all trials of a rig (or world) share at all points; under each condition that overrides it.
+void add_shared(study::InputColumn column, study::InputSource source, bool overridden,
+                const std::vector<std::string>& conditions, std::vector<study::InputColumn>& columns,
+                std::vector<study::InputSource>& sources) {
+  if (!overridden) {
+    columns.push_back(std::move(column));
+    sources.push_back(source);
+    return;
+  }
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    columns.push_back(column);
+    columns.back().name += study::under_suffix(conditions[i]);
+    source.condition = static_cast<std::int64_t>(i);
+    sources.push_back(source);
   }
 }
 
-void list_input_columns(const std::vector<bool>& swept, study::StudyPlan& plan, study::Study& study) {
+void add_column(const study::InputColumn& column, const study::InputSource& source,
+                const AssignedSlots& assigned, study::StudyPlan& plan, study::Study& study) {
+  study.columns.inputs.push_back(column);
+  plan.inputs.push_back(source);
+  if (assigned.swept[source.slot]) return;
+  const bool overridden = assigned.overridden[source.slot];
+  if (column.level == study::DrawLevel::rig)
+    add_shared(column, source, overridden, study.conditions, study.columns.rigs, plan.rig_inputs);
+  if (column.level == study::DrawLevel::world)
+    add_shared(column, source, overridden, study.conditions, study.columns.worlds, plan.world_inputs);
+}
+
+void list_input_columns(const AssignedSlots& assigned, study::StudyPlan& plan, study::Study& study) {
   for (const std::size_t slot : study::slots_in_table_order(plan.table)) {
-    if (plan.base[slot].kind == study::Value::Kind::number && !swept[slot]) continue;
+    if (plan.base[slot].kind == study::Value::Kind::number && !assigned.differs(slot)) continue;
     const auto number = static_cast<std::uint32_t>(slot);
     const parameters::Parameter& parameter = plan.table.rows[slot];
     const std::string name(parameter.name);
     const std::string unit = parameters::unit_of(parameter, plan.units);
     plan.input_slots.push_back(number);
     add_column({name, unit, column_meaning(parameter, plan.units), most_frequent_level(plan, slot)},
-               {number, false}, swept[slot], plan, study);
+               {number, false}, assigned, plan, study);
     if (const auto level = drawn_mean(plan, slot)) {
       add_column({profile_mean_name(name), unit, fmt::format("mean of the profile of {}", name), *level},
-                 {number, true}, swept[slot], plan, study);
+                 {number, true}, assigned, plan, study);
     }
   }
 }
@@ -203,28 +230,22 @@ std::map<std::uint32_t, std::size_t> profiles_in_use(const study::StudyPlan& pla
   return first_point;
 }
 
-// Where a value differs from those elsewhere: at a design point, or under a condition.
-std::string place_name(const study::StudyPlan& plan, std::size_t slot, std::size_t point,
-                       const study::Study& study) {
-  const bool overridden =
-      plan.has_conditions() &&
-      std::ranges::find(plan.axes[plan.condition_axis].assignments, slot, &study::Assignment::slot) !=
-          plan.axes[plan.condition_axis].assignments.end();
-  return overridden ? study.conditions[static_cast<std::size_t>(study::condition_at(plan, point))]
-                    : fmt::format("{}", study::design_point(plan, point));
-}
-
-void list_profiles(const std::vector<keys::ProfileRequest>& requests, const std::vector<bool>& swept,
+void list_profiles(const std::vector<keys::ProfileRequest>& requests, const AssignedSlots& assigned,
                    const study::StudyPlan& plan, study::Study& study) {
   for (const std::size_t slot : study::slots_in_table_order(plan.table)) {
     const parameters::Parameter& parameter = plan.table.rows[slot];
     const bool asked =
         std::any_of(requests.begin(), requests.end(), [&](const auto& r) { return r.slot == slot; });
     if (!asked) continue;
-    const auto used =
-        profiles_in_use(plan, slot, swept[slot] ? study::plan_point(plan, study::point_count(study)) : 1);
+    const auto used = profiles_in_use(
+        plan, slot, assigned.differs(slot) ? study::plan_point(plan, study::point_count(study)) : 1);
     for (const auto& [index, point] : used) {
-      const std::string suffix = used.size() > 1 ? "@" + place_name(plan, slot, point, study) : "";
+      std::string suffix;
+      if (used.size() > 1)
+        suffix = study::under_suffix(
+            assigned.overridden[slot]
+                ? study.conditions[static_cast<std::size_t>(study::condition_at(plan, point))]
+                : fmt::format("{}", study::design_point(plan, point)));
       const std::shared_ptr<const study::Rotors> rotors = plan.profiles[index];
       study::RealisedProfile profile{std::string(parameter.name) + suffix,
                                      parameters::unit_of(parameter, plan.units), rotors->rotor(0)};
@@ -279,13 +300,13 @@ void assemble_study(const std::vector<keys::ProfileRequest>& requests,
   study.points.labels = sections::label_points(axes);
   study.points.axes = sections::describe_axes(axes, plan);
   study.features = study::find_features(plan, study);
-  const std::vector<bool> swept = swept_slots(plan);
-  list_input_columns(swept, plan, study);
+  const AssignedSlots assigned = assigned_slots(plan);
+  list_input_columns(assigned, plan, study);
   derive_randomness(study, plan);
   share_randomness_of_samples(study, plan);
   number_factors(plan, study);
   set_common_parameters(study, plan);
-  list_profiles(requests, swept, plan, study);
+  list_profiles(requests, assigned, plan, study);
 }
 
 }  // namespace zerocount::manifest

@@ -23,6 +23,22 @@ PlanAxis only_option(const PlanAxis& axis, std::size_t option) {
   return only;
 }
 
+/// Leaves what the rigs, or worlds, have under the condition.
+void keep_condition(std::int64_t condition, std::size_t suffix, std::vector<InputColumn>& columns,
+                    std::vector<InputSource>& sources) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const bool overridden = sources[i].condition.has_value();
+    if (overridden && sources[i].condition != condition) continue;
+    columns[kept] = columns[i];
+    sources[kept] = {sources[i].slot, sources[i].profile_mean};
+    if (overridden) columns[kept].name.resize(columns[kept].name.size() - suffix);
+    ++kept;
+  }
+  columns.resize(kept);
+  sources.resize(kept);
+}
+
 }  // namespace
 
 Study under_condition(const Study& study, std::int64_t condition) {
@@ -32,6 +48,9 @@ Study under_condition(const Study& study, std::int64_t condition) {
   PlanAxis& conditions = plan->axes[plan->condition_axis];
   conditions = only_option(conditions, static_cast<std::size_t>(condition));
   plan->conditions = 0;
+  const std::size_t suffix = under_suffix(study.conditions[static_cast<std::size_t>(condition)]).size();
+  keep_condition(condition, suffix, one.columns.rigs, plan->rig_inputs);
+  keep_condition(condition, suffix, one.columns.worlds, plan->world_inputs);
   one.plan = std::move(plan);
   one.trials = draw_count(study);
   one.conditions.clear();
@@ -41,6 +60,18 @@ Study under_condition(const Study& study, std::int64_t condition) {
     if (turns.condition_of(trial) == condition) one.retained_trials.push_back(turns.draw_of(trial));
   }
   return one;
+}
+
+bool differs_under_condition(const Study& one, std::size_t column) {
+  const InputSource& source = one.plan->inputs[column];
+  const Value::Kind kind = value_at_point(*one.plan, source.slot, 0)->kind;
+  if (source.profile_mean) return kind == Value::Kind::profile;
+  return kind != Value::Kind::number || std::ranges::find(one.points.axes, one.columns.inputs[column].name,
+                                                          &SweepAxis::name) != one.points.axes.end();
+}
+
+std::string under_suffix(std::string_view place) {
+  return fmt::format("@{}", place);
 }
 
 std::string label_under(std::string_view label, std::string_view condition) {

@@ -74,6 +74,8 @@ inline std::size_t option_count(const PlanAxis& axis) {
 struct InputSource {
   std::uint32_t slot{0};
   bool profile_mean{false};
+  std::optional<std::int64_t>
+      condition{};  ///< of a rig or world: under this one, where conditions override it
 };
 
 /// The quantities drawn anew in each trial. Factor f below slots.size() is the value of slot slots[f]. The

@@ -139,7 +139,7 @@ struct StoppingRule {
 
 /// A limit of a goal: the largest magnitude of a measure of a move that meets it.
 struct GoalLimit {
-  std::string measure;  ///< of trial::named_measures(), or of a band: "band_exits[2]"
+  std::string measure;  ///< its name in files: "overshoot", "band_exits[2]", "tolerance_settling_time[1e-08]"
   double largest{0.0};  ///< in the measure's unit
 };
 
@@ -205,8 +205,10 @@ struct DesignPoints {
 /// Columns of the tables of inputs: the parameters that differ between trials, rigs and worlds.
 struct InputColumns {
   std::vector<InputColumn> inputs;  ///< of trials
-  std::vector<InputColumn> rigs;    ///< drawn for each rig, the same at all points; empty without rigs
-  std::vector<InputColumn> worlds;  ///< drawn for each world, the same at all points; empty without worlds
+  /// Drawn for each rig, the same at all points; empty without rigs. What conditions override has a column
+  /// for each of them: "friction.k2@loaded".
+  std::vector<InputColumn> rigs;
+  std::vector<InputColumn> worlds;  ///< likewise for each world
 };
 
 struct StudyPlan;  // see plan.hpp

@@ -191,12 +191,12 @@ double drawn_number(const TrialDraws& draws, std::uint32_t slot, const Value& va
              : value.number;
 }
 
-/// The value of the slot outside the sweep, which is not a profile.
-double base_number(const TrialDraws& draws, std::uint32_t slot) {
-  const Value& value = draws.plan().base[slot];
+/// The value of the slot at a point of the plan, which is not a profile.
+double number_at(const TrialDraws& draws, std::uint32_t slot, std::size_t point) {
+  const Value& value = *value_at_point(draws.plan(), slot, point);
   return value.kind == Value::Kind::following
              ? following_value(draws.plan().following[value.index],
-                               [&](std::uint32_t source) { return base_number(draws, source); })
+                               [&](std::uint32_t source) { return number_at(draws, source, point); })
              : drawn_number(draws, slot, value);
 }
 
@@ -213,8 +213,10 @@ std::vector<double> inputs_of(const Study& study, std::string_view unit, std::in
   std::vector<double> inputs;
   inputs.reserve(sources.size());
   for (const InputSource& source : sources) {
-    inputs.push_back(source.profile_mean ? profile_mean(draws, source.slot, plan.base[source.slot])
-                                         : base_number(draws, source.slot));
+    const std::size_t place = plan_point(plan, 0, source.condition.value_or(0));
+    inputs.push_back(source.profile_mean
+                         ? profile_mean(draws, source.slot, *value_at_point(plan, source.slot, place))
+                         : number_at(draws, source.slot, place));
   }
   return inputs;
 }

@@ -67,8 +67,19 @@ std::string_view ending_of(trial::Outcome outcome) {
   return "it has no target";
 }
 
+/// The line, indented as readings are; nothing without one.
+std::string indented(const std::string& line) {
+  return line.empty() ? line : "  " + line;
+}
+
+/// Rigs, and the trials and moves of one of them. @param counts of trials on rigs
+statistics::RigStudy shape_of(const measures::MoveCounts& counts) {
+  return {std::ssize(counts.rigs), counts.rigs.front().trials, counts.rigs.front().moves};
+}
+
 /// The readings of a study with worlds: the worst world, and the worlds by their verdicts.
-std::string readings_of_worlds(const study::Goal& goal, const Verdict& verdict) {
+std::string readings_of_worlds(const study::Goal& goal, const measures::MoveCounts& counts,
+                               const Verdict& verdict) {
   const std::size_t worst = worst_worlds_first(goal, verdict).front();
   std::string text = fmt::format(
       "  it must hold in each of {} worlds: met in {}, missed in {}, undecided in {}\n",
@@ -79,9 +90,10 @@ std::string readings_of_worlds(const study::Goal& goal, const Verdict& verdict) 
                         text::percent_near(verdict.worlds[worst].machines.value), worst,
                         with_bounds(verdict.machines));
   }
-  return text + fmt::format("  moves that meet it: {} in world {}, the worst; in the worst of all {}\n",
-                            text::percent_near(verdict.worlds[worst].moves.value), worst,
-                            with_bounds(verdict.moves));
+  text +=
+      fmt::format("  moves that meet it: {} in world {}, the worst; in the worst of all {}\n",
+                  text::percent_near(verdict.worlds[worst].moves.value), worst, with_bounds(verdict.moves));
+  return counts.rigs.empty() ? text : text + indented(one_machine_text(goal, shape_of(counts), verdict));
 }
 
 /// The rigs that meet all claims together, a line; empty where only one claim is on machines.
@@ -90,34 +102,6 @@ std::string together_text(const Question& question, const measures::PointSummary
   if (!all) return {};
   return fmt::format("  machines that meet all claims on machines together: {} of {}, as observed\n",
                      all->rigs, all->of);
-}
-
-/// "40 moves cannot show 99 % of one machine …": what the moves of one machine lack, a line. Empty where a
-/// machine without a miss is shown to meet the goal, or where the verdict is decided.
-std::string one_machine_text(const study::Goal& goal, const measures::MoveCounts& counts,
-                             const Verdict& verdict) {
-  const statistics::RigMoves& rig = counts.rigs.front();
-  const std::int64_t rigs = std::ssize(counts.rigs);
-  const statistics::RigStudy study{rigs, rig.trials, rig.moves};
-  const double at_limit = statistics::chance_to_show(study, goal.moves, rig.moves);
-  if (verdict.status != Status::undecided || at_limit <= 1.0 - goal.confidence) return {};
-  const bool one_move_each = rig.trials == rig.moves;
-  std::string text = fmt::format(
-      "  {} moves{} cannot show {} of one machine: {}{} without a miss are needed; one just below it has no "
-      "miss with a probability of {}{}",
-      rig.moves, one_move_each ? "" : fmt::format(" in {} trials", rig.trials), text::percent(goal.moves),
-      statistics::trials_for_claim(goal.moves, goal.confidence, 0), one_move_each ? "" : " trials",
-      one_move_each ? "" : "up to ", text::percent_near(at_limit));
-  // The lowest proportion at which all machines alike show so many without a miss.
-  const auto can_be_alike = [&](double p) {
-    return statistics::chance_to_show(study, p, rig.moves) >= verdict.without_miss.low;
-  };
-  const double alike = numerics::bisect({goal.moves, 0.0}, can_be_alike, numerics::within(1e-9)).holds;
-  const double shown = std::ceil(1e4 * alike) * 1e-4;
-  if (verdict.rigs_without_miss > 0 && at_limit >= verdict.without_miss.low && shown < goal.moves)
-    text +=
-        fmt::format("; all {} that had none may be at {}", verdict.rigs_without_miss, text::percent(shown));
-  return text + '\n';
 }
 
 }  // namespace
@@ -188,7 +172,7 @@ std::string goals_text(const Question& question, const measures::PointSummary& p
 
 std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,
                           const Verdict& verdict) {
-  if (!verdict.worlds.empty()) return readings_of_worlds(goal, verdict);
+  if (!verdict.worlds.empty()) return readings_of_worlds(goal, counts, verdict);
   std::string text = fmt::format("  of all moves of all machines, {} meet it: {} of {}, {}\n",
                                  text::percentage(counts.met, counts.moves), counts.met, counts.moves,
                                  with_bounds(verdict.moves));
@@ -203,7 +187,32 @@ std::string readings_text(const study::Goal& goal, const measures::MoveCounts& c
       "  machines that meet it in at least {} of their moves: {} of {} by their {} moves; {} of all "
       "machines\n",
       text::percent(goal.moves), verdict.rigs_meeting, rigs, moves, with_bounds(verdict.machines));
-  return text + one_machine_text(goal, counts, verdict);
+  return text + indented(one_machine_text(goal, shape_of(counts), verdict));
+}
+
+std::string one_machine_text(const study::Goal& goal, const statistics::RigStudy& study,
+                             const Verdict& verdict) {
+  if (!goal.machines || verdict.status != Status::undecided) return {};
+  const double at_limit = statistics::chance_to_show(study, goal.moves, study.moves);
+  if (at_limit <= 1.0 - goal.confidence) return {};
+  const bool one_move_each = study.trials == study.moves;
+  std::string text = fmt::format(
+      "{} moves{} cannot show {} of one machine: {}{} without a miss are needed; one just below it has no "
+      "miss with a probability of {}{}",
+      study.moves, one_move_each ? "" : fmt::format(" in {} trials", study.trials), text::percent(goal.moves),
+      statistics::trials_for_claim(goal.moves, goal.confidence, 0), one_move_each ? "" : " trials",
+      one_move_each ? "" : "up to ", text::percent_near(at_limit));
+  if (!verdict.worlds.empty()) return text + '\n';
+  // The lowest proportion at which all machines alike show so many without a miss.
+  const auto can_be_alike = [&](double p) {
+    return statistics::chance_to_show(study, p, study.moves) >= verdict.without_miss.low;
+  };
+  const double alike = numerics::bisect({goal.moves, 0.0}, can_be_alike, numerics::within(1e-9)).holds;
+  const double shown = std::ceil(1e4 * alike) * 1e-4;
+  if (verdict.rigs_without_miss > 0 && at_limit >= verdict.without_miss.low && shown < goal.moves)
+    text +=
+        fmt::format("; all {} that had none may be at {}", verdict.rigs_without_miss, text::percent(shown));
+  return text + '\n';
 }
 
 std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_rigs) {

@@ -5,6 +5,7 @@
 
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/goal/question.hpp"
+#include "analysis/statistics/clusters/rig_proportion.hpp"
 
 namespace zerocount::goal {
 
@@ -33,6 +34,12 @@ std::string missing_text(const Question& question);
 /// How the moves of a trial end: "2 of 3 moves meet the goal", or by the worst of them "it ends at zero
 /// counts".
 std::string ending_text(const Question& question, std::span<const trial::MoveOutcome> moves);
+
+/// "40 moves in 10 trials cannot show 99 % of one machine: 299 trials without a miss are needed; …": what the
+/// moves of one machine lack, a line. Empty where a machine without a miss is shown to meet the goal, where
+/// the verdict is decided, and where the goal is not about machines. @param study of the moves that are asked
+std::string one_machine_text(const study::Goal& goal, const statistics::RigStudy& study,
+                             const Verdict& verdict);
 
 /// "About 300 rigs with 100 trials each decide it with a probability of 90 %, …", or that no study does.
 /// @param on_rigs whether trials share rigs

@@ -46,20 +46,26 @@ JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen) 
 }
 
 std::string judgement_headline(const StudySummary& summary, const JudgedPoint& judged) {
+  const goal::Question& question = summary.question;
   const std::string name = name_of_chosen(summary, judged.chosen);
-  if (!has_several(summary.question))
-    return fmt::format("{}: {}", name, verdict_words(judged.verdict.status));
-  const std::string& worst = worst_goal(summary, judged.verdict).name;
+  const std::string under =
+      question.conditions.empty()
+          ? ""
+          : fmt::format(" under condition {}", question.conditions[judged.verdict.condition]);
+  const std::string worst =
+      has_several(question) ? fmt::format(" '{}'", worst_goal(summary, judged.verdict).name) : "";
   switch (judged.verdict.status) {
     case goal::Status::met:
-      return fmt::format("{}: all {} goals are met, '{}' by the least", name, summary.question.parts.size(),
-                         worst);
+      if (has_several(question))
+        return fmt::format("{}: all {} goals are met,{} by the least{}", name, question.parts.size(), worst,
+                           under);
+      return fmt::format("{}: the goal is met{}", name, under.empty() ? "" : ", by the least" + under);
     case goal::Status::missed:
-      return fmt::format("{}: the goal '{}' is missed", name, worst);
+      return fmt::format("{}: the goal{} is missed{}", name, worst, under);
     case goal::Status::undecided:
       break;
   }
-  return fmt::format("{}: it is undecided whether the goal '{}' is met", name, worst);
+  return fmt::format("{}: it is undecided whether the goal{} is met{}", name, worst, under);
 }
 
 std::string judgement_details(const StudySummary& summary, const JudgedPoint& judged) {

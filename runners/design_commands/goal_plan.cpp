@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
@@ -102,8 +103,8 @@ std::string extent_sentence(const GoalPlans& plans) {
   if (plans.study.worlds > 0)
     lines += fmt::format("in all {} worlds together, each with as many as the others\n", plans.study.worlds);
   if (!plans.study.conditions.empty())
-    lines += fmt::format("under all {} conditions together, each with as many trials as the others\n",
-                         plans.study.conditions.size());
+    lines += fmt::format("under the conditions {} together, each with as many trials as the others\n",
+                         fmt::join(plans.study.conditions, ", "));
   if (const std::size_t points = plans.study.points.labels.size(); points > 1)
     lines += fmt::format("at the best of the {} points\n", points);
   return lines +

@@ -291,9 +291,14 @@ std::string proof_sentence(Of tuning) {
         100.0 * proof.verdict.moves.value, 100.0 * proof.verdict.moves.low);
   }
   const study::Goal& goal = worst_goal(tuning);
-  if (goal.machines)
+  if (goal.machines) {
     lines += fmt::format("at least {:.5g} % of machines meet it in {:g} % of their moves\n",
                          100.0 * proof.verdict.machines.low, 100.0 * goal.moves);
+    const std::int64_t trials = study::draw_count(proof.study) / proof.study.rigs;
+    const measures::CountedGoal asked = measures::asked_of_moves(study)[proof.verdict.goal];
+    lines += goal::one_machine_text(
+        goal, {proof.study.rigs, trials, trials * measures::asked_moves(asked, study.moves)}, proof.verdict);
+  }
   if (!proof.verdict.worlds.empty()) lines += worlds_line(proof.verdict);
   if (proof.attempts > 1)
     lines += fmt::format("it is attempt {}: the bounds allow for all of them\n", proof.attempts);

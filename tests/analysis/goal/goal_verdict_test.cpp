@@ -134,6 +134,14 @@ TEST(GoalText, SaysWhatTheMovesOfOneMachineLack) {
     rig = {10, 40, rig.met == 40 && &rig < &counts.rigs[330] ? 40 : 36};
   const std::string fewer = readings_text(goal, counts, judge_goal(goal, counts, 1));
   EXPECT_NE(fewer.find("; all 330 that had none may be at 97.6"), std::string::npos) << fewer;
+  // It is so in each world, too; what all machines may be at is not said of several worlds.
+  measures::MoveCounts worlds = counts;
+  worlds.worlds = 4;
+  const std::string in_worlds = readings_text(goal, worlds, judge_goal(goal, worlds, 1));
+  EXPECT_NE(in_worlds.find("  40 moves in 10 trials cannot show 99 % of one machine: 299 trials"),
+            std::string::npos)
+      << in_worlds;
+  EXPECT_EQ(in_worlds.find("that had none"), std::string::npos) << in_worlds;
   for (statistics::RigMoves& rig : counts.rigs) rig = {300, 300, 300};
   counts.rigs.resize(20);
   const std::string enough = readings_text(goal, counts, judge_goal(goal, counts, 1));

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,6 +15,63 @@ namespace zerocount::identification {
 namespace {
 
 constexpr double two_sided_95 = 1.959963984540054;  // Φ⁻¹(0.975)
+
+/// Whether it is of λ and n.
+bool is_of_creep(const Identification::Correlation& pair) {
+  const auto is_one = [](const std::string& name) { return name == "lambda" || name == "n"; };
+  return is_one(pair.one) && is_one(pair.other);
+}
+
+/// The middle of the interval on the scale of its distribution: of n, unless it was cut at 1, the mean of its
+/// ends, of others their geometric mean.
+double middle_of(const ParameterEstimate& parameter) {
+  if (parameter.name != "n") return std::sqrt(parameter.low * parameter.high);
+  const bool cut = parameter.low <= 1.0;  // so the middle of the rest is not the estimate
+  return cut ? parameter.value : 0.5 * (parameter.low + parameter.high);
+}
+
+/// Creep as an extension under a torque (friction.measured.creep).
+struct MeasuredCreep {
+  double torque{0.0};  ///< T: at which the errors of ln(extension) and n do not correlate
+  ParameterEstimate extension, rate, exponent;
+};
+
+/// With x = ln λ: ln(extension) = n·ln T − x, whose error does not correlate with that of n if
+/// ln T = cov(n, x)/var(n); its variance is var(x) − cov(n, x)²/var(n) then. Nothing where λ or n is not
+/// estimated, or where their errors do not correlate strongly: then they are drawn independently as well.
+std::optional<MeasuredCreep> measured_creep(const Identification& found) {
+  const auto estimate = [&](std::string_view name) {
+    const auto place = std::ranges::find(found.parameters, name, &ParameterEstimate::name);
+    const bool known = place != found.parameters.end() && place->status == EstimateStatus::estimated;
+    return known ? std::optional(*place) : std::nullopt;
+  };
+  const auto index_of = [&](std::string_view name) {
+    return std::ranges::find(found.errors.names, name) - found.errors.names.begin();
+  };
+  const auto alpha = estimate("alpha"), lambda = estimate("lambda"), n = estimate("n");
+  if (!alpha || !lambda || !n || std::ranges::none_of(found.correlations, is_of_creep)) return std::nullopt;
+  const Eigen::Index i = index_of("n"), j = index_of("lambda");
+  const Eigen::MatrixXd& covariance = found.errors.covariance;
+  const double slope = covariance(i, j) / covariance(i, i);
+  MeasuredCreep creep{text::round_to_digits(std::exp(slope), 6), {}, *alpha, *n};
+  creep.extension = *lambda;
+  creep.extension.unit = parameters::unit_on(found.axis, "rad");
+  creep.extension.value = std::pow(creep.torque, n->value) / lambda->value;
+  const double middle = std::pow(creep.torque, middle_of(*n)) / middle_of(*lambda);
+  const double sd = std::sqrt(std::max(0.0, covariance(j, j) - slope * covariance(i, j)));
+  creep.extension.low = middle * std::exp(-two_sided_95 * sd);
+  creep.extension.high = middle * std::exp(two_sided_95 * sd);
+  return creep;
+}
+
+/// The lines of friction.measured in the map `friction`.
+std::string creep_lines(const MeasuredCreep& creep, parameters::AxisKind axis) {
+  const std::string indent = "    ";
+  return fmt::format("  measured:\n{}creep:\n{}  torque: {}   # {}\n{}{}{}{}{}{}", indent, indent,
+                     manifest_number(creep.torque, 1e-3), parameters::unit_on(axis, "N m"), indent,
+                     manifest_line(creep.extension, "extension"), indent, manifest_line(creep.rate, "rate"),
+                     indent, manifest_line(creep.exponent, "exponent"));
+}
 
 /// Whether not all lines of a map are comments: those alone are not a map.
 bool has_values(const std::string& lines) {
@@ -48,9 +107,7 @@ std::string with_digits(double value, const ParameterEstimate& parameter) {
 std::string distribution_text(const ParameterEstimate& parameter) {
   constexpr double small_digits = 1e-3;  // four digits are enough for a spread
   if (parameter.name == "n") {
-    const bool cut =
-        parameter.low <= 1.0;  // the interval was truncated at n = 1, so its middle is not the estimate
-    const double mean = cut ? parameter.value : 0.5 * (parameter.low + parameter.high);
+    const double mean = middle_of(parameter);
     const double sd = (parameter.high - mean) / two_sided_95;
     if (!(sd > 0.0)) return manifest_number(mean, 0.0);
     constexpr double far = 8.0;
@@ -63,7 +120,7 @@ std::string distribution_text(const ParameterEstimate& parameter) {
                        manifest_number(parameter.value, parameter.standard_error / std::abs(parameter.value)),
                        manifest_number(parameter.standard_error, small_digits));
   }
-  const double median = std::sqrt(parameter.low * parameter.high);
+  const double median = middle_of(parameter);
   const double spread = 0.5 * std::log(parameter.high / parameter.low) / two_sided_95;
   const double cv = std::sqrt(std::expm1(spread * spread));
   if (!(cv > 0.0)) return manifest_number(median, 0.0);
@@ -118,17 +175,23 @@ std::string manifest_fragment(const Identification& identification) {
   std::string remarks =
       " Its median is the middle of the\n# interval, not exactly the estimate. Trials draw the parameters "
       "independently";
-  for (const Identification::Correlation& pair : identification.correlations) {
-    remarks +=
-        fmt::format("{}\n# {} and {}: {:.2f}",
-                    &pair == &identification.correlations.front() ? ", although errors correlate:" : "",
-                    pair.one, pair.other, pair.value);
-  }
+  const std::optional<MeasuredCreep> creep = measured_creep(identification);
+  std::string pairs;
+  for (const Identification::Correlation& pair : identification.correlations)
+    if (!creep || !is_of_creep(pair))
+      pairs += fmt::format("\n# {} and {}: {:.2f}", pair.one, pair.other, pair.value);
+  if (!pairs.empty()) remarks += ", although errors correlate:" + pairs;
+  if (creep)
+    remarks += "\n# Creep is said by its extension under a torque at which that and n do not correlate.";
   remarks += "\n" + lack_of_fit_comment(identification.checks.passed);
-  Fragment fragment{{},
-                    std::move(remarks),
-                    manifest_lines(identification.parameters, "plant"),
-                    manifest_lines(identification.parameters, "friction")};
+  std::vector<ParameterEstimate> parameters = identification.parameters;
+  if (creep)
+    std::erase_if(parameters, [](const ParameterEstimate& one) {
+      return one.name == "alpha" || one.name == "lambda" || one.name == "n";
+    });
+  Fragment fragment{
+      {}, std::move(remarks), manifest_lines(parameters, "plant"), manifest_lines(parameters, "friction")};
+  if (creep) fragment.friction += creep_lines(*creep, identification.axis);
   for (const RecordSummary& record : identification.records) fragment.records.push_back(record.name);
   return fragment_text(fragment, identification.axis);
 }

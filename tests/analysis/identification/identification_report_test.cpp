@@ -71,13 +71,19 @@ study::Study study_with(const std::string& fragment) {
       "pasted.yaml");
 }
 
-/// Quantile of the parameter over the study's trials.
-double sampled(const study::Study& study, const std::string& key, double proportion) {
+/// The values of the parameter in the study's trials.
+std::vector<double> drawn(const study::Study& study, const std::string& key) {
   std::size_t column = 0;
   while (study.columns.inputs[column].name != key) ++column;
   std::vector<double> values;
   for (std::int64_t i = 0; i < study.trials; ++i)
     values.push_back(study::study_trial(study, 0, i).inputs[column]);
+  return values;
+}
+
+/// Quantile of the parameter over the study's trials.
+double sampled(const study::Study& study, const std::string& key, double proportion) {
+  std::vector<double> values = drawn(study, key);
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(proportion * static_cast<double>(values.size()))];
 }
@@ -103,6 +109,63 @@ TEST(ManifestFragment, DistributionsHaveTheIntervals) {
       EXPECT_NEAR(sampled(study, parameter.key, 0.025), parameter.low, 0.1 * width) << parameter.name;
       EXPECT_NEAR(sampled(study, parameter.key, 0.975), parameter.high, 0.1 * width) << parameter.name;
     }
+  }
+}
+
+/// Errors of λ and n that correlate, and the intervals that belong to them.
+identification::Identification correlated_creep(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  identification::Identification found;
+  found.records.push_back({});
+  found.records.back().name = "holds.csv";
+  const auto add = [&](const char* name, double middle, double low, double high) {
+    identification::ParameterEstimate& one = found.parameters.emplace_back();
+    one.name = name;
+    one.key = std::string("friction.") + name;
+    one.unit = "unit";
+    one.status = identification::EstimateStatus::estimated;
+    one.value = middle;
+    one.low = low;
+    one.high = high;
+  };
+  const double sd_of_lambda = 0.02 + 0.2 * uniform(random);  // of ln λ
+  const double sd_of_n = 0.01 + 0.05 * uniform(random);
+  const double correlation = (uniform(random) < 0.5 ? -1.0 : 1.0) * (0.9 + 0.099 * uniform(random));
+  add("k1", 110.0, 100.0, 121.0);
+  add("alpha", 0.5, 0.4, 0.625);
+  const double lambda = 1.0 + 20.0 * uniform(random);
+  add("lambda", lambda, lambda * std::exp(-1.96 * sd_of_lambda), lambda * std::exp(1.96 * sd_of_lambda));
+  const double n = 1.8 + uniform(random);
+  add("n", n, n - 1.96 * sd_of_n, n + 1.96 * sd_of_n);
+  found.errors.names = {"lambda", "n"};
+  found.errors.covariance =
+      Eigen::MatrixXd{{sd_of_lambda * sd_of_lambda, correlation * sd_of_lambda * sd_of_n},
+                      {correlation * sd_of_lambda * sd_of_n, sd_of_n * sd_of_n}};
+  found.correlations = {{"lambda", "n", correlation}};
+  found.fragment = identification::manifest_fragment(found);
+  return found;
+}
+
+// Machines drawn from the fragment have λ and n as the record has them: each in its interval, and together.
+TEST(ManifestFragment, DrawsCreepWithTheCorrelationOfItsErrors) {
+  std::mt19937_64 random(64);
+  for (int round = 0; round < 10; ++round) {
+    const identification::Identification found = correlated_creep(random);
+    const study::Study study = study_with(found.fragment);
+    EXPECT_EQ(found.fragment.find("lambda"), std::string::npos) << found.fragment;
+    for (const identification::ParameterEstimate& one : found.parameters) {
+      const double width = one.high - one.low;
+      EXPECT_NEAR(sampled(study, one.key, 0.025), one.low, 0.1 * width) << one.name << found.fragment;
+      EXPECT_NEAR(sampled(study, one.key, 0.975), one.high, 0.1 * width) << one.name << found.fragment;
+    }
+    const std::vector<double> n = drawn(study, "friction.n"), lambda = drawn(study, "friction.lambda");
+    Eigen::MatrixXd errors(study.trials, 2);
+    for (Eigen::Index i = 0; i < errors.rows(); ++i)
+      errors.row(i) << std::log(lambda[static_cast<std::size_t>(i)]), n[static_cast<std::size_t>(i)];
+    errors.rowwise() -= errors.colwise().mean().eval();
+    const Eigen::MatrixXd sums = errors.transpose() * errors;
+    EXPECT_NEAR(sums(0, 1) / std::sqrt(sums(0, 0) * sums(1, 1)), found.errors.correlation(0, 1), 0.02)
+        << found.fragment;
   }
 }
 

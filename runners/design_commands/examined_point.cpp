@@ -13,8 +13,6 @@
 #include "runners/commands/study_argument.hpp"
 
 namespace zerocount::design_commands {
-namespace {
-
 study::Study study_in_file(const command_line::Arguments& arguments) {
   const std::string& path = arguments.operands()[0];
   if (arguments.has("set"))
@@ -27,8 +25,6 @@ study::Study study_in_file(const command_line::Arguments& arguments) {
                               path));
   return file.study();
 }
-
-}  // namespace
 
 std::int64_t named_point(const command_line::Arguments& arguments, const study::Study& study) {
   const std::optional<std::int64_t> point = command_line::point_option(arguments, study.points.labels);

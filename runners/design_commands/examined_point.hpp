@@ -15,6 +15,10 @@ struct ExaminedPoint {
   std::int64_t point{0};
 };
 
+/// The study of the results file that is the first operand.
+/// @throws Failure (bad_input) with `--set`, or if its controller is a plugin
+study::Study study_in_file(const command_line::Arguments& arguments);
+
 /// `--point`, or the only point of the study.
 /// @throws Failure (bad_input) if it has several points and none is named
 std::int64_t named_point(const command_line::Arguments& arguments, const study::Study& study);

@@ -32,7 +32,7 @@ struct MachineLoops {
 };
 
 struct Loops {
-  std::vector<theory::FrozenLoop> loops;
+  std::vector<theory::TrialLoop> loops;
   double hold{0.0};  ///< s
   bool before_sliding{false};
   bool sliding{false};
@@ -48,15 +48,18 @@ std::vector<loop::ControllerParameters> controls_before_sliding(const trial::Tri
 }
 
 void add_stiffnesses(const trial::TrialParameters& p, const MachineLoops& machine,
-                     std::vector<theory::FrozenLoop>& loops) {
+                     std::vector<theory::TrialLoop>& loops) {
+  std::string name = "before sliding";
   for (const loop::ControllerParameters& control : controls_before_sliding(p)) {
     for (int i = 0; i < stiffnesses; ++i) {
       const double share = static_cast<double>(i) / (stiffnesses - 1);
       const double stiffness = machine.softest * std::pow(machine.stiffest / machine.softest, share);
-      loops.push_back(theory::frozen_loop(stiffness, p.plant.presliding_damping, p.plant, p.encoder, control,
-                                          theory::drive_of(p)));
+      loops.push_back({name, false, stiffness,
+                       theory::frozen_loop(stiffness, p.plant.presliding_damping, p.plant, p.encoder, control,
+                                           theory::drive_of(p))});
       if (machine.softest == machine.stiffest) break;
     }
+    name = "before sliding, at standstill";
   }
 }
 
@@ -71,18 +74,18 @@ Loops loops_of(trial::TrialParameters p, const MachineLoops& machine, double mor
   found.sliding = machine.slides || !found.before_sliding;
   if (has_spring) add_stiffnesses(p, machine, found.loops);
   for (const theory::TrialLoop& one : of_trial) {
-    if (one.slides ? found.sliding : !has_spring) found.loops.push_back(one.loop);
+    if (one.slides ? found.sliding : !has_spring) found.loops.push_back(one);
   }
   return found;
 }
 
-bool is_unstable(const theory::FrozenLoop& loop, double hold) {
-  return theory::stability_of(loop, hold) == theory::LoopStability::unstable;
+bool is_unstable(const theory::TrialLoop& one, double hold) {
+  return theory::stability_of(one.loop, hold) == theory::LoopStability::unstable;
 }
 
 bool none_unstable(const Loops& of) {
   return std::ranges::none_of(of.loops,
-                              [&](const theory::FrozenLoop& one) { return is_unstable(one, of.hold); });
+                              [&](const theory::TrialLoop& one) { return is_unstable(one, of.hold); });
 }
 
 double decibels(double factor) {
@@ -102,25 +105,35 @@ bool keeps_margins(const trial::TrialParameters& p, const MachineLoops& machine,
     if (margins.delay && !none_unstable(loops_of(p, machine, share * *margins.delay))) return false;
   }
   if (!margins.gain && !margins.phase) return true;
-  return std::ranges::all_of(of.loops, [&](const theory::FrozenLoop& one) {
-    const theory::StabilityMargins found = theory::stability_margins(one);
+  return std::ranges::all_of(of.loops, [&](const theory::TrialLoop& one) {
+    const theory::StabilityMargins found = theory::stability_margins(one.loop);
     return !(margins.gain && decibels(found.gain.value) < *margins.gain) &&
            !(margins.phase && degrees(found.phase.value) < *margins.phase);
   });
 }
 
-/// The delay (samples) by which the loop may grow until it is unstable, to 0.01.
-double delay_margin(const trial::TrialParameters& p, const MachineLoops& machine) {
-  const auto bears = [&](double more) { return none_unstable(loops_of(p, machine, more)); };
+/// The delay (samples) by which the loop may grow until it is unstable, to 0.01, and the first loop that is;
+/// longest_delay where none is.
+std::pair<double, std::optional<theory::TrialLoop>> delay_margin(const trial::TrialParameters& p,
+                                                                 const MachineLoops& machine) {
+  std::optional<theory::TrialLoop> first_lost;
+  const auto bears = [&](double more) {
+    const Loops of = loops_of(p, machine, more);
+    const auto lost = std::ranges::find_if(
+        of.loops, [&](const theory::TrialLoop& one) { return is_unstable(one, of.hold); });
+    if (lost != of.loops.end()) first_lost = *lost;
+    return lost == of.loops.end();
+  };
   double kept = 0.0;
   double lost = 0.25;
-  if (!bears(0.0)) return 0.0;
+  if (!bears(0.0)) return {0.0, first_lost};
   while (bears(lost)) {
     kept = lost;
     lost += 0.25;
-    if (kept >= longest_delay) return longest_delay;
+    if (kept >= longest_delay) return {longest_delay, std::nullopt};
   }
-  return numerics::bisect({kept, lost}, bears, numerics::within(0.01)).holds;
+  const double margin = numerics::bisect({kept, lost}, bears, numerics::within(0.01)).holds;
+  return {margin, first_lost};
 }
 
 /// Whether what differs between machines under a condition changes nothing of the loops but the stiffness of
@@ -154,12 +167,20 @@ std::pair<double, double> stiffness_range(const trial::TrialParameters& p, doubl
   return {softest, stiffest};
 }
 
+/// Lets a margin be the smallest of another loop too.
+void include(double& smallest, std::optional<CriticalLoop>& loop, double one,
+             const std::optional<CriticalLoop>& of) {
+  if (!(one < smallest)) return;
+  smallest = one;
+  loop = of;
+}
+
 /// Lets margins be the smallest of other machines too.
 void include(SmallestMargins& all, const SmallestMargins& one) {
   all.stable = all.stable && one.stable;
-  all.gain = std::min(all.gain, one.gain);
-  all.phase = std::min(all.phase, one.phase);
-  all.delay = std::min(all.delay, one.delay);
+  include(all.gain, all.gain_loop, one.gain, one.gain_loop);
+  include(all.phase, all.phase_loop, one.phase, one.phase_loop);
+  include(all.delay, all.delay_loop, one.delay, one.delay_loop);
   all.before_sliding = all.before_sliding || one.before_sliding;
   all.sliding = all.sliding || one.sliding;
 }
@@ -181,12 +202,14 @@ LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
     const std::int64_t trial = turns.trial_of(static_cast<std::int64_t>(i) / turns.conditions, condition);
     const auto [softest, stiffest] =
         stiffness_range(study::study_trial(study, 0, trial).parameters, study.period);
-    all[i] = {trial, condition, softest, stiffest};
+    all[i] = {trial, condition, static_cast<std::int64_t>(i) / turns.conditions, softest, stiffest};
   });
   for (const Machine& one : all) {
     const auto like_it = std::ranges::find(machines_, one.condition, &Machine::condition);
-    if (alike[static_cast<std::size_t>(one.condition)] == 0 || like_it == machines_.end()) {
+    const bool is_alike = alike[static_cast<std::size_t>(one.condition)] != 0;
+    if (!is_alike || like_it == machines_.end()) {
       machines_.push_back(one);
+      if (is_alike) machines_.back().draw.reset();
     } else {
       like_it->softest = std::min(like_it->softest, one.softest);
       like_it->stiffest = std::max(like_it->stiffest, one.stiffest);
@@ -244,13 +267,20 @@ SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool sli
     const MachineLoops machine{machines_[i].softest, machines_[i].stiffest, slides};
     const trial::TrialParameters p = study::study_trial(candidate, 0, machines_[i].trial).parameters;
     const Loops of = loops_of(p, machine, 0.0);
+    const auto critical = [&](const theory::TrialLoop& one) {
+      const bool has_spring = !one.slides && one.stiffness > 0.0;
+      return CriticalLoop{one.name, has_spring ? std::optional(one.stiffness) : std::nullopt,
+                          machines_[i].draw, machines_[i].condition};
+    };
     SmallestMargins& smallest = found[i];
-    smallest = {true, none, none, delay_margin(p, machine), 1, of.before_sliding, of.sliding};
-    for (const theory::FrozenLoop& each : of.loops) {
+    smallest = {true, none, none, longest_delay, 1, of.before_sliding, of.sliding};
+    const auto [delay, lost] = delay_margin(p, machine);
+    if (lost) include(smallest.delay, smallest.delay_loop, delay, critical(*lost));
+    for (const theory::TrialLoop& each : of.loops) {
       smallest.stable = smallest.stable && !is_unstable(each, of.hold);
-      const theory::StabilityMargins margins = theory::stability_margins(each);
-      smallest.gain = std::min(smallest.gain, decibels(margins.gain.value));
-      smallest.phase = std::min(smallest.phase, degrees(margins.phase.value));
+      const theory::StabilityMargins margins = theory::stability_margins(each.loop);
+      include(smallest.gain, smallest.gain_loop, decibels(margins.gain.value), critical(each));
+      include(smallest.phase, smallest.phase_loop, degrees(margins.phase.value), critical(each));
     }
   });
   SmallestMargins all{true, none, none, longest_delay, examined_};

@@ -4,6 +4,10 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <tuple>
+#include <utility>
+
+#include <boost/math/tools/minima.hpp>
 
 #include "core/theory/crossovers.hpp"
 #include "core/theory/linear_loop.hpp"
@@ -46,6 +50,27 @@ StabilityMargins stability_margins(const FrozenLoop& loop) {
     adopt_nearer(margins.phase, distance, {margin, frequency(angle)}, std::abs(margin));
   }
   return margins;
+}
+
+Margin peak_sensitivity(const FrozenLoop& loop) {
+  constexpr int bits = 24;  // of the angle's logarithm
+  const auto distance_at = [&](double angle) { return std::abs(1.0 + open_loop(loop, angle)); };
+  const std::vector<double> angles = search_angles(loop);
+  std::vector<double> distances;
+  distances.reserve(angles.size());
+  for (const double angle : angles) distances.push_back(distance_at(angle));
+  // At half the sample rate L is a real number.
+  double at_nearest = std::numbers::pi;
+  double nearest = std::abs(1.0 + open_loop(Complex(-1.0), loop.plant, loop.controller));
+  for (std::size_t i = 1; i + 1 < angles.size(); ++i) {
+    if (distances[i] > distances[i - 1] || distances[i] > distances[i + 1]) continue;
+    // Of the logarithm of the angle, because the method stops at an absolute tolerance too.
+    const auto [log_angle, distance] =
+        boost::math::tools::brent_find_minima([&](double log) { return distance_at(std::exp(log)); },
+                                              std::log(angles[i - 1]), std::log(angles[i + 1]), bits);
+    if (distance < nearest) std::tie(at_nearest, nearest) = std::pair(std::exp(log_angle), distance);
+  }
+  return {1.0 / nearest, at_nearest / (2.0 * std::numbers::pi * loop.sample_time)};
 }
 
 GainCrossover gain_crossover(const FrozenLoop& loop) {

@@ -6,8 +6,8 @@
 ///
 ///   L(z) = C(z)·G(z),  z = exp(iωT),  0 < ω ≤ π/T,
 ///
-/// of a FrozenLoop. Source of the definitions: Franklin, Powell, Workman, "Digital Control of Dynamic
-/// Systems", 3rd ed., Addison-Wesley 1998, section 7.4.
+/// of a FrozenLoop, and the peak of its sensitivity S = 1/(1 + L). Source of the definitions: Franklin,
+/// Powell, Workman, "Digital Control of Dynamic Systems", 3rd ed., Addison-Wesley 1998, section 7.4.
 namespace zerocount::theory {
 
 /// A margin and the frequency (Hz) of its crossover; both NaN without a crossover.
@@ -25,6 +25,12 @@ struct StabilityMargins {
   /// 180° + arg L where |L| = 1, in (−180, 180]: the value nearest to 0.
   Margin phase;
 };
+
+/// Mₛ, the largest |S| over 0 < ω ≤ π/T, and its frequency: the distance of L from −1 is 1/Mₛ. A stable loop
+/// has a gain margin of at least Mₛ/(Mₛ − 1), and a phase margin of at least 2·asin(1/(2·Mₛ)). The peaks are
+/// sought between the search_angles by Brent's method. Source: Åström, Hägglund, "Advanced PID Control", ISA
+/// 2006, section 4.6.
+Margin peak_sensitivity(const FrozenLoop& loop);
 
 /// The crossovers are searched between the search_angles, then bisected to 1e-12.
 StabilityMargins stability_margins(const FrozenLoop& loop);

@@ -190,6 +190,34 @@ Distribution scaled(const Distribution& distribution, double factor) {
       distribution);
 }
 
+Distribution widened(const Distribution& distribution, double factor) {
+  const auto away = [factor](double centre, double value) { return centre + factor * (value - centre); };
+  return std::visit(
+      Overload{[&](const Uniform& d) -> Distribution {
+                 const double centre = 0.5 * (d.low + d.high);
+                 return Uniform{away(centre, d.low), away(centre, d.high)};
+               },
+               [&](const LogUniform& d) -> Distribution {
+                 const double more = std::pow(d.high / d.low, 0.5 * (factor - 1.0));
+                 return LogUniform{d.low / more, d.high * more};
+               },
+               [&](const Normal& d) -> Distribution {
+                 return Normal{d.mean, factor * d.sd};
+               },
+               [&](const TruncatedNormal& d) -> Distribution {
+                 return TruncatedNormal{d.mean, factor * d.sd, away(d.mean, d.low), away(d.mean, d.high)};
+               },
+               [&](const Lognormal& d) -> Distribution {
+                 return Lognormal{d.median, std::sqrt(std::expm1(factor * factor * std::log1p(d.cv * d.cv)))};
+               },
+               [&](const Triangular& d) -> Distribution {
+                 return Triangular{away(d.mode, d.low), d.mode, away(d.mode, d.high)};
+               },
+               [](const Integers& d) -> Distribution { return d; },
+               [](const Choice& d) -> Distribution { return d; }},
+      distribution);
+}
+
 bool extremes_are_inside(const Distribution& distribution, const numerics::Interval& range) {
   try {
     return numerics::contains(range, quantile(distribution, 0x1p-53)) &&

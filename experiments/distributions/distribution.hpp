@@ -89,6 +89,11 @@ std::optional<double> uniform_of(const Distribution& distribution, double x);
 /// The distribution of `factor` times the quantity. @param factor above 0
 Distribution scaled(const Distribution& distribution, double factor);
 
+/// The distribution of a quantity that lies `factor` times as far from its centre: the mean of a Gaussian,
+/// the mode of a triangle, the middle of an interval; by the logarithm of a logarithmic one, so that what is
+/// above 0 stays so. Whole numbers and choices stay. @param factor above 0
+Distribution widened(const Distribution& distribution, double factor);
+
 /// Whether the extreme quantiles are in `range`. They may overflow for very large parameters.
 bool extremes_are_inside(const Distribution& distribution, const numerics::Interval& range);
 

@@ -1,6 +1,8 @@
 #include "experiments/keys/key_reading.hpp"
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -50,8 +52,14 @@ std::optional<double> read_as_number(const yaml::Field& field, const GeneralKey&
 }  // namespace
 
 void read_key(const yaml::Field& field, const GeneralKey& key, Reading& reading) {
-  if (!key.none.empty() && field.node->kind == yaml::YamlNode::Kind::scalar && field.node->text == key.none) {
+  const auto is_word = [&](std::string_view word) {
+    return field.node->kind == yaml::YamlNode::Kind::scalar && field.node->text == word;
+  };
+  const auto preset = std::ranges::find_if(key.presets, is_word, [](const auto& one) { return one.first; });
+  if (!key.none.empty() && is_word(key.none)) {
     set_none(key, reading);
+  } else if (preset != key.presets.end()) {
+    preset->second(reading);
   } else if (key.form == GeneralKey::Form::map) {
     read_map_of_keys(field, key, reading);
   } else if (key.text) {

@@ -44,6 +44,8 @@ constexpr numerics::Interval open_unit{.low = 0.0, .high = 1.0};
 constexpr std::int64_t max_worlds = 10'000;
 // The rig is a 32-bit counter word of a rotor's random numbers.
 constexpr std::int64_t max_rigs = std::int64_t{1} << 32;
+// Of a part of a value, by which it may be less.
+constexpr numerics::Interval spread{.low = 0.0, .high = 1.0, .low_included = true};
 constexpr numerics::Interval margin{.low = 0.0, .high = 1e6, .low_included = true, .high_included = true};
 
 // The part of the study that has the members of rows.
@@ -54,6 +56,7 @@ Part& part_of(Reading& reading) {
   if constexpr (std::is_same_v<Part, study::StoppingRule>) return reading.study.stop.value();
   if constexpr (std::is_same_v<Part, study::Tuning>) return reading.study.tuning.value();
   if constexpr (std::is_same_v<Part, study::LoopMargins>) return reading.study.tuning.value().margins;
+  if constexpr (std::is_same_v<Part, study::LoopSpread>) return reading.study.tuning.value().margins.spread;
   if constexpr (std::is_same_v<Part, study::SequenceCycle>) return reading.plan.sequence.value();
   if constexpr (std::is_same_v<Part, parameters::StudyUnits>) return reading.plan.units;
 }
@@ -188,15 +191,30 @@ std::span<const GeneralKey> general_keys() {
            "what zerocount tune may change and must keep: {free: {controller.ki: {log: [5.0e+3, 3.0e+5]}, "
            "controller.kp: [0, 1000]}, minimise: band_settling_time.p95, margins: {gain: 6, phase: 30, "
            "delay: 0.5}}: ranges of parameters, the criterion, and margins of the loop (dB, degrees, "
-           "samples), each off by the word"},
+           "samples; sensitivity: the largest |S|), each off by the word, or `commissioning`: {gain: 6, "
+           "phase: 45, delay: 1, sensitivity: 1.6}; spread: {inertia: 0.1, damping: 0.3, "
+           "torque_constant: 0.05}: parts by which machines differ in what the study does not draw"},
           "tune: {free: {controller.ki: {log: [5.0e+3, 3.0e+5]}}}",
           {{"free", "", "a map of parameters and ranges: {controller.ki: {log: [5.0e+3, 3.0e+5]}}"},
            text({"minimise"}, &study::Tuning::minimise),
-           map({.name = "margins", .none = "off"},
-               "off, or {gain: 6, phase: 30, delay: 0.5} (dB, degrees, samples)",
+           map({.name = "margins",
+                .none = "off",
+                .presets = {{"commissioning",
+                             [](Reading& reading) {
+                               part_of<study::LoopMargins>(reading) = study::commissioning_margins;
+                             }}}},
+               "off, commissioning, or {gain: 6, phase: 30, delay: 0.5} (dB, degrees, samples)",
                {real({.name = "gain", .none = "off"}, margin, &study::LoopMargins::gain),
                 real({.name = "phase", .none = "off"}, margin, &study::LoopMargins::phase),
-                real({.name = "delay", .none = "off"}, margin, &study::LoopMargins::delay)})}),
+                real({.name = "delay", .none = "off"}, margin, &study::LoopMargins::delay),
+                real({.name = "sensitivity", .none = "off"}, numerics::above(1),
+                     &study::LoopMargins::sensitivity),
+                map({.name = "spread", .none = "off"},
+                    "off, or {inertia: 0.1, damping: 0.3, torque_constant: 0.05} (parts of their values)",
+                    {real({.name = "inertia", .none = "off"}, spread, &study::LoopSpread::inertia),
+                     real({.name = "damping", .none = "off"}, spread, &study::LoopSpread::damping),
+                     real({.name = "torque_constant", .none = "off"}, spread,
+                          &study::LoopSpread::torque_constant)})})}),
       map({"stop",
            "sequential stopping: blocks of `trials` trials are added until the bounds of every success rate "
            "are narrow enough: {success_rate_halfwidth: 0.005, confidence: 0.95, min_trials: 1000, "

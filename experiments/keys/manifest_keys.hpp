@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/numerics/interval.hpp"
@@ -36,8 +37,10 @@ struct GeneralKey {
   numerics::Interval range{};                  ///< of a number; of a whole number closed
   std::span<const std::string_view> labels{};  ///< of a label, in the order of its enumeration
   std::string_view none{};                     ///< word in place of the number or of all numbers of the map
-  std::string_view example{};                  ///< of a map, for messages
-  std::vector<GeneralKey> keys{};              ///< of a map
+  /// Words in place of a map, and what each stores.
+  std::vector<std::pair<std::string_view, void (*)(Reading&)>> presets{};
+  std::string_view example{};      ///< of a map, for messages
+  std::vector<GeneralKey> keys{};  ///< of a map
   /// Stores the value in the study: a number, the index of a label, 0 or 1, or nothing for the word `none`.
   /// Empty if code does that.
   std::function<void(Reading&, std::optional<double>)> set{};

@@ -410,7 +410,13 @@ Json default_schema(const keys::GeneralKey& key, double value) {
 
 Json general_schema(const keys::GeneralKey& key) {
   Json schema = form_schema(key);
-  if (!key.none.empty()) schema = {{"anyOf", {{{"const", key.none}}, std::move(schema)}}};
+  Json forms = Json::array();
+  if (!key.none.empty()) forms.push_back({{"const", key.none}});
+  for (const auto& preset : key.presets) forms.push_back({{"const", preset.first}});
+  if (!forms.empty()) {
+    forms.push_back(std::move(schema));
+    schema = {{"anyOf", std::move(forms)}};
+  }
   if (const auto value = keys::default_of(key)) schema["default"] = default_schema(key, *value);
   if (!key.meaning.empty()) schema["description"] = key.meaning;
   return schema;

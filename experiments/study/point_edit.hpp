@@ -29,6 +29,11 @@ class PointEdit {
   /// The value "none" stays, and a required one that the study does not have. @param factor above 0
   void scale(std::size_t slot, double factor);
   void scale(std::string_view parameter, double factor);
+  /// Lets all that is drawn of the axis and its surroundings lie `factor` times as far from its centre
+  /// (distributions::widened), but for the starts and the commands of moves. What would leave its range, and
+  /// whole numbers, choices and rows of samples, stay as they are.
+  /// @return the dotted paths of what would leave its range
+  std::vector<std::string> widen(double factor);
   /// For a slot of whole numbers.
   void add(std::string_view parameter, std::int64_t number);
 

@@ -20,12 +20,24 @@ std::size_t rotors_to_keep(std::size_t harmonics, std::int64_t count, std::size_
 
 Rotors::Rotors(distributions::ProfileDescription description, std::optional<DrawnMean> mean,
                std::uint64_t seed, std::string_view name, std::int64_t count)
+    : Rotors(description, std::move(mean), designs::random_key(seed, name), count) {}
+
+Rotors::Rotors(const distributions::ProfileDescription& description, std::optional<DrawnMean> mean,
+               const random::RandomKey& key, std::int64_t count)
     : description_(description),
       mean_(std::move(mean)),
-      key_(designs::random_key(seed, name)),
+      key_(key),
       count_(count),
       amplitudes_(distributions::field_amplitudes(description)),
       kept_(rotors_to_keep(amplitudes_.size(), count, max_kept_bytes)) {}
+
+std::shared_ptr<const Rotors> Rotors::widened(double factor) const {
+  distributions::ProfileDescription description = description_;
+  description.cv *= factor;
+  std::optional<DrawnMean> mean = mean_;
+  if (mean) mean->distribution = distributions::widened(mean->distribution, factor);
+  return std::shared_ptr<const Rotors>(new Rotors(description, std::move(mean), key_, count_));
+}
 
 bool Rotors::is_same(const Rotors& other) const {
   return description_ == other.description_ && mean_ == other.mean_ && key_ == other.key_ &&

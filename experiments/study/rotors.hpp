@@ -35,6 +35,10 @@ class Rotors {
   Rotors(distributions::ProfileDescription description, std::optional<DrawnMean> mean, std::uint64_t seed,
          std::string_view name, std::int64_t count);
 
+  /// The same rotors with the random field, and its mean if that is drawn, `factor` times as far from their
+  /// centres (distributions::widened).
+  std::shared_ptr<const Rotors> widened(double factor) const;
+
   /// Whether all profiles are equal.
   bool is_same(const Rotors& other) const;
 
@@ -63,6 +67,9 @@ class Rotors {
   numerics::Interval all_limits() const;
 
  private:
+  Rotors(const distributions::ProfileDescription& description, std::optional<DrawnMean> mean,
+         const random::RandomKey& key, std::int64_t count);
+
   friction::Profile realise(std::int64_t rotor, double mean) const;
 
   static constexpr std::size_t max_kept_bytes = std::size_t{1} << 26;

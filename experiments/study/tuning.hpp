@@ -16,13 +16,27 @@ struct FreeParameter {
   bool whole{false};        ///< takes whole numbers only
 };
 
+/// Machines of the margins differ from those that the study draws by up to these parts, both ways, in all
+/// combinations: what a data sheet does not tell exactly. Only of what the study does not draw. Each is off
+/// where it has no value.
+struct LoopSpread {
+  std::optional<double> inertia{0.1};  ///< of plant.inertia, and of the load
+  std::optional<double> damping{0.3};  ///< of the contact's damping, before sliding and while sliding
+  std::optional<double> torque_constant{0.05};  ///< of the torque, or force, that a code makes
+};
+
 /// Margins that the linear loop of every machine must keep, at every stiffness of the contact before it
 /// slides. Each is off where it has no value.
 struct LoopMargins {
-  std::optional<double> gain{6.0};    ///< dB, both ways
-  std::optional<double> phase{30.0};  ///< degrees
-  std::optional<double> delay{0.5};   ///< samples by which the delay may grow
+  std::optional<double> gain{6.0};      ///< dB, both ways
+  std::optional<double> phase{30.0};    ///< degrees
+  std::optional<double> delay{0.5};     ///< samples by which the delay may grow
+  std::optional<double> sensitivity{};  ///< largest |S|, S = 1/(1 + L)
+  LoopSpread spread{};
 };
+
+/// What is accepted when a loop is commissioned: 6 dB, 45°, a sensitivity of at most 1.6, a sample of delay.
+constexpr LoopMargins commissioning_margins{.gain = 6.0, .phase = 45.0, .delay = 1.0, .sensitivity = 1.6};
 
 /// The task of `zerocount tune` (`tune`): values of the free parameters that meet the goal of the study and
 /// keep the margins, and of these the ones with the smallest criterion.

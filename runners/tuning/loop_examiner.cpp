@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analysis/parallel/parallel.hpp"
+#include "analysis/theory/load_mode.hpp"
 #include "analysis/theory/trial_loops.hpp"
 #include "core/friction/law.hpp"
 #include "core/friction/parameters.hpp"
@@ -15,6 +16,7 @@
 #include "core/theory/margins.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/plan.hpp"
+#include "runners/tuning/loop_spread.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -23,6 +25,8 @@ constexpr std::int64_t max_unlike_machines = 100;
 constexpr int places_on_profile = 64;
 constexpr int stiffnesses = 4;  // from the softest to the stiffest
 constexpr double longest_delay = 10.0;
+constexpr double lowest_mode_tried = 1.0;  // of a mode, Hz
+constexpr double frequency_ratio = 1.05;   // of one mode that is tried and the next
 
 /// What is examined of a machine.
 struct MachineLoops {
@@ -96,20 +100,28 @@ double degrees(double phase) {
   return std::isnan(phase) ? std::numeric_limits<double>::infinity() : std::abs(phase);
 }
 
+bool is_wanted(const study::LoopMargins& margins) {
+  return margins.gain || margins.phase || margins.delay || margins.sensitivity;
+}
+
+bool keeps_margins(const theory::FrozenLoop& loop, const study::LoopMargins& margins) {
+  if (margins.gain || margins.phase) {
+    const theory::StabilityMargins found = theory::stability_margins(loop);
+    if (margins.gain && decibels(found.gain.value) < *margins.gain) return false;
+    if (margins.phase && degrees(found.phase.value) < *margins.phase) return false;
+  }
+  return !margins.sensitivity || theory::peak_sensitivity(loop).value <= *margins.sensitivity;
+}
+
 bool keeps_margins(const trial::TrialParameters& p, const MachineLoops& machine,
                    const study::LoopMargins& margins) {
-  if (!margins.gain && !margins.phase && !margins.delay) return true;
   const Loops of = loops_of(p, machine, 0.0);
   if (!none_unstable(of)) return false;
   for (const double share : {0.5, 1.0}) {
     if (margins.delay && !none_unstable(loops_of(p, machine, share * *margins.delay))) return false;
   }
-  if (!margins.gain && !margins.phase) return true;
-  return std::ranges::all_of(of.loops, [&](const theory::TrialLoop& one) {
-    const theory::StabilityMargins found = theory::stability_margins(one.loop);
-    return !(margins.gain && decibels(found.gain.value) < *margins.gain) &&
-           !(margins.phase && degrees(found.phase.value) < *margins.phase);
-  });
+  return std::ranges::all_of(of.loops,
+                             [&](const theory::TrialLoop& one) { return keeps_margins(one.loop, margins); });
 }
 
 /// The delay (samples) by which the loop may grow until it is unstable, to 0.01, and the first loop that is;
@@ -141,16 +153,9 @@ std::pair<double, std::optional<theory::TrialLoop>> delay_margin(const trial::Tr
 bool differ_in_stiffness_alone(const study::Study& study, std::int64_t condition,
                                friction::FrictionModel model) {
   if (!friction::has_spring(model) && friction::traits_of(model).has_presliding_motion) return false;
-  const study::StudyPlan& plan = *study.plan;
-  for (std::size_t column = 0; column < study.columns.inputs.size(); ++column) {
-    const std::string_view name = study.columns.inputs[column].name;
-    if (name.starts_with("friction.") || name.starts_with("initial.") || name.starts_with("command."))
-      continue;
-    const study::Value& value =
-        *study::value_at_point(plan, plan.inputs[column].slot, study::plan_point(plan, 0, condition));
-    if (!plan.has_conditions() || value.kind != study::Value::Kind::number) return false;
-  }
-  return true;
+  return !draws(study, condition, [](std::string_view name) {
+    return !name.starts_with("friction.") && !name.starts_with("initial.") && !name.starts_with("command.");
+  });
 }
 
 /// The softest and the stiffest contact over the friction profile of a trial.
@@ -167,6 +172,12 @@ std::pair<double, double> stiffness_range(const trial::TrialParameters& p, doubl
   return {softest, stiffest};
 }
 
+/// Of no loop at all.
+SmallestMargins no_limit() {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  return {.gain = none, .phase = none, .delay = longest_delay};
+}
+
 /// Lets a margin be the smallest of another loop too.
 void include(double& smallest, std::optional<CriticalLoop>& loop, double one,
              const std::optional<CriticalLoop>& of) {
@@ -175,12 +186,46 @@ void include(double& smallest, std::optional<CriticalLoop>& loop, double one,
   loop = of;
 }
 
+/// Likewise the largest sensitivity.
+void include_sensitivity(SmallestMargins& all, double one, const std::optional<CriticalLoop>& of) {
+  if (!(one > all.sensitivity)) return;
+  all.sensitivity = one;
+  all.sensitivity_loop = of;
+}
+
+/// @param draw of the machine, or nothing
+SmallestMargins margins_of_machine(const trial::TrialParameters& p, const MachineLoops& machine,
+                                   std::optional<std::int64_t> draw, std::int64_t condition) {
+  const auto critical = [&](const theory::TrialLoop& one) {
+    const bool has_spring = !one.slides && one.stiffness > 0.0;
+    return CriticalLoop{one.name, has_spring ? std::optional(one.stiffness) : std::nullopt, draw, condition};
+  };
+  const Loops of = loops_of(p, machine, 0.0);
+  SmallestMargins smallest = no_limit();
+  smallest.before_sliding = of.before_sliding;
+  smallest.sliding = of.sliding;
+  const auto [delay, lost] = delay_margin(p, machine);
+  if (lost) include(smallest.delay, smallest.delay_loop, delay, critical(*lost));
+  for (const theory::TrialLoop& each : of.loops) {
+    smallest.stable = smallest.stable && !is_unstable(each, of.hold);
+    const theory::StabilityMargins margins = theory::stability_margins(each.loop);
+    include(smallest.gain, smallest.gain_loop, decibels(margins.gain.value), critical(each));
+    include(smallest.phase, smallest.phase_loop, degrees(margins.phase.value), critical(each));
+    include_sensitivity(smallest, theory::peak_sensitivity(each.loop).value, critical(each));
+    const double crossover = theory::gain_crossover(each.loop).frequency;
+    if (crossover > smallest.crossover) smallest.crossover = crossover;
+  }
+  return smallest;
+}
+
 /// Lets margins be the smallest of other machines too.
 void include(SmallestMargins& all, const SmallestMargins& one) {
   all.stable = all.stable && one.stable;
   include(all.gain, all.gain_loop, one.gain, one.gain_loop);
   include(all.phase, all.phase_loop, one.phase, one.phase_loop);
   include(all.delay, all.delay_loop, one.delay, one.delay_loop);
+  include_sensitivity(all, one.sensitivity, one.sensitivity_loop);
+  all.crossover = std::max(all.crossover, one.crossover);
   all.before_sliding = all.before_sliding || one.before_sliding;
   all.sliding = all.sliding || one.sliding;
 }
@@ -202,7 +247,8 @@ LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
     const std::int64_t trial = turns.trial_of(static_cast<std::int64_t>(i) / turns.conditions, condition);
     const auto [softest, stiffest] =
         stiffness_range(study::study_trial(study, 0, trial).parameters, study.period);
-    all[i] = {trial, condition, static_cast<std::int64_t>(i) / turns.conditions, softest, stiffest};
+    const std::int64_t draw = static_cast<std::int64_t>(i) / turns.conditions;
+    all[i] = {trial, condition, draw, spread_of_undrawn(study, condition), softest, stiffest};
   });
   for (const Machine& one : all) {
     const auto like_it = std::ranges::find(machines_, one.condition, &Machine::condition);
@@ -231,12 +277,24 @@ void LoopExaminer::add_critical(std::int64_t condition, const Less& less) {
   if (std::ranges::find(critical_, *first) == critical_.end()) critical_.push_back(*first);
 }
 
+bool LoopExaminer::keeps(const study::Study& candidate, const Machine& machine,
+                         const study::LoopMargins& margins, bool slides) {
+  if (!is_wanted(margins)) return true;
+  return std::ranges::all_of(corners(candidate, machine), [&](const trial::TrialParameters& p) {
+    return keeps_margins(p, {machine.softest, machine.stiffest, slides}, margins);
+  });
+}
+
+std::vector<trial::TrialParameters> LoopExaminer::corners(const study::Study& candidate,
+                                                          const Machine& machine) {
+  return corners_of(study::study_trial(candidate, 0, machine.trial).parameters, machine.spread);
+}
+
 bool LoopExaminer::may_keep(const study::Study& candidate, const study::LoopMargins& margins,
                             bool slides) const {
   return std::ranges::all_of(critical_, [&](std::size_t index) {
     const Machine& one = machines_[index];
-    return keeps_margins(study::study_trial(candidate, 0, one.trial).parameters,
-                         {one.softest, one.stiffest, slides}, margins);
+    return keeps(candidate, one, margins, slides);
   });
 }
 
@@ -245,11 +303,7 @@ bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins
   std::vector<char> kept(machines_.size(), 1);
   parallel::for_each_index(machines_.size(), [&](std::size_t i) {
     if (stop.stop_requested()) throw trial::Interrupted{};
-    const Machine& one = machines_[i];
-    kept[i] = keeps_margins(study::study_trial(candidate, 0, one.trial).parameters,
-                            {one.softest, one.stiffest, slides}, margins)
-                  ? 1
-                  : 0;
+    kept[i] = keeps(candidate, machines_[i], margins, slides) ? 1 : 0;
   });
   const auto broken = std::ranges::find(kept, 0);
   if (broken == kept.end()) return true;
@@ -260,36 +314,41 @@ bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins
 
 SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool slides,
                                          const std::stop_token& stop) const {
-  std::vector<SmallestMargins> found(machines_.size());
-  constexpr double none = std::numeric_limits<double>::infinity();
+  std::vector<SmallestMargins> found(machines_.size(), no_limit());
   parallel::for_each_index(machines_.size(), [&](std::size_t i) {
     if (stop.stop_requested()) throw trial::Interrupted{};
     const MachineLoops machine{machines_[i].softest, machines_[i].stiffest, slides};
-    const trial::TrialParameters p = study::study_trial(candidate, 0, machines_[i].trial).parameters;
-    const Loops of = loops_of(p, machine, 0.0);
-    const auto critical = [&](const theory::TrialLoop& one) {
-      const bool has_spring = !one.slides && one.stiffness > 0.0;
-      return CriticalLoop{one.name, has_spring ? std::optional(one.stiffness) : std::nullopt,
-                          machines_[i].draw, machines_[i].condition};
-    };
-    SmallestMargins& smallest = found[i];
-    smallest = {true, none, none, longest_delay, 1, of.before_sliding, of.sliding};
-    const auto [delay, lost] = delay_margin(p, machine);
-    if (lost) include(smallest.delay, smallest.delay_loop, delay, critical(*lost));
-    for (const theory::TrialLoop& each : of.loops) {
-      smallest.stable = smallest.stable && !is_unstable(each, of.hold);
-      const theory::StabilityMargins margins = theory::stability_margins(each.loop);
-      include(smallest.gain, smallest.gain_loop, decibels(margins.gain.value), critical(each));
-      include(smallest.phase, smallest.phase_loop, degrees(margins.phase.value), critical(each));
-    }
+    for (const trial::TrialParameters& p : corners(candidate, machines_[i]))
+      include(found[i], margins_of_machine(p, machine, machines_[i].draw, machines_[i].condition));
   });
-  SmallestMargins all{true, none, none, longest_delay, examined_};
+  SmallestMargins all = no_limit();
+  all.machines = examined_;
+  if (!machines_.empty()) all.spread = machines_.front().spread;
   all.conditions.resize(static_cast<std::size_t>(conditions_), all);
   for (std::size_t i = 0; i < found.size(); ++i) {
     include(all, found[i]);
     if (conditions_ > 0) include(all.conditions[static_cast<std::size_t>(machines_[i].condition)], found[i]);
   }
   return all;
+}
+
+std::optional<double> LoopExaminer::lowest_mode(const study::Study& candidate, bool slides,
+                                                const std::stop_token& stop) const {
+  const auto bears = [&](double frequency) {
+    if (stop.stop_requested()) throw trial::Interrupted{};
+    return std::ranges::all_of(critical_, [&](std::size_t index) {
+      const Machine& one = machines_[index];
+      trial::TrialParameters p = study::study_trial(candidate, 0, one.trial).parameters;
+      p.plant = theory::with_load_mode(p.plant, frequency);
+      return none_unstable(loops_of(p, {one.softest, one.stiffest, slides}, 0.0));
+    });
+  };
+  if (is_blind()) return std::nullopt;
+  const trial::TrialParameters first = study::study_trial(candidate, 0, machines_.front().trial).parameters;
+  double borne = 0.5 * first.controller.sample_rate;
+  if (motion::has_load(first.plant) || !bears(borne)) return std::nullopt;
+  while (borne > lowest_mode_tried && bears(borne / frequency_ratio)) borne /= frequency_ratio;
+  return borne;
 }
 
 }  // namespace zerocount::tuning

@@ -26,17 +26,21 @@ struct SmallestMargins {
   double gain{0.0};   ///< dB
   double phase{0.0};  ///< degrees
   double delay{0.0};  ///< samples by which the delay may grow until a loop is unstable; 10 means 10 or more
+  double sensitivity{0.0};     ///< the largest |S|, S = 1/(1 + L)
+  double crossover{0.0};       ///< the highest frequency at which |L| = 1, Hz; 0 without one
   std::int64_t machines{0};    ///< that were examined
   bool before_sliding{false};  ///< loops before the machines slide are among them
   bool sliding{false};         ///< loops of sliding machines are among them
-  std::optional<CriticalLoop> gain_loop{}, phase_loop{},
-      delay_loop{};                           ///< which have them, where there is a limit
+  study::LoopSpread spread{};  ///< by which the machines differ beyond what the study draws
+  /// Which have them, where there is a limit.
+  std::optional<CriticalLoop> gain_loop{}, phase_loop{}, delay_loop{}, sensitivity_loop{};
   std::vector<SmallestMargins> conditions{};  ///< [condition] those under each; empty without conditions
 };
 
 /// Examines whether the linear loops of the machines keep margins under every condition: at every stiffness
 /// of the contact before it slides, from k1 to k1 + k2 over the friction profile of the machine, or that of
-/// its bristles; and while the machines slide, if they do or friction has no stiffness.
+/// its bristles; and while the machines slide, if they do or friction has no stiffness. Each machine stands
+/// for those that differ from it by the spread of the margins (loop_spread.hpp).
 class LoopExaminer {
  public:
   /// Machines that differ in the stiffness of their spring alone are examined as one with the stiffness of
@@ -60,16 +64,29 @@ class LoopExaminer {
   SmallestMargins margins_of(const study::Study& candidate, bool slides,
                              const std::stop_token& stop = {}) const;
 
+  /// The lowest frequency (Hz) from which on a mode of the load (theory::with_load_mode) leaves no loop of
+  /// the critical machines unstable, to 5 %, and not below 1 Hz. Nothing where the study has a load behind a
+  /// coupling, or where a mode at half the sample rate already makes a loop unstable.
+  /// @throws trial::Interrupted
+  std::optional<double> lowest_mode(const study::Study& candidate, bool slides,
+                                    const std::stop_token& stop = {}) const;
+
  private:
   /// A trial of a machine under a condition, and the range of stiffness there.
   struct Machine {
     std::int64_t trial;
     std::int64_t condition;
-    std::optional<std::int64_t>
-        draw;         ///< of its trial; nothing for one that stands for all that differ in stiffness
+    /// Of its trial; nothing for one that stands for all that differ in stiffness.
+    std::optional<std::int64_t> draw;
+    study::LoopSpread spread;
     double softest;   ///< N m/rad
     double stiffest;  ///< N m/rad
   };
+
+  static bool keeps(const study::Study& candidate, const Machine& machine, const study::LoopMargins& margins,
+                    bool slides);
+  /// The machine at its place in the spread's box: its corners.
+  static std::vector<trial::TrialParameters> corners(const study::Study& candidate, const Machine& machine);
 
   /// Adds the first machine under the condition in this order, if it is not there.
   template <class Less>

@@ -20,6 +20,7 @@ study::LoopMargins part_of(const study::LoopMargins& margins, double part) {
   for (std::optional<double>* const one : {&scaled.gain, &scaled.phase, &scaled.delay}) {
     if (*one) **one *= part;
   }
+  if (scaled.sensitivity) *scaled.sensitivity = 1.0 + (*scaled.sensitivity - 1.0) / part;  // from infinity
   return scaled;
 }
 
@@ -73,7 +74,8 @@ class NearestSearch {
 bool keeps(const SmallestMargins& margins, const study::LoopMargins& wanted) {
   return margins.stable && margins.gain >= wanted.gain.value_or(margins.gain) &&
          margins.phase >= wanted.phase.value_or(margins.phase) &&
-         margins.delay >= wanted.delay.value_or(margins.delay);
+         margins.delay >= wanted.delay.value_or(margins.delay) &&
+         margins.sensitivity <= wanted.sensitivity.value_or(margins.sensitivity);
 }
 
 std::optional<NearestPoint> nearest_point(

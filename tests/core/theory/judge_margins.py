@@ -1,4 +1,4 @@
-"""Gain and phase margins of random loops, by the blocks' continuous transfer functions at the frequencies that the bilinear
+"""Gain and phase margins and the peak of the sensitivity of random loops, by the blocks' continuous transfer functions at the frequencies that the bilinear
 transform takes z to, the plant by SciPy's zero-order hold, and a search on a grid of frequencies."""
 
 import json
@@ -7,10 +7,10 @@ import subprocess
 import sys
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize_scalar
 from scipy.signal import cont2discrete
 
-worst = {"gain": 0.0, "phase": 0.0, "frequency": 0.0}
+worst = {"gain": 0.0, "phase": 0.0, "sensitivity": 0.0, "frequency": 0.0}
 found = {"gain": 0, "phase": 0, "no gain": 0, "no phase": 0}
 
 
@@ -89,6 +89,16 @@ def margins(case):
     return (min(gains, key=lambda g: abs(math.log(g[0])), default=None), min(phases, key=lambda p: abs(p[0]), default=None))
 
 
+def peak_sensitivity(case):
+    L = open_loop(case)
+    angles = np.concatenate([np.geomspace(1e-6 * math.pi, 0.01, 20000), np.linspace(0.01, math.pi * (1 - 1e-9), 60000)[1:]])
+    distances = np.abs(1 + L(angles))
+    i = min(max(int(np.argmin(distances)), 1), len(angles) - 2)
+    found = minimize_scalar(lambda x: abs(1 + L([x])[0]), bounds=(angles[i - 1], angles[i + 1]), method="bounded",
+                            options={"xatol": 1e-9 * angles[i]})
+    return 1 / min(found.fun, distances[i])
+
+
 for number, case in enumerate(json.loads(subprocess.run(sys.argv[1], check=True, capture_output=True, text=True).stdout)):
     for kind, judged in zip(("gain", "phase"), margins(case)):
         told = case[kind + "_margin"]
@@ -104,6 +114,10 @@ for number, case in enumerate(json.loads(subprocess.run(sys.argv[1], check=True,
             sys.exit(f"loop {number} ({case['blocks']}): {kind} margin {told}, judged {judged}\n{json.dumps(case)}")
         worst[kind] = max(worst[kind], value)
         worst["frequency"] = max(worst["frequency"], frequency)
+    value = abs(case["peak_sensitivity"][0] / peak_sensitivity(case) - 1)
+    if value > 1e-5:
+        sys.exit(f"loop {number} ({case['blocks']}): peak sensitivity differs by {value}\n{json.dumps(case)}")
+    worst["sensitivity"] = max(worst["sensitivity"], value)
 print(found, worst)
 if min(found["gain"], found["phase"]) < 100:
     sys.exit("too few margins")

@@ -35,8 +35,8 @@ void print() {
     const double stiffness = draw.chance(0.3) ? 0.0 : draw.log_uniform(30.0, 2000.0);
     const double damping = draw.log_uniform(1e-3, 0.5);
     const theory::LinearDrive drive{draw.log_uniform(0.8, 1.25), draw.some(draw.log_uniform(100.0, 2000.0))};
-    const theory::StabilityMargins margins =
-        theory::margins_about(stiffness, damping, {}, {}, controller, drive);
+    const theory::FrozenLoop loop = theory::frozen_loop(stiffness, damping, {}, {}, controller, drive);
+    const theory::StabilityMargins margins = theory::stability_margins(loop);
     all.push_back({{"blocks", testing::block_kind_names[i % testing::block_kinds]},
                    {"controller", testing::controller_json(controller)},
                    {"delay", controller.delay},
@@ -47,7 +47,8 @@ void print() {
                    {"gain", drive.gain},
                    {"bandwidth", drive.bandwidth},
                    {"gain_margin", margin_json(margins.gain)},
-                   {"phase_margin", margin_json(margins.phase)}});
+                   {"phase_margin", margin_json(margins.phase)},
+                   {"peak_sensitivity", margin_json(theory::peak_sensitivity(loop))}});
   }
   std::cout << all << "\n";
 }

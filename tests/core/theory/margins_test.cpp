@@ -123,6 +123,34 @@ TEST(Margins, PhaseMarginIsADelayToTheEdgeOfStability) {
   EXPECT_GT(found, 40);
 }
 
+// L is at least 1/Mₛ away from −1, so both margins of a stable loop have a lower bound; and the peak is that
+// of a fine scan, which it may exceed.
+TEST(Margins, PeakOfTheSensitivityBoundsTheOtherMargins) {
+  testing::RandomBlocks draw(15);
+  int stable = 0;
+  for (int i = 0; i < 300; ++i) {
+    const FrozenLoop loop = random_loop(draw, i);
+    const Margin peak = peak_sensitivity(loop);
+    double scanned = 0.0;
+    for (int k = 1; k <= 2000; ++k)
+      scanned = std::max(scanned, 1.0 / std::abs(1.0 + open_loop(loop, std::numbers::pi * k / 2000.5)));
+    EXPECT_GE(peak.value, scanned * (1.0 - 1e-9)) << i;
+    const double angle = 2.0 * std::numbers::pi * peak.frequency * loop.sample_time;
+    EXPECT_NEAR(1.0 / std::abs(1.0 + open_loop(loop, angle)), peak.value, 1e-9 * peak.value) << i;
+    if (stability_of(loop, 1e3) != LoopStability::stable) continue;
+    ++stable;
+    const StabilityMargins margins = stability_margins(loop);
+    // Without a crossover a margin is NaN, and there is nothing to bound.
+    EXPECT_FALSE(margins.gain.value > 1.0 &&
+                 margins.gain.value < peak.value / (peak.value - 1.0) * (1.0 - 1e-9))
+        << i;
+    EXPECT_FALSE(std::abs(margins.phase.value) <
+                 std::asin(0.5 / peak.value) * 360.0 / std::numbers::pi - 1e-6)
+        << i;
+  }
+  EXPECT_GT(stable, 30);
+}
+
 // An undamped mass under kp alone, its crossover by the closed form of SlidingCrossover's test.
 TEST(Margins, PhaseMarginOfAMassUnderProportionalControlIsAClosedForm) {
   for (const double g : {1e-4, 1e-2, 0.5}) {

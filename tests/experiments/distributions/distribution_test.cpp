@@ -191,6 +191,41 @@ TEST(Distribution, ScaledDrawsTheMultipleWithTheSameUniformNumber) {
   }
 }
 
+/// What widened() keeps; nothing for what it does not widen.
+std::optional<double> centre_of(const Distribution& distribution) {
+  if (const auto* d = std::get_if<Uniform>(&distribution)) return 0.5 * (d->low + d->high);
+  if (const auto* d = std::get_if<LogUniform>(&distribution)) return std::sqrt(d->low * d->high);
+  if (const auto* d = std::get_if<Normal>(&distribution)) return d->mean;
+  if (const auto* d = std::get_if<TruncatedNormal>(&distribution)) return d->mean;
+  if (const auto* d = std::get_if<Lognormal>(&distribution)) return d->median;
+  if (const auto* d = std::get_if<Triangular>(&distribution)) return d->mode;
+  return std::nullopt;
+}
+
+TEST(Distribution, WidenedDrawsSoMuchFartherFromTheCentre) {
+  std::mt19937_64 numbers(5);
+  std::uniform_real_distribution<double> uniform(0.001, 0.999);
+  for (int repetition = 0; repetition < 100; ++repetition) {
+    const double factor = 0.5 + 2.5 * uniform(numbers);
+    for (const Distribution& distribution : random_distributions(numbers)) {
+      const double u = uniform(numbers);
+      const double before = quantile(distribution, u);
+      const double after = quantile(widened(distribution, factor), u);
+      const std::optional<double> centre = centre_of(distribution);
+      const bool logarithmic =
+          std::holds_alternative<Lognormal>(distribution) || std::holds_alternative<LogUniform>(distribution);
+      if (!centre) {
+        EXPECT_EQ(after, before) << "kind " << distribution.index();
+      } else if (logarithmic) {
+        EXPECT_NEAR(std::log(after / *centre), factor * std::log(before / *centre), 1e-9);
+      } else {
+        EXPECT_NEAR(after - *centre, factor * (before - *centre), 1e-9 * (1.0 + std::abs(before)))
+            << "kind " << distribution.index();
+      }
+    }
+  }
+}
+
 TEST(Distribution, AValueThatCannotBeDrawnHasNoUniformNumber) {
   EXPECT_FALSE(uniform_of(Uniform{1, 2}, 2.1));
   EXPECT_FALSE(uniform_of(LogUniform{1, 2}, 0.9));

@@ -77,7 +77,7 @@ TEST(TuneAnswer, UnreachableSaysByHowMuchTheGoalIsMissed) {
 TEST(TuneAnswer, NamesEachMarginWithItsUnitAndWhatIsWanted) {
   const study::Study study = axis();
   TuneAnswer answer = answer_for(study, goal::Status::met);
-  answer.margins = SmallestMargins{true, never, 41.0, 10.0, 8};
+  answer.margins = SmallestMargins{.gain = never, .phase = 41.0, .delay = 10.0, .machines = 8};
   EXPECT_THAT(
       text_of(answer, study),
       HasSubstr(
@@ -91,7 +91,7 @@ TEST(TuneAnswer, NamesTheMarginsThatTheNearestPointLacks) {
   answer.status = goal::Status::missed;
   answer.free = study.tuning->free;
   answer.examined = 4000;
-  answer.nearest = NearestPoint{{3e-5, 1e-4}, {true, 4.5, 41.0, 2.0, 8}};
+  answer.nearest = NearestPoint{{3e-5, 1e-4}, {.gain = 4.5, .phase = 41.0, .delay = 2.0, .machines = 8}};
   const std::string text = text_of(answer, study);
   EXPECT_THAT(text, HasSubstr("none of 4000 points that were tried keeps the margins\n"));
   EXPECT_THAT(text,
@@ -227,7 +227,7 @@ TEST(TuneAnswer, NamesTheCriterionThatItMinimises) {
 TEST(TuneAnswer, NamesTheLoopsThatHaveTheSmallestMargins) {
   const study::Study study = axis();
   TuneAnswer answer = answer_for(study, goal::Status::met);
-  answer.margins = SmallestMargins{true, 7.0, 41.0, 10.0, 8};
+  answer.margins = SmallestMargins{.gain = 7.0, .phase = 41.0, .delay = 10.0, .machines = 8};
   answer.margins->gain_loop = tuning::CriticalLoop{"before sliding", 110.0, {}, 0};
   answer.margins->phase_loop = tuning::CriticalLoop{"while sliding", {}, 5, 0};
   EXPECT_THAT(text_of(answer, study),
@@ -255,8 +255,8 @@ TEST(TuneAnswer, SaysWhatAnEngineerWouldRefuseAndWhatExcludesIt) {
   const study::Study study = axis();
   const auto remedies_of = [&](const tuning::MoveBehaviour& row, double phase) {
     std::vector<std::string> remedies;
-    for (const tuning::Refusal& one :
-         tuning::refusals_of({row}, SmallestMargins{true, 9.0, phase, 2.0, 8}, study))
+    for (const tuning::Refusal& one : tuning::refusals_of(
+             {row}, SmallestMargins{.gain = 9.0, .phase = phase, .delay = 2.0, .machines = 8}, study))
       remedies.push_back(one.remedy);
     return remedies;
   };

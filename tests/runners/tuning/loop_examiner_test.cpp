@@ -1,7 +1,11 @@
 // Margins hold for every loop in which the machines of a study move.
 #include "runners/tuning/loop_examiner.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -112,6 +116,88 @@ TEST(LoopExaminer, ExaminesTheLoopsUnderEveryCondition) {
   }
   EXPECT_LT(margins.phase, margins.conditions[1].phase) << "the light one is not the worst";
   EXPECT_EQ(LoopExaminer(both, 1).margins_of(both, true).machines, 1);
+}
+
+study::Study with_margins(const std::string& margins, const std::string& more = "",
+                          const std::string& control = "kp: 20, ki: 1000, kd: 0.3") {
+  return manifest::parse_study(
+      study_text("k1: {lognormal: {median: 110, cv: 0.2}}", control) +
+          fmt::format("tune: {{free: {{controller.ki: [1, 1.0e+4]}}, margins: {}}}\n{}", margins, more),
+      "m.yaml", {});
+}
+
+// The worst of eight machines whose manifests state what is spread: the corners.
+TEST(LoopExaminer, SpreadsWhatTheStudyDoesNotDraw) {
+  const auto alone = [](double inertia, double damping, double torque) {
+    return with_margins("{spread: off}",
+                        fmt::format("conditions: {{it: {{plant.inertia: {}, plant.presliding_damping: {}, "
+                                    "plant.sliding_damping: {}, dac.gain_error: {}}}}}\n",
+                                    5.54e-4 * inertia, 0.2 * damping, 1e-3 * damping, torque - 1.0));
+  };
+  SmallestMargins worst = LoopExaminer(alone(1, 1, 1), 4).margins_of(alone(1, 1, 1), true);
+  for (const double inertia : {0.9, 1.1}) {
+    for (const double damping : {0.7, 1.3}) {
+      for (const double torque : {0.95, 1.05}) {
+        const study::Study corner = alone(inertia, damping, torque);
+        const SmallestMargins found = LoopExaminer(corner, 4).margins_of(corner, true);
+        worst.gain = std::min(worst.gain, found.gain);
+        worst.phase = std::min(worst.phase, found.phase);
+        worst.delay = std::min(worst.delay, found.delay);
+        worst.sensitivity = std::max(worst.sensitivity, found.sensitivity);
+      }
+    }
+  }
+  const study::Study spread = with_margins("{gain: 6}");
+  const SmallestMargins found = LoopExaminer(spread, 4).margins_of(spread, true);
+  EXPECT_NEAR(found.gain, worst.gain, 1e-9);
+  EXPECT_NEAR(found.phase, worst.phase, 1e-9);
+  EXPECT_NEAR(found.delay, worst.delay, 1e-9);
+  EXPECT_NEAR(found.sensitivity, worst.sensitivity, 1e-9);
+  EXPECT_LT(found.phase, LoopExaminer(alone(1, 1, 1), 4).margins_of(alone(1, 1, 1), true).phase);
+}
+// What is drawn is not spread as well, and a margin that is wanted is one of every corner.
+TEST(LoopExaminer, LeavesDrawnQuantitiesToTheStudy) {
+  const auto spread = [](const std::string& more) {
+    const study::Study study = with_margins("{gain: 6}", more);
+    return LoopExaminer(study, 4).margins_of(study, true).spread;
+  };
+  EXPECT_EQ(spread("").inertia, 0.1);
+  EXPECT_EQ(spread("").damping, 0.3);
+  EXPECT_EQ(spread("").torque_constant, 0.05);
+  const study::LoopSpread left = spread("dac: {gain_error: {uniform: [-0.01, 0.01]}}\n");
+  EXPECT_FALSE(left.torque_constant);
+  EXPECT_EQ(left.inertia, 0.1);
+}
+
+TEST(LoopExaminer, KeepsASensitivityThatIsTheLargestOfAnyLoop) {
+  const study::Study study = with_margins("{gain: 6}");
+  const double largest = LoopExaminer(study, 4).margins_of(study, true).sensitivity;
+  for (const double wanted : {0.999 * largest, 1.001 * largest}) {
+    const study::LoopMargins margins{
+        .gain = std::nullopt, .phase = std::nullopt, .delay = std::nullopt, .sensitivity = wanted};
+    EXPECT_EQ(LoopExaminer(study, 4).keeps(study, margins, true), wanted > largest);
+  }
+}
+
+// At the lowest mode that is borne the loops are stable, and a little below it one is not.
+TEST(LoopExaminer, FindsTheLowestModeOfALoadThatTheLoopsBear) {
+  const study::Study study = with_margins("off");
+  const std::optional<double> lowest = LoopExaminer(study, 4).lowest_mode(study, true);
+  ASSERT_TRUE(lowest);
+  const auto is_stable = [&](double frequency) {
+    const double rate = 2.0 * std::numbers::pi * frequency;
+    const double swinging = 0.25 * 5.54e-4;
+    const study::Study swung = with_margins(
+        "off",
+        fmt::format("conditions: {{it: {{plant.inertia: {}, plant.load.inertia: {}, plant.load.stiffness: "
+                    "{}, plant.load.damping: {}}}}}\n",
+                    0.5 * 5.54e-4, 0.5 * 5.54e-4, swinging * rate * rate, 0.02 * swinging * rate));
+    return LoopExaminer(swung, 4).margins_of(swung, true).stable;
+  };
+  EXPECT_TRUE(is_stable(*lowest));
+  EXPECT_FALSE(is_stable(*lowest / 1.05));
+  const study::Study loaded = with_margins("off", "conditions: {it: {plant.load.inertia: 1.0e-4}}\n");
+  EXPECT_FALSE(LoopExaminer(loaded, 4).lowest_mode(loaded, true)) << "it has a mode already";
 }
 
 }  // namespace

@@ -104,6 +104,13 @@ std::vector<std::string> edges_of(const std::vector<study::FreeParameter>& free,
   return edges;
 }
 
+/// @param slides whether the machines of the tuned values slide
+void add_margins(const StudySearch& search, bool slides, const std::stop_token& stop, TuneAnswer& answer) {
+  const study::Study tuned = search.examined_candidate(answer.gains);
+  answer.margins = search.examiner().margins_of(tuned, slides, stop);
+  answer.lowest_mode = search.examiner().lowest_mode(tuned, slides, stop);
+}
+
 /// Completes the answer by a proof, of which `file` is the results file.
 void describe_proof(study::Study proven, const reading::AllTrialsFile& file, const Judged& judged,
                     TuneAnswer& answer) {
@@ -283,8 +290,7 @@ class Tuner {
   }
 
   void examine_margins(bool slides) {
-    answer_.margins =
-        search_.examiner().margins_of(search_.examined_candidate(answer_.gains), slides, effort_.stop());
+    add_margins(search_, slides, effort_.stop(), answer_);
     margins_slide_ = slides;
   }
 
@@ -442,11 +448,7 @@ TuneAnswer with_extras(const study::Study& study, const TuneSettings& settings, 
   const auto find_part = [&](const std::string& name, const std::function<void()>& work) {
     if (!trials::within(effort, work)) answer.left_out.push_back(name);
   };
-  if (!answer.blind)
-    find_part("margins", [&] {
-      answer.margins =
-          search.examiner().margins_of(search.examined_candidate(answer.gains), slid, effort.stop());
-    });
+  if (!answer.blind) find_part("margins", [&] { add_margins(search, slid, effort.stop(), answer); });
   find_part("torque at rest", [&] {
     add_rest_torque(answer.behaviour, simulated_behaviour(search.candidate(answer.gains), search.units(),
                                                           units_of_behaviour, effort));

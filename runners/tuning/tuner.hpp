@@ -83,6 +83,7 @@ struct TuneAnswer {
   std::vector<study::FreeParameter> free;
   Values gains;                            ///< empty if no candidate keeps the margins
   std::optional<SmallestMargins> margins;  ///< of the gains
+  std::optional<double> lowest_mode;       ///< of a load, that the loops bear (LoopExaminer::lowest_mode), Hz
   bool blind{false};                       ///< the loop has no transfer function: no margins
   std::optional<NearestPoint> nearest;     ///< where no candidate keeps them
   std::optional<Proof> proof;

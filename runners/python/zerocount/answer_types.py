@@ -1166,6 +1166,10 @@ class Margins(Record):
         Phase margin; unknown where no loop has a limit, degrees.
     delay : float or None
         Samples of delay until a loop is unstable; 10 means 10 or more, samples.
+    sensitivity : float or None
+        Largest |S|, S = 1/(1 + L).
+    crossover : float or None
+        Highest frequency at which |L| = 1; 0 without one, Hz.
     stable : bool
         Whether no loop is unstable.
     machines : int
@@ -1175,6 +1179,8 @@ class Margins(Record):
     gain: float | None
     phase: float | None
     delay: float | None
+    sensitivity: float | None
+    crossover: float | None
     stable: bool
     machines: int
 
@@ -1189,7 +1195,7 @@ class Nearest(Record):
     margins : Margins
         Its smallest margins.
     lacking : dict[str, float or None]
-        By how much margins are too small: dB, degrees, samples.
+        By how much margins are too small, or the sensitivity too large: dB, degrees, samples, 1.
     """
 
     _records = {"margins": Margins}
@@ -1292,7 +1298,7 @@ class Worst(Record):
 
 
 class GainMarginLoop(Record):
-    """The loop that has the smallest gain margin.
+    """The loop that has the worst gain_margin.
 
     Attributes
     ----------
@@ -1313,7 +1319,7 @@ class GainMarginLoop(Record):
 
 
 class PhaseMarginLoop(Record):
-    """The loop that has the smallest phase margin.
+    """The loop that has the worst phase_margin.
 
     Attributes
     ----------
@@ -1334,7 +1340,28 @@ class PhaseMarginLoop(Record):
 
 
 class DelayMarginLoop(Record):
-    """The loop that has the smallest delay margin.
+    """The loop that has the worst delay_margin.
+
+    Attributes
+    ----------
+    loop : str
+        The loop in words.
+    stiffness : float or None
+        Of the contact before it slides, N m/rad (N/m on a linear axis); unknown while sliding.
+    machine : int or None
+        Number of the machine; unknown where the stiffness says all of it.
+    condition : str or None
+        The condition that it bears, with conditions.
+    """
+
+    loop: str
+    stiffness: float | None
+    machine: int | None
+    condition: str | None
+
+
+class SensitivityLoop(Record):
+    """The loop that has the worst sensitivity.
 
     Attributes
     ----------
@@ -1450,12 +1477,16 @@ class TuneAnswer(Answer):
 
     margins : Margins or None
         Smallest margins of the tuned loops.
+    lowest_mode : float or None
+        Frequency from which on the loops bear a mode of half of the inertia, which the study lacks, Hz.
     gain_margin_loop : GainMarginLoop or None
-        The loop that has the smallest gain margin.
+        The loop that has the worst gain_margin.
     phase_margin_loop : PhaseMarginLoop or None
-        The loop that has the smallest phase margin.
+        The loop that has the worst phase_margin.
     delay_margin_loop : DelayMarginLoop or None
-        The loop that has the smallest delay margin.
+        The loop that has the worst delay_margin.
+    sensitivity_loop : SensitivityLoop or None
+        The loop that has the worst sensitivity.
     margins_by_condition : pandas.DataFrame or None
         Smallest margins under each condition, with conditions.
 
@@ -1463,6 +1494,8 @@ class TuneAnswer(Answer):
         - ``gain``: gain margin; unknown where no loop has a limit, dB
         - ``phase``: phase margin; unknown where no loop has a limit, degrees
         - ``delay``: samples of delay until a loop is unstable; 10 means 10 or more, samples
+        - ``sensitivity``: largest |S|, S = 1/(1 + L)
+        - ``crossover``: highest frequency at which |L| = 1; 0 without one, Hz
         - ``stable``: whether no loop is unstable
         - ``machines``: machines that were examined
 
@@ -1516,7 +1549,7 @@ class TuneAnswer(Answer):
         Whether Ctrl-C ended it after the proof.
     """
 
-    _records = {"nearest": Nearest, "proof": Proof, "needed": Needed, "worst": Worst, "margins": Margins, "gain_margin_loop": GainMarginLoop, "phase_margin_loop": PhaseMarginLoop, "delay_margin_loop": DelayMarginLoop, "searched": Searched}
+    _records = {"nearest": Nearest, "proof": Proof, "needed": Needed, "worst": Worst, "margins": Margins, "gain_margin_loop": GainMarginLoop, "phase_margin_loop": PhaseMarginLoop, "delay_margin_loop": DelayMarginLoop, "sensitivity_loop": SensitivityLoop, "searched": Searched}
 
     goal: str
     status: Literal["met", "unreachable", "undecided"]
@@ -1530,9 +1563,11 @@ class TuneAnswer(Answer):
     worst: Worst | None
     behaviour: pandas.DataFrame
     margins: Margins | None
+    lowest_mode: float | None
     gain_margin_loop: GainMarginLoop | None
     phase_margin_loop: PhaseMarginLoop | None
     delay_margin_loop: DelayMarginLoop | None
+    sensitivity_loop: SensitivityLoop | None
     margins_by_condition: pandas.DataFrame | None
     wider_band_rate: float | None
     delay_lost: float | None

@@ -37,6 +37,7 @@ controller: {ki: 3.85e-5, delay: 1}
 
 constexpr std::string_view two_gains = R"(tune:
   free: {controller.ki: {log: [5.0e-6, 1.0e-3]}, controller.kp: [0, 5.0e-3]}
+  margins: {spread: off}
 )";
 
 class Tune : public ProgramTest {

@@ -14,15 +14,22 @@ struct Tuning {
   const study::Study& study;     ///< that was tuned
   std::filesystem::path output;  ///< the results file of the proof
   bool drawn{false};             ///< with figures
+  bool is_of_file{false};        ///< nothing was searched: the proof was made before
 };
 
-/// What is proven, or that nothing could be: it stands before the rest is found.
+/// What is proven, or that nothing could be, and what the values do: it stands before the extras are made.
 document::AnswerDescription<Tuning> proven_answer();
 
-/// What the proven values rest on, by simulation; the effort.
-document::AnswerDescription<Tuning> rest_answer();
+/// One extra, by simulation.
+document::AnswerDescription<Tuning> extra_answer(tuning::Extra extra);
+
+/// The effort, and what was left out.
+document::AnswerDescription<Tuning> closing_answer();
 
 /// All of it, with figures.
 document::AnswerDescription<Tuning> tune_answer();
+
+/// Before the proof: what a drive engineer would refuse of the values that are to be proven, in one line.
+std::string sanity_line(const Tuning& tuning);
 
 }  // namespace zerocount::design_commands

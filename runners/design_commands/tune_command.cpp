@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +29,7 @@
 #include "runners/design_commands/tune_answer.hpp"
 #include "runners/forecast/engine_use.hpp"
 #include "runners/plugins/hidden_state.hpp"
+#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/interruption.hpp"
 #include "runners/status/status.hpp"
 #include "runners/trials/study_runner.hpp"
@@ -52,14 +54,20 @@ constexpr const char* tune_help =
     "worst decides. The bounds are of the proof alone. FILE is its results file, whose manifest has\n"
     "the tuned values.\n"
     "\n"
-    "--budget bounds all together: the search, which takes half, the proof, and what follows it. It\n"
-    "is a number of trials, with which the answer depends on the seed alone, or a time such as 60s\n"
-    "or 5min. What it is not enough for is named. Without it the search takes 500000 trials, and the\n"
-    "proof and the rest what they need.\n"
+    "The proven answer is printed at once, when FILE is complete: what the values do (overshoot, peak\n"
+    "torque, saturation, torque at rest), and their margins. Then the extras follow, each as it is\n"
+    "ready: margins (what more delay loses), room (of each parameter), controls (others, each at its\n"
+    "own best values), limits (what stands in the way), maps (on a page). --extras chooses them: none,\n"
+    "all, or names such as room,limits. `tune FILE --extras …` makes them for a FILE that is there.\n"
+    "\n"
+    "--budget bounds all together: the search, which takes half, the proof, and the extras. It is a\n"
+    "number of trials, with which the answer depends on the seed alone, or a time such as 60s or\n"
+    "5min. Extras that it is not enough for are named. Without it the search takes 500000 trials at\n"
+    "most, and tune measures at its start how long that is on this machine.\n"
+    "Ctrl-C keeps the simulated points, and after the proof what is printed; the same command goes on.\n"
     "-m writes the manifest with the tuned values, text and comments kept.\n"
-    "Ctrl-C keeps the simulated points; the same command goes on with them.\n"
     "The exit code is 0 if the goal is met, 1 if no values in the ranges meet it, 3 if the proof\n"
-    "does not decide it.\n"
+    "does not decide it, 130 after Ctrl-C.\n"
     "\n"
     "Example: zerocount tune my-axis.yaml -o tuned.h5 -m tuned.yaml\n";
 
@@ -83,8 +91,7 @@ report::ReportPage tuning_page(const Tuning& tuning) {
   page.subtitle = tuning.study.description;
   page.sections.front().name = "tuning";
   page.sections.front().title = "Tuning";
-  // A report does not tell conditions apart.
-  if (!tuning.answer.proof || !tuning.study.conditions.empty()) return page;
+  if (!tuning.answer.proof) return page;
   for (report::PageSection& section :
        report::study_report(reading::AllTrialsFile(tuning.output)).page.sections)
     page.sections.push_back(std::move(section));
@@ -117,9 +124,32 @@ std::string tuned_manifest(const study::Study& study, const tuning::TuneAnswer& 
   return manifest_text::manifest_of_point(tuned, 0, {.folder = "."});
 }
 
+/// `--extras`. @param with_page a page is made, which has maps
+std::vector<tuning::Extra> extras_option(const command_line::Arguments& arguments, bool with_page) {
+  std::vector<tuning::Extra> all(tuning::all_extras.begin(), tuning::all_extras.end());
+  if (!with_page) std::erase(all, tuning::Extra::maps);
+  const std::string text = arguments.value("extras").value_or("all");
+  if (text == "all") return all;
+  std::vector<tuning::Extra> wanted;
+  if (text == "none") return wanted;
+  std::istringstream names(text);
+  for (std::string name; std::getline(names, name, ',');) {
+    const std::optional<tuning::Extra> extra = tuning::extra_named(name);
+    if (!extra)
+      arguments.refuse(
+          fmt::format("option '--extras': '{}' is not an extra; expected none, all, or some of "
+                      "margins,room,controls,limits,maps",
+                      name));
+    if (extra == tuning::Extra::maps && !with_page)
+      arguments.refuse("option '--extras': maps are drawn on a page; expected --report PAGE with them");
+    wanted.push_back(*extra);
+  }
+  if (wanted.empty()) arguments.refuse("option '--extras': expected none, all, or names");
+  return wanted;
+}
+
 tuning::TuneSettings tune_settings(const command_line::Arguments& arguments) {
   tuning::TuneSettings settings;
-  settings.output = command_line::output_place(arguments);
   settings.threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
   settings.quiet = arguments.has("quiet");
   const command_line::Budget budget = command_line::budget_option(arguments);
@@ -128,7 +158,8 @@ tuning::TuneSettings tune_settings(const command_line::Arguments& arguments) {
   return settings;
 }
 
-/// Prints the proven answer as soon as it stands, in text; then the rest, or in the other formats the whole.
+/// Prints the proven answer as soon as it stands, then each extra as it is ready, in text; in the other
+/// formats the whole at the end.
 class TunePrinter {
  public:
   explicit TunePrinter(const command_line::Arguments& arguments)
@@ -137,13 +168,26 @@ class TunePrinter {
   void print_proven(const Tuning& tuning) {
     if (!in_parts_ || printed_) return;
     answers::print(arguments_, proven_answer(), tuning);
+    standard_output::flush();
     printed_ = true;
+  }
+
+  void print_extra(tuning::Extra extra, const Tuning& tuning) {
+    if (!in_parts_) return;
+    const document::Answer answer =
+        extra_answer(extra).of(tuning, ExitCode::success, document::Audience::people);
+    if (document::text(answer).empty()) return;
+    standard_output::write("\n");
+    answers::print(arguments_, answer);
+    standard_output::flush();
   }
 
   ExitCode print_rest(const Tuning& tuning) {
     print_proven(tuning);
-    return answers::print(arguments_, in_parts_ ? rest_answer() : tune_answer(), tuning,
-                          commands::exit_code_of(tuning.answer.status));
+    const ExitCode code =
+        tuning.answer.interrupted ? ExitCode::interrupted : commands::exit_code_of(tuning.answer.status);
+    if (in_parts_) standard_output::write("\n");
+    return answers::print(arguments_, in_parts_ ? closing_answer() : tune_answer(), tuning, code);
   }
 
  private:
@@ -152,46 +196,93 @@ class TunePrinter {
   bool printed_{false};
 };
 
-ExitCode tune(const command_line::Arguments& arguments) {
+/// What a call of `tune` tunes: a manifest, or the results file of a proof.
+struct TuneTask {
+  const study::Study& study;
+  tuning::TuneSettings settings;
+  std::optional<std::filesystem::path> page;
+  std::optional<std::filesystem::path> manifest;  ///< for the tuned values
+  bool is_of_file;
+};
+
+ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
+  const bool in_html = arguments.choice("format") == "html";
+  task.settings.page = task.page || in_html;
+  task.settings.extras = extras_option(arguments, task.settings.page);
+  if (task.settings.page) report::require_drawing_libraries();
+  const parallel::ThreadLimit limit(trials::threads_to_use(task.settings.threads));
+  commands::print_warnings(task.study);
+  const std::string engine = forecast::engine_text(forecast::points_on_reference(task.study));
+  if (!engine.empty() && !task.settings.quiet) status::tell("{}\n", engine);
+  plugins::require_no_hidden_state(task.study);
+  const status::InterruptionWatch interruption;
+  TunePrinter printer(arguments);
+  const auto tuning_of = [&](const tuning::TuneAnswer& answer, bool drawn = false) {
+    return Tuning{answer, task.study, task.settings.output, drawn, task.is_of_file};
+  };
+  task.settings.found = [&](const tuning::TuneAnswer& found) {
+    const std::string line = sanity_line(tuning_of(found));
+    if (!line.empty() && !task.settings.quiet) status::tell("{}\n", line);
+  };
+  task.settings.proven = [&](const tuning::TuneAnswer& proven) {
+    if (task.manifest) command_line::write_text(*task.manifest, tuned_manifest(task.study, proven));
+    printer.print_proven(tuning_of(proven));
+  };
+  task.settings.ready = [&](tuning::Extra extra, const tuning::TuneAnswer& answer) {
+    printer.print_extra(extra, tuning_of(answer));
+  };
+  const tuning::TuneAnswer found = (task.is_of_file ? tuning::describe_tuned : tuning::tune)(
+      task.study, task.settings, interruption.token());
+  if (task.manifest && found.gains.empty())
+    status::tell("no values to write into {}\n", task.manifest->string());
+  if (task.page) command_line::write_text(*task.page, report::html_page(tuning_page(tuning_of(found, true))));
+  return printer.print_rest(tuning_of(found, in_html));
+}
+
+ExitCode tune_manifest(const command_line::Arguments& arguments) {
   tuning::TuneSettings settings = tune_settings(arguments);
+  settings.output = command_line::output_place(arguments);
   const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
   const std::optional<std::filesystem::path> page = page_option(arguments, settings.output);
-  const bool in_html = arguments.choice("format") == "html";
-  settings.maps = page || in_html;
   std::vector<std::filesystem::path> others{settings.output};
   if (page) others.push_back(*page);
-  const std::optional<std::filesystem::path> manifest = manifest_option(arguments, study, others);
-  if (settings.maps) report::require_drawing_libraries();
-  const parallel::ThreadLimit limit(trials::threads_to_use(settings.threads));
-  commands::print_warnings(study);
-  const std::string engine = forecast::engine_text(forecast::points_on_reference(study));
-  if (!engine.empty() && !settings.quiet) status::tell("{}\n", engine);
-  plugins::require_no_hidden_state(study);
-  const status::InterruptionWatch interruption;
+  const std::optional<std::filesystem::path> manifest = manifest_option(arguments, study, std::move(others));
   const storage::OutputLock lock(settings.output);
   storage::require_replaceable(settings.output);
   commands::print_fallback_lock(lock, settings.output);
-  TunePrinter printer(arguments);
-  settings.proven = [&](const tuning::TuneAnswer& proven) {
-    if (manifest) command_line::write_text(*manifest, tuned_manifest(study, proven));
-    printer.print_proven({proven, study, settings.output});
-  };
-  const tuning::TuneAnswer found = tuning::tune(study, settings, interruption.token());
-  if (manifest && found.gains.empty()) status::tell("no values to write into {}\n", manifest->string());
-  if (page)
-    command_line::write_text(*page, report::html_page(tuning_page({found, study, settings.output, true})));
-  return printer.print_rest({found, study, settings.output, in_html});
+  return run_task(arguments, {study, std::move(settings), page, manifest, false});
+}
+
+/// The extras of a proof that was made before.
+ExitCode tune_file(const command_line::Arguments& arguments) {
+  for (const char* const option : {"output", "force", "manifest"}) {
+    if (arguments.has(option))
+      arguments.refuse(
+          fmt::format("option '--{}': is of a manifest; the extras of a results file need "
+                      "--extras, --budget and --report alone",
+                      option));
+  }
+  tuning::TuneSettings settings = tune_settings(arguments);
+  settings.output = arguments.operands()[0];
+  const study::Study study = commands::load_study(arguments.operands()[0], arguments);
+  const std::optional<std::filesystem::path> page = page_option(arguments, settings.output);
+  return run_task(arguments, {study, std::move(settings), page, std::nullopt, true});
+}
+
+ExitCode tune(const command_line::Arguments& arguments) {
+  return commands::is_results_file(arguments.operands()[0]) ? tune_file(arguments) : tune_manifest(arguments);
 }
 
 }  // namespace
 
 commands::Command tune_command() {
   return {{"tune",
-           "MANIFEST -o FILE",
-           {{"output,o", "FILE", "the results file of the proof (required)"},
+           "MANIFEST -o FILE | FILE",
+           {{"output,o", "FILE", "the results file of the proof (required with a manifest)"},
             answers::format_option(tune_answer().complete_type()),
             {"budget", "B", "of all: a number of trials, or a time such as 60s or 5min"},
             {"manifest,m", "TUNED", "write the manifest with the tuned values"},
+            {"extras", "E", "none, all (default), or some of margins,room,controls,limits,maps"},
             {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"},
             {"threads", "N", "threads to use; default: all cores"},
             set_option(),

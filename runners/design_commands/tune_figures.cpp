@@ -124,7 +124,7 @@ Figure frontier_figure(const TuneAnswer& answer, const study::Study& study) {
       "star is the tuned point by its proof.",
       {points_data("frontier", answer, answer.frontier), points_data("tried", answer, tried),
        points_data("tuned", answer, {tuned})});
-  figure.specification["layer"][0]["encoding"]["x"]["title"] = study.tuning->minimise;
+  figure.specification["layer"][0]["encoding"]["x"]["title"] = tuning::criterion_name(study);
   return figure;
 }
 

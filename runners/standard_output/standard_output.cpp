@@ -23,4 +23,8 @@ void write(std::string_view data) {
     throw std::system_error(errno, std::generic_category());
 }
 
+void flush() {
+  if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category());
+}
+
 }  // namespace zerocount::standard_output

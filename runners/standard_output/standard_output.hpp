@@ -17,6 +17,10 @@ void write(std::string_view data);
 /// @throws std::system_error if they cannot be written
 void write_fitted(std::string_view text);
 
+/// Lets readers have what was written, before the command goes on.
+/// @throws std::system_error if it cannot be written
+void flush();
+
 /// Writes a formatted text likewise.
 template <class... Arguments>
 void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {

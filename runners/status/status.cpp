@@ -37,7 +37,7 @@ StatusLine::StatusLine(bool quiet)
       last_(Clock::now()) {}
 
 StatusLine::~StatusLine() {
-  if (shown_) write(clear_line);
+  clear();
 }
 
 void StatusLine::show(const std::function<std::string()>& text) {
@@ -58,8 +58,12 @@ void StatusLine::show(const std::function<std::string()>& text) {
 
 void StatusLine::finish(std::string_view text) {
   if (quiet_) return;
-  if (shown_) write(clear_line);
+  clear();
   write_fitted(fmt::format("{}\n", text));
+}
+
+void StatusLine::clear() {
+  if (shown_) write(clear_line);
   shown_ = false;
 }
 

@@ -38,6 +38,8 @@ class StatusLine {
   void show(const std::function<std::string()>& text);
   /// Shows the final text, whenever the last one was shown.
   void finish(std::string_view text);
+  /// Removes the line from a terminal, for what is printed next.
+  void clear();
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -40,17 +40,17 @@ double last_kept(double kept, double lost, int halvings, const Condition& holds)
 
 }  // namespace
 
-std::optional<DelayLost> delay_lost(const TunedStudy& tuned, double delay) {
+std::optional<DelayLost> delay_lost(const TunedStudy& tuned) {
   SeemsMet seems_met(tuned);
-  const auto holds = [&](double at) {
-    const Change later = [&](trial::TrialParameters& p) { p.controller.delay += at - delay; };
+  const auto holds = [&](double more) {
+    const Change later = [&](trial::TrialParameters& p) { p.controller.delay += more; };
     return seems_met(tuned.study, &later);
   };
   constexpr double step = 0.25;
   constexpr double most = 5.0;
   for (double more = step; more <= most; more += step) {
-    if (holds(delay + more)) continue;
-    const double lost = last_kept(delay + more - step, delay + more, 3, holds);
+    if (holds(more)) continue;
+    const double lost = last_kept(more - step, more, 3, holds);
     return DelayLost{lost, seems_met.lost().value()};
   }
   return std::nullopt;

@@ -30,15 +30,14 @@ struct Room {
   std::optional<std::size_t> lost_below{}, lost_above{};
 };
 
-/// controller.delay (samples) from which on a goal seems to be lost, to 0.05.
+/// By how much more of controller.delay (samples) a goal seems to be lost, to 0.05.
 struct DelayLost {
-  double delay{0.0};
+  double more{0.0};
   std::size_t claim{0};  ///< of Aim::claims that is lost
 };
 
-/// Nothing if no goal is lost up to 5 samples more.
-/// @param delay of the tuned study; with conditions each gets as much more
-std::optional<DelayLost> delay_lost(const TunedStudy& tuned, double delay);
+/// Nothing if no goal is lost up to 5 samples more, of which every machine gets as much under each condition.
+std::optional<DelayLost> delay_lost(const TunedStudy& tuned);
 
 /// Rate of a goal if its band were one count wider, under the worst condition; nothing of a tolerance.
 std::optional<double> rate_in_wider_band(const TunedStudy& tuned, std::size_t goal);

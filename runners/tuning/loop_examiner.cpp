@@ -36,7 +36,7 @@ struct MachineLoops {
 };
 
 struct Loops {
-  std::vector<theory::FrozenLoop> loops;
+  std::vector<theory::TrialLoop> loops;
   double hold{0.0};  ///< s
   bool before_sliding{false};
   bool sliding{false};
@@ -52,15 +52,18 @@ std::vector<loop::ControllerParameters> controls_before_sliding(const trial::Tri
 }
 
 void add_stiffnesses(const trial::TrialParameters& p, const MachineLoops& machine,
-                     std::vector<theory::FrozenLoop>& loops) {
+                     std::vector<theory::TrialLoop>& loops) {
+  std::string name = "before sliding";
   for (const loop::ControllerParameters& control : controls_before_sliding(p)) {
     for (int i = 0; i < stiffnesses; ++i) {
       const double share = static_cast<double>(i) / (stiffnesses - 1);
       const double stiffness = machine.softest * std::pow(machine.stiffest / machine.softest, share);
-      loops.push_back(theory::frozen_loop(stiffness, p.plant.presliding_damping, p.plant, p.encoder, control,
-                                          theory::drive_of(p)));
+      loops.push_back({name, false, stiffness,
+                       theory::frozen_loop(stiffness, p.plant.presliding_damping, p.plant, p.encoder, control,
+                                           theory::drive_of(p))});
       if (machine.softest == machine.stiffest) break;
     }
+    name = "before sliding, at standstill";
   }
 }
 
@@ -75,18 +78,18 @@ Loops loops_of(trial::TrialParameters p, const MachineLoops& machine, double mor
   found.sliding = machine.slides || !found.before_sliding;
   if (has_spring) add_stiffnesses(p, machine, found.loops);
   for (const theory::TrialLoop& one : of_trial) {
-    if (one.slides ? found.sliding : !has_spring) found.loops.push_back(one.loop);
+    if (one.slides ? found.sliding : !has_spring) found.loops.push_back(one);
   }
   return found;
 }
 
-bool is_unstable(const theory::FrozenLoop& loop, double hold) {
-  return theory::stability_of(loop, hold) == theory::LoopStability::unstable;
+bool is_unstable(const theory::TrialLoop& one, double hold) {
+  return theory::stability_of(one.loop, hold) == theory::LoopStability::unstable;
 }
 
 bool none_unstable(const Loops& of) {
   return std::ranges::none_of(of.loops,
-                              [&](const theory::FrozenLoop& one) { return is_unstable(one, of.hold); });
+                              [&](const theory::TrialLoop& one) { return is_unstable(one, of.hold); });
 }
 
 double decibels(double factor) {
@@ -118,7 +121,7 @@ bool keeps_margins(const trial::TrialParameters& p, const MachineLoops& machine,
     if (margins.delay && !none_unstable(loops_of(p, machine, share * *margins.delay))) return false;
   }
   return std::ranges::all_of(of.loops,
-                             [&](const theory::FrozenLoop& one) { return keeps_margins(one, margins); });
+                             [&](const theory::TrialLoop& one) { return keeps_margins(one.loop, margins); });
 }
 
 /// The part of a margin that is missing; 0 where nothing is.
@@ -129,8 +132,9 @@ double missing_part(double found, double wanted) {
 /// How fast loops grow that shall be stable, above 0; 0 where they all are.
 double instability(const Loops& of) {
   double fastest = 0.0;
-  for (const theory::FrozenLoop& one : of.loops) {
-    if (is_unstable(one, of.hold)) fastest = std::max(fastest, std::log1p(theory::log_growth(one, of.hold)));
+  for (const theory::TrialLoop& one : of.loops) {
+    if (is_unstable(one, of.hold))
+      fastest = std::max(fastest, std::log1p(theory::log_growth(one.loop, of.hold)));
   }
   return fastest;
 }
@@ -145,29 +149,39 @@ double shortfall_of(const trial::TrialParameters& p, const MachineLoops& machine
     const double fastest = instability(loops_of(p, machine, share * *margins.delay));
     missing = std::max(missing, fastest / (1.0 + fastest));
   }
-  for (const theory::FrozenLoop& one : of.loops) {
-    const theory::StabilityMargins found = theory::stability_margins(one);
+  for (const theory::TrialLoop& one : of.loops) {
+    const theory::StabilityMargins found = theory::stability_margins(one.loop);
     if (margins.gain) missing = std::max(missing, missing_part(decibels(found.gain.value), *margins.gain));
     if (margins.phase) missing = std::max(missing, missing_part(degrees(found.phase.value), *margins.phase));
     if (!margins.sensitivity) continue;
-    const double peak = theory::peak_sensitivity(one).value;
+    const double peak = theory::peak_sensitivity(one.loop).value;
     missing = std::max(missing, missing_part(1.0 / (peak - 1.0), 1.0 / (*margins.sensitivity - 1.0)));
   }
   return missing;
 }
 
-/// The delay (samples) by which the loop may grow until it is unstable, to 0.01.
-double delay_margin(const trial::TrialParameters& p, const MachineLoops& machine) {
-  const auto bears = [&](double more) { return none_unstable(loops_of(p, machine, more)); };
+/// The delay (samples) by which the loop may grow until it is unstable, to 0.01, and the first loop that is;
+/// longest_delay where none is.
+std::pair<double, std::optional<theory::TrialLoop>> delay_margin(const trial::TrialParameters& p,
+                                                                 const MachineLoops& machine) {
+  std::optional<theory::TrialLoop> first_lost;
+  const auto bears = [&](double more) {
+    const Loops of = loops_of(p, machine, more);
+    const auto lost = std::ranges::find_if(
+        of.loops, [&](const theory::TrialLoop& one) { return is_unstable(one, of.hold); });
+    if (lost != of.loops.end()) first_lost = *lost;
+    return lost == of.loops.end();
+  };
   double kept = 0.0;
   double lost = 0.25;
-  if (!bears(0.0)) return 0.0;
+  if (!bears(0.0)) return {0.0, first_lost};
   while (bears(lost)) {
     kept = lost;
     lost += 0.25;
-    if (kept >= longest_delay) return longest_delay;
+    if (kept >= longest_delay) return {longest_delay, std::nullopt};
   }
-  return numerics::bisect({kept, lost}, bears, numerics::within(0.01)).holds;
+  const double margin = numerics::bisect({kept, lost}, bears, numerics::within(0.01)).holds;
+  return {margin, first_lost};
 }
 
 /// Whether what differs between machines under a condition changes nothing of the loops but the stiffness of
@@ -200,19 +214,41 @@ SmallestMargins no_limit() {
   return {.gain = none, .phase = none, .delay = longest_delay};
 }
 
-SmallestMargins margins_of_machine(const trial::TrialParameters& p, const MachineLoops& machine) {
+/// Lets a margin be the smallest of another loop too.
+void include(double& smallest, std::optional<CriticalLoop>& loop, double one,
+             const std::optional<CriticalLoop>& of) {
+  if (!(one < smallest)) return;
+  smallest = one;
+  loop = of;
+}
+
+/// Likewise the largest sensitivity.
+void include_sensitivity(SmallestMargins& all, double one, const std::optional<CriticalLoop>& of) {
+  if (!(one > all.sensitivity)) return;
+  all.sensitivity = one;
+  all.sensitivity_loop = of;
+}
+
+/// @param draw of the machine, or nothing
+SmallestMargins margins_of_machine(const trial::TrialParameters& p, const MachineLoops& machine,
+                                   std::optional<std::int64_t> draw, std::int64_t condition) {
+  const auto critical = [&](const theory::TrialLoop& one) {
+    const bool has_spring = !one.slides && one.stiffness > 0.0;
+    return CriticalLoop{one.name, has_spring ? std::optional(one.stiffness) : std::nullopt, draw, condition};
+  };
   const Loops of = loops_of(p, machine, 0.0);
   SmallestMargins smallest = no_limit();
-  smallest.delay = delay_margin(p, machine);
   smallest.before_sliding = of.before_sliding;
   smallest.sliding = of.sliding;
-  for (const theory::FrozenLoop& each : of.loops) {
+  const auto [delay, lost] = delay_margin(p, machine);
+  if (lost) include(smallest.delay, smallest.delay_loop, delay, critical(*lost));
+  for (const theory::TrialLoop& each : of.loops) {
     smallest.stable = smallest.stable && !is_unstable(each, of.hold);
-    const theory::StabilityMargins margins = theory::stability_margins(each);
-    smallest.gain = std::min(smallest.gain, decibels(margins.gain.value));
-    smallest.phase = std::min(smallest.phase, degrees(margins.phase.value));
-    smallest.sensitivity = std::max(smallest.sensitivity, theory::peak_sensitivity(each).value);
-    const double crossover = theory::gain_crossover(each).frequency;
+    const theory::StabilityMargins margins = theory::stability_margins(each.loop);
+    include(smallest.gain, smallest.gain_loop, decibels(margins.gain.value), critical(each));
+    include(smallest.phase, smallest.phase_loop, degrees(margins.phase.value), critical(each));
+    include_sensitivity(smallest, theory::peak_sensitivity(each.loop).value, critical(each));
+    const double crossover = theory::gain_crossover(each.loop).frequency;
     if (crossover > smallest.crossover) smallest.crossover = crossover;
   }
   return smallest;
@@ -221,10 +257,10 @@ SmallestMargins margins_of_machine(const trial::TrialParameters& p, const Machin
 /// Lets margins be the smallest of other machines too.
 void include(SmallestMargins& all, const SmallestMargins& one) {
   all.stable = all.stable && one.stable;
-  all.gain = std::min(all.gain, one.gain);
-  all.phase = std::min(all.phase, one.phase);
-  all.delay = std::min(all.delay, one.delay);
-  all.sensitivity = std::max(all.sensitivity, one.sensitivity);
+  include(all.gain, all.gain_loop, one.gain, one.gain_loop);
+  include(all.phase, all.phase_loop, one.phase, one.phase_loop);
+  include(all.delay, all.delay_loop, one.delay, one.delay_loop);
+  include_sensitivity(all, one.sensitivity, one.sensitivity_loop);
   all.crossover = std::max(all.crossover, one.crossover);
   all.before_sliding = all.before_sliding || one.before_sliding;
   all.sliding = all.sliding || one.sliding;
@@ -247,12 +283,15 @@ LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
     const std::int64_t trial = turns.trial_of(static_cast<std::int64_t>(i) / turns.conditions, condition);
     const auto [softest, stiffest] =
         stiffness_range(study::study_trial(study, 0, trial).parameters, study.period);
-    all[i] = {trial, condition, spread_of_undrawn(study, condition), softest, stiffest};
+    const std::int64_t draw = static_cast<std::int64_t>(i) / turns.conditions;
+    all[i] = {trial, condition, draw, spread_of_undrawn(study, condition), softest, stiffest};
   });
   for (const Machine& one : all) {
     const auto like_it = std::ranges::find(machines_, one.condition, &Machine::condition);
-    if (alike[static_cast<std::size_t>(one.condition)] == 0 || like_it == machines_.end()) {
+    const bool is_alike = alike[static_cast<std::size_t>(one.condition)] != 0;
+    if (!is_alike || like_it == machines_.end()) {
       machines_.push_back(one);
+      if (is_alike) machines_.back().draw.reset();
     } else {
       like_it->softest = std::min(like_it->softest, one.softest);
       like_it->stiffest = std::max(like_it->stiffest, one.stiffest);
@@ -328,7 +367,7 @@ SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool sli
     if (stop.stop_requested()) throw trial::Interrupted{};
     const MachineLoops machine{machines_[i].softest, machines_[i].stiffest, slides};
     for (const trial::TrialParameters& p : corners(candidate, machines_[i]))
-      include(found[i], margins_of_machine(p, machine));
+      include(found[i], margins_of_machine(p, machine, machines_[i].draw, machines_[i].condition));
   });
   SmallestMargins all = no_limit();
   all.machines = examined_;

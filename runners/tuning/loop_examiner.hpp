@@ -10,18 +10,30 @@
 
 namespace zerocount::tuning {
 
+/// The loop that has the smallest of a margin.
+struct CriticalLoop {
+  std::string name;  ///< "before sliding", "before sliding, at standstill", "while sliding", …
+  /// Of the contact before it slides, N m/rad; nothing where it has no spring.
+  std::optional<double> stiffness{};
+  /// Number of the draw that made the machine; nothing where the stiffness says all of it.
+  std::optional<std::int64_t> machine{};
+  std::int64_t condition{0};
+};
+
 /// The smallest margins of the loops of all examined machines; infinite where no loop has a limit.
 struct SmallestMargins {
   bool stable{true};  ///< no loop is unstable over the hold
   double gain{0.0};   ///< dB
   double phase{0.0};  ///< degrees
   double delay{0.0};  ///< samples by which the delay may grow until a loop is unstable; 10 means 10 or more
-  double sensitivity{0.0};                    ///< the largest |S|, S = 1/(1 + L)
-  double crossover{0.0};                      ///< the highest frequency at which |L| = 1, Hz; 0 without one
-  std::int64_t machines{0};                   ///< that were examined
-  bool before_sliding{false};                 ///< loops before the machines slide are among them
-  bool sliding{false};                        ///< loops of sliding machines are among them
-  study::LoopSpread spread{};                 ///< by which the machines differ beyond what the study draws
+  double sensitivity{0.0};     ///< the largest |S|, S = 1/(1 + L)
+  double crossover{0.0};       ///< the highest frequency at which |L| = 1, Hz; 0 without one
+  std::int64_t machines{0};    ///< that were examined
+  bool before_sliding{false};  ///< loops before the machines slide are among them
+  bool sliding{false};         ///< loops of sliding machines are among them
+  study::LoopSpread spread{};  ///< by which the machines differ beyond what the study draws
+  /// Which have them, where there is a limit.
+  std::optional<CriticalLoop> gain_loop{}, phase_loop{}, delay_loop{}, sensitivity_loop{};
   std::vector<SmallestMargins> conditions{};  ///< [condition] those under each; empty without conditions
 };
 
@@ -67,6 +79,8 @@ class LoopExaminer {
   struct Machine {
     std::int64_t trial;
     std::int64_t condition;
+    /// Of its trial; nothing for one that stands for all that differ in stiffness.
+    std::optional<std::int64_t> draw;
     study::LoopSpread spread;
     double softest;   ///< N m/rad
     double stiffest;  ///< N m/rad

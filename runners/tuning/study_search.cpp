@@ -17,16 +17,6 @@ namespace {
 constexpr std::int64_t max_search_trials_of_machine = 20;
 constexpr std::int64_t examined_machines = 2048;
 
-/// The values of the free parameters in the manifest.
-Values manifest_values(const study::Study& study, std::span<const study::FreeParameter> free) {
-  Values values;
-  for (const study::FreeParameter& one : free) {
-    const std::size_t slot = study::find_slots(one.name, study.plan->table).value().first;
-    values.push_back(study.plan->base[slot].number);
-  }
-  return values;
-}
-
 bool lie_in_ranges(const Values& values, std::span<const study::FreeParameter> free) {
   for (std::size_t i = 0; i < free.size(); ++i) {
     if (!(values[i] >= free[i].low && values[i] <= free[i].high)) return false;
@@ -35,6 +25,15 @@ bool lie_in_ranges(const Values& values, std::span<const study::FreeParameter> f
 }
 
 }  // namespace
+
+Values values_in_manifest(const study::Study& study, std::span<const study::FreeParameter> free) {
+  Values values;
+  for (const study::FreeParameter& one : free) {
+    const std::size_t slot = study::find_slots(one.name, study.plan->table).value().first;
+    values.push_back(study.plan->base[slot].number);
+  }
+  return values;
+}
 
 std::int64_t trials_of_machine(const study::Study& study) {
   const std::int64_t conditions = study::condition_count(study);
@@ -69,7 +68,7 @@ SearchResult StudySearch::run(const SearchSettings& settings, std::vector<Values
   SearchProblem problem;
   problem.free = free_;
   problem.aim = aim_of(study_);
-  starts.insert(starts.begin(), manifest_values(study_, free_));
+  starts.insert(starts.begin(), values_in_manifest(study_, free_));
   std::erase_if(starts, [this](const Values& values) { return !lie_in_ranges(values, free_); });
   problem.starts = std::move(starts);
   problem.faces = zero_sets(free_);

@@ -15,6 +15,9 @@
 
 namespace zerocount::tuning {
 
+/// The values of the free parameters in the manifest.
+Values values_in_manifest(const study::Study& study, std::span<const study::FreeParameter> free);
+
 /// Trials of a machine, under all conditions together, that tell whether it meets the goals; one under each
 /// condition where no goal asks for machines.
 std::int64_t trials_of_machine(const study::Study& study);

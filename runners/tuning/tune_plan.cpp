@@ -55,7 +55,12 @@ double measured_speed(const study::Study& study, const trials::Effort& effort) {
   const trials::Replicates units{trials::in_equal_worlds(study, max_measured_units),
                                  search_trials_of_machine(study)};
   const study::Study measured = trials::variant_of(study, trials::overrides_for(study, units));
-  const trials::Effort part = effort.share({}, part_of_time * effort.seconds_left());
+  constexpr double longest_without_limit = 0.5;  // s
+  const double seconds_left = effort.seconds_left();
+  // Without a limit of time its trials do not count, because their number depends on the machine.
+  const trials::Effort part = std::isinf(seconds_left)
+                                  ? trials::Effort(effort.stop()).share({}, longest_without_limit)
+                                  : effort.share({}, part_of_time * seconds_left);
   double fastest = 0.0;
   for (std::int64_t count = 8; count <= units.count; count *= 2) {
     const Clock::time_point start = Clock::now();
@@ -68,13 +73,22 @@ double measured_speed(const study::Study& study, const trials::Effort& effort) {
   return fastest;
 }
 
+SearchSize default_search_size(const study::Study& study) {
+  return search_size(scope_of(study, study.tuning->free, max_units),
+                     default_search_trials / search_trials_of_machine(study));
+}
+
+double default_search_seconds(const study::Study& study, const trials::Effort& effort) {
+  return default_search_trials / (simulating_part * measured_speed(study, effort));
+}
+
 SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, const trials::Effort& whole,
                        double speed) {
   const std::vector<study::FreeParameter>& free = study.tuning->free;
   const std::int64_t each = search_trials_of_machine(study);
   const SearchScope scope = scope_of(study, free, max_units);
   if (!budget.trials && !budget.seconds)
-    return {search_size(scope, default_search_trials / each), whole.share(default_search_trials, {})};
+    return {default_search_size(study), whole.share(default_search_trials, {})};
   const std::int64_t search = min_search_trials(study, free);
   const std::int64_t proof = min_proof_trials(study, 1);  // in its first attempt
   const std::int64_t left = affordable_trials(whole, spendable_part * speed);
@@ -118,7 +132,7 @@ RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t 
   double others = 0.0;
   for (const OtherControl& one : controls)
     others += static_cast<double>(min_search_trials(study, one.free)) / (1.0 - judgement_part);
-  const std::int64_t each = points * search_trials_of_machine(study);
+  const std::int64_t each = std::max<std::int64_t>(points, 1) * search_trials_of_machine(study);
   const std::int64_t left = affordable_trials(effort, speed) - whole_trials(others);
   if ((left - trials_of_maps) / each < least) trials_of_maps = 0;
   return {std::clamp((left - trials_of_maps) / each, least, most), trials_of_maps};

@@ -23,9 +23,17 @@ struct TuneBudget {
 std::int64_t affordable_trials(const trials::Effort& effort, double speed);
 
 /// Trials per second of the study at the values of its manifest, on the units of a search, measured in a
-/// twentieth of the time of the effort.
+/// twentieth of the time of the effort, and in half a second at most where it has no limit.
 /// @throws trial::Interrupted
 double measured_speed(const study::Study& study, const trials::Effort& effort);
+
+/// The size of a search without a budget.
+SearchSize default_search_size(const study::Study& study);
+
+/// What the search may take without a budget, s: its trials at the speed of the manifest's values, as
+/// measured in half a second.
+/// @throws trial::Interrupted
+double default_search_seconds(const study::Study& study, const trials::Effort& effort);
 
 /// A search and its part of the effort.
 struct SearchPlan {

@@ -12,10 +12,11 @@
 #include "core/hash/sha256.hpp"
 #include "core/trial/trial.hpp"
 #include "results/layout/header.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "results/shards/pieces.hpp"
 #include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
-#include "runners/tuning/other_controls.hpp"
+#include "runners/tuning/extras.hpp"
 #include "runners/tuning/proof_runner.hpp"
 #include "runners/tuning/race/proof.hpp"
 #include "runners/tuning/study_search.hpp"
@@ -29,10 +30,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t max_proof_moves = 2'000'000;
 constexpr std::int64_t units_of_frontier = 512;
-constexpr std::int64_t points_of_delay = 20;   // that are simulated to find it
-constexpr std::int64_t points_of_room = 24;    // at most, of a parameter
-constexpr std::int64_t points_of_limits = 24;  // usually
-constexpr std::int64_t trials_of_alternative = 125'000;
+constexpr std::int64_t units_of_behaviour = 128;  // that show what values do, before their proof
 
 void require_tunable(const study::Study& study) {
   if (!study.tuning) {
@@ -68,17 +66,83 @@ TuningJournal open_journal(const study::Study& study, const TuneSettings& settin
                             settings.output.string(), exists ? "exists already" : "has an unfinished run"));
 }
 
-TunedValues named_values(const std::vector<study::FreeParameter>& free, const Values& values) {
-  TunedValues named;
-  for (std::size_t i = 0; i < free.size(); ++i) named[free[i].name] = values[i];
-  return named;
-}
-
-/// Trials per second of the study; infinite without a limit of time.
+/// Trials per second of the study by which a budget is planned; infinite without a limit of time.
 double speed_of(const study::Study& study, const TuneBudget& budget, const trials::Effort& effort,
                 const TuningJournal& journal) {
   if (!budget.seconds) return std::numeric_limits<double>::infinity();
   return journal.speed() ? *journal.speed() : measured_speed(study, effort);
+}
+
+/// A little of the time is kept back for the start and the end of the program, and for the page.
+trials::Effort whole_effort(const TuneSettings& settings, const TuningJournal& journal,
+                            const std::stop_token& stop) {
+  const TuneBudget& budget = settings.budget;
+  if (!budget.seconds) return trials::Effort(stop).share(budget.trials, {});
+  const double page = settings.page ? std::min(0.8, 0.2 * *budget.seconds) : 0.0;
+  return trials::Effort(stop).share({}, 0.97 * *budget.seconds - 0.05 - page - journal.seconds());
+}
+
+/// A candidate on the units of a proof, and the verdict on it.
+struct Judged {
+  Candidate candidate;
+  trials::Replicates units;
+  goal::Verdict verdict;
+  GoalCounts counts;
+  int attempts;
+  std::size_t correction;  ///< of the bounds, for the attempts
+};
+
+std::vector<std::string> edges_of(const std::vector<study::FreeParameter>& free, const Values& values) {
+  std::vector<std::string> edges;
+  const UnitCubePoint place = place_of(free, values);
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    constexpr double close = 0.02;
+    if (place[i] > close && place[i] < 1.0 - close) continue;
+    edges.push_back(fmt::format("{} = {} is at the {} end of its range", free[i].name, values[i],
+                                place[i] > 0.5 ? "upper" : "lower"));
+  }
+  return edges;
+}
+
+/// @param slides whether the machines of the tuned values slide
+void add_margins(const StudySearch& search, bool slides, const std::stop_token& stop, TuneAnswer& answer) {
+  const study::Study tuned = search.examined_candidate(answer.gains);
+  answer.margins = search.examiner().margins_of(tuned, slides, stop);
+  answer.lowest_mode = search.examiner().lowest_mode(tuned, slides, stop);
+}
+
+/// Completes the answer by a proof, of which `file` is the results file.
+void describe_proof(study::Study proven, const reading::AllTrialsFile& file, const Judged& judged,
+                    TuneAnswer& answer) {
+  const goal::Verdict& verdict = judged.verdict;
+  answer.gains = judged.candidate.values;
+  answer.at_edges = edges_of(answer.free, answer.gains);
+  answer.status = verdict.status;
+  answer.worst = worst_machine(proven, 0, judged.candidate.units);
+  const std::size_t worst_claim = claim_at(proven, {verdict.goal, verdict.condition});
+  answer.criterion = estimate_of(aim_of(proven), judged.candidate, judged.units.count).criterion;
+  answer.late_limit =
+      late_value(judged.candidate, worst_claim, judged.units.count, proven.goals[verdict.goal].moves) *
+      criteria_of(proven)[verdict.goal].scale;
+  answer.behaviour = behaviour_in(file, proven);
+  answer.proof = Proof{std::move(proven),
+                       verdict,
+                       {},
+                       judged.attempts,
+                       summary::claims_of_point(summary::summarise(file), 0, judged.correction)};
+  if (verdict.status == goal::Status::undecided)
+    answer.proof->needs = goal::needs_of(answer.proof->study.goals, judged.counts, judged.correction);
+}
+
+/// Gives the moves of a proof the torque at rest that simulated machines showed, where it does not measure
+/// it.
+void add_rest_torque(std::vector<MoveBehaviour>& behaviour, const std::vector<MoveBehaviour>& simulated) {
+  for (MoveBehaviour& row : behaviour) {
+    const auto same = std::ranges::find_if(simulated, [&](const MoveBehaviour& one) {
+      return one.number == row.number && one.condition == row.condition;
+    });
+    if (!row.rest && same != simulated.end()) row.rest = same->rest;
+  }
 }
 
 class Tuner {
@@ -88,7 +152,7 @@ class Tuner {
         settings_(settings),
         journal_(open_journal(study, settings)),
         line_(settings.quiet),
-        effort_(whole_effort(settings.budget, stop)),
+        effort_(whole_effort(settings, journal_, stop)),
         speed_(speed_of(study, settings.budget, effort_, journal_)),
         plan_(plan_search(study, settings.budget, effort_, speed_)),
         search_(
@@ -100,28 +164,25 @@ class Tuner {
     answer_.free = study_.tuning->free;
     answer_.budget = settings_.budget;
     answer_.blind = search_.examiner().is_blind();
+    tell_default();
     find();
     if (!result_.finalists.empty()) {
+      examine(0);
+      tell_found();
       prove();
-      describe();
+      make_extras();
     } else {
       require_enough_time();
       answer_.status = goal::Status::missed;
       find_part("the nearest point", [&] { find_nearest(); });
     }
     count_effort();
-    journal_.remove();
+    answer_.interrupted = effort_.is_interrupted();
+    if (!answer_.interrupted) journal_.remove();
     return std::move(answer_);
   }
 
  private:
-  /// A little of the time is kept back for the start and the end of the program, and for the page.
-  trials::Effort whole_effort(const TuneBudget& budget, const std::stop_token& stop) const {
-    if (!budget.seconds) return trials::Effort(stop).share(budget.trials, {});
-    const double page = settings_.maps ? std::min(0.8, 0.2 * *budget.seconds) : 0.0;
-    return trials::Effort(stop).share({}, 0.97 * *budget.seconds - 0.05 - page - journal_.seconds());
-  }
-
   /// Seconds, those of interrupted runs included.
   double elapsed() const {
     return journal_.seconds() + std::chrono::duration<double>(Clock::now() - start_).count();
@@ -130,6 +191,16 @@ class Tuner {
   void count_effort() {
     answer_.seconds = elapsed();
     answer_.spent_trials = effort_.spent_trials();
+  }
+
+  /// Without a budget: what the search may take on this machine.
+  void tell_default() {
+    if (settings_.budget.trials || settings_.budget.seconds) return;
+    answer_.default_seconds = default_search_seconds(study_, effort_);
+    if (!settings_.quiet)
+      status::tell(
+          "no --budget: the search takes at most {}, as measured here, then the proof and the extras\n",
+          status::duration_text(*answer_.default_seconds));
   }
 
   std::string text_of(const Values& values) const {
@@ -167,8 +238,9 @@ class Tuner {
     answer_.tried = result_.tried;
     answer_.frontier = frontier_of(result_.tried, std::min(units_of_frontier, plan_.size.max_units));
     constexpr std::int64_t enough_to_tell = 1000;
-    if (settings_.budget.seconds && search_.simulated() >= enough_to_tell)
-      speed_ = static_cast<double>(search_.simulated()) / search_.simulation_seconds();
+    if (search_.simulated() >= enough_to_tell)
+      measured_speed_ = static_cast<double>(search_.simulated()) / search_.simulation_seconds();
+    if (settings_.budget.seconds && measured_speed_ > 0.0) speed_ = measured_speed_;
   }
 
   /// @throws Failure (inconclusive) if the search ended too soon to say that there are no such values
@@ -194,6 +266,45 @@ class Tuner {
     constexpr double part = 0.5;
     const std::int64_t most = std::max<std::int64_t>(max_proof_moves / study_.moves, 1);
     return std::min(most, affordable_trials(effort_, part * speed_));
+  }
+
+  /// What a finalist does, on machines of the search: its margins, and its moves.
+  void examine(std::size_t finalist) {
+    if (examined_finalist_ == finalist) return;
+    answer_.left_out.clear();  // of another finalist
+    examined_finalist_ = finalist;
+    const Candidate& candidate = result_.finalists[finalist];
+    answer_.gains = candidate.values;
+    simulated_.clear();
+    if (!answer_.blind) find_part("margins", [&] { examine_margins(has_slid(candidate.units)); });
+    const study::Study study = search_.candidate(candidate.values);
+    const std::int64_t count = std::min(units_of_behaviour, affordable_units_of_behaviour());
+    if (count > 0) {
+      find_part("torque at rest",
+                [&] { simulated_ = simulated_behaviour(study, search_.units(), count, effort_); });
+    } else {
+      answer_.left_out.emplace_back("torque at rest");
+    }
+    answer_.behaviour = simulated_;
+    answer_.refusals = refusals_of(answer_.behaviour, answer_.margins, study_);
+  }
+
+  void examine_margins(bool slides) {
+    add_margins(search_, slides, effort_.stop(), answer_);
+    margins_slide_ = slides;
+  }
+
+  /// As many as a tenth of what the smallest proof leaves is enough for.
+  std::int64_t affordable_units_of_behaviour() const {
+    constexpr std::int64_t part = 10;
+    const std::int64_t left = affordable_trials(effort_, speed_) - min_proof_trials(study_, 1);
+    return left / part / study::condition_count(study_);
+  }
+
+  void tell_found() {
+    if (!settings_.found) return;
+    line_.clear();
+    settings_.found(answer_);
   }
 
   void prove() {
@@ -236,162 +347,41 @@ class Tuner {
     adopt(*proven, std::move(run));
     count_effort();
     if (settings_.proven) {
-      line_.finish("");
+      line_.clear();
       settings_.proven(answer_);
     }
   }
 
   void adopt(const ProvenFinalist& proven, ProofRun run) {
+    examine(proven.attempt.finalist);
     const Candidate& candidate = result_.finalists[proven.attempt.finalist];
-    answer_.gains = candidate.values;
-    slid_ = has_slid(candidate.units) || has_slid(run.results);
-    answer_.status = proven.verdict.status;
-    answer_.worst = worst_machine(run.study, 0, run.results);
-    answer_.proof = Proof{std::move(run.study), proven.verdict, {}, proven.attempt.number};
-    const std::size_t worst_goal = proven.verdict.goal;
-    const study::Goal& goal = study_.goals[worst_goal];
-    if (proven.verdict.status == goal::Status::undecided) {
-      answer_.proof->needs =
-          goal::needs_of(study_.goals, proven.counts, correction_of(proven.attempt.number));
-    }
-    const Candidate by_proof{candidate.place, candidate.values, std::move(run.results)};
-    const Aim aim = aim_of(study_);
-    answer_.criterion = estimate_of(aim, by_proof, proven.attempt.units).criterion;
-    const std::size_t worst_claim = claim_at(study_, {worst_goal, proven.verdict.condition});
-    answer_.late_limit = late_value(by_proof, worst_claim, proven.attempt.units, goal.moves) *
-                         criteria_of(study_)[worst_goal].scale;
-    name_edges();
+    const bool slid = has_slid(candidate.units) || has_slid(run.results);
+    if (answer_.margins && slid != margins_slide_) find_part("margins", [&] { examine_margins(slid); });
+    const trials::Replicates units{proven.attempt.units, trials_of_machine(study_)};
+    const Judged judged{{candidate.place, candidate.values, std::move(run.results)},
+                        units,
+                        proven.verdict,
+                        proven.counts,
+                        proven.attempt.number,
+                        correction_of(proven.attempt.number)};
+    describe_proof(std::move(run.study), reading::AllTrialsFile(settings_.output), judged, answer_);
+    add_rest_torque(answer_.behaviour, simulated_);
+    answer_.refusals = refusals_of(answer_.behaviour, answer_.margins, study_);
   }
 
   /// Finds a part of the answer that is not proven; one for which the effort is not enough is named.
   void find_part(const std::string& name, const std::function<void()>& work) {
-    line_.show([&] { return "proven; " + name; });
+    line_.show([&] { return name; });
     const bool ended = !effort_.stop().stop_requested() && trials::within(effort_, work);
     if (effort_.is_interrupted()) throw trial::Interrupted{};
     if (!ended) answer_.left_out.push_back(name);
   }
 
-  void describe() {
-    const study::Study tuned = search_.candidate(answer_.gains);
-    answer_.delay = study::study_trial(tuned, 0, 0).parameters.controller.delay;
-    const std::vector<OtherControl> controls = other_controls(study_);
-    const bool met = answer_.status == goal::Status::met;
-    const std::int64_t points =
-        points_of_limits + (met ? points_of_delay + points_of_room * std::ssize(answer_.free) : 0);
-    rest_ =
-        plan_rest(study_, points, settings_.maps ? trials_of_maps(search_.units(), answer_.free.size()) : 0,
-                  controls, effort_, speed_);
-    const TunedStudy details{tuned, answer_.free, answer_.gains, search_.units(), rest_.units, effort_};
-    if (!answer_.blind) {
-      find_part("margins", [&] {
-        answer_.margins =
-            search_.examiner().margins_of(search_.examined_candidate(answer_.gains), slid_, effort_.stop());
-      });
-    }
-    if (met) {
-      find_part("delay at which the goal is lost", [&] {
-        answer_.delay_lost = delay_lost(details, answer_.delay);
-        answer_.delay_sought = true;
-      });
-      find_part("room", [&] { answer_.room = room_of(details); });
-    } else {
-      find_part("a wider band", [&] {
-        TunedStudy wider = details;
-        wider.count = units_of_limits().count;
-        answer_.wider_band_rate = rate_in_wider_band(wider, answer_.proof->verdict.goal);
-      });
-    }
-    add_alternatives(controls);
-    find_part("limits", [&] {
-      const trials::Replicates units = units_of_limits();
-      const study::Study of_limits = trials::variant_of(study_, trials::overrides_for(study_, units));
-      answer_.limits = limits_of(at_values(of_limits, answer_.free, answer_.gains).value(), units, effort_);
-    });
-    if (settings_.maps) find_part("maps", [&] { answer_.maps = maps_of(details, search_.examiner()); });
-  }
-
-  void name_edges() {
-    const UnitCubePoint place = place_of(answer_.free, answer_.gains);
-    for (std::size_t i = 0; i < place.size(); ++i) {
-      constexpr double close = 0.02;
-      if (place[i] > close && place[i] < 1.0 - close) continue;
-      answer_.at_edges.push_back(fmt::format("{} = {} is at the {} end of its range", answer_.free[i].name,
-                                             answer_.gains[i], place[i] > 0.5 ? "upper" : "lower"));
-    }
-  }
-
-  /// All units of the search, with a budget those of the details.
-  trials::Replicates units_of_limits() const {
-    const trials::Replicates& all = search_.units();
-    if (!has_budget()) return all;
-    return {std::min(trials::in_equal_worlds(study_, rest_.units), all.count), all.trials_each};
-  }
-
-  void add_alternatives(const std::vector<OtherControl>& controls) {
-    std::vector<TunedValues> tuned{named_values(answer_.free, answer_.gains)};
-    const auto all = std::ssize(controls);
-    for (std::int64_t i = 0; i < all; ++i) {
-      const OtherControl& control = controls[static_cast<std::size_t>(i)];
-      find_part(fmt::format("other control ({})", control.name),
-                [&] { add_alternative(control, one_of_shares(all - i), tuned); });
-    }
-  }
-
-  /// One of so many equal parts of what a budget leaves beside limits and maps; without a budget what a
-  /// control takes by default.
-  trials::Effort one_of_shares(std::int64_t parts) const {
-    if (!has_budget()) return effort_.share(trials_of_alternative, {});
-    const std::int64_t later =
-        points_of_limits * rest_.units * search_.units().trials_each + rest_.trials_of_maps;
-    if (settings_.budget.trials)
-      return effort_.share(std::max<std::int64_t>(effort_.trials_left() - later, 0) / parts, {});
-    return effort_.share(
-        {}, (effort_.seconds_left() - static_cast<double>(later) / speed_) / static_cast<double>(parts));
-  }
-
-  bool has_budget() const { return settings_.budget.trials || settings_.budget.seconds; }
-
-  /// @param tuned controls that are tuned already; gets this one
-  void add_alternative(const OtherControl& control, const trials::Effort& effort,
-                       std::vector<TunedValues>& tuned) {
-    const study::Study study = trials::variant_of(study_, control.overrides);
-    const SearchPlan plan = plan_other_search(study, control.free, effort, speed_);
-    StudySearch search(
-        study, control.free, plan.size, journal_, [this] { return elapsed(); }, effort);
-    SearchSettings limits;
-    limits.seed = study_.seed;
-    limits.effort = plan.effort;
-    const SearchResult found = search.run(limits, starts_from(tuned, control.free));
-    answer_.points += found.points;
-    answer_.trials += found.trials;
-    if (found.finalists.empty() && found.cut) throw trials::Spent{};
-    Alternative alternative;
-    alternative.name = control.name;
-    for (const std::string& name : control.zero) alternative.fixed.emplace_back(name, 0.0);
-    if (!found.finalists.empty()) {
-      const Values& best = found.finalists.front().values;
-      judge_alternative(study, control.free, best, effort, alternative);
-      tuned.push_back(named_values(control.free, best));
-      for (const std::string& name : control.zero) tuned.back()[name] = 0.0;
-    }
-    answer_.alternatives.push_back(std::move(alternative));
-  }
-
-  /// Runs it on fresh machines.
-  void judge_alternative(const study::Study& study, const std::vector<study::FreeParameter>& free,
-                         const Values& values, const trials::Effort& effort, Alternative& alternative) const {
-    for (std::size_t i = 0; i < free.size(); ++i) alternative.gains.emplace_back(free[i].name, values[i]);
-    const trials::Replicates units{units_of_judgement(study, effort, speed_), trials_of_machine(study)};
-    std::vector<std::string> fresh = overrides_of(free, values);
-    fresh.push_back(fmt::format("seed={}", trials::fresh_seed(study.seed, "tuning, alternative")));
-    for (const std::string& one : trials::overrides_for(study, units)) fresh.push_back(one);
-    const Candidate candidate{
-        {}, values, results_of(trials::variant_of(study, fresh), units, units.count, nullptr, effort)};
-    alternative.verdict = goal::judge_goals(study.goals, counts_of(study, units, candidate.units), 1);
-    alternative.criterion = estimate_of(aim_of(study), candidate, units.count).criterion;
-    const ClaimPlace worst{alternative.verdict->goal, alternative.verdict->condition};
-    if (has_named_claims(study)) alternative.worst_goal = goal_name(study, worst);
-    alternative.worst_condition = condition_name(study, worst);
+  void make_extras() {
+    ExtrasMaker({study_, settings_, search_, journal_, effort_, speed_, measured_speed_,
+                 [this] { return elapsed(); }, line_},
+                answer_)
+        .make();
   }
 
   const study::Study& study_;
@@ -400,14 +390,22 @@ class Tuner {
   TuningJournal journal_;
   status::StatusLine line_;
   trials::Effort effort_;
-  double speed_;  ///< trials/s; infinite without a limit of time
+  double speed_;                ///< trials/s; infinite without a limit of time
+  double measured_speed_{0.0};  ///< of the search; 0 where it was too short
   SearchPlan plan_;
   StudySearch search_;
   SearchResult result_;
-  RestPlan rest_;
-  bool slid_{false};  ///< the tuned axis slid, in the search or the proof
+  std::optional<std::size_t> examined_finalist_;
+  std::vector<MoveBehaviour> simulated_;  ///< of it, on machines of the search
+  bool margins_slide_{false};             ///< the margins are those of machines that slide too
   TuneAnswer answer_;
 };
+
+/// The study of a proof on machines of other draws.
+study::Study on_fresh_machines(const study::Study& proof) {
+  return trials::variant_of(proof,
+                            {fmt::format("seed={}", trials::fresh_seed(proof.seed, "tuning, extras"))});
+}
 
 }  // namespace
 
@@ -420,6 +418,59 @@ TuneAnswer tune(const study::Study& study, const TuneSettings& settings, const s
                   fmt::format("interrupted: the simulated points are kept in {}; give the same command again "
                               "to continue",
                               journal_path(settings.output).string()));
+  }
+}
+
+namespace {
+
+TuneAnswer with_extras(const study::Study& study, const TuneSettings& settings, const std::stop_token& stop) {
+  const auto start = Clock::now();
+  TuningJournal journal({}, {}, false);
+  status::StatusLine line(settings.quiet);
+  const trials::Effort effort = whole_effort(settings, journal, stop);
+  const study::Study fresh = on_fresh_machines(study);
+  const double measured = settings.budget.trials ? 0.0 : measured_speed(fresh, effort);
+  const double speed = settings.budget.seconds ? measured : std::numeric_limits<double>::infinity();
+  const auto elapsed = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  StudySearch search(fresh, study.tuning->free, default_search_size(fresh), journal, elapsed, effort);
+  TuneAnswer answer;
+  answer.free = study.tuning->free;
+  answer.budget = settings.budget;
+  answer.blind = search.examiner().is_blind();
+  const trials::Replicates units = trials::replicates_of(study, 0);
+  const reading::AllTrialsFile file(settings.output);
+  Judged judged{
+      {{}, values_in_manifest(study, answer.free), results_in(file, study, units)}, units, {}, {}, 1, 1};
+  judged.counts = counts_of(study, units, judged.candidate.units);
+  judged.verdict = goal::judge_goals(study.goals, judged.counts, judged.correction);
+  const bool slid = has_slid(judged.candidate.units);
+  describe_proof(study, file, judged, answer);
+  const auto find_part = [&](const std::string& name, const std::function<void()>& work) {
+    if (!trials::within(effort, work)) answer.left_out.push_back(name);
+  };
+  if (!answer.blind) find_part("margins", [&] { add_margins(search, slid, effort.stop(), answer); });
+  find_part("torque at rest", [&] {
+    add_rest_torque(answer.behaviour, simulated_behaviour(search.candidate(answer.gains), search.units(),
+                                                          units_of_behaviour, effort));
+  });
+  answer.refusals = refusals_of(answer.behaviour, answer.margins, study);
+  if (settings.proven) settings.proven(answer);
+  ExtrasMaker({fresh, settings, search, journal, effort, speed, measured, elapsed, line}, answer).make();
+  answer.seconds = elapsed();
+  answer.spent_trials = effort.spent_trials();
+  answer.interrupted = effort.is_interrupted();
+  return answer;
+}
+
+}  // namespace
+
+TuneAnswer describe_tuned(const study::Study& study, const TuneSettings& settings,
+                          const std::stop_token& stop) {
+  require_tunable(study);
+  try {
+    return with_extras(study, settings, stop);
+  } catch (const trial::Interrupted&) {
+    throw Failure(ExitCode::interrupted, "interrupted: nothing was made; give the same command again");
   }
 }
 

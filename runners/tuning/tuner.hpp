@@ -1,17 +1,21 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "analysis/goal/goal_verdict.hpp"
+#include "analysis/summary/claims_of_point.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/tuning/answer_details.hpp"
+#include "runners/tuning/behaviour.hpp"
 #include "runners/tuning/limits.hpp"
 #include "runners/tuning/loop_examiner.hpp"
 #include "runners/tuning/nearest_point.hpp"
@@ -24,14 +28,33 @@ namespace zerocount::tuning {
 
 struct TuneAnswer;
 
+/// What follows the proof, in the order of what it tells.
+enum class Extra {
+  margins,   ///< what more delay loses; of a goal that is missed, what a wider band would change
+  room,      ///< of each free parameter
+  controls,  ///< others, each at its own best values
+  limits,    ///< what stands between the values and the goal
+  maps       ///< over pairs of free parameters, for a page
+};
+inline constexpr std::array all_extras{Extra::margins, Extra::room, Extra::controls, Extra::limits,
+                                       Extra::maps};
+
+/// "margins", "room", …
+std::string_view name_of(Extra extra);
+std::optional<Extra> extra_named(std::string_view name);
+
 struct TuneSettings {
   std::filesystem::path output;  ///< the results file of the proof
   TuneBudget budget{};
   int threads{0};
   bool quiet{false};
-  bool maps{false};   ///< simulate the maps too
+  bool page{false};  ///< a page is written afterwards, for which some of the time is kept
+  std::vector<Extra> extras{};
   bool force{false};  ///< replace the output, and unfinished runs of other studies
-  std::function<void(const TuneAnswer&)> proven{};  ///< called with what is proven, before the rest is found
+  /// Called before the proof, with what the values that are to be proven do.
+  std::function<void(const TuneAnswer&)> found{};
+  std::function<void(const TuneAnswer&)> proven{};        ///< called when the proof stands, before the extras
+  std::function<void(Extra, const TuneAnswer&)> ready{};  ///< called after each extra
 };
 
 /// Trials of the tuned study on machines that the search never saw.
@@ -40,6 +63,8 @@ struct Proof {
   goal::Verdict verdict;               ///< its confidence allows for all attempts
   std::optional<goal::Needs> needs{};  ///< that would decide an undecided one
   int attempts{1};                     ///< candidates or sizes that were proven, this one included
+  /// Each goal under each condition, with bounds that allow for all attempts.
+  std::vector<summary::ClaimOfPoint> claims{};
 };
 
 /// A simpler or another control at its own best values.
@@ -58,16 +83,19 @@ struct TuneAnswer {
   std::vector<study::FreeParameter> free;
   Values gains;                            ///< empty if no candidate keeps the margins
   std::optional<SmallestMargins> margins;  ///< of the gains
+  std::optional<double> lowest_mode;       ///< of a load, that the loops bear (LoopExaminer::lowest_mode), Hz
   bool blind{false};                       ///< the loop has no transfer function: no margins
   std::optional<NearestPoint> nearest;     ///< where no candidate keeps them
   std::optional<Proof> proof;
   double criterion{0.0};  ///< by the proof
   /// Quantile study::Goal::moves of the criterion's values of the worst goal, under its worst condition.
   double late_limit{0.0};
-  std::optional<DelayLost> delay_lost;  ///< controller.delay from which on a goal seems to be lost
-  bool delay_sought{false};             ///< whether up to 5 samples more were tried
-  double delay{0.0};                    ///< controller.delay of the tuned study
-  std::vector<std::string> at_edges;    ///< free parameters at an end of their range, "controller.ki = 5000"
+  std::vector<MoveBehaviour> behaviour;  ///< of the proof's moves; before the proof of the search's machines
+  std::vector<Refusal> refusals;         ///< what an engineer would refuse of it
+  std::optional<DelayLost> delay_lost;   ///< from which on a goal seems to be lost
+  bool delay_sought{false};              ///< whether up to 5 samples more were tried
+  std::vector<double> delays;            ///< [condition] controller.delay of the tuned study, samples
+  std::vector<std::string> at_edges;     ///< free parameters at an end of their range, "controller.ki = 5000"
   std::vector<Room> room;
   std::vector<Alternative> alternatives;
   std::vector<Limit> limits;
@@ -85,11 +113,28 @@ struct TuneAnswer {
   TuneBudget budget{};
   std::int64_t spent_trials{0};       ///< of all: search, proof, and what follows
   std::vector<std::string> left_out;  ///< parts of the answer for which the budget was not enough
+  std::vector<Extra> left_extras;     ///< extras among them
+  bool interrupted{false};  ///< after the proof: the extras that are left out wait for the same command
+  std::optional<double>
+      default_seconds{};  ///< that the search may take without a budget, as measured here, s
 };
 
-/// Tunes the study. An interrupted tuning goes on where it was when it is called again.
+/// Tunes the study. An interrupted tuning goes on where it was when it is called again. Interrupted after the
+/// proof, it returns what it has.
+///
+///     search: half of the budget; found: what the best values do
+///     prove them on fresh machines: FILE is complete, proven(answer)
+///     for each extra: ready(extra, answer)
+///
 /// @throws Failure: bad_input if the study cannot be tuned, the output exists, or the budget has too few
-/// trials; inconclusive if it has too little time; interrupted
+/// trials; inconclusive if it has too little time; interrupted before the proof
 TuneAnswer tune(const study::Study& study, const TuneSettings& settings, const std::stop_token& stop);
+
+/// Makes the extras for the values that TuneSettings::output, the results file of a proof, has. Its bounds do
+/// not allow for the attempts of the tuning.
+/// @param study of the file
+/// @throws Failure as tune()
+TuneAnswer describe_tuned(const study::Study& study, const TuneSettings& settings,
+                          const std::stop_token& stop);
 
 }  // namespace zerocount::tuning

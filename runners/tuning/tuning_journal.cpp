@@ -113,6 +113,7 @@ void TuningJournal::keep_speed(double speed) {
 }
 
 void TuningJournal::append(const std::string& line) {
+  if (path_.empty()) return;
   errno = 0;
   std::ofstream file(path_, std::ios::app);
   // A line break first ends the part of a line that a killed run may have left.
@@ -127,6 +128,7 @@ void TuningJournal::append(const std::string& line) {
 }
 
 void TuningJournal::remove() {
+  if (path_.empty()) return;
   std::error_code error;
   std::filesystem::remove(path_, error);
 }

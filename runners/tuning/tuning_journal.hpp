@@ -21,6 +21,7 @@ std::filesystem::path journal_path(const std::filesystem::path& output);
 class TuningJournal {
  public:
   /// Reads the evaluations of an earlier run, if there is one. The first evaluation begins a new file.
+  /// @param path empty: nothing is kept
   /// @param tuning hash of all that decides the results
   /// @param replace a journal of another tuning instead of refusing it
   /// @throws Failure: bad_input for a journal of another tuning, machine_failed

@@ -161,8 +161,21 @@ Criterion criterion_of(const study::Study& study, std::size_t goal, const std::s
 
 }  // namespace
 
+bool is_of_settling(const study::Study& study) {
+  return !study.tuning || is_of_settling(study.tuning->minimise);
+}
+
+std::string criterion_name(const study::Study& study) {
+  const std::string& name = study.tuning->minimise;
+  const auto has_tolerance = [](const study::Goal& goal) { return goal.tolerance.has_value(); };
+  if (!is_of_settling(study) || std::ranges::none_of(study.goals, has_tolerance)) return name;
+  const std::string_view measure =
+      std::ranges::all_of(study.goals, has_tolerance) ? "tolerance_settling_time" : "goal_settling_time";
+  return std::string(measure) + name.substr(name.rfind('.'));
+}
+
 bool is_proportion_of_allowed(const study::Study& study) {
-  return study.goals.size() > 1 && (!study.tuning || is_of_settling(study.tuning->minimise));
+  return study.goals.size() > 1 && is_of_settling(study);
 }
 
 std::vector<Criterion> criteria_of(const study::Study& study) {

@@ -42,6 +42,11 @@ struct Criterion {
 /// conditions.
 /// @throws Failure (bad_input) if Tuning::minimise names no quantile of a measure
 std::vector<Criterion> criteria_of(const study::Study& study);
+/// Its name: "band_settling_time.p95", "tolerance_settling_time.p95" where all goals have tolerances, of
+/// goals of both kinds "goal_settling_time.p95".
+std::string criterion_name(const study::Study& study);
+/// Whether it is of the settling times within the bands or tolerances of the goals.
+bool is_of_settling(const study::Study& study);
 /// Whether the criterion is a settling time as a proportion of what its goal allows.
 bool is_proportion_of_allowed(const study::Study& study);
 

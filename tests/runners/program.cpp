@@ -52,8 +52,9 @@ ProgramResult zerocount_program(const std::vector<std::string>& words, const fs:
   return {code, read_bytes(out), read_bytes(err)};
 }
 
-RunningProgram::RunningProgram(const std::vector<std::string>& words, const fs::path& directory)
-    : process_(start(words, directory, "/dev/null", "/dev/null")) {}
+RunningProgram::RunningProgram(const std::vector<std::string>& words, const fs::path& directory,
+                               const fs::path& out)
+    : process_(start(words, directory, out, "/dev/null")) {}
 
 void RunningProgram::send(int signal) const {
   kill(process_, signal);

@@ -37,7 +37,9 @@ class ProgramTest : public ::testing::Test {
 /// A `zerocount` that is running.
 class RunningProgram {
  public:
-  RunningProgram(const std::vector<std::string>& words, const std::filesystem::path& directory);
+  /// @param out file for its standard output
+  RunningProgram(const std::vector<std::string>& words, const std::filesystem::path& directory,
+                 const std::filesystem::path& out = "/dev/null");
   void send(int signal) const;
 
   /// Waits until the folder has so many shards of its run; it is an error if the program ends before.

@@ -82,6 +82,10 @@ class CheckAnswer(Answer):
         Inputs of a table of samples.
     correlated : str or None
         Correlated inputs.
+    assumed_away : list[str]
+        Effects of a real axis that the study leaves out without a word.
+    stated_none : list[str]
+        Effects of a real axis whose keys the manifest gives as 0.
     points_left_out : int
         Points without their theory here.
     theory : pandas.DataFrame
@@ -166,6 +170,8 @@ class CheckAnswer(Answer):
     same_in_points: list[str]
     sampled_together: str | None
     correlated: str | None
+    assumed_away: list[str]
+    stated_none: list[str]
     points_left_out: int
     theory: pandas.DataFrame
 
@@ -1149,6 +1155,56 @@ class LearnAnswer(Answer):
     unknowns: pandas.DataFrame
 
 
+class Margins(Record):
+    """Its smallest margins.
+
+    Attributes
+    ----------
+    gain : float or None
+        Gain margin; unknown where no loop has a limit, dB.
+    phase : float or None
+        Phase margin; unknown where no loop has a limit, degrees.
+    delay : float or None
+        Samples of delay until a loop is unstable; 10 means 10 or more, samples.
+    sensitivity : float or None
+        Largest |S|, S = 1/(1 + L).
+    crossover : float or None
+        Highest frequency at which |L| = 1; 0 without one, Hz.
+    stable : bool
+        Whether no loop is unstable.
+    machines : int
+        Machines that were examined.
+    """
+
+    gain: float | None
+    phase: float | None
+    delay: float | None
+    sensitivity: float | None
+    crossover: float | None
+    stable: bool
+    machines: int
+
+
+class Nearest(Record):
+    """The point that comes nearest to the margins, where none keeps them.
+
+    Attributes
+    ----------
+    gains : dict[str, float or None]
+        Its values, by parameter.
+    margins : Margins
+        Its smallest margins.
+    lacking : dict[str, float or None]
+        By how much margins are too small, or the sensitivity too large: dB, degrees, samples, 1.
+    """
+
+    _records = {"margins": Margins}
+
+    gains: dict[str, float | None]
+    margins: Margins
+    lacking: dict[str, float | None]
+
+
 class TuneProofWorlds(Record):
     """Verdicts by world.
 
@@ -1241,48 +1297,88 @@ class Worst(Record):
     inputs: dict[str, float | None]
 
 
-class Margins(Record):
-    """Its smallest margins.
+class GainMarginLoop(Record):
+    """The loop that has the worst gain_margin.
 
     Attributes
     ----------
-    gain : float or None
-        Gain margin; unknown where no loop has a limit, dB.
-    phase : float or None
-        Phase margin; unknown where no loop has a limit, degrees.
-    delay : float or None
-        Samples of delay until a loop is unstable; 10 means 10 or more, samples.
-    stable : bool
-        Whether no loop is unstable.
-    machines : int
-        Machines that were examined.
+    loop : str
+        The loop in words.
+    stiffness : float or None
+        Of the contact before it slides, N m/rad (N/m on a linear axis); unknown while sliding.
+    machine : int or None
+        Number of the machine; unknown where the stiffness says all of it.
+    condition : str or None
+        The condition that it bears, with conditions.
     """
 
-    gain: float | None
-    phase: float | None
-    delay: float | None
-    stable: bool
-    machines: int
+    loop: str
+    stiffness: float | None
+    machine: int | None
+    condition: str | None
 
 
-class Nearest(Record):
-    """The point that comes nearest to the margins, where none keeps them.
+class PhaseMarginLoop(Record):
+    """The loop that has the worst phase_margin.
 
     Attributes
     ----------
-    gains : dict[str, float or None]
-        Its values, by parameter.
-    margins : Margins
-        Its smallest margins.
-    lacking : dict[str, float or None]
-        By how much margins are too small: dB, degrees, samples.
+    loop : str
+        The loop in words.
+    stiffness : float or None
+        Of the contact before it slides, N m/rad (N/m on a linear axis); unknown while sliding.
+    machine : int or None
+        Number of the machine; unknown where the stiffness says all of it.
+    condition : str or None
+        The condition that it bears, with conditions.
     """
 
-    _records = {"margins": Margins}
+    loop: str
+    stiffness: float | None
+    machine: int | None
+    condition: str | None
 
-    gains: dict[str, float | None]
-    margins: Margins
-    lacking: dict[str, float | None]
+
+class DelayMarginLoop(Record):
+    """The loop that has the worst delay_margin.
+
+    Attributes
+    ----------
+    loop : str
+        The loop in words.
+    stiffness : float or None
+        Of the contact before it slides, N m/rad (N/m on a linear axis); unknown while sliding.
+    machine : int or None
+        Number of the machine; unknown where the stiffness says all of it.
+    condition : str or None
+        The condition that it bears, with conditions.
+    """
+
+    loop: str
+    stiffness: float | None
+    machine: int | None
+    condition: str | None
+
+
+class SensitivityLoop(Record):
+    """The loop that has the worst sensitivity.
+
+    Attributes
+    ----------
+    loop : str
+        The loop in words.
+    stiffness : float or None
+        Of the contact before it slides, N m/rad (N/m on a linear axis); unknown while sliding.
+    machine : int or None
+        Number of the machine; unknown where the stiffness says all of it.
+    condition : str or None
+        The condition that it bears, with conditions.
+    """
+
+    loop: str
+    stiffness: float | None
+    machine: int | None
+    condition: str | None
 
 
 class Searched(Record):
@@ -1317,18 +1413,34 @@ class TuneAnswer(Answer):
         Whether the goal is met; unreachable: not in the ranges.
     gains : dict[str, float or None]
         Tuned values by parameter; none where no values keep the margins.
-    claims : pandas.DataFrame or None
-        Verdicts on each goal under each condition, where there are several.
+    refusals : pandas.DataFrame
+        What a drive engineer would refuse of the tuned values, although they may meet the goal.
 
-        - ``goal``: name of the goal, of several
-        - ``condition``: name of the condition, with conditions
-        - ``status``: verdict on the goal under the condition
-        - ``rate``: proportion of moves that meet the goal, with one-sided bounds
+        - ``finding``: what an engineer would refuse
+        - ``text``: the finding in a sentence
+        - ``value``: proportion of the step, of the moves, of the converter's largest torque; degrees
+        - ``passes``: the value that passes
+        - ``remedy``: what excludes it, as it stands in a manifest
+
+    nearest : Nearest or None
+        The point that comes nearest to the margins, where none keeps them.
+    claims : pandas.DataFrame
+        Each goal under each condition, by the proof; the bounds allow for its attempts.
+
+        - ``goal``: name of the goal
+        - ``condition``: the condition under which it is judged
+        - ``moves``: moves that the goal asks, of all trials under the condition
+        - ``met``: of them, moves that meet the goal
+        - ``rate``: proportion of these moves, with one-sided bounds; with worlds of the worst world
         - ``rate_low``: lower bound
         - ``rate_high``: upper bound
         - ``machines``: proportion of machines that meet the goal, with one-sided bounds
         - ``machines_low``: lower bound
         - ``machines_high``: upper bound
+        - ``settling_time_p95``: 95 % quantile of the settling time of these moves; null where it is not within the
+          hold, s
+        - ``within``: settling time that the goal allows, s
+        - ``status``: verdict on the goal under the condition
 
     proof : Proof or None
         Trials of the tuned values on machines that the search never saw.
@@ -1338,20 +1450,62 @@ class TuneAnswer(Answer):
         Free parameters at an end of their range.
     worst : Worst or None
         The worst machine of the proof.
-    nearest : Nearest or None
-        The point that comes nearest to the margins, where none keeps them.
-    wider_band_rate : float or None
-        Rate of the goal with a band one count wider, where it is not met.
+    behaviour : pandas.DataFrame
+        What the moves of the proof do, by goal and condition; the torque at rest is of machines of the search where the
+        study does not measure it.
+
+        - ``goal``: name of the goal that asks the moves
+        - ``condition``: the condition that the machines bear
+        - ``moves``: moves of these trials
+        - ``overshoot_p95``: excursion beyond the target, which 95 % of the moves do not exceed, count
+        - ``overshoot_max``: largest excursion beyond the target, count
+        - ``overshoot_length_p95``: excursion beyond the target, rad (m on a linear axis), which 95 % of the moves do
+          not exceed
+        - ``overshoot_length_max``: largest excursion beyond the target, rad (m on a linear axis)
+        - ``overshoot_of_step_p95``: excursion beyond the target as a proportion of the move's step, which 95 % of the
+          moves do not exceed
+        - ``overshoot_of_step_max``: largest excursion beyond the target as a proportion of the move's step
+        - ``peak_torque_p95``: absolute torque decided, N m (N on a linear axis), which 95 % of the moves do not exceed
+        - ``peak_torque_max``: largest absolute torque decided, N m (N on a linear axis)
+        - ``peak_of_range_p95``: absolute torque as a proportion of the converter's largest, which 95 % of the moves do
+          not exceed
+        - ``peak_of_range_max``: largest absolute torque as a proportion of the converter's largest
+        - ``saturated``: moves in which the converter clipped, as a proportion
+        - ``rest_torque_rms``: rms of the torque at rest, N m (N on a linear axis)
+        - ``rest_torque_changes``: rms of its changes from sample to sample, N m (N on a linear axis)
+        - ``rest_torque_changes_of_range``: the same as a proportion of the converter's largest torque
+
     margins : Margins or None
         Smallest margins of the tuned loops.
+    lowest_mode : float or None
+        Frequency from which on the loops bear a mode of half of the inertia, which the study lacks, Hz.
+    gain_margin_loop : GainMarginLoop or None
+        The loop that has the worst gain_margin.
+    phase_margin_loop : PhaseMarginLoop or None
+        The loop that has the worst phase_margin.
+    delay_margin_loop : DelayMarginLoop or None
+        The loop that has the worst delay_margin.
+    sensitivity_loop : SensitivityLoop or None
+        The loop that has the worst sensitivity.
+    margins_by_condition : pandas.DataFrame or None
+        Smallest margins under each condition, with conditions.
+
+        - ``condition``: its name
+        - ``gain``: gain margin; unknown where no loop has a limit, dB
+        - ``phase``: phase margin; unknown where no loop has a limit, degrees
+        - ``delay``: samples of delay until a loop is unstable; 10 means 10 or more, samples
+        - ``sensitivity``: largest |S|, S = 1/(1 + L)
+        - ``crossover``: highest frequency at which |L| = 1; 0 without one, Hz
+        - ``stable``: whether no loop is unstable
+        - ``machines``: machines that were examined
+
+    wider_band_rate : float or None
+        Rate of the goal with a band one count wider, where it is not met.
     delay_lost : float or None
-        controller.delay from which on the goal seems lost, samples.
-    searched : Searched
-        Size of the search.
-    spent_trials : int
-        Trials of all.
-    left_out : list[str]
-        Parts of the answer for which the budget was not enough.
+        controller.delay from which on the goal seems lost; with conditions that of the condition under which it is lost
+        first, samples.
+    delay_lost_condition : str or None
+        That condition, with conditions.
     room : dict[str, list[float or None]]
         Range of each parameter in which the goal seems met, the others as tuned.
     alternatives : pandas.DataFrame
@@ -1385,29 +1539,47 @@ class TuneAnswer(Answer):
         - ``rate``: rate of the goal by the search, which is a little too good
         - ``criterion``: quantity that is minimised; unknown for never
 
+    searched : Searched
+        Size of the search.
+    spent_trials : int
+        Trials of all.
+    left_out : list[str]
+        Parts of the answer for which the budget was not enough.
+    interrupted : bool
+        Whether Ctrl-C ended it after the proof.
     """
 
-    _records = {"proof": Proof, "needed": Needed, "worst": Worst, "nearest": Nearest, "margins": Margins, "searched": Searched}
+    _records = {"nearest": Nearest, "proof": Proof, "needed": Needed, "worst": Worst, "margins": Margins, "gain_margin_loop": GainMarginLoop, "phase_margin_loop": PhaseMarginLoop, "delay_margin_loop": DelayMarginLoop, "sensitivity_loop": SensitivityLoop, "searched": Searched}
 
     goal: str
     status: Literal["met", "unreachable", "undecided"]
     gains: dict[str, float | None]
-    claims: pandas.DataFrame | None
+    refusals: pandas.DataFrame
+    nearest: Nearest | None
+    claims: pandas.DataFrame
     proof: Proof | None
     needed: Needed | None
     at_edges: list[str]
     worst: Worst | None
-    nearest: Nearest | None
-    wider_band_rate: float | None
+    behaviour: pandas.DataFrame
     margins: Margins | None
+    lowest_mode: float | None
+    gain_margin_loop: GainMarginLoop | None
+    phase_margin_loop: PhaseMarginLoop | None
+    delay_margin_loop: DelayMarginLoop | None
+    sensitivity_loop: SensitivityLoop | None
+    margins_by_condition: pandas.DataFrame | None
+    wider_band_rate: float | None
     delay_lost: float | None
-    searched: Searched
-    spent_trials: int
-    left_out: list[str]
+    delay_lost_condition: str | None
     room: dict[str, list[float | None]]
     alternatives: pandas.DataFrame
     limits: pandas.DataFrame
     frontier: pandas.DataFrame
+    searched: Searched
+    spent_trials: int
+    left_out: list[str]
+    interrupted: bool
 
 
 class LimitsAnswer(Answer):
@@ -1426,9 +1598,17 @@ class LimitsAnswer(Answer):
         - ``rates``: the rates of all goals under all conditions, where there are several
         - ``note``: what the rate does not show, or why there is none
 
+    additions : pandas.DataFrame
+        Rates with an effect added to those of the study.
+
+        - ``effect``: effect that is added to those of the study
+        - ``rate``: proportion of moves, or of machines, that meet the question with it
+        - ``note``: what is assumed of it, or found
+
     """
 
     limits: pandas.DataFrame
+    additions: pandas.DataFrame
 
 
 class Again(Record):

@@ -45,6 +45,7 @@ def tune(
     minimise: str | None = None,
     margins: Mapping[str, float] | None = None,
     budget: int | str | None = None,
+    extras: str | None = None,
     threads: int | None = None,
     report: str | os.PathLike[str] | None = None,
     force: bool = False,
@@ -70,7 +71,10 @@ def tune(
     margins : dict, optional
         Least margins ``gain`` (dB), ``phase`` (degrees) and ``delay`` (samples).
     budget : int or str, optional
-        Of the search, the proof and all else: a number of trials, or a time such as ``"60s"``.
+        Of the search, the proof and the extras: a number of trials, or a time such as ``"60s"``.
+    extras : str, optional
+        What follows the proof: ``"none"``, ``"all"`` (default) or some of ``"margins,room,controls,limits,maps"``
+        (maps on a page).
     threads : int, optional
         Default: all cores.
     report : path, optional
@@ -111,6 +115,7 @@ def tune(
             progress=progress,
             output=target,
             budget=budget,
+            extras=extras,
             threads=threads,
             report=None if report is None else pathlib.Path(report),
             force=force,

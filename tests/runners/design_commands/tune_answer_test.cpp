@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -67,15 +68,16 @@ TEST(TuneAnswer, SaysThatATimeIsNotReachedInASentence) {
 
 TEST(TuneAnswer, UnreachableSaysByHowMuchTheGoalIsMissed) {
   const study::Study study = axis();
-  EXPECT_EQ(json_of(answer_for(study, goal::Status::missed), study)["headline"],
-            "unreachable in these ranges: at the best values found 85.3 % of the moves meet the goal, and at "
-            "least 90 % are wanted");
+  EXPECT_EQ(
+      json_of(answer_for(study, goal::Status::missed), study)["headline"],
+      "unreachable in these ranges: at the best values found, controller.ki = 2e-05, controller.kp = 0, "
+      "85.3 % of the moves meet the goal, and at least 90 % are wanted");
 }
 
 TEST(TuneAnswer, NamesEachMarginWithItsUnitAndWhatIsWanted) {
   const study::Study study = axis();
   TuneAnswer answer = answer_for(study, goal::Status::met);
-  answer.margins = SmallestMargins{true, never, 41.0, 10.0, 8};
+  answer.margins = SmallestMargins{.gain = never, .phase = 41.0, .delay = 10.0, .machines = 8};
   EXPECT_THAT(
       text_of(answer, study),
       HasSubstr(
@@ -89,7 +91,7 @@ TEST(TuneAnswer, NamesTheMarginsThatTheNearestPointLacks) {
   answer.status = goal::Status::missed;
   answer.free = study.tuning->free;
   answer.examined = 4000;
-  answer.nearest = NearestPoint{{3e-5, 1e-4}, {true, 4.5, 41.0, 2.0, 8}};
+  answer.nearest = NearestPoint{{3e-5, 1e-4}, {.gain = 4.5, .phase = 41.0, .delay = 2.0, .machines = 8}};
   const std::string text = text_of(answer, study);
   EXPECT_THAT(text, HasSubstr("none of 4000 points that were tried keeps the margins\n"));
   EXPECT_THAT(text,
@@ -108,9 +110,14 @@ TEST(TuneAnswer, NamesWhatTheBudgetWasNotEnoughFor) {
   answer.budget.trials = 900;
   answer.spent_trials = 880;
   answer.left_out = {"room", "limits"};
+  answer.left_extras = {tuning::Extra::room, tuning::Extra::limits};
   const std::string text = text_of(answer, study);
   EXPECT_THAT(text, HasSubstr("spent: 880 of 900 trials"));
-  EXPECT_THAT(text, HasSubstr("the budget is not enough: room; limits\n"));
+  EXPECT_THAT(text, HasSubstr("left out, because the budget is not enough: room, limits; zerocount tune "
+                              "tuned.h5 --extras room,limits makes them\n"));
+  answer.interrupted = true;
+  EXPECT_THAT(text_of(answer, study),
+              HasSubstr("left out: room, limits; the same command goes on with them\n"));
   EXPECT_EQ(json_of(answer, study)["left_out"], (nlohmann::ordered_json{"room", "limits"}));
 }
 
@@ -152,17 +159,16 @@ tune: {free: {controller.ki: {log: [1.0e-5, 1.0e-4]}, controller.kp: [0, 1.0e-3]
   answer.proof->verdict = verdict_on_claims();
   answer.criterion = 0.7;
   answer.delay_sought = true;
-  answer.delay_lost = tuning::DelayLost{1.5, 0};
-  answer.delay = 1.0;
+  answer.delay_lost = tuning::DelayLost{0.5, 1};
+  answer.delays = {1.0, 1.25};
   answer.room = {{"controller.ki", 1e-5, 2e-5, std::nullopt, 3}};
   const nlohmann::ordered_json json = json_of(answer, study);
-  EXPECT_EQ(json["headline"],
-            "met: all 2 goals are met by these values under each of 2 conditions, 'small' under condition "
-            "loaded by the least");
-  ASSERT_EQ(json["claims"].size(), 4U);
-  EXPECT_EQ(json["claims"][1]["goal"], "large");
-  EXPECT_EQ(json["claims"][1]["condition"], "loaded");
-  EXPECT_EQ(json["claims"][2]["rate"], 0.97);
+  EXPECT_EQ(
+      json["headline"],
+      "met: all 2 goals are met by controller.ki = 2e-05, controller.kp = 0 under each of 2 conditions, "
+      "'small' under condition loaded by the least");
+  EXPECT_EQ(json["delay_lost"], 1.75);
+  EXPECT_EQ(json["delay_lost_condition"], "loaded");
   EXPECT_EQ(json["proof"]["goal"], "small");
   EXPECT_EQ(json["proof"]["condition"], "loaded");
   EXPECT_EQ(json["proof"]["rate"], 0.96);
@@ -171,21 +177,111 @@ tune: {free: {controller.ki: {log: [1.0e-5, 1.0e-4]}, controller.kp: [0, 1.0e-3]
   EXPECT_THAT(text,
               HasSubstr("the largest of all goals and conditions: 0.7 of the time that its goal allows\n"));
   EXPECT_THAT(text, HasSubstr("with 0.5 samples more of controller.delay the goal 'large' seems lost, first "
-                              "under condition empty\n"));
+                              "under condition loaded, where it is 1.25\n"));
   EXPECT_THAT(text,
               HasSubstr("controller.ki above its room: the goal 'small' is lost under condition loaded\n"));
-  const study::Study alone = axis();
-  EXPECT_FALSE(json_of(answer_for(alone, goal::Status::met), alone).contains("claims"));
 }
 
-// What is printed as soon as it is proven, and the rest, are the whole.
-TEST(TuneAnswer, IsTheProvenPartAndTheRest) {
+// What is printed as soon as it is ready is all of the answer.
+TEST(TuneAnswer, IsTheProvenPartTheExtrasAndTheEffort) {
   const study::Study study = axis();
-  const TuneAnswer answer = answer_for(study, goal::Status::met);
+  TuneAnswer answer = answer_for(study, goal::Status::met);
+  answer.delay_sought = true;
+  answer.delays = {1.0};
+  answer.room = {{"controller.ki", 1e-5, 2e-5, std::nullopt, std::nullopt}};
+  answer.limits = {tuning::Limit{.cause = "none", .rate = 0.9}};
   const Tuning tuning{answer, study, "tuned.h5"};
-  EXPECT_EQ(document::text(proven_answer().of(tuning)) + document::text(rest_answer().of(tuning)),
-            document::text(tune_answer().of(tuning)));
-  EXPECT_THAT(document::text(proven_answer().of(tuning)), HasSubstr("wrote tuned.h5"));
+  const auto without_blank_lines = [](std::string text) {
+    for (std::size_t at = 0; (at = text.find("\n\n")) != std::string::npos;) text.erase(at, 1);
+    return text;
+  };
+  std::string parts = document::text(proven_answer().of(tuning));
+  EXPECT_THAT(parts, HasSubstr("wrote tuned.h5"));
+  for (const tuning::Extra extra : tuning::all_extras)
+    parts += document::text(extra_answer(extra).of(tuning));
+  parts += document::text(closing_answer().of(tuning));
+  EXPECT_EQ(without_blank_lines(parts), without_blank_lines(document::text(tune_answer().of(tuning))));
+}
+
+/// Names in the tuned answer of a study with this goal.
+std::string criterion_text(const std::string& goals) {
+  const study::Study study = manifest::parse_study(
+      "zerocount: 1\nname: axis\nseed: 1\ntrials: 10\n"
+      "command: {targets: [9, 0], hold: 0.1}\ncontroller: {ki: 2.0e-5}\n" +
+          goals + "tune: {free: {controller.ki: {log: [1.0e-5, 1.0e-4]}, controller.kp: [0, 1.0e-3]}}\n",
+      "axis.yaml");
+  return text_of(answer_for(study, goal::Status::met), study);
+}
+
+TEST(TuneAnswer, NamesTheCriterionThatItMinimises) {
+  const std::string band = "{'on': [0], band: 1, within: 0.05, moves: 0.9}";
+  const std::string tolerance = "{'on': [1], tolerance: 1.0e-5, within: 0.05, moves: 0.9}";
+  EXPECT_THAT(criterion_text("goals: {a: " + band + "}\n"),
+              HasSubstr("\nband_settling_time.p95 by the proof"));
+  EXPECT_THAT(criterion_text("goals: {a: " + tolerance + "}\n"),
+              HasSubstr("\ntolerance_settling_time.p95 by the proof"));
+  EXPECT_THAT(criterion_text("goals: {a: " + band + ", b: " + tolerance + "}\n"),
+              HasSubstr("\ngoal_settling_time.p95 by the proof"));
+}
+
+TEST(TuneAnswer, NamesTheLoopsThatHaveTheSmallestMargins) {
+  const study::Study study = axis();
+  TuneAnswer answer = answer_for(study, goal::Status::met);
+  answer.margins = SmallestMargins{.gain = 7.0, .phase = 41.0, .delay = 10.0, .machines = 8};
+  answer.margins->gain_loop = tuning::CriticalLoop{"before sliding", 110.0, {}, 0};
+  answer.margins->phase_loop = tuning::CriticalLoop{"while sliding", {}, 5, 0};
+  EXPECT_THAT(text_of(answer, study),
+              HasSubstr("found in the loops: gain before sliding at 110 N m/rad; phase "
+                        "while sliding of machine 5\n"));
+  const nlohmann::ordered_json json = json_of(answer, study);
+  EXPECT_EQ(json["phase_margin_loop"]["machine"], 5);
+  EXPECT_TRUE(json["delay_margin_loop"].is_null());
+}
+
+/// A row of 100 moves of 40 counts, of a converter of 1 N m.
+tuning::MoveBehaviour quiet_moves() {
+  tuning::MoveBehaviour row;
+  row.moves = 100;
+  row.overshoot = {4.0, 6.0};
+  row.overshoot_length = {4e-6, 6e-6};
+  row.overshoot_of_step = {0.1, 0.15};
+  row.smallest_step = 40.0;
+  row.range = 1.0;
+  row.rest = tuning::RestTorque{0.2, 0.05, 0.05};
+  return row;
+}
+
+TEST(TuneAnswer, SaysWhatAnEngineerWouldRefuseAndWhatExcludesIt) {
+  const study::Study study = axis();
+  const auto remedies_of = [&](const tuning::MoveBehaviour& row, double phase) {
+    std::vector<std::string> remedies;
+    for (const tuning::Refusal& one : tuning::refusals_of(
+             {row}, SmallestMargins{.gain = 9.0, .phase = phase, .delay = 2.0, .machines = 8}, study))
+      remedies.push_back(one.remedy);
+    return remedies;
+  };
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(remedies_of(quiet_moves(), 30.0), Texts({}));
+  EXPECT_EQ(remedies_of(quiet_moves(), 29.9), Texts({"tune: {margins: {phase: 30}}"}));
+  tuning::MoveBehaviour row = quiet_moves();
+  row.overshoot_of_step.p95 = 0.26;
+  EXPECT_EQ(remedies_of(row, 41.0), Texts({"limits: {overshoot: 10}"}));
+  row.overshoot = {1.0, 1.0};  // within the goal's band of 1 count
+  EXPECT_EQ(remedies_of(row, 41.0), Texts({}));
+  row.saturated = 0.02;
+  EXPECT_EQ(remedies_of(row, 41.0), Texts({"limits: {peak_torque: 0.95}"}));
+  row.rest->of_range = 0.11;
+  EXPECT_EQ(remedies_of(row, 41.0),
+            Texts({"limits: {peak_torque: 0.95}",
+                   "limits: {rest_torque_noise: 0.01}, with verdict: {motion: true}"}));
+  TuneAnswer answer = answer_for(study, goal::Status::met);
+  answer.refusals = tuning::refusals_of({row}, {}, study);
+  EXPECT_THAT(text_of(answer, study),
+              HasSubstr("a drive engineer would refuse this: the converter clips in 2 % of "
+                        "the moves; to exclude it add limits: {peak_torque: 0.95}\n"));
+  EXPECT_EQ(json_of(answer, study)["refusals"][0]["finding"], "saturation");
+  EXPECT_THAT(sanity_line({answer, study, "tuned.h5"}),
+              HasSubstr("before the proof: a drive engineer would refuse"));
 }
 
 }  // namespace

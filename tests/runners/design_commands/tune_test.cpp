@@ -1,9 +1,13 @@
 // `tune`, `limits` and `worst`, from the manifest to the proof.
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -33,6 +37,7 @@ controller: {ki: 3.85e-5, delay: 1}
 
 constexpr std::string_view two_gains = R"(tune:
   free: {controller.ki: {log: [5.0e-6, 1.0e-3]}, controller.kp: [0, 5.0e-3]}
+  margins: {spread: off}
 )";
 
 class Tune : public ProgramTest {
@@ -159,6 +164,188 @@ TEST_F(Tune, GoesOnAfterAnInterruption) {
   EXPECT_GT(interruptions, 0);
   EXPECT_EQ(answer_of(result.out), answer_of(whole.out));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "tuned.h5.tuning"));
+}
+
+// As soon as the results file is there it is the whole proof; the answer is printed before any extra; Ctrl-C
+// keeps both, and the same command ends with the answer of a tuning without interruption.
+TEST_F(Tune, GivesTheProvenAnswerBeforeTheExtrasAndKeepsIt) {
+  write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
+  const std::vector<std::string> command{"tune", "axis.yaml", "-o", "tuned.h5", "--budget", "20000"};
+  const std::filesystem::path out = folder_.path() / "out.txt";
+  RunningProgram running(command, folder_.path(), out);
+  while (!std::filesystem::exists(folder_.path() / "tuned.h5"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  EXPECT_EQ(program({"judge", "tuned.h5"}).code, 0) << "complete at once";
+  for (int i = 0; i < 2000 && folder_.read("out.txt").find("wrote tuned.h5") == std::string::npos; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  running.send(SIGINT);
+  EXPECT_EQ(running.wait(), 130);
+  const std::string text = folder_.read("out.txt");
+  EXPECT_TRUE(text.starts_with("met: the goal is met by controller.ki")) << text;
+  const std::size_t proven = text.find("wrote tuned.h5");
+  ASSERT_NE(proven, std::string::npos) << text;
+  EXPECT_EQ(text.find("what limits it"), std::string::npos) << "interrupted before: " << text;
+  EXPECT_NE(text.find("limits; the same command goes on with them"), std::string::npos) << text;
+  EXPECT_EQ(program({"judge", "tuned.h5"}).code, 0) << "kept";
+
+  const auto numbers_of = [](const std::string& whole) { return whole.substr(0, whole.find("spent:")); };
+  const ProgramResult resumed = program(command);
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_EQ(resumed.out.substr(0, proven), text.substr(0, proven));
+  std::vector<std::string> again = command;
+  again.emplace_back("--force");
+  EXPECT_EQ(numbers_of(program(again).out), numbers_of(resumed.out));
+  // The extras stand behind the answer, in their order.
+  std::size_t last = proven;
+  for (const char* const extra :
+       {"of controller.delay", "room of each parameter", "other controls", "what limits it", "searched:"}) {
+    const std::size_t at = resumed.out.find(extra, last);
+    ASSERT_NE(at, std::string::npos) << extra << resumed.out;
+    last = at;
+  }
+}
+
+TEST_F(Tune, MakesTheExtrasThatAreAskedFor) {
+  write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
+  EXPECT_EQ(tune({"--extras", "rooms"}).code, 2);
+  EXPECT_EQ(tune({"--extras", "maps"}).code, 2) << "without a page";
+  const Json none = Json::parse(tune({"--extras", "none"}, "6000").out);
+  EXPECT_TRUE(none["room"].empty() && none["alternatives"].empty() && none["limits"].empty());
+  EXPECT_TRUE(none["left_out"].empty()) << none["left_out"];
+  EXPECT_GE(none["margins"]["gain"], 6.0) << "asked for or not";
+  const Json room = Json::parse(tune({"--extras", "room"}, "6000").out);
+  EXPECT_FALSE(room["room"].empty());
+  EXPECT_TRUE(room["alternatives"].empty() && room["limits"].empty());
+  EXPECT_EQ(room["gains"], none["gains"]);
+
+  // Of a results file that is there: the same values and proof, and the extras beside them.
+  const ProgramResult later = program({"tune", "tuned.h5", "--extras", "limits,margins", "--format", "json"});
+  ASSERT_EQ(later.code, 0) << later.err;
+  const Json limits = Json::parse(later.out);
+  EXPECT_EQ(limits["gains"], none["gains"]);
+  EXPECT_EQ(limits["behaviour"][0]["peak_torque_max"], none["behaviour"][0]["peak_torque_max"]);
+  EXPECT_EQ(limits["limits"][0]["cause"], "none");
+  EXPECT_TRUE(limits["room"].empty());
+  EXPECT_EQ(limits["margins"]["machines"], 2048);
+  EXPECT_EQ(program({"tune", "tuned.h5", "--force"}).code, 2);
+}
+
+TEST_F(Tune, NamesTheExtrasThatABudgetLeavesOutWithTheCommandThatMakesThem) {
+  write_axis("goal: {band: 1, within: 0.06, moves: 0.9}\n" + std::string(two_gains));
+  const ProgramResult result = program({"tune", "axis.yaml", "-o", "tuned.h5", "--budget", "1500"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const std::size_t line = result.out.find("left out, because the budget is not enough: ");
+  ASSERT_NE(line, std::string::npos) << result.out;
+  const std::string makes = "zerocount tune tuned.h5 --extras ";
+  const std::size_t names = result.out.find(makes, line);
+  ASSERT_NE(names, std::string::npos) << result.out;
+  const std::size_t begin = names + makes.size();
+  const std::string extras = result.out.substr(begin, result.out.find(' ', begin) - begin);
+  const ProgramResult later = program({"tune", "tuned.h5", "--extras", extras, "--budget", "20000"});
+  EXPECT_EQ(later.code, 0) << later.err;
+  EXPECT_EQ(later.out.find("left out"), std::string::npos) << later.out;
+  EXPECT_NE(later.out.find("what limits it"), std::string::npos) << later.out;
+}
+
+/// The row of a table that has these members.
+const Json& row_with(const Json& rows, const Json& members) {
+  for (const Json& row : rows) {
+    bool has_all = true;
+    for (const auto& [key, value] : members.items()) has_all = has_all && row.value(key, Json()) == value;
+    if (has_all) return row;
+  }
+  throw std::runtime_error("no such row: " + members.dump() + rows.dump());
+}
+
+/// The 95 % quantile (inverse of the empirical distribution function) and the maximum.
+std::pair<double, double> upper_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(values.size()) - 1e-9));
+  return {values[rank - 1], values.back()};
+}
+
+// Each number of what the values do is that of a study which `run` simulates with them: under each condition,
+// of the moves of each goal, in counts, SI units and of the step, with drawn steps, on a converter that
+// clips.
+TEST_F(Tune, SaysWhatTheTunedValuesDo) {
+  std::string manifest = std::string(axis);
+  const std::string command = "command: {targets: [29], hold: 0.3}";
+  manifest.replace(
+      manifest.find(command), command.size(),
+      "command: {targets: [{integers: [20, 200]}, 0], hold: 0.3}\ndac: {bits: 8, resolution: 1.0e-3}\n"
+      "conditions: {empty: {}, loaded: {plant.inertia: 8.0e-4}}\nverdict: {motion: true}");
+  folder_.write("axis.yaml", manifest +
+                                 "goals: {there: {'on': [0], band: 1, within: 0.25, moves: 0.3},\n"
+                                 "  back: {'on': [1], band: 2, within: 0.25, moves: 0.3}}\n" +
+                                 std::string(two_gains));
+  const ProgramResult result = tune({"--extras", "none"}, "12000");
+  ASSERT_NE(result.code, 2) << result.err;
+  const Json answer = Json::parse(result.out);
+  ASSERT_EQ(answer["behaviour"].size(), 4U) << result.out;
+  ASSERT_EQ(answer["claims"].size(), 4U);
+
+  // The proof is repeated by `run` from its manifest, and its statistics are those of `summary`.
+  folder_.write("tuned.yaml", reading::ResultsFile(folder_.path() / "tuned.h5").header().manifest);
+  ASSERT_EQ(program({"run", "tuned.yaml", "-o", "again.h5"}).code, 0);
+  const Json point = Json::parse(program({"summary", "again.h5", "--format", "json"}).out)["points"][0];
+  for (const Json& claim : answer["claims"]) {
+    const Json& same =
+        row_with(point["claims"], {{"goal", claim["goal"]}, {"condition", claim["condition"]}});
+    for (const char* const key : {"moves", "met", "rate", "settling_time_p95", "within"})
+      EXPECT_EQ(claim.value(key, Json()), same.value(key, Json())) << key;
+  }
+  double largest_overshoot = 0.0;
+  double largest_peak = 0.0;
+  for (const Json& row : answer["behaviour"]) {
+    largest_overshoot = std::max(largest_overshoot, row["overshoot_max"].get<double>());
+    largest_peak = std::max(largest_peak, row["peak_torque_max"].get<double>());
+  }
+  EXPECT_EQ(largest_overshoot, point["overshoot"]["max"].get<double>());
+  EXPECT_EQ(largest_peak, point["peak_torque"]["max"].get<double>());
+
+  // Quantiles, proportions and units by goal and condition, from the moves themselves.
+  const reading::AllTrialsFile file(folder_.path() / "again.h5");
+  const study::Study study = file.study();
+  const study::TrialTurns turns = study::turns_of(study);
+  const double count = 2.0 * 3.14159265358979323846 / 1620000.0;
+  constexpr double range = 0.128;
+  for (const Json& row : answer["behaviour"]) {
+    const std::size_t move = row["goal"] == "there" ? 0 : 1;
+    std::vector<double> overshoots, of_steps, peaks;
+    double saturated = 0.0, power = 0.0, changes = 0.0;
+    std::int64_t at_rest = 0;
+    for (std::int64_t trial = 0; trial < study.trials; ++trial) {
+      if (study.conditions[static_cast<std::size_t>(turns.condition_of(trial))] != row["condition"]) continue;
+      const std::vector<trial::MoveOutcome> moves = file.outcomes({trial, 1});
+      const trial::MoveOutcome& one = moves[move];
+      // From 0 to the first target, and back.
+      const auto step =
+          static_cast<double>(study::study_trial(study, 0, trial).parameters.command.targets[0]);
+      overshoots.push_back(static_cast<double>(one.overshoot));
+      of_steps.push_back(static_cast<double>(one.overshoot) / step);
+      peaks.push_back(one.peak_torque);
+      saturated += one.saturated ? 1.0 : 0.0;
+      if (std::isnan(one.rest_torque_power) || std::isnan(one.rest_torque_noise)) continue;
+      ++at_rest;
+      power += one.rest_torque_power;
+      changes += one.rest_torque_noise;
+    }
+    EXPECT_EQ(row["moves"], overshoots.size());
+    const auto expect_upper = [&](const std::string& key, const std::vector<double>& values, double scale) {
+      const auto [p95, max] = upper_of(values);
+      EXPECT_NEAR(row[key + "_p95"].get<double>(), p95 * scale, 1e-9 * p95 * scale) << key;
+      EXPECT_NEAR(row[key + "_max"].get<double>(), max * scale, 1e-9 * max * scale) << key;
+    };
+    expect_upper("overshoot", overshoots, 1.0);
+    expect_upper("overshoot_length", overshoots, count);
+    expect_upper("overshoot_of_step", of_steps, 1.0);
+    expect_upper("peak_torque", peaks, 1.0);
+    expect_upper("peak_of_range", peaks, 1.0 / range);
+    EXPECT_NEAR(row["saturated"].get<double>(), saturated / static_cast<double>(peaks.size()), 1e-12);
+    const auto rests = static_cast<double>(at_rest);
+    EXPECT_NEAR(row["rest_torque_rms"].get<double>(), std::sqrt(power / rests), 1e-9);
+    EXPECT_NEAR(row["rest_torque_changes"].get<double>(), std::sqrt(changes / rests), 1e-9);
+  }
 }
 
 /// Trials of all parts of an answer.

@@ -1,0 +1,256 @@
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "analysis/goal/goal_description.hpp"
+#include "analysis/goal/goal_text.hpp"
+#include "analysis/measures/goal_counts.hpp"
+#include "analysis/summary/claims_of_point.hpp"
+#include "analysis/text/text.hpp"
+#include "runners/design_commands/limits_command.hpp"
+#include "runners/design_commands/tune_parts.hpp"
+#include "runners/design_commands/worst_command.hpp"
+
+namespace zerocount::design_commands {
+namespace {
+
+using document::Description;
+using document::in_data;
+using document::Shown;
+using text::short_number;
+using tuning::Proof;
+using tuning::TuneAnswer;
+
+std::string unproven_headline(const TuneAnswer& answer) {
+  return answer.status == goal::Status::undecided
+             ? fmt::format(
+                   "undecided: of {} points that were tried some keep the margins, but the search lost them "
+                   "to faster ones that do not; a larger --budget may find them",
+                   answer.examined)
+             : fmt::format("unreachable in these ranges: none of {} points that were tried keeps the margins",
+                           answer.examined);
+}
+
+/// The tuned values: "controller.ki = 5000, controller.kp = 0".
+std::string tuned_text(Of tuning) {
+  return values_text(named(tuning.answer.free, tuning.answer.gains));
+}
+
+/// The worst goal of a verdict, and its worst condition.
+tuning::ClaimPlace worst_claim(const goal::Verdict& verdict) {
+  return {verdict.goal, verdict.condition};
+}
+
+/// "met: all 2 goals are met by controller.ki = 5000 under each of 2 conditions, 'small' under condition
+/// loaded by the least".
+std::string met_headline(Of tuning) {
+  const study::Study& study = tuning.study;
+  std::string text = study.goals.size() > 1 ? fmt::format("met: all {} goals are met by {}",
+                                                          study.goals.size(), tuned_text(tuning))
+                                            : fmt::format("met: the goal is met by {}", tuned_text(tuning));
+  if (study.goals.size() * static_cast<std::size_t>(study::condition_count(study)) < 2) return text;
+  const tuning::ClaimPlace worst = worst_claim(tuning.answer.proof->verdict);
+  if (study.conditions.size() > 1)
+    text += fmt::format(" under each of {} conditions", study.conditions.size());
+  text += study.goals.size() > 1 ? fmt::format(", '{}'", *tuning::goal_name(study, worst)) : ", that";
+  return text + study::condition_text(study, static_cast<std::int64_t>(worst.condition)) + " by the least";
+}
+
+std::string headline_of(Of tuning) {
+  if (!tuning.answer.proof) return unproven_headline(tuning.answer);
+  const std::optional<double> machines = worst_goal(tuning).machines;
+  const goal::Verdict& verdict = tuning.answer.proof->verdict;
+  switch (tuning.answer.status) {
+    case goal::Status::met:
+      return met_headline(tuning);
+    case goal::Status::missed:
+      return fmt::format(
+          "unreachable in these ranges: at the best values found, {}, {:.4g} % of the {}, and at least {:g} "
+          "% "
+          "are wanted",
+          tuned_text(tuning), 100.0 * (machines ? verdict.machines.value : verdict.moves.value),
+          rated_words(tuning.study, tuning::claim_at(tuning.study, worst_claim(verdict))),
+          100.0 * machines.value_or(worst_goal(tuning).moves));
+    case goal::Status::undecided:
+      break;
+  }
+  return fmt::format(
+      "undecided: the trials of the proof do not decide whether the best values found, {}, meet the goal",
+      tuned_text(tuning));
+}
+std::string worlds_line(const goal::Verdict& verdict) {
+  return fmt::format(
+      "by world: met in {}, missed in {}, undecided in {} ('zerocount summary' of the proof says what the "
+      "bad ones have in common)\n",
+      goal::worlds_that(goal::Status::met, verdict).size(),
+      goal::worlds_that(goal::Status::missed, verdict).size(),
+      goal::worlds_that(goal::Status::undecided, verdict).size());
+}
+
+std::string proof_sentence(Of tuning) {
+  if (!tuning.answer.proof) return "";
+  const Proof& proof = *tuning.answer.proof;
+  const study::Study& study = tuning.study;
+  std::string lines = fmt::format(
+      "proof: {} moves{} that the search never saw, of which {}{:.5g} % meet the goal, at least {:.5g} %\n",
+      proof.study.trials * study.moves,
+      study.rigs > 0 ? fmt::format(" on {} machines", proof.study.rigs) : std::string(),
+      study.worlds > 0 ? fmt::format("in the worst of {} new worlds ", study.worlds) : std::string(),
+      100.0 * proof.verdict.moves.value, 100.0 * proof.verdict.moves.low);
+  if (tuning::has_named_claims(study)) {
+    lines = fmt::format(
+        "proof: {} moves{} that the search never saw; the worst{}: {}{:.5g} % of its moves meet it, at least "
+        "{:.5g} %\n",
+        proof.study.trials * study.moves,
+        study.rigs > 0 ? fmt::format(" on {} machines", proof.study.rigs) : std::string(),
+        tuning::text_of_claim(study, worst_claim(proof.verdict)),
+        study.worlds > 0 ? fmt::format("in the worst of {} new worlds ", study.worlds) : std::string(),
+        100.0 * proof.verdict.moves.value, 100.0 * proof.verdict.moves.low);
+  }
+  const study::Goal& goal = worst_goal(tuning);
+  if (goal.machines) {
+    lines += fmt::format("at least {:.5g} % of machines meet it in {:g} % of their moves\n",
+                         100.0 * proof.verdict.machines.low, 100.0 * goal.moves);
+    const std::int64_t trials = study::draw_count(proof.study) / proof.study.rigs;
+    const measures::CountedGoal asked = measures::asked_of_moves(study)[proof.verdict.goal];
+    lines += goal::one_machine_text(
+        goal, {proof.study.rigs, trials, trials * measures::asked_moves(asked, study.moves)}, proof.verdict);
+  }
+  if (!proof.verdict.worlds.empty()) lines += worlds_line(proof.verdict);
+  if (proof.attempts > 1)
+    lines += fmt::format("it is attempt {}: the bounds allow for all of them\n", proof.attempts);
+  if (proof.needs) lines += goal::needs_sentence(goal, *proof.needs, study.rigs > 0) + '\n';
+  return lines;
+}
+
+/// Under each goal and condition.
+const std::vector<summary::ClaimOfPoint>& proven_claims(Of tuning) {
+  static const std::vector<summary::ClaimOfPoint> none;
+  return tuning.answer.proof ? tuning.answer.proof->claims : none;
+}
+
+std::string criterion_text(double value) {
+  return std::isfinite(value) ? short_number(value) : "not within the hold";
+}
+
+/// "band_settling_time.p95 by the proof: 0.0385 s".
+std::string criterion_sentence(Of tuning) {
+  if (!tuning.answer.proof) return "";
+  const study::Study& study = tuning.study;
+  const bool is_proportion = tuning::is_proportion_of_allowed(study);
+  const std::string unit = is_proportion ? "of the time that its goal allows"
+                                         : tuning::criteria_of(study).front().measure->field.column.unit;
+  const bool has_unit = std::isfinite(tuning.answer.criterion) && unit != "1" && !unit.empty();
+  return fmt::format("{} by the proof{}{}: {}{}", tuning::criterion_name(study),
+                     study.worlds > 0 ? ", of all worlds together" : "",
+                     tuning::has_named_claims(study) ? ", the largest of all goals and conditions" : "",
+                     criterion_text(tuning.answer.criterion), has_unit ? " " + unit : "");
+}
+
+/// The time after which the wanted proportion of moves are within the band for good.
+std::string late_sentence(Of tuning) {
+  if (!tuning.answer.proof || tuning.answer.status == goal::Status::met ||
+      !tuning::is_of_settling(tuning.study))
+    return "";
+  const char* const where = worst_goal(tuning).tolerance ? "tolerance" : "band";
+  const std::string moves =
+      fmt::format("{:g} % of the moves{}{}", 100.0 * worst_goal(tuning).moves,
+                  tuning::text_of_claim(tuning.study, worst_claim(tuning.answer.proof->verdict)),
+                  tuning.study.worlds > 0 ? " of all worlds together" : "");
+  if (!std::isfinite(tuning.answer.late_limit))
+    return fmt::format("  fewer than {} are within the {} for good at the end of the hold", moves, where);
+  return fmt::format("  {} are within the {} for good after {} s", moves, where,
+                     short_number(tuning.answer.late_limit));
+}
+
+std::string edges_sentence(Of tuning) {
+  std::string lines;
+  for (const std::string& edge : tuning.answer.at_edges) lines += edge + ": values beyond may be better\n";
+  return lines;
+}
+
+std::string worst_machine_sentence(Of tuning) {
+  if (!tuning.answer.worst) return "";
+  return "worst machine: " + worst_machine_text(*tuning.answer.worst, tuning.study);
+}
+
+Description<goal::Verdict> worlds_of_proof() {
+  Description<goal::Verdict> worlds;
+  for (const goal::Status status : all_statuses) {
+    const std::string word(goal::text_of(status));
+    worlds.value(
+        {.key = word, .meaning = "worlds in which the goal is " + word},
+        [status](const goal::Verdict& verdict) { return goal::worlds_that(status, verdict).size(); });
+  }
+  return worlds;
+}
+
+Description<Tuning> proof_description() {
+  Description<Tuning> proof;
+  const auto worst = [](Of t) { return worst_claim(t.answer.proof->verdict); };
+  return proof
+      .value({.key = "goal",
+              .meaning = "name of the worst goal, of several",
+              .shown = Shown::in_data,
+              .optional = true},
+             [worst](Of t) {
+               return tuning::has_named_claims(t.study) ? tuning::goal_name(t.study, worst(t)) : std::nullopt;
+             })
+      .value({.key = "condition",
+              .meaning = "name of the worst condition, with conditions",
+              .shown = Shown::in_data,
+              .optional = true},
+             [worst](Of t) { return tuning::condition_name(t.study, worst(t)); })
+      .value(in_data("rate", "proportion of moves that meet the goal, with one-sided bounds", "1"),
+             [](Of t) { return goal::bounded(t.answer.proof->verdict.moves); })
+      .value(in_data("machines_low",
+                     "lower bound of the proportion of machines that meet the goal, if it is about machines",
+                     "1"),
+             [](Of t) -> std::optional<double> {
+               if (!worst_goal(t).machines) return {};
+               return t.answer.proof->verdict.machines.low;
+             })
+      .value(in_data("rigs", "machines; 0 without rigs"), [](Of t) { return t.answer.proof->study.rigs; })
+      .value(in_data("trials", "trials"), [](Of t) { return t.answer.proof->study.trials; })
+      .value(in_data("seed", "seed of the proof"), [](Of t) { return t.answer.proof->study.seed; })
+      .value(in_data("attempts", "candidates or sizes that were proven"),
+             [](Of t) { return t.answer.proof->attempts; })
+      .value(in_data("criterion", "quantity that is minimised; unknown for never"),
+             [](Of t) { return t.answer.criterion; })
+      .object({.key = "worlds", .meaning = "verdicts by world", .optional = true}, worlds_of_proof(),
+              [](Of t) -> const goal::Verdict* {
+                const goal::Verdict& verdict = t.answer.proof->verdict;
+                return verdict.worlds.empty() ? nullptr : &verdict;
+              });
+}
+
+}  // namespace
+
+std::string tune_headline(Of tuning) {
+  return headline_of(tuning);
+}
+
+void add_proof(Description<Tuning>& items) {
+  items.sentence(proof_sentence)
+      .table({.key = "claims",
+              .heading = "each goal under each condition, by the proof",
+              .meaning = "each goal under each condition, by the proof; the bounds allow for its attempts"},
+             summary::claim_description(), proven_claims)
+      .object(in_data("proof", "trials of the tuned values on machines that the search never saw"),
+              proof_description(), [](Of t) { return t.answer.proof ? &t : nullptr; })
+      .object(in_data("needed", "study that would decide the goal"), goal::needs_description(),
+              [](Of t) { return t.answer.proof ? goal::practicable(t.answer.proof->needs) : nullptr; })
+      .sentence(criterion_sentence)
+      .sentence(late_sentence)
+      .value(in_data("at_edges", "free parameters at an end of their range"),
+             [](Of t) { return t.answer.at_edges; })
+      .sentence(edges_sentence)
+      .object(in_data("worst", "the worst machine of the proof"), worst_description(),
+              [](Of t) { return t.answer.worst; })
+      .sentence(worst_machine_sentence);
+}
+
+}  // namespace zerocount::design_commands

@@ -1,0 +1,266 @@
+#include "runners/tuning/extras.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/trial/trial.hpp"
+#include "runners/status/progress.hpp"
+#include "runners/status/status.hpp"
+#include "runners/tuning/proof_runner.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+constexpr std::int64_t points_of_delay = 20;   // that are simulated to find it
+constexpr std::int64_t points_of_room = 24;    // at most, of a parameter
+constexpr std::int64_t points_of_limits = 24;  // usually
+constexpr std::int64_t trials_of_control = 125'000;
+
+constexpr std::array<std::pair<Extra, std::string_view>, all_extras.size()> names{
+    {{Extra::margins, "margins"},
+     {Extra::room, "room"},
+     {Extra::controls, "controls"},
+     {Extra::limits, "limits"},
+     {Extra::maps, "maps"}}};
+
+TunedValues named_values(const std::vector<study::FreeParameter>& free, const Values& values) {
+  TunedValues named;
+  for (std::size_t i = 0; i < free.size(); ++i) named[free[i].name] = values[i];
+  return named;
+}
+
+/// controller.delay of the first machine under each condition, samples.
+std::vector<double> delays_of(const study::Study& study) {
+  const study::TrialTurns turns = study::turns_of(study);
+  std::vector<double> delays;
+  for (std::int64_t condition = 0; condition < turns.conditions; ++condition)
+    delays.push_back(study::study_trial(study, 0, turns.trial_of(0, condition)).parameters.controller.delay);
+  return delays;
+}
+
+}  // namespace
+
+std::string_view name_of(Extra extra) {
+  return std::ranges::find(names, extra, &std::pair<Extra, std::string_view>::first)->second;
+}
+
+std::optional<Extra> extra_named(std::string_view name) {
+  const auto found = std::ranges::find(names, name, &std::pair<Extra, std::string_view>::second);
+  return found == names.end() ? std::nullopt : std::optional(found->first);
+}
+
+ExtrasMaker::ExtrasMaker(const Context& context, TuneAnswer& answer)
+    : of_(context),
+      answer_(answer),
+      controls_(other_controls(of_.study)),
+      tuned_(of_.search.candidate(answer.gains)),
+      details_{tuned_, answer.free, answer.gains, of_.search.units(), 0, of_.effort} {
+  const auto points_if = [&](Extra extra, std::int64_t points) { return wants(extra) ? points : 0; };
+  const std::int64_t points =
+      points_if(Extra::limits, points_of_limits) +
+      (is_met() ? points_if(Extra::margins, points_of_delay) +
+                      points_if(Extra::room, points_of_room * std::ssize(answer_.free))
+                : 0);
+  if (!wants(Extra::controls)) controls_.clear();
+  plan_ = plan_rest(of_.study, points,
+                    wants(Extra::maps) ? trials_of_maps(of_.search.units(), answer_.free.size()) : 0,
+                    controls_, of_.effort, of_.speed);
+  details_.count = plan_.units;
+}
+
+bool ExtrasMaker::wants(Extra extra) const {
+  return std::ranges::find(of_.settings.extras, extra) != of_.settings.extras.end();
+}
+
+/// What an extra takes, at most, s.
+double ExtrasMaker::seconds_of(Extra extra) const {
+  const std::int64_t each = plan_.units * of_.search.units().trials_each;
+  std::int64_t trials = 0;
+  switch (extra) {
+    case Extra::margins:
+      trials = is_met() ? points_of_delay * each : units_of_limits().trials();
+      break;
+    case Extra::room:
+      trials = is_met() ? points_of_room * std::ssize(answer_.free) * each : 0;
+      break;
+    case Extra::controls:
+      trials =
+          std::ssize(controls_) *
+          std::min(trials_of_control, affordable_trials(one_of_shares(std::ssize(controls_)), of_.speed));
+      break;
+    case Extra::limits:
+      trials = points_of_limits * units_of_limits().trials();
+      break;
+    case Extra::maps:
+      trials = trials_of_maps(of_.search.units(), answer_.free.size());
+      break;
+  }
+  return std::min(static_cast<double>(trials) / of_.measured_speed, of_.effort.seconds_left());
+}
+
+void ExtrasMaker::make() {
+  std::vector<Extra> wanted;
+  for (const Extra extra : all_extras) {
+    if (wants(extra)) wanted.push_back(extra);
+  }
+  const auto remaining = [&](std::size_t first) {
+    double seconds = 0.0;
+    for (std::size_t i = first; i < wanted.size(); ++i) seconds += seconds_of(wanted[i]);
+    return std::min(seconds, of_.effort.seconds_left());
+  };
+  if (!wanted.empty() && !of_.settings.quiet && of_.measured_speed > 0.0) {
+    std::vector<std::string> each;
+    for (const Extra extra : wanted)
+      each.push_back(fmt::format("{} {}", name_of(extra), status::duration_text(seconds_of(extra))));
+    of_.line.clear();
+    status::tell("the extras take at most {} more: {}; Ctrl-C keeps what is printed\n",
+                 status::duration_text(remaining(0)), fmt::join(each, ", "));
+  }
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    of_.line.show([&] {
+      return fmt::format("proven; {}{}", name_of(wanted[i]),
+                         of_.measured_speed > 0.0 ? fmt::format(": at most {} of {} that remain",
+                                                                status::duration_text(seconds_of(wanted[i])),
+                                                                status::duration_text(remaining(i)))
+                                                  : std::string());
+    });
+    make(wanted[i]);
+    of_.line.clear();
+    if (of_.settings.ready && !of_.effort.is_interrupted()) of_.settings.ready(wanted[i], answer_);
+  }
+}
+
+/// Whether the work ended within the effort.
+bool ExtrasMaker::ended(const std::function<void()>& work) const {
+  if (of_.effort.stop().stop_requested()) return false;
+  try {
+    return trials::within(of_.effort, work);
+  } catch (const trial::Interrupted&) {
+    return false;
+  }
+}
+
+void ExtrasMaker::leave_out(Extra extra, const std::string& part) {
+  answer_.left_out.push_back(part);
+  if (std::ranges::find(answer_.left_extras, extra) == answer_.left_extras.end())
+    answer_.left_extras.push_back(extra);
+}
+
+void ExtrasMaker::make(Extra extra) {
+  const auto try_to = [&](const std::function<void()>& work) {
+    if (ended(work)) return;
+    leave_out(extra,
+              extra == Extra::margins ? "margins (what more delay loses)" : std::string(name_of(extra)));
+  };
+  switch (extra) {
+    case Extra::margins:
+      return try_to([&] { find_delay(); });
+    case Extra::room:
+      if (is_met()) try_to([&] { answer_.room = room_of(details_); });
+      return;
+    case Extra::controls:
+      return add_controls();
+    case Extra::limits:
+      return try_to([&] {
+        const trials::Replicates units = units_of_limits();
+        const study::Study of_limits = trials::variant_of(of_.study, trials::overrides_for(of_.study, units));
+        answer_.limits =
+            limits_of(at_values(of_limits, answer_.free, answer_.gains).value(), units, of_.effort);
+      });
+    case Extra::maps:
+      return try_to([&] { answer_.maps = maps_of(details_, of_.search.examiner()); });
+  }
+}
+
+/// The delay at which the goal is lost or, of a goal that is not met, what a wider band would change.
+void ExtrasMaker::find_delay() {
+  if (is_met()) {
+    answer_.delays = delays_of(tuned_);
+    answer_.delay_lost = delay_lost(details_);
+    answer_.delay_sought = true;
+    return;
+  }
+  TunedStudy wider = details_;
+  wider.count = units_of_limits().count;
+  answer_.wider_band_rate = rate_in_wider_band(wider, answer_.proof->verdict.goal);
+}
+
+/// All units of the search, with a budget those of the details.
+trials::Replicates ExtrasMaker::units_of_limits() const {
+  const trials::Replicates& all = of_.search.units();
+  if (!has_budget()) return all;
+  return {std::min(trials::in_equal_worlds(of_.study, plan_.units), all.count), all.trials_each};
+}
+
+void ExtrasMaker::add_controls() {
+  std::vector<TunedValues> tuned{named_values(answer_.free, answer_.gains)};
+  const auto all = std::ssize(controls_);
+  for (std::int64_t i = 0; i < all; ++i) {
+    const OtherControl& control = controls_[static_cast<std::size_t>(i)];
+    if (!ended([&] { add_control(control, one_of_shares(all - i), tuned); }))
+      leave_out(Extra::controls, fmt::format("controls ({})", control.name));
+  }
+}
+
+/// One of so many equal parts of what a budget leaves beside limits and maps; without a budget what a control
+/// takes by default.
+trials::Effort ExtrasMaker::one_of_shares(std::int64_t parts) const {
+  if (!has_budget()) return of_.effort.share(trials_of_control, {});
+  const std::int64_t later =
+      (wants(Extra::limits) ? points_of_limits * plan_.units * of_.search.units().trials_each : 0) +
+      plan_.trials_of_maps;
+  parts = std::max<std::int64_t>(parts, 1);
+  if (of_.settings.budget.trials)
+    return of_.effort.share(std::max<std::int64_t>(of_.effort.trials_left() - later, 0) / parts, {});
+  return of_.effort.share(
+      {}, (of_.effort.seconds_left() - static_cast<double>(later) / of_.speed) / static_cast<double>(parts));
+}
+
+/// @param tuned controls that are tuned already; gets this one
+void ExtrasMaker::add_control(const OtherControl& control, const trials::Effort& effort,
+                              std::vector<TunedValues>& tuned) {
+  const study::Study study = trials::variant_of(of_.study, control.overrides);
+  const SearchPlan plan = plan_other_search(study, control.free, effort, of_.speed);
+  StudySearch search(study, control.free, plan.size, of_.journal, of_.elapsed, effort);
+  SearchSettings limits;
+  limits.seed = study.seed;
+  limits.effort = plan.effort;
+  const SearchResult found = search.run(limits, starts_from(tuned, control.free));
+  answer_.points += found.points;
+  answer_.trials += found.trials;
+  if (found.finalists.empty() && found.cut) throw trials::Spent{};
+  Alternative alternative;
+  alternative.name = control.name;
+  for (const std::string& name : control.zero) alternative.fixed.emplace_back(name, 0.0);
+  if (!found.finalists.empty()) {
+    const Values& best = found.finalists.front().values;
+    judge_control(study, control.free, best, effort, alternative);
+    tuned.push_back(named_values(control.free, best));
+    for (const std::string& name : control.zero) tuned.back()[name] = 0.0;
+  }
+  answer_.alternatives.push_back(std::move(alternative));
+}
+
+/// Runs it on fresh machines.
+void ExtrasMaker::judge_control(const study::Study& study, const std::vector<study::FreeParameter>& free,
+                                const Values& values, const trials::Effort& effort,
+                                Alternative& alternative) const {
+  for (std::size_t i = 0; i < free.size(); ++i) alternative.gains.emplace_back(free[i].name, values[i]);
+  const trials::Replicates units{units_of_judgement(study, effort, of_.speed), trials_of_machine(study)};
+  std::vector<std::string> fresh = overrides_of(free, values);
+  fresh.push_back(fmt::format("seed={}", trials::fresh_seed(study.seed, "tuning, alternative")));
+  for (const std::string& one : trials::overrides_for(study, units)) fresh.push_back(one);
+  const Candidate candidate{
+      {}, values, results_of(trials::variant_of(study, fresh), units, units.count, nullptr, effort)};
+  alternative.verdict = goal::judge_goals(study.goals, counts_of(study, units, candidate.units), 1);
+  alternative.criterion = estimate_of(aim_of(study), candidate, units.count).criterion;
+  const ClaimPlace worst{alternative.verdict->goal, alternative.verdict->condition};
+  if (has_named_claims(study)) alternative.worst_goal = goal_name(study, worst);
+  alternative.worst_condition = condition_name(study, worst);
+}
+
+}  // namespace zerocount::tuning

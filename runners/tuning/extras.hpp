@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "runners/status/status.hpp"
+#include "runners/tuning/other_controls.hpp"
+#include "runners/tuning/study_search.hpp"
+#include "runners/tuning/tune_plan.hpp"
+#include "runners/tuning/tuner.hpp"
+
+namespace zerocount::tuning {
+
+/// Makes the extras of a tuning.
+///
+///     plan: so many units for each point that the budget is enough for all wanted extras
+///     for each wanted extra, in the order of Extra:
+///       tell what remains; make it; ready(extra)
+///       the effort ended: it is left out, and named
+///       a stop is requested: it and all later ones are left out
+class ExtrasMaker {
+ public:
+  struct Context {
+    const study::Study& study;  ///< that was tuned
+    const TuneSettings& settings;
+    StudySearch& search;     ///< whose machines are simulated
+    TuningJournal& journal;  ///< of the searches for other controls
+    const trials::Effort& effort;
+    double speed;           ///< by which a budget is planned, trials/s; infinite without a limit of time
+    double measured_speed;  ///< by which times are estimated, trials/s; 0 where nothing was measured
+    std::function<double()> elapsed;  ///< s
+    status::StatusLine& line;
+  };
+
+  /// @param answer with the tuned values and their proof; gets the extras
+  ExtrasMaker(const Context& context, TuneAnswer& answer);
+
+  void make();
+
+ private:
+  void make(Extra extra);
+  void find_delay();
+  void add_controls();
+  void add_control(const OtherControl& control, const trials::Effort& effort,
+                   std::vector<TunedValues>& tuned);
+  void judge_control(const study::Study& study, const std::vector<study::FreeParameter>& free,
+                     const Values& values, const trials::Effort& effort, Alternative& alternative) const;
+  bool ended(const std::function<void()>& work) const;
+  void leave_out(Extra extra, const std::string& part);
+  double seconds_of(Extra extra) const;
+  trials::Replicates units_of_limits() const;
+  trials::Effort one_of_shares(std::int64_t parts) const;
+  bool has_budget() const { return of_.settings.budget.trials || of_.settings.budget.seconds; }
+  bool is_met() const { return answer_.status == goal::Status::met; }
+  bool wants(Extra extra) const;
+
+  Context of_;
+  TuneAnswer& answer_;
+  std::vector<OtherControl> controls_;
+  study::Study tuned_;
+  RestPlan plan_;
+  TunedStudy details_;
+};
+
+}  // namespace zerocount::tuning

@@ -305,7 +305,8 @@ class Tuner {
     find_part("limits", [&] {
       const trials::Replicates units = units_of_limits();
       const study::Study of_limits = trials::variant_of(study_, trials::overrides_for(study_, units));
-      answer_.limits = limits_of(at_values(of_limits, answer_.free, answer_.gains).value(), units, effort_);
+      const study::Study tuned_study = at_values(of_limits, answer_.free, answer_.gains).value();
+      answer_.limits = limits_of(EffectRuns(tuned_study, units, effort_));
     });
     if (settings_.maps) find_part("maps", [&] { answer_.maps = maps_of(details, search_.examiner()); });
   }

@@ -82,6 +82,10 @@ class CheckAnswer(Answer):
         Inputs of a table of samples.
     correlated : str or None
         Correlated inputs.
+    assumed_away : list[str]
+        Effects of a real axis that the study leaves out without a word.
+    stated_none : list[str]
+        Effects of a real axis whose keys the manifest gives as 0.
     points_left_out : int
         Points without their theory here.
     theory : pandas.DataFrame
@@ -166,6 +170,8 @@ class CheckAnswer(Answer):
     same_in_points: list[str]
     sampled_together: str | None
     correlated: str | None
+    assumed_away: list[str]
+    stated_none: list[str]
     points_left_out: int
     theory: pandas.DataFrame
 
@@ -1371,12 +1377,11 @@ class TuneAnswer(Answer):
         Rates with each cause of failures switched off, that with none of them first.
 
         - ``cause``: cause of failures that is switched off
-        - ``rate``: proportion of moves, or of machines, that meet the question without it; unknown if it cannot be
-          simulated
+        - ``rate``: proportion of moves, or of machines, that meet the question; unknown if it is not simulated
         - ``goal``: the worst of several goals, which the rate is of
         - ``condition``: the worst condition, which the rate is of
         - ``rates``: the rates of all goals under all conditions, where there are several
-        - ``note``: what the rate does not show, or why there is none
+        - ``note``: what the rate does not show, what is assumed, or why there is none
 
     frontier : pandas.DataFrame
         Points of the search that no other point beats in both rate and criterion.
@@ -1419,16 +1424,26 @@ class LimitsAnswer(Answer):
         Rates with each cause of failures switched off, that with none of them first.
 
         - ``cause``: cause of failures that is switched off
-        - ``rate``: proportion of moves, or of machines, that meet the question without it; unknown if it cannot be
-          simulated
+        - ``rate``: proportion of moves, or of machines, that meet the question; unknown if it is not simulated
         - ``goal``: the worst of several goals, which the rate is of
         - ``condition``: the worst condition, which the rate is of
         - ``rates``: the rates of all goals under all conditions, where there are several
-        - ``note``: what the rate does not show, or why there is none
+        - ``note``: what the rate does not show, what is assumed, or why there is none
+
+    additions : pandas.DataFrame
+        Rates with an effect added to those of the study.
+
+        - ``effect``: effect that is added
+        - ``rate``: proportion of moves, or of machines, that meet the question; unknown if it is not simulated
+        - ``goal``: the worst of several goals, which the rate is of
+        - ``condition``: the worst condition, which the rate is of
+        - ``rates``: the rates of all goals under all conditions, where there are several
+        - ``note``: what the rate does not show, what is assumed, or why there is none
 
     """
 
     limits: pandas.DataFrame
+    additions: pandas.DataFrame
 
 
 class Again(Record):

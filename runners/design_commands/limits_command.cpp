@@ -29,9 +29,10 @@ constexpr const char* limits_help =
     "Tells what stands between a point and its goal: the rate of the goal with each cause of\n"
     "failures switched off alone, and with the best pair of causes: creep, the converter (16 times\n"
     "finer), the encoder (4 times finer), the sample rate (twice), delay and amplifier lag, noise,\n"
-    "disturbance, missed and late samples. The gains are not tuned again. Then with effects added\n"
-    "that a study may assume away: encoder noise, a sample of delay, and a mode of the load, of the\n"
-    "lowest frequency that costs at most 1 %. All are simulated with the same random numbers.\n"
+    "disturbance, missed and late samples. The gains are not tuned again. Where nothing is missed,\n"
+    "none of them is simulated. Then with effects added that a study may assume away: encoder\n"
+    "noise, a sample of delay, and the lowest mode of the load that costs at most 1 %. All are\n"
+    "simulated with the same random numbers, on all machines; a mode, which takes long, on the first.\n"
     "Without a goal the rate is that of moves that end at zero counts. Of several goals and\n"
     "conditions each rate is that of the worst. Of several points --point chooses one.\n"
     "\n"
@@ -52,25 +53,25 @@ std::vector<LimitRow> limit_rows(const std::vector<Limit>& limits) {
 /// "14 % fewer": the failures of the row, compared with those of the base.
 std::string failures_cell(const LimitRow& row) {
   const double base = row.base.rate.value();
-  const bool is_of_same_claim = row.limit.estimate.worst == row.base.estimate.worst;
-  if (&row.limit == &row.base || !row.limit.rate || base == 1.0 || !is_of_same_claim) return "";
+  const bool is_comparable = row.limit.estimate.worst == row.base.estimate.worst &&
+                             row.limit.estimate.units == row.base.estimate.units;
+  if (&row.limit == &row.base || !row.limit.rate || base == 1.0 || !is_comparable) return "";
   const double avoided = (*row.limit.rate - base) / (1.0 - base);
   return fmt::format("{:.0f} % {}", std::abs(100.0 * avoided), avoided >= 0.0 ? "fewer" : "more");
 }
 
-document::Description<LimitRow> limit_columns() {
+/// @param effect the column of Limit::effect
+document::Description<LimitRow> limit_columns(const document::Item& effect) {
   using Row = const LimitRow&;
   return document::Description<LimitRow>()
-      .value({.key = "cause", .heading = "switched off", .meaning = "cause of failures that is switched off"},
-             [](Row row) { return row.limit.cause; })
-      .value(
-          {.key = "rate",
-           .heading = "rate",
-           .meaning = "proportion of moves, or of machines, that meet the question without it; unknown if it "
-                      "cannot be simulated",
-           .unit = "1",
-           .notation = Notation::percent},
-          [](Row row) { return row.limit.rate; })
+      .value(effect, [](Row row) { return row.limit.effect; })
+      .value({.key = "rate",
+              .heading = "rate",
+              .meaning = "proportion of moves, or of machines, that meet the question; unknown if it is not "
+                         "simulated",
+              .unit = "1",
+              .notation = Notation::percent},
+             [](Row row) { return row.limit.rate; })
       .value({.key = "goal",
               .heading = "of goal",
               .meaning = "the worst of several goals, which the rate is of",
@@ -89,39 +90,39 @@ document::Description<LimitRow> limit_columns() {
              [](Row row) { return row.limit.rates; })
       .value({.key = "failures", .heading = "failures", .shown = Shown::to_people, .numeric = true},
              failures_cell)
-      .value(in_data("note", "what the rate does not show, or why there is none"),
+      .value(in_data("note", "what the rate does not show, what is assumed, or why there is none"),
              [](Row row) { return row.limit.note.empty() ? std::nullopt : std::optional(row.limit.note); })
       .value({.key = "remark", .heading = "remark", .shown = Shown::to_people},
              [](Row row) { return row.limit.rate ? row.limit.note : ""; });
 }
 
+/// "creep off, no noise are not simulated: nothing is missed": a line for each reason.
 std::string not_simulated(const std::vector<Limit>& limits) {
-  std::string lines;
+  std::vector<std::pair<std::string, std::vector<std::string>>> by_reason;
   for (const Limit& one : limits) {
-    if (!one.rate) lines += fmt::format("{} is not simulated: {}\n", one.cause, one.note);
+    if (one.rate) continue;
+    auto same = std::ranges::find(by_reason, one.note, &decltype(by_reason)::value_type::first);
+    if (same == by_reason.end()) same = by_reason.insert(same, {one.note, {}});
+    same->second.push_back(one.effect);
   }
+  std::string lines;
+  for (const auto& [reason, effects] : by_reason)
+    lines += fmt::format("{} {} not simulated: {}\n", fmt::join(effects, ", "),
+                         effects.size() == 1 ? "is" : "are", reason);
   return lines;
 }
 
 struct PointLimits {
   const study::Study& study;
   std::vector<Limit> limits;
-  std::vector<tuning::Addition> additions;
+  std::vector<Limit> additions;
 };
 
-document::Description<tuning::Addition> addition_columns() {
-  using tuning::Addition;
-  return document::Description<Addition>()
-      .value({.key = "effect", .heading = "added", .meaning = "effect that is added to those of the study"},
-             &Addition::effect)
-      .value({.key = "rate",
-              .heading = "rate",
-              .meaning = "proportion of moves, or of machines, that meet the question with it",
-              .unit = "1",
-              .notation = Notation::percent},
-             &Addition::rate)
-      .value({.key = "note", .heading = "remark", .meaning = "what is assumed of it, or found"},
-             &Addition::note);
+std::vector<LimitRow> addition_rows(const PointLimits& found) {
+  std::vector<LimitRow> rows;
+  rows.reserve(found.additions.size());
+  for (const Limit& one : found.additions) rows.push_back({one, found.limits.front()});
+  return rows;
 }
 
 /// "96.5 % of the moves meet the goal; most of them, 100 %, with twice the sample rate".
@@ -137,7 +138,7 @@ std::string limits_headline(const PointLimits& found) {
       best.estimate.worst == base.estimate.worst
           ? ""
           : tuning::text_of_claim(found.study, tuning::place_of_claim(found.study, best.estimate.worst)),
-      best.cause);
+      best.effect);
 }
 
 document::AnswerDescription<PointLimits> limits_answer() {
@@ -146,9 +147,11 @@ document::AnswerDescription<PointLimits> limits_answer() {
   answer.items.headline(limits_headline)
       .include(limits_description("with causes of failures switched off"), &PointLimits::limits)
       .table({.key = "additions",
-              .heading = "with effects added that every axis has",
+              .heading = "with an effect added that the study may assume away",
               .meaning = "rates with an effect added to those of the study"},
-             addition_columns(), &PointLimits::additions);
+             limit_columns({.key = "effect", .heading = "added", .meaning = "effect that is added"}),
+             addition_rows)
+      .sentence([](const PointLimits& found) { return not_simulated(found.additions); });
   return answer;
 }
 
@@ -156,11 +159,9 @@ ExitCode limits(const command_line::Arguments& arguments) {
   const ExaminedPoint examined = point_to_examine(arguments);
   const status::InterruptionWatch interruption;
   const PointLimits found = unless_interrupted([&]() -> PointLimits {
-    const trials::Replicates units = trials::replicates_of(examined.study, examined.point);
-    std::vector<Limit> limits = tuning::limits_of(examined.study, units, interruption.token());
-    std::vector<tuning::Addition> additions =
-        tuning::additions_to(examined.study, units, limits.front().rate.value(), interruption.token());
-    return {examined.study, std::move(limits), std::move(additions)};
+    const tuning::EffectRuns runs(examined.study, trials::replicates_of(examined.study, examined.point),
+                                  interruption.token());
+    return {examined.study, tuning::limits_of(runs), tuning::additions_to(runs)};
   });
   return answers::print(arguments, limits_answer(), found);
 }
@@ -182,7 +183,10 @@ document::Description<std::vector<Limit>> limits_description(const std::string& 
       .table({.key = "limits",
               .heading = title,
               .meaning = "rates with each cause of failures switched off, that with none of them first"},
-             limit_columns(), limit_rows)
+             limit_columns({.key = "cause",
+                            .heading = "switched off",
+                            .meaning = "cause of failures that is switched off"}),
+             limit_rows)
       .sentence(not_simulated);
 }
 

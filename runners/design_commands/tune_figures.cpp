@@ -164,7 +164,7 @@ Figure limits_figure(const TuneAnswer& answer) {
       "limits",
       {{"cause", "switched off", ""}, {"rate", "rate of the goal", "1"}, {"none", "nothing off", "1"}}};
   for (const Limit& one : answer.limits)
-    if (one.rate) data.rows.push_back({one.cause, datum(*one.rate), datum(*answer.limits.front().rate)});
+    if (one.rate) data.rows.push_back({one.effect, datum(*one.rate), datum(*answer.limits.front().rate)});
   const std::size_t rows = data.rows.size();
   Figure figure = report::figure_of(
       "tuning-limits", "tuning-limits", "What limits the goal",

@@ -1,31 +1,31 @@
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
 
-#include "runners/tuning/unit_runner.hpp"
+#include "runners/tuning/limits.hpp"
 
 namespace zerocount::tuning {
 
-/// Rate of the goal with an effect of a real axis added to those that the study has.
-struct Addition {
-  std::string effect;
-  std::optional<double> rate{};
-  std::string note{};  ///< what is assumed, or found
-};
+/// Effects of a real axis that are added to those of the point: encoder noise of 0.1 counts rms, in
+/// quadrature to that of each encoder that closes the loop, and one sample of delay.
+std::vector<Effect> added_effects(const study::Study& study, std::int64_t point);
 
-/// Rates of the goal on all units: with encoder noise added, with one sample of delay more, and, if the study
-/// has no second mass, with the lowest mode of a load that the goal bears.
+/// A mode of the load: half of the inertia is behind a coupling with this natural frequency (Hz) and 1 % of
+/// critical damping, both masses free; the encoders are on the motor.
+Effect load_mode(const study::Study& study, std::int64_t point, double frequency);
+
+/// Rates of the goal with each of these effects added, and, if the study has no second mass, with the lowest
+/// mode of a load that costs no goal under any condition more than 1 %. All on the random numbers of the
+/// study.
 ///
-///     mode: half of the inertia is behind a coupling, of 1 % damping; encoder on the motor
-///     lowest frequency f from half the sample rate down, with a rate of at least that without it − 1 %:
-///       f ← f/2 until it is not borne, or below the lowest that is tried; then bisected to 5 %
+///     borne(f, units): rates with a mode at f ≥ those without it − 1 %, on the same units
+///     f = half the sample rate; by halves while borne on few units; bisected to 5 %
+///     in steps of 5 % to the lowest that is borne on more units, whose rate is given
 ///
-/// The same random numbers stand in all of them.
-/// @param rate of the goal as the study is
+/// A mode takes ten times as long to simulate as a rigid axis, so these are the first units with 800 000
+/// samples together, and the few are 1/8 of them; there one missing unit more is allowed. A frequency is
+/// given up as soon as no result of the other units could save it.
 /// @throws trial::Interrupted, trials::Spent
-std::vector<Addition> additions_to(const study::Study& study, const trials::Replicates& units, double rate,
-                                   const trials::Effort& effort);
+std::vector<Limit> additions_to(const EffectRuns& runs);
 
 }  // namespace zerocount::tuning

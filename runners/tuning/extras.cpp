@@ -168,8 +168,8 @@ void ExtrasMaker::make(Extra extra) {
       return try_to([&] {
         const trials::Replicates units = units_of_limits();
         const study::Study of_limits = trials::variant_of(of_.study, trials::overrides_for(of_.study, units));
-        answer_.limits =
-            limits_of(at_values(of_limits, answer_.free, answer_.gains).value(), units, of_.effort);
+        const study::Study tuned = at_values(of_limits, answer_.free, answer_.gains).value();
+        answer_.limits = limits_of(EffectRuns(tuned, units, of_.effort));
       });
     case Extra::maps:
       return try_to([&] { answer_.maps = maps_of(details_, of_.search.examiner()); });

@@ -214,31 +214,29 @@ void with_a_regular_clock(PointEdit& at) {
 
 }  // namespace
 
-std::vector<Idealisation> idealisations_of(const study::Study& study, std::int64_t point) {
+std::vector<Effect> idealisations_of(const study::Study& study, std::int64_t point) {
   const PointEdit at(study, point);
   const std::string belongs =
       study.plan->plugin ? "the parameters of a plugin belong to its sample rate and encoder" : "";
-  std::vector<Idealisation> all;
-  if (has_creep(at)) all.push_back({.cause = "creep off", .edit = without_creep});
-  all.push_back({.cause = "a converter 16 times finer", .edit = with_finer_converter});
-  all.push_back({.cause = "an encoder 4 times finer",
+  std::vector<Effect> all;
+  if (has_creep(at)) all.push_back({.name = "creep off", .edit = without_creep});
+  all.push_back({.name = "a converter 16 times finer", .edit = with_finer_converter});
+  all.push_back({.name = "an encoder 4 times finer",
                  .note = not_tuned_again,
                  .refusal = belongs,
                  .edit = with_finer_encoder});
-  all.push_back({.cause = "twice the sample rate",
+  all.push_back({.name = "twice the sample rate",
                  .note = not_tuned_again,
                  .refusal = belongs,
                  .edit = with_twice_the_rate,
                  .change = resample_biquads});
   if (has_delay(at))
-    all.push_back({.cause = "no delay, no amplifier lag", .note = not_tuned_again, .edit = without_delay});
-  if (has_noise(at)) all.push_back({.cause = "no noise", .edit = without_noise});
+    all.push_back({.name = "no delay, no amplifier lag", .note = not_tuned_again, .edit = without_delay});
+  if (has_noise(at)) all.push_back({.name = "no noise", .edit = without_noise});
   if (has_disturbance(at))
-    all.push_back({.cause = "no disturbance",
-                   .edit = [](PointEdit&) {},
-                   .change = without_disturbance(at.limits("disturbance.torque"))});
+    all.push_back({.name = "no disturbance", .change = without_disturbance(at.limits("disturbance.torque"))});
   if (has_irregular_clock(at))
-    all.push_back({.cause = "no missed or late samples", .edit = with_a_regular_clock});
+    all.push_back({.name = "no missed or late samples", .edit = with_a_regular_clock});
   return all;
 }
 

@@ -12,13 +12,15 @@
 #include "analysis/goal/question.hpp"
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/trial_value.hpp"
+#include "core/batch/batch.hpp"
 #include "core/failure/failure.hpp"
 #include "runners/trials/trial_set.hpp"
 
 namespace zerocount::tuning {
 namespace {
 
-constexpr std::int64_t units_at_once = 64;
+constexpr std::int64_t trials_in_lanes = 256;    // one thread runs them at once
+constexpr std::int64_t trials_of_reference = 8;  // likewise, where lanes do not run them
 
 /// A part of an entry that one thread runs.
 struct Part {
@@ -60,16 +62,29 @@ class TrialCounter {
   std::size_t conditions_;
 };
 
+/// Trial i of a unit, changed.
+trial::TrialParameters trial_of(const UnitsToRun& entry, const trials::Replicates& units, std::int64_t unit,
+                                std::int64_t i) {
+  const std::int64_t trial = trials::trial_of_replicate(*entry.study, units, unit, i);
+  trial::TrialParameters parameters = study::study_trial(*entry.study, units.point, trial).parameters;
+  if (entry.change != nullptr) (*entry.change)(parameters);
+  return parameters;
+}
+
 std::vector<trial::TrialParameters> trials_of(const Part& part, const trials::Replicates& units) {
   std::vector<trial::TrialParameters> trials;
   for (std::int64_t unit = part.from; unit < part.to; ++unit) {
-    for (std::int64_t i = 0; i < units.trials_each; ++i) {
-      const std::int64_t trial = trials::trial_of_replicate(*part.entry->study, units, unit, i);
-      trials.push_back(study::study_trial(*part.entry->study, units.point, trial).parameters);
-      if (part.entry->change != nullptr) (*part.entry->change)(trials.back());
-    }
+    for (std::int64_t i = 0; i < units.trials_each; ++i)
+      trials.push_back(trial_of(*part.entry, units, unit, i));
   }
   return trials;
+}
+
+/// Units that one thread runs at once: enough for the lanes, or few where the trials take long.
+std::int64_t units_of_part(const UnitsToRun& entry, const trials::Replicates& units) {
+  const bool in_lanes = batch::runs_in_lanes(trial_of(entry, units, entry.from, 0));
+  const std::int64_t trials = in_lanes ? trials_in_lanes : trials_of_reference;
+  return std::max<std::int64_t>(1, trials / units.trials_each);
 }
 
 void add_outcomes(const Part& part, const trials::Replicates& units,
@@ -236,8 +251,10 @@ void run_units(std::span<const UnitsToRun> entries, const trials::Replicates& un
   for (const UnitsToRun& entry : entries) {
     entry.results->resize(static_cast<std::size_t>(entry.to));
     set.count += (entry.to - entry.from) * units.trials_each;
-    for (std::int64_t from = entry.from; from < entry.to; from += units_at_once)
-      parts.push_back({&entry, from, std::min(from + units_at_once, entry.to)});
+    if (entry.from >= entry.to) continue;
+    const std::int64_t size = units_of_part(entry, units);
+    for (std::int64_t from = entry.from; from < entry.to; from += size)
+      parts.push_back({&entry, from, std::min(from + size, entry.to)});
   }
   set.blocks = parts.size();
   set.draw = [&](std::size_t block) { return trials_of(parts[block], units); };

@@ -1,6 +1,7 @@
 #include "runners/tuning/worst_machines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -27,7 +28,11 @@ namespace zerocount::tuning {
 namespace {
 
 constexpr double tail = 0.0005;  // beyond each end of the box
-constexpr std::int64_t trials_of_search = 128;
+/// Trials of a machine at each stage of a race, from its first one on: the last stage decides.
+constexpr std::array<std::int64_t, 3> stage_trials{4, 16, 64};
+constexpr std::size_t stages = stage_trials.size();
+constexpr std::size_t race_part = 4;  // one of so many goes on to the next stage
+constexpr std::int64_t trials_at_once = 64;
 constexpr std::int64_t trials_of_verdict = 256;
 constexpr std::size_t worst_rigs = 4;
 constexpr std::size_t max_corners = 64;
@@ -40,7 +45,7 @@ constexpr std::size_t children = 32;
 struct BoxPoint {
   std::int64_t rig{0};
   std::vector<double> quantiles;
-  ClaimResult result{};  ///< all goals together
+  std::vector<ClaimResult> results{};  ///< [stage] of its first trials, all goals together
 };
 
 /// A time beyond any that matters, s: ten times that of the goal, or the hold of a move. Of several goals as
@@ -133,14 +138,17 @@ class MachineSearch {
     }
   }
 
-  WorstMachines run() {
+  /// @param likely_met proportion of the moves that the worst likely machine of other conditions meets: one
+  /// of this condition is sought only if a machine of the box meets less, since no likely one is worse
+  WorstMachines run(double likely_met) {
     const std::vector<UnitResult> results = results_of(given_, units_, units_.count, nullptr, stop_);
     const std::vector<std::int64_t> order = worst_units(results);
     std::vector<BoxPoint> named{worst_in(MachineRegion::box, order), machine_of(order.front())};
-    if (!is_likely(named[0])) named.push_back(worst_in(MachineRegion::likely, order));
-    std::vector<JudgedMachine> judgements;
-    judgements.reserve(named.size());
-    for (const BoxPoint& point : named) judgements.push_back(judged(point));
+    std::vector<JudgedMachine> judgements{judged(named[0]), judged(named[1])};
+    if (!is_likely(named[0]) && std::min(judgements[0].met, judgements[1].met) < likely_met) {
+      named.push_back(worst_in(MachineRegion::likely, order));
+      judgements.push_back(judged(named[2]));
+    }
     const auto worst_that = [&](const auto& is_meant) {
       std::size_t worst = named.size();
       for (std::size_t i = 0; i < named.size(); ++i) {
@@ -151,7 +159,8 @@ class MachineSearch {
     };
     constexpr std::size_t of_study = 1;
     const std::size_t in_box = worst_that([](const BoxPoint&) { return true; });
-    const std::size_t likely = worst_that([&](const BoxPoint& point) { return is_likely(point); });
+    std::size_t likely = worst_that([&](const BoxPoint& point) { return is_likely(point); });
+    if (likely == named.size()) likely = in_box;  // not sought: no likely machine is worse
     return {worst_machine(given_, units_.point, results),
             judgements[of_study],
             judgements[in_box],
@@ -187,16 +196,12 @@ class MachineSearch {
 
   BoxPoint worst_in(MachineRegion region, const std::vector<std::int64_t>& order) {
     std::vector<BoxPoint> population = first_points(region, order);
-    simulate(population);
-    keep_worst(population);
+    race(population);
     double step = 0.25;
     for (int generation = 0; generation < generations; ++generation) {
-      std::vector<BoxPoint> born;
-      for (std::size_t i = 0; i < children; ++i)
-        born.push_back(inside(child_of(population[i % population.size()], step), region));
-      simulate(born);
-      std::ranges::move(born, std::back_inserter(population));
-      keep_worst(population);
+      for (std::size_t i = 0, parents = population.size(); i < children; ++i)
+        population.push_back(inside(child_of(population[i % parents], step), region));
+      race(population);
       step *= 0.7;
     }
     return population.front();
@@ -301,23 +306,54 @@ class MachineSearch {
     return study::study_trial(study_, units_.point, point.rig, draws_of(point, number)).parameters;
   }
 
-  void simulate(std::vector<BoxPoint>& points) const {
-    const auto draw = [&](std::size_t p) {
-      std::vector<trial::TrialParameters> trials;
-      for (std::int64_t i = 0; i < trials_of_search; ++i)
-        trials.push_back(trial_of(points[p], given_.trials + i));
-      return trials;
+  /// Keeps the worst of the points, the worst first. After each stage a part of those that have not run all
+  /// trials goes on, by the trials that all of them have run.
+  void race(std::vector<BoxPoint>& points) const {
+    const auto newcomers = std::ranges::stable_partition(
+        points, [](const BoxPoint& point) { return point.results.size() == stages; });
+    std::vector<BoxPoint> running(newcomers.begin(), newcomers.end());
+    points.erase(newcomers.begin(), newcomers.end());
+    for (std::size_t stage = 0; stage < stages; ++stage) {
+      simulate(running, stage);
+      sort_by(running, stage);
+      const std::size_t on = std::max((running.size() + race_part - 1) / race_part, survivors / 2);
+      if (stage + 1 < stages && running.size() > on) running.resize(on);
+    }
+    std::ranges::move(running, std::back_inserter(points));
+    sort_by(points, stages - 1);
+    if (points.size() > survivors) points.resize(survivors);
+  }
+
+  /// Runs the trials of a stage.
+  void simulate(std::vector<BoxPoint>& points, std::size_t stage) const {
+    const std::int64_t from = stage == 0 ? 0 : stage_trials[stage - 1];
+    const auto trials = static_cast<std::size_t>(stage_trials[stage] - from);
+    for (BoxPoint& point : points)
+      point.results.push_back(stage == 0 ? ClaimResult{} : ClaimResult(point.results.back()));
+    const std::size_t size = (trials_at_once + trials - 1) / trials;
+    const auto points_of = [&](std::size_t block) {
+      return std::span(points).subspan(block * size, std::min(size, points.size() - block * size));
     };
-    trials::run({std::ssize(points) * trials_of_search, points.size(), draw}, stop_,
-                [&](std::size_t p, std::span<const trial::TrialOutcome> outcomes) {
-                  points[p].result = result_of(outcomes);
+    const auto draw = [&](std::size_t block) {
+      std::vector<trial::TrialParameters> drawn;
+      for (const BoxPoint& point : points_of(block)) {
+        for (std::int64_t i = from; i < stage_trials[stage]; ++i)
+          drawn.push_back(trial_of(point, given_.trials + i));
+      }
+      return drawn;
+    };
+    trials::run({static_cast<std::int64_t>(points.size() * trials), (points.size() + size - 1) / size, draw},
+                stop_, [&](std::size_t block, std::span<const trial::TrialOutcome> outcomes) {
+                  for (BoxPoint& point : points_of(block)) {
+                    add_to(point.results.back(), outcomes.first(trials));
+                    outcomes = outcomes.subspan(trials);
+                  }
                 });
   }
 
-  /// The moves that meet the goals which ask them, and the score of each; the largest double where it was
-  /// never reached.
-  ClaimResult result_of(std::span<const trial::TrialOutcome> outcomes) const {
-    ClaimResult result;
+  /// Adds the moves that meet the goals which ask them, and the score of each; the largest double where it
+  /// was never reached.
+  void add_to(ClaimResult& result, std::span<const trial::TrialOutcome> outcomes) const {
     for (const trial::TrialOutcome& outcome : outcomes) {
       for (const trial::MoveOutcome& move : outcome.moves) {
         if (!measures::is_asked(event_, move)) continue;
@@ -327,13 +363,13 @@ class MachineSearch {
         result.values.push_back(std::isnan(score) ? std::numeric_limits<double>::max() : score);
       }
     }
-    return result;
   }
 
-  void keep_worst(std::vector<BoxPoint>& points) const {
-    std::ranges::stable_sort(
-        points, [&](const BoxPoint& a, const BoxPoint& b) { return is_worse(a.result, b.result, late_); });
-    if (points.size() > survivors) points.resize(survivors);
+  /// The worst first.
+  void sort_by(std::vector<BoxPoint>& points, std::size_t stage) const {
+    std::ranges::stable_sort(points, [&](const BoxPoint& a, const BoxPoint& b) {
+      return is_worse(a.results[stage], b.results[stage], late_);
+    });
   }
 
   /// The values that are profiles, by their slots.
@@ -403,12 +439,22 @@ class MachineSearch {
       machine.no_manifest = failure.what();
       trials.clear();
       for (std::int64_t i = 0; i < trials_of_verdict; ++i)
-        trials.push_back(trial_of(point, given_.trials + trials_of_search + i));
+        trials.push_back(trial_of(point, given_.trials + stage_trials.back() + i));
     }
+    std::vector<ClaimResult> results = trials::results_of(
+        trials_of_verdict, trials_at_once,
+        [&](std::int64_t i) { return trials[static_cast<std::size_t>(i)]; }, stop_,
+        [&](const trial::TrialOutcome& outcome) {
+          ClaimResult result;
+          add_to(result, {&outcome, 1});
+          return result;
+        });
     ClaimResult result;
-    trials::run(
-        {trials_of_verdict, 1, [&](std::size_t) { return trials; }}, stop_,
-        [&](std::size_t, std::span<const trial::TrialOutcome> outcomes) { result = result_of(outcomes); });
+    for (const ClaimResult& one : results) {
+      result.moves += one.moves;
+      result.met += one.met;
+      result.values.insert(result.values.end(), one.values.begin(), one.values.end());
+    }
     machine.moves = result.moves;
     machine.met = met_proportion(result);
     const auto latest = std::ranges::max_element(result.values) - result.values.begin();
@@ -478,13 +524,15 @@ WorstMachines worst_machines(const study::Study& study, const trials::Replicates
                              const std::optional<std::filesystem::path>& folder,
                              const std::stop_token& stop) {
   std::vector<WorstMachines> under;  // [condition]
+  double likely_met = std::numeric_limits<double>::infinity();
   trials::Replicates alone = units;
   alone.trials_each /= study::condition_count(study);
   for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
     const std::string name =
         study.conditions.empty() ? "" : study.conditions[static_cast<std::size_t>(condition)];
-    WorstMachines& found =
-        under.emplace_back(MachineSearch(under_condition(study, condition), alone, name, folder, stop).run());
+    WorstMachines& found = under.emplace_back(
+        MachineSearch(under_condition(study, condition), alone, name, folder, stop).run(likely_met));
+    likely_met = std::min(likely_met, found.likely.met);
     found.of_study.claim.condition = static_cast<std::size_t>(condition);
     found.of_study.trial = study::turns_of(study).trial_of(found.of_study.trial, condition);
     for (JudgedMachine* one : {&found.again, &found.in_box, &found.likely}) {

@@ -66,6 +66,13 @@ struct WorstMachines {
 /// larger score (measures::MoveScore::event, that of `rare` too). The search in the box begins at the worst
 /// machines of the study, at the corners, and at points that fill the box. With conditions it is made under
 /// each, and the answer is of the worst.
+///
+///     race of some machines, on the same random numbers: 4 trials each; a quarter goes on to 16, of it a
+///       quarter to 64 trials; the 8 worst are kept
+///     population = race of the first machines
+///     8 times: population = race of it and of 32 children, each near a machine of the population
+///     the worst is judged by 256 trials of its own
+///
 /// @param folder from which the study's manifest names its files; none if it is not a file
 /// @throws trial::Interrupted; Failure (bad_input) if the study draws nothing that differs between machines
 WorstMachines worst_machines(const study::Study& study, const trials::Replicates& units,

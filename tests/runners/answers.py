@@ -113,6 +113,7 @@ QUESTIONS = [
     "tune tune.yaml -o tuned.h5 --budget 4700 --force",
     "limits axis.yaml",
     "worst axis.yaml",
+    "worst claims.yaml",
     "rare axis.yaml -o rare.h5 --force --budget 20000",
     "jerks no-goal.h5",
     "compare axis.h5 again.h5",

@@ -1525,12 +1525,11 @@ class TuneAnswer(Answer):
         Rates with each cause of failures switched off, that with none of them first.
 
         - ``cause``: cause of failures that is switched off
-        - ``rate``: proportion of moves, or of machines, that meet the question without it; unknown if it cannot be
-          simulated
+        - ``rate``: proportion of moves, or of machines, that meet the question; unknown if it is not simulated
         - ``goal``: the worst of several goals, which the rate is of
         - ``condition``: the worst condition, which the rate is of
         - ``rates``: the rates of all goals under all conditions, where there are several
-        - ``note``: what the rate does not show, or why there is none
+        - ``note``: what the rate does not show, what is assumed, or why there is none
 
     frontier : pandas.DataFrame
         Points of the search that no other point beats in both rate and criterion.
@@ -1591,12 +1590,21 @@ class LimitsAnswer(Answer):
         Rates with each cause of failures switched off, that with none of them first.
 
         - ``cause``: cause of failures that is switched off
-        - ``rate``: proportion of moves, or of machines, that meet the question without it; unknown if it cannot be
-          simulated
+        - ``rate``: proportion of moves, or of machines, that meet the question; unknown if it is not simulated
         - ``goal``: the worst of several goals, which the rate is of
         - ``condition``: the worst condition, which the rate is of
         - ``rates``: the rates of all goals under all conditions, where there are several
-        - ``note``: what the rate does not show, or why there is none
+        - ``note``: what the rate does not show, what is assumed, or why there is none
+
+    additions : pandas.DataFrame
+        Rates with an effect added to those of the study.
+
+        - ``effect``: effect that is added
+        - ``rate``: proportion of moves, or of machines, that meet the question; unknown if it is not simulated
+        - ``goal``: the worst of several goals, which the rate is of
+        - ``condition``: the worst condition, which the rate is of
+        - ``rates``: the rates of all goals under all conditions, where there are several
+        - ``note``: what the rate does not show, what is assumed, or why there is none
 
     additions : pandas.DataFrame
         Rates with an effect added to those of the study.

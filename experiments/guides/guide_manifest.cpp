@@ -71,10 +71,17 @@ std::string controller(double mass, const Lowest& lowest, int sample_rate) {
   const double kd = 1.4 * mass * w;
   const double ki = (lowest.damping + kd) * (lowest.k1 + kp) / (4.0 * mass);
   return fmt::format(
-      "# kp: m·w^2 with w = 2·pi·sample_rate/100; kd: 1.4·m·w; ki: a quarter of criterion (6) with the "
-      "lowest k1.\n"
-      "# A start, not a tuning: see zerocount tune.\n"
-      "controller: {{units: si, sample_rate: {}, delay: 1, kp: {}, ki: {}, kd: {}}}\n",
+      "controller:\n"
+      "  units: si\n"
+      "  sample_rate: {}   # Hz\n"
+      "  # assumed: one sample from the reading to the torque; 0 states that there is none\n"
+      "  delay: 1   # samples\n"
+      "  # A start, not a tuning: see zerocount tune.\n"
+      "  # kp: m·w^2 with w = 2·pi·sample_rate/100; kd: 1.4·m·w; ki: a quarter of criterion (6) with the "
+      "lowest k1\n"
+      "  kp: {}\n"
+      "  ki: {}\n"
+      "  kd: {}\n",
       sample_rate, written(kp), written(ki), written(kd));
 }
 
@@ -86,27 +93,27 @@ std::string converter(const GuideAxis& axis, const Lowest& lowest) {
 }
 
 /// Zero counts depend on noise and lag, which every axis has.
-std::string encoder_and_amplifier(const std::string& resolution, const std::string& unit) {
+std::string encoder_and_amplifier(const std::string& resolution) {
   return fmt::format(
-      "# assumed: a reading that seldom leaves its count at rest, the current loop of a servo drive. Yours "
-      "are in "
-      "their data\n"
-      "# sheets; 0 states that there is none.\n"
-      "encoder: {{{}fine_errors: {{noise: 0.1}}}}   # {}counts rms\n"
-      "amplifier: {{bandwidth: 1000}}   # Hz\n",
-      resolution, unit);
+      "encoder:\n"
+      "{}"
+      "  # assumed: at the middle of a count the reading seldom leaves it; 0 states that there is no noise\n"
+      "  fine_errors: {{noise: 0.1}}   # counts rms\n"
+      "amplifier:\n"
+      "  # assumed: the current loop of a servo drive; 0 states that there is no lag\n"
+      "  bandwidth: 1000   # Hz\n",
+      resolution);
 }
 
 std::string hardware(const Guide& guide, const GuideAxis& axis, const Lowest& lowest) {
   switch (guide.axis) {
     case AxisKind::rotary:
-      return "# counts of the encoder, and the converter: the defaults, which are those of the paper's "
-             "rig\n" +
-             encoder_and_amplifier("", "") + controller(axis.load.mass, lowest, 2000);
+      return "# resolution of encoder and converter: the defaults, which are those of the paper's rig\n" +
+             encoder_and_amplifier("") + controller(axis.load.mass, lowest, 2000);
     case AxisKind::linear:
       break;
   }
-  return encoder_and_amplifier(fmt::format("resolution: {}, ", written(axis.resolution)), "m per count; ") +
+  return encoder_and_amplifier(fmt::format("  resolution: {}   # m per count\n", written(axis.resolution))) +
          converter(axis, lowest) + controller(axis.load.mass, lowest, 10000);
 }
 

@@ -141,6 +141,16 @@ study::Study study_of(const std::string& text, const std::vector<std::string>& o
   return manifest::parse_study(text, "m.yaml", overrides);
 }
 
+std::vector<std::string_view> unstated_premises(const study::Study& study) {
+  std::vector<std::string_view> unstated;
+  for (const study::Premise& premise : study.premises) {
+    const bool is_usual = premise.assumption == "no encoder noise" || premise.assumption == "no delay" ||
+                          premise.assumption == "ideal amplifier";
+    if (is_usual && premise.state == study::PremiseState::assumed) unstated.push_back(premise.assumption);
+  }
+  return unstated;
+}
+
 std::size_t column_of(const study::Study& study, const std::string& name) {
   for (std::size_t i = 0; i < study.columns.inputs.size(); ++i) {
     if (study.columns.inputs[i].name == name) return i;

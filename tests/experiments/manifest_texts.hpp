@@ -31,6 +31,9 @@ study::Study study_of(const std::string& text, const std::vector<std::string>& o
 /// Index of the input column with this name.
 std::size_t column_of(const study::Study& study, const std::string& name);
 
+/// Which of encoder noise, delay and amplifier lag the study leaves out without a word, as it names them.
+std::vector<std::string_view> unstated_premises(const study::Study& study);
+
 /// Whether a message has these faults, one a line. "6:9: plant.inertai | inertia" is a line that begins with
 /// "m.yaml:6:9: plant.inertai: " and has the word "inertia" behind it; there may be several words. A fault
 /// that does not begin with a digit names its source, such as "--set trials=x: trials | number".

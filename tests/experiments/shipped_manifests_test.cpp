@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -52,6 +53,17 @@ TEST(ShippedManifests, SoAreThoseOfTheBenchmarks) {
   }
   EXPECT_EQ(names,
             (std::set<std::string>{"bench-creep", "bench-marginal", "bench-million", "bench-transient"}));
+}
+
+// Zero counts depend on them, so no study that one starts from leaves them out without a word.
+TEST(ShippedManifests, TheyStateNoiseDelayAndAmplifier) {
+  using Unstated = std::vector<std::string_view>;
+  for (const auto& entry : std::filesystem::directory_iterator(ZEROCOUNT_MANIFESTS)) {
+    if (entry.path().extension() != ".yaml") continue;
+    EXPECT_EQ(unstated_premises(manifest::load_study(entry.path())), Unstated{}) << entry.path();
+  }
+  EXPECT_EQ(unstated_premises(study_of(minimal_manifest())),
+            (Unstated{"no encoder noise", "no delay", "ideal amplifier"}));
 }
 
 TEST(ShippedManifests, Figure7HasTheTenTargetsAnd300Samples) {

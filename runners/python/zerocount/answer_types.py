@@ -1613,6 +1613,13 @@ class LimitsAnswer(Answer):
         - ``rate``: proportion of moves, or of machines, that meet the question with it
         - ``note``: what is assumed of it, or found
 
+    additions : pandas.DataFrame
+        Rates with an effect added to those of the study.
+
+        - ``effect``: effect that is added to those of the study
+        - ``rate``: proportion of moves, or of machines, that meet the question with it
+        - ``note``: what is assumed of it, or found
+
     """
 
     limits: pandas.DataFrame

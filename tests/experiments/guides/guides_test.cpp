@@ -13,6 +13,7 @@
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::guides {
 namespace {
@@ -102,7 +103,7 @@ TEST(Guides, FrictionBeyondTheConstantResistanceIsProportionalToTheLoad) {
   }
 }
 
-TEST(Guides, EveryManifestIsUnderstoodWithoutWarningsAtAnyUsualLoad) {
+TEST(Guides, EveryManifestStatesItsPremisesAndIsUnderstoodWithoutWarningsAtAnyUsualLoad) {
   std::mt19937 generator(2);
   for (const Guide& guide : guide_table()) {
     for (int i = 0; i < 10; ++i) {
@@ -116,6 +117,7 @@ TEST(Guides, EveryManifestIsUnderstoodWithoutWarningsAtAnyUsualLoad) {
       const study::Study study = manifest::parse_study(text, "guide.yaml");
       EXPECT_EQ(study.name, guide.name);
       EXPECT_TRUE(study.warnings.empty()) << study.warnings.front() << "\n" << text;
+      EXPECT_EQ(unstated_premises(study), std::vector<std::string_view>{}) << text;
     }
   }
 }

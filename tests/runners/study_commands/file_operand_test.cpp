@@ -1,4 +1,5 @@
 // A results file where a command expects a manifest: it stands for the study whose trials it holds.
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -6,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
+#include "tests/support/version_1_file.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -59,6 +61,22 @@ TEST_F(FileOperand, IsNotChangedNorOverwritten) {
             std::string::npos);
   EXPECT_NE(refusal({"controller", "axis.yaml", "--point", "best"}).find("expected a results file"),
             std::string::npos);
+}
+
+TEST_F(FileOperand, IsRefusedWhereItDoesNotTellTheStudy) {
+  const std::string earlier = version_1_file(folder_.path()).string();
+  out({"check", earlier});
+  EXPECT_NE(refusal({"run", earlier, "-o", "again.h5"}).find("other defaults"), std::string::npos);
+
+  out({"controller", "axis.yaml", "-o", "law.c"});
+  const std::string folder = folder_.path().string();
+  ASSERT_EQ(std::system(("cc -shared -fPIC -DZEROCOUNT_PLUGIN -I " ZEROCOUNT_PLUGIN_HEADERS " " + folder +
+                         "/law.c -o " + folder + "/law.so")
+                            .c_str()),
+            0);
+  out({"run", "axis.yaml", "-o", "law.h5", "--set", "controller={plugin: ./law.so}", "--set",
+       "sweep={grid: {friction.k1: [100]}}"});
+  EXPECT_NE(refusal({"check", "law.h5"}).find("its controller is a plugin"), std::string::npos);
 }
 
 }  // namespace

@@ -70,35 +70,37 @@ void PointEdit::scale(std::string_view parameter, double factor) {
   scale(slot_named(*plan_, parameter), factor);
 }
 
-std::vector<std::string> PointEdit::widen(double factor) {
-  std::vector<std::string> kept;
+Widened PointEdit::widen(double factor) {
+  Widened widened;
   for (std::size_t slot = 0; slot < plan_->table.rows.size(); ++slot) {
     const parameters::Parameter& row = plan_->table.rows[slot];
     const std::string_view name = row.name;
     const Value* const drawn = value_at_point(*plan_, slot, point_);
     if (drawn == nullptr || name.starts_with("initial.") || name.starts_with("command.")) continue;
     const numerics::Interval range = parameters::range_of(row, plan_->units);
+    if (std::ranges::find(plan_->sampled_slots, static_cast<std::uint32_t>(slot)) !=
+        plan_->sampled_slots.end())
+      continue;
     Value value = *drawn;
     bool fits = true;
     if (value.kind == Value::Kind::distribution) {
-      distributions::Distribution wider = distributions::widened(plan_->distributions[value.index], factor);
+      const distributions::Distribution& before = plan_->distributions[value.index];
+      distributions::Distribution wider = distributions::widened(before, factor);
+      if (wider == before) continue;
       fits = distributions::extremes_are_inside(wider, range);
       if (fits) value = drawn_from(value, std::move(wider));
     } else if (value.kind == Value::Kind::profile) {
       std::shared_ptr<const Rotors> wider = plan_->profiles[value.index]->widened(factor);
-      fits = numerics::contains(range, wider->all_limits().low);
+      fits = numerics::contains(range, wider->bounds().low);
       value.index = static_cast<std::uint32_t>(plan_->profiles.size());
       if (fits) plan_->profiles.push_back(std::move(wider));
     } else {
       continue;
     }
-    if (fits) {
-      assign(slot, value);
-    } else {
-      kept.emplace_back(name);
-    }
+    if (fits) assign(slot, value);
+    (fits ? widened.changed : widened.kept).emplace_back(name);
   }
-  return kept;
+  return widened;
 }
 
 void PointEdit::add(std::string_view parameter, std::int64_t number) {

@@ -10,6 +10,12 @@
 
 namespace zerocount::study {
 
+/// The dotted paths of drawn values that were widened, and of those that would leave their ranges.
+struct Widened {
+  std::vector<std::string> changed;
+  std::vector<std::string> kept;
+};
+
 /// A study with other values at one of its design points, in the units of its manifest. All other values and
 /// all random numbers stay: a scaled value is drawn as before. With conditions a value that is set is that
 /// under each of them; values are scaled and added to under one condition alone (under_condition()).
@@ -32,8 +38,7 @@ class PointEdit {
   /// Lets all that is drawn of the axis and its surroundings lie `factor` times as far from its centre
   /// (distributions::widened), but for the starts and the commands of moves. What would leave its range, and
   /// whole numbers, choices and rows of samples, stay as they are.
-  /// @return the dotted paths of what would leave its range
-  std::vector<std::string> widen(double factor);
+  Widened widen(double factor);
   /// For a slot of whole numbers.
   void add(std::string_view parameter, std::int64_t number);
 

@@ -108,6 +108,8 @@ void add_extra(Description<Tuning>& items, Extra extra) {
       return add_delay(items);
     case Extra::room:
       return add_room(items);
+    case Extra::robustness:
+      return add_robustness(items);
     case Extra::controls:
       return add_controls(items);
     case Extra::limits:

@@ -138,7 +138,7 @@ std::vector<tuning::Extra> extras_option(const command_line::Arguments& argument
     if (!extra)
       arguments.refuse(
           fmt::format("option '--extras': '{}' is not an extra; expected none, all, or some of "
-                      "margins,room,controls,limits,maps",
+                      "margins,room,robustness,controls,limits,maps",
                       name));
     if (extra == tuning::Extra::maps && !with_page)
       arguments.refuse("option '--extras': maps are drawn on a page; expected --report PAGE with them");
@@ -282,7 +282,7 @@ commands::Command tune_command() {
             answers::format_option(tune_answer().complete_type()),
             {"budget", "B", "of all: a number of trials, or a time such as 60s or 5min"},
             {"manifest,m", "TUNED", "write the manifest with the tuned values"},
-            {"extras", "E", "none, all (default), or some of margins,room,controls,limits,maps"},
+            {"extras", "E", "none, all (default), or some of margins,room,robustness,controls,limits,maps"},
             {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"},
             {"threads", "N", "threads to use; default: all cores"},
             set_option(),

@@ -192,6 +192,43 @@ Description<FrontierRow> frontier_columns() {
       .value(criterion_item(), [](Row row) { return row.point.estimate.criterion; });
 }
 
+/// "holds with 10 other seeds (94.9 %) and half the delay (97 %); lost with twice the spread (80 %)".
+std::string robustness_sentence(Of tuning) {
+  std::string holds, lost, unknown;
+  for (const tuning::Variation& one : tuning.answer.robustness) {
+    std::string& list = !one.limit.rate ? unknown : one.holds ? holds : lost;
+    list += (list.empty() ? "" : ", ") + one.limit.effect;
+    if (one.limit.rate) list += fmt::format(" ({})", text::percent_near(*one.limit.rate));
+  }
+  std::string line;
+  for (const auto& [words, list] : {std::pair("holds with ", &holds), std::pair("lost with ", &lost),
+                                    std::pair("not simulated: ", &unknown)}) {
+    if (!list->empty()) line += (line.empty() ? "" : "; ") + (words + *list);
+  }
+  return line.empty() ? line : line + '\n';
+}
+
+document::Description<tuning::Variation> variation_columns() {
+  using tuning::Variation;
+  return document::Description<Variation>()
+      .value(in_data("premise", "what differs from the study"),
+             [](const Variation& one) { return one.limit.effect; })
+      .value(in_data("holds", "whether every goal is met under every condition"),
+             [](const Variation& one) { return one.limit.rate ? std::optional(one.holds) : std::nullopt; })
+      .value({.key = "rate",
+              .meaning = "proportion of moves, or of machines, that meet the worst goal; of seeds the lowest",
+              .unit = "1",
+              .shown = Shown::in_json},
+             [](const Variation& one) { return one.limit.rate; })
+      .value({.key = "note",
+              .meaning = "what stayed, or why there is no rate",
+              .shown = Shown::in_json,
+              .optional = true},
+             [](const Variation& one) {
+               return one.limit.note.empty() ? std::nullopt : std::optional(one.limit.note);
+             });
+}
+
 }  // namespace
 
 std::string several_goal_text(const study::Study& study, std::size_t claim) {
@@ -236,6 +273,15 @@ void add_room(Description<Tuning>& items) {
       .table({.heading = "room of each parameter, the others as tuned", .shown = Shown::to_people},
              room_columns(), room_rows)
       .sentence(ends_of_room_sentence);
+}
+
+void add_robustness(Description<Tuning>& items) {
+  items.sentence(robustness_sentence)
+      .table({.key = "robustness",
+              .meaning = "rates at the tuned values with other seeds, spreads and delays",
+              .shown = Shown::in_json},
+             variation_columns(),
+             [](Of t) -> const std::vector<tuning::Variation>& { return t.answer.robustness; });
 }
 
 void add_controls(Description<Tuning>& items) {

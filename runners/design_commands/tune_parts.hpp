@@ -39,6 +39,7 @@ void add_margins(document::Description<Tuning>& items);
 void add_nearest(document::Description<Tuning>& items);
 void add_delay(document::Description<Tuning>& items);
 void add_room(document::Description<Tuning>& items);
+void add_robustness(document::Description<Tuning>& items);
 void add_controls(document::Description<Tuning>& items);
 void add_limits(document::Description<Tuning>& items);
 void add_frontier(document::Description<Tuning>& items);

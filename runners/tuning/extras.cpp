@@ -15,14 +15,16 @@
 namespace zerocount::tuning {
 namespace {
 
-constexpr std::int64_t points_of_delay = 20;   // that are simulated to find it
-constexpr std::int64_t points_of_room = 24;    // at most, of a parameter
+constexpr std::int64_t points_of_delay = 20;  // that are simulated to find it
+constexpr std::int64_t points_of_room = 24;   // at most, of a parameter
+constexpr std::int64_t points_of_robustness = 14;
 constexpr std::int64_t points_of_limits = 24;  // usually
 constexpr std::int64_t trials_of_control = 125'000;
 
 constexpr std::array<std::pair<Extra, std::string_view>, all_extras.size()> names{
     {{Extra::margins, "margins"},
      {Extra::room, "room"},
+     {Extra::robustness, "robustness"},
      {Extra::controls, "controls"},
      {Extra::limits, "limits"},
      {Extra::maps, "maps"}}};
@@ -61,7 +63,7 @@ ExtrasMaker::ExtrasMaker(const Context& context, TuneAnswer& answer)
       details_{tuned_, answer.free, answer.gains, of_.search.units(), 0, of_.effort} {
   const auto points_if = [&](Extra extra, std::int64_t points) { return wants(extra) ? points : 0; };
   const std::int64_t points =
-      points_if(Extra::limits, points_of_limits) +
+      points_if(Extra::limits, points_of_limits) + points_if(Extra::robustness, points_of_robustness) +
       (is_met() ? points_if(Extra::margins, points_of_delay) +
                       points_if(Extra::room, points_of_room * std::ssize(answer_.free))
                 : 0);
@@ -86,6 +88,9 @@ double ExtrasMaker::seconds_of(Extra extra) const {
       break;
     case Extra::room:
       trials = is_met() ? points_of_room * std::ssize(answer_.free) * each : 0;
+      break;
+    case Extra::robustness:
+      trials = points_of_robustness * units_of_limits().trials();
       break;
     case Extra::controls:
       trials =
@@ -162,14 +167,20 @@ void ExtrasMaker::make(Extra extra) {
     case Extra::room:
       if (is_met()) try_to([&] { answer_.room = room_of(details_); });
       return;
+    case Extra::robustness:
+      return try_to([&] {
+        const study::Study tuned = tuned_for_limits();
+        const trials::Replicates units = units_of_limits();
+        answer_.robustness = variations_of(
+            EffectRuns(tuned, units, of_.effort), units,
+            [&](std::uint64_t seed) { return tuned_for_limits({fmt::format("seed={}", seed)}); }, of_.effort);
+      });
     case Extra::controls:
       return add_controls();
     case Extra::limits:
       return try_to([&] {
-        const trials::Replicates units = units_of_limits();
-        const study::Study of_limits = trials::variant_of(of_.study, trials::overrides_for(of_.study, units));
-        const study::Study tuned = at_values(of_limits, answer_.free, answer_.gains).value();
-        answer_.limits = limits_of(EffectRuns(tuned, units, of_.effort));
+        const study::Study tuned = tuned_for_limits();
+        answer_.limits = limits_of(EffectRuns(tuned, units_of_limits(), of_.effort));
       });
     case Extra::maps:
       return try_to([&] { answer_.maps = maps_of(details_, of_.search.examiner()); });
@@ -194,6 +205,13 @@ trials::Replicates ExtrasMaker::units_of_limits() const {
   const trials::Replicates& all = of_.search.units();
   if (!has_budget()) return all;
   return {std::min(trials::in_equal_worlds(of_.study, plan_.units), all.count), all.trials_each};
+}
+
+/// The tuned study on the units of limits, with these overrides.
+study::Study ExtrasMaker::tuned_for_limits(std::vector<std::string> overrides) const {
+  for (std::string& one : trials::overrides_for(of_.study, units_of_limits()))
+    overrides.push_back(std::move(one));
+  return at_values(trials::variant_of(of_.study, overrides), answer_.free, answer_.gains).value();
 }
 
 void ExtrasMaker::add_controls() {

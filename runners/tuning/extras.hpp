@@ -55,6 +55,7 @@ class ExtrasMaker {
   void leave_out(Extra extra, const std::string& part);
   double seconds_of(Extra extra) const;
   trials::Replicates units_of_limits() const;
+  study::Study tuned_for_limits(std::vector<std::string> overrides = {}) const;
   trials::Effort one_of_shares(std::int64_t parts) const;
   bool has_budget() const { return of_.settings.budget.trials || of_.settings.budget.seconds; }
   bool is_met() const { return answer_.status == goal::Status::met; }

@@ -20,6 +20,7 @@
 #include "runners/tuning/loop_examiner.hpp"
 #include "runners/tuning/nearest_point.hpp"
 #include "runners/tuning/race/frontier.hpp"
+#include "runners/tuning/robustness.hpp"
 #include "runners/tuning/tune_plan.hpp"
 #include "runners/tuning/tuning_map.hpp"
 #include "runners/tuning/worst_machines.hpp"
@@ -30,14 +31,15 @@ struct TuneAnswer;
 
 /// What follows the proof, in the order of what it tells.
 enum class Extra {
-  margins,   ///< what more delay loses; of a goal that is missed, what a wider band would change
-  room,      ///< of each free parameter
-  controls,  ///< others, each at its own best values
-  limits,    ///< what stands between the values and the goal
-  maps       ///< over pairs of free parameters, for a page
+  margins,     ///< what more delay loses; of a goal that is missed, what a wider band would change
+  room,        ///< of each free parameter
+  robustness,  ///< with other seeds, spreads and delays
+  controls,    ///< others, each at its own best values
+  limits,      ///< what stands between the values and the goal
+  maps         ///< over pairs of free parameters, for a page
 };
-inline constexpr std::array all_extras{Extra::margins, Extra::room, Extra::controls, Extra::limits,
-                                       Extra::maps};
+inline constexpr std::array all_extras{Extra::margins,  Extra::room,   Extra::robustness,
+                                       Extra::controls, Extra::limits, Extra::maps};
 
 /// "margins", "room", …
 std::string_view name_of(Extra extra);
@@ -97,6 +99,7 @@ struct TuneAnswer {
   std::vector<double> delays;            ///< [condition] controller.delay of the tuned study, samples
   std::vector<std::string> at_edges;     ///< free parameters at an end of their range, "controller.ki = 5000"
   std::vector<Room> room;
+  std::vector<Variation> robustness;
   std::vector<Alternative> alternatives;
   std::vector<Limit> limits;
   std::vector<TriedPoint> tried;     ///< by the search

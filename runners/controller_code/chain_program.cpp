@@ -188,7 +188,7 @@ class ChainWriter {
     const loop::TorqueRange range = loop::integral_range(
         of_.controller.anti_windup, loop::lowest_torque(of_.dac), loop::highest_torque(of_.dac));
     const loop::IntegralConstants<double> c = loop::integral_constants(blocks_, sample_rate_, range);
-    const Term integral = state("integral_torque", "I, " + torque_unit_, Type::number, of_.initial_integral);
+    Term integral = state("integral_torque", "I, " + torque_unit_, Type::number, of_.initial_integral);
     std::optional<Term> changes;
     if (c.enter >= 0.0) {
       const Term inside = state("inside", "the error is within the deadband of the integral", Type::flag);
@@ -234,7 +234,7 @@ class ChainWriter {
                          fmt::format("{}, {} ({:.6g} {} in SI units)", meaning, torque_per("count"),
                                      value * si.factor, parameters::unit_on(of_.axis, si.unit)));
     };
-    const std::optional<Term> one = constant(name, usual);
+    std::optional<Term> one = constant(name, usual);
     if (!stands_now_) return one;
     const std::optional<Term> still = constant("standstill_" + name, at_standstill);
     if (!one && !still) return {};
@@ -370,7 +370,10 @@ class ChainWriter {
     write_.assign(inertia, travelled.term());
     write_.assign(filtered, q * write_.input(Input::torque));
     write_.assign(estimate, inertia - filtered + first);
-    Sum to_first(Term(-2.0) * (inertia + filtered));
+    // Twice the sum without a literal, which some compilers of Structured Text take in double precision.
+    const Term together = local("together");
+    write_.assign(together, inertia + filtered);
+    Sum to_first(-(together + together));
     to_first.subtract(a1, estimate);
     to_first.add(second);
     write_.assign(first, to_first.term());

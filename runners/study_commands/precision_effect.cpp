@@ -60,6 +60,7 @@ std::vector<End> ends_of(const study::Study& study, std::int64_t point, std::int
 
 PrecisionEffect::Ends summary_of(const std::vector<End>& ends) {
   std::vector<double> settled;
+  settled.reserve(ends.size());
   for (const End& end : ends) settled.push_back(end.settled);
   std::ranges::sort(settled);
   const auto quantile = [&](double p) {

@@ -59,9 +59,15 @@ double outside(double bound, double deviation) {
   return std::erfc(bound / deviation / std::numbers::sqrt2);
 }
 
+constexpr double negligible = 1e-6;  // of the samples or moves; smaller proportions are written as this
+
+/// An upper bound in %.
+std::string percent_at_most(double proportion) {
+  return fmt::format("{:.3g} %", 100.0 * std::max(proportion, negligible));
+}
+
 std::string percent_text(double proportion) {
-  constexpr double negligible = 1e-6;
-  return proportion < negligible ? "less than 0.0001 %" : fmt::format("{:.3g} %", 100.0 * proportion);
+  return (proportion < negligible ? "less than " : "") + percent_at_most(proportion);
 }
 
 /// What a test finds: how far the goal is out of reach, above 1 if it is, and why.
@@ -91,11 +97,11 @@ Doubt noise_leaves_the_band(const GoalOfTrial& of) {
   return {
       of.goal.moves / rate,
       fmt::format("encoder noise of {:.3g} counts rms leaves {} in {} of the samples of an axis that stands "
-                  "still, and {:.0f} samples of a move must be within it: {} of the moves can meet "
+                  "still, and {:.0f} samples of a move must be within it: at most {} of the moves can meet "
                   "the goal, which asks for {}; expected less noise, a wider band, or a tolerance",
                   errors.noise, of.band_text(),
                   percent_text(outside(static_cast<double>(of.goal.band) + 0.5, errors.noise)),
-                  of.samples_within(), percent_text(rate), percent_text(of.goal.moves))};
+                  of.samples_within(), percent_at_most(rate), percent_text(of.goal.moves))};
 }
 
 Doubt noise_moves_the_axis(const GoalOfTrial& of) {
@@ -192,8 +198,9 @@ double motion_by_noise(const FrozenLoop& loop, double noise, double resolution, 
 std::vector<std::string> doubtful_goals(const study::Study& study) {
   std::vector<std::string> lines;
   if (study.goals.empty()) return lines;
-  const std::vector<std::int64_t> points =
-      statistics::spread_over(study::point_count(study), max_trials_doubted);
+  const std::int64_t claims = study::condition_count(study) * std::ssize(study.goals);
+  const std::vector<std::int64_t> points = statistics::spread_over(
+      study::point_count(study), std::max<std::int64_t>(max_trials_doubted / claims, 1));
   for (const GoalTest test : goal_tests) {
     if (const auto line = worst_doubt(test, study, points)) lines.push_back(*line);
   }

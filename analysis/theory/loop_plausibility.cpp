@@ -24,20 +24,20 @@ constexpr std::int64_t max_trials_of_point = 5;
 constexpr double min_phase_margin = 20.0;  // degrees
 constexpr double min_delay_margin = 1.0;   // samples
 
-/// The longest step of a trial against its pre-sliding range, counts.
+/// The longest move of a trial against its pre-sliding range, counts.
 struct Travel {
-  double step{0.0};
+  double move{0.0};
   double range{std::numeric_limits<double>::infinity()};  ///< infinite without a spring
 
-  bool slides() const { return step > range; }
+  bool slides() const { return move > range; }
 };
 
 Travel travel_of(const trial::TrialParameters& p) {
   Travel travel;
-  if (p.command.profile.shape != loop::ReferenceShape::step || is_outside_theory(p)) return travel;
+  if (p.command.profile.shape == loop::ReferenceShape::sine || is_outside_theory(p)) return travel;
   std::int64_t before = 0;
   for (const std::int64_t target : p.command.targets) {
-    travel.step = std::max(travel.step, static_cast<double>(std::abs(target - before)));
+    travel.move = std::max(travel.move, static_cast<double>(std::abs(target - before)));
     before = target;
   }
   const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
@@ -86,11 +86,11 @@ double delay_margin(const ExaminedLoop& loop) {
 }
 
 // In the coarse phase, if there is one: it makes the long moves.
-double presliding_range_over_step(const ExaminedLoop& loop) {
+double presliding_range_over_move(const ExaminedLoop& loop) {
   const bool coarse = loop::has_coarse_phase(loop.trial.controller);
   const bool makes_moves = loop.of_trial.slides && (!coarse || loop.of_trial.name.ends_with("coarse phase"));
   if (!makes_moves || loop.stability != LoopStability::unstable) return not_concerned;
-  return loop.travel.range / loop.travel.step;
+  return loop.travel.range / loop.travel.move;
 }
 
 /// One row of the table of tests.
@@ -110,21 +110,20 @@ std::string phase_text(const ExaminedLoop& loop, double) {
 std::string delay_text(const ExaminedLoop& loop, double value) {
   return fmt::format(
       "{} a delay of {:.2g} samples more makes the loop unstable (phase margin {:.3g}° at {:.3g} Hz); "
-      "expected "
-      "at least {} sample",
+      "expected at least {} sample",
       loop.of_trial.name, value, loop.phase.value, loop.phase.frequency, min_delay_margin);
 }
 
-std::string step_text(const ExaminedLoop& loop, double) {
+std::string move_text(const ExaminedLoop& loop, double) {
   return fmt::format(
-      "a step of {:.6g} counts is longer than the pre-sliding range of {:.4g} counts, and {} the loop is "
-      "unstable; expected shorter steps, command.profile, or gains that are stable then",
-      loop.travel.step, loop.travel.range, loop.of_trial.name);
+      "a move of {:.6g} counts is longer than the pre-sliding range of {:.4g} counts, and {} the loop is "
+      "unstable; expected shorter moves, or gains that are stable then",
+      loop.travel.move, loop.travel.range, loop.of_trial.name);
 }
 
 constexpr std::array<LoopTest, 3> tests{{{phase_margin, min_phase_margin, phase_text},
                                          {delay_margin, min_delay_margin, delay_text},
-                                         {presliding_range_over_step, 1.0, step_text}}};
+                                         {presliding_range_over_move, 1.0, move_text}}};
 
 /// The worst value of a test so far.
 struct Worst {

@@ -16,7 +16,8 @@ inline constexpr std::int64_t max_trials_doubted = 100;
 ///
 ///   - a phase margin below 20°
 ///   - a delay margin (phase margin over crossover frequency) below one sample
-///   - a step beyond the pre-sliding range by a loop that is unstable while it slides
+///   - a move beyond the pre-sliding range, by a step or a profile, by a loop that is unstable while it
+///   slides
 ///
 /// The margins are those of trial_loops(), at rest and, where moves reach it, while sliding; of integral
 /// control alone those at k1 + k2, because it is meant to work up to criterion (6) or beyond. They come from

@@ -36,7 +36,8 @@ study::Study study_with(const std::string& goal, const std::string& more = "",
 
 std::vector<std::string> doubts(const std::string& goal, const std::string& dac = "bits: 20, range: 50",
                                 const std::string& encoder = "resolution: 1.0e-8") {
-  return doubtful_goals(study_with("goal: {" + goal + "}", "dac: {" + dac + "}\n", encoder));
+  const std::string moves = goal.find("moves:") == std::string::npos ? ", moves: 0.5" : "";
+  return doubtful_goals(study_with("goal: {" + goal + moves + "}", "dac: {" + dac + "}\n", encoder));
 }
 
 class GoalPlausibility : public testing::Test {
@@ -101,7 +102,7 @@ TEST_F(GoalPlausibility, MovesMeetABandNoOftenerThanTold) {
   constexpr int trials = 400;
   for (const double noise : {0.14, 0.15, 0.16}) {
     const study::Study study = manifest::parse_study(
-        fmt::format("zerocount: 1\nname: noise\nseed: 3\ntrials: {}\ngoal: {{band: 0, within: 0.1}}\n"
+        fmt::format("zerocount: 1\nname: noise\nseed: 3\ntrials: {}\n"
                     "encoder: {{fine_errors: {{noise: {}}}}}\ncommand: {{targets: [5], hold: 0.2}}\n"
                     "friction: {{alpha: 0}}\ncontroller: {{ki: 2.0e-5}}\n",
                     trials, noise),
@@ -193,14 +194,15 @@ TEST_F(GoalPlausibility, AToleranceHoldsTheMotionByNoise) {
 
 TEST_F(GoalPlausibility, TheGoalAndItsConditionAreNamed) {
   const study::Study study = study_with(
-      "goals: {coarse: {band: 2, within: 0.1}, fine: {tolerance: 1.0e-8, within: 0.1}}\n"
+      "goals: {coarse: {band: 2, within: 0.1, moves: 0.5}, fine: {tolerance: 1.0e-8, within: 0.1, moves: "
+      "0.5}}\n"
       "conditions: {cold: {dac.resolution: 1.0e-5}, warm: {dac.resolution: 0.15}}",
-      "dac: {bits: 20}\n");
+      "dac: {bits: 20, resolution: 1.0e-5}\n");
   const auto lines = doubtful_goals(study);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_TRUE(lines.front().starts_with("point 0 (all) under condition warm: goal fine: one code of the DAC"))
       << lines.front();
-  EXPECT_TRUE(doubtful_goals(study_with("")).empty());
+  EXPECT_TRUE(doubtful_goals(study_with("", "dac: {bits: 20, range: 50}\n")).empty());
 }
 
 }  // namespace

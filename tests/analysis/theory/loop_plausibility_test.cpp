@@ -85,15 +85,27 @@ TEST(LoopPlausibility, IntegralControlAloneIsDoubtedBeyondCriterionSeven) {
 }
 
 // The pre-sliding range is 694 counts: the loop with integral control alone is unstable while it slides.
-TEST(LoopPlausibility, ALongStepNeedsALoopThatIsStableWhileItSlides) {
+TEST(LoopPlausibility, AMoveBeyondThePreslidingRangeNeedsALoopThatIsStableWhileItSlides) {
   const char* const text = "longer than the pre-sliding range of 694.4 counts";
-  EXPECT_FALSE(contains(doubtful_loops(study_with("694", "ki: 3.85e-5")), text));
-  EXPECT_TRUE(contains(doubtful_loops(study_with("695", "ki: 3.85e-5")), text));
-  EXPECT_TRUE(contains(doubtful_loops(study_with("500, -300", "ki: 3.85e-5")), "a step of 800 counts"));
-  EXPECT_FALSE(contains(doubtful_loops(study_with("695", "kp: 6.0e-4, ki: 1.0e-6, kd: 1.0e-2")), text));
-  // A coarse phase makes the long moves.
-  const std::string coarse = "ki: 3.85e-5, coarse: {coarse_beyond: 300, kp: 6.0e-4, kd: 1.0e-2}";
-  EXPECT_FALSE(contains(doubtful_loops(study_with("5000", coarse)), text));
+  for (const char* const shape : {"step", "trapezoidal", "s_curve"}) {
+    const auto told = [shape](const std::string& targets, const std::string& controller,
+                              const std::string& what) {
+      return contains(
+          doubtful_loops(manifest::parse_study(
+              fmt::format("zerocount: 1\nname: doubt\nseed: 1\ntrials: 2\ncommand: {{targets: [{}], "
+                          "profile: {{shape: {}}}}}\ncontroller: {{{}}}\n",
+                          targets, shape, controller),
+              "m.yaml", {})),
+          what);
+    };
+    EXPECT_FALSE(told("694", "ki: 3.85e-5", text)) << shape;
+    EXPECT_TRUE(told("695", "ki: 3.85e-5", text)) << shape;
+    EXPECT_TRUE(told("500, -300", "ki: 3.85e-5", "a move of 800 counts")) << shape;
+    EXPECT_FALSE(told("695", "kp: 6.0e-4, ki: 1.0e-6, kd: 1.0e-2", text)) << shape;
+    // A coarse phase makes the long moves.
+    EXPECT_FALSE(told("5000", "ki: 3.85e-5, coarse: {coarse_beyond: 300, kp: 6.0e-4, kd: 1.0e-2}", text))
+        << shape;
+  }
 }
 
 TEST(LoopPlausibility, ADelayOfASampleMoreIsEndured) {

@@ -104,8 +104,10 @@ TEST_F(FirstStudy, ItsCommandsDoWhatTheReadmeSays) {
   EXPECT_EQ(judged["point"], 2);
   EXPECT_EQ(judged["status"], "met");
   expect_said(
-      fmt::format("{} % of the moves are within one count for good", percent(judged["rate"].get<double>())));
+      fmt::format("{} % of the moves are within 10 µrad for good", percent(judged["rate"].get<double>())));
   expect_said("at least " + text::percent_at_least(judged["rate_low"].get<double>()) + " of all moves");
+  expect_said(
+      fmt::format("{} of the 1000 machines had no miss", points[2]["goal"]["rigs_without_miss"].get<int>()));
   expect_said(fmt::format("too slow ({} %)", percent(points[0]["goal"]["rate"].get<double>())));
   expect_said(fmt::format("criterion (6) holds in {} % of the trials, {} % are stable.",
                           percent(points[4]["prediction"]["stable_share"].get<double>()),
@@ -114,36 +116,43 @@ TEST_F(FirstStudy, ItsCommandsDoWhatTheReadmeSays) {
   EXPECT_EQ(points[2]["zero_count"].get<int>() + points[2]["one_count"].get<int>(), 2000);
 }
 
-// A premise that docs/reliability.md names, and that which the answer does not survive.
-TEST_F(FirstStudy, ItsAnswerHoldsUnderAnotherPremiseOfItsPage) {
-  const auto judged_with = [this](const std::string& set) {
-    EXPECT_EQ(program({"run", "my-axis.yaml", "-o", "other.h5", "--quiet", "--force", "--set", set}).code, 0);
+/// The best gain alone.
+constexpr const char* best_gain = "sweep={grid: {controller.ki: [1.1768e+4]}}";
+
+// Premises that docs/reliability.md names: of the position the answer survives them, of the reading it does
+// not.
+TEST_F(FirstStudy, ItsAnswerHoldsUnderThePremisesOfItsPage) {
+  const auto judged_with = [this](const std::vector<std::string>& settings) {
+    std::vector<std::string> words{"run",     "my-axis.yaml", "-o",    "other.h5",
+                                   "--quiet", "--force",      "--set", best_gain};
+    for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+    EXPECT_EQ(program(words).code, 0);
     return nlohmann::json::parse(program({"judge", "other.h5", "--format", "json"}).out);
   };
-  const auto judged = judged_with("controller.delay=2");
+  const auto judged = judged_with({"controller.delay=2"});
   EXPECT_EQ(judged["status"], "met");
-  EXPECT_EQ(judged["point"], 2);
-  EXPECT_GE(judged["rate"].get<double>(), 0.9715);
-  EXPECT_LE(judged["rate"].get<double>(), 0.9895);
-  EXPECT_EQ(judged_with("friction.k1={lognormal: {median: 90, cv: 0.4}}")["status"], "missed");
+  EXPECT_GE(judged["rate"].get<double>(), 0.962);
+  EXPECT_LE(judged["rate"].get<double>(), 0.982);
+  EXPECT_EQ(judged_with({"friction.k1={lognormal: {median: 90, cv: 0.4}}"})["status"], "missed");
+  const std::string noisy = "encoder.fine_errors.noise=0.4";
+  EXPECT_EQ(judged_with({noisy})["status"], "met");
+  EXPECT_EQ(judged_with({noisy, "goal={band: 1, within: 0.05, moves: 0.95}"})["status"], "missed");
 }
 
-TEST_F(FirstStudy, CreepLimitsTheGainsThatAreStable) {
-  ASSERT_EQ(program({"run", "my-axis.yaml", "-o", "still.h5", "--quiet", "--set", "trials=1000", "--set",
-                     "friction.alpha=0"})
-                .code,
-            0);
-  const auto points = points_of("still.h5");
-  for (std::size_t p = 0; p < 3; ++p) EXPECT_EQ(points[p]["success_rate"].get<double>(), 1.0) << p;
-  EXPECT_LT(points[4]["success_rate"].get<double>(), 0.95) << "here it is the loop";
-}
-
-TEST_F(FirstStudy, WaitingLongerHelps) {
-  ASSERT_EQ(program({"run", "my-axis.yaml", "-o", "long.h5", "--quiet", "--set", "trials=1000", "--set",
-                     "command.hold=2", "--set", "sweep={}", "--set", "controller.ki=11768"})
-                .code,
-            0);
-  EXPECT_GT(points_of("long.h5")[0]["success_rate"].get<double>(), 0.83) << "0.72 with 0.5 s per move";
+TEST_F(FirstStudy, NoiseAndCreepKeepItFromZeroCounts) {
+  const auto zero_counts = [this](const std::vector<std::string>& settings) {
+    std::vector<std::string> words{"run",     "my-axis.yaml", "-o",      "still.h5", "--quiet",
+                                   "--force", "--set",        best_gain, "--set",    "trials=1000"};
+    for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+    EXPECT_EQ(program(words).code, 0);
+    return points_of("still.h5")[0]["success_rate"].get<double>();
+  };
+  const std::string quiet = "encoder.fine_errors.noise=0";
+  EXPECT_LT(zero_counts({}), 0.45);
+  EXPECT_EQ(zero_counts({quiet, "friction.alpha=0"}), 1.0);
+  const double creeping = zero_counts({quiet});
+  EXPECT_LT(creeping, 0.8);
+  EXPECT_GT(zero_counts({quiet, "command.hold=2"}), creeping + 0.1) << "jerks become rarer";
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ _TABLE = (
     "settling_time_median",
     "settling_time_p95",
     "band_settling_time_p95",
+    "tolerance_settling_time_p95",
     "jerk_count_mean",
 )
 _GOAL = {
@@ -190,14 +191,15 @@ class Results:
             ``goal`` (met, missed, undecided), ``goal_rate`` and its bounds; ``trials``; ``success_rate``, the
             proportion of trials that end at zero counts, and ``stable_rate``, each with bounds;
             ``settling_time_median`` and ``_p95`` (s), the arrival at zero; ``band_settling_time_p95[b]`` (s),
-            after which the error stays within b counts; ``jerk_count_mean`` per trial. Quantiles are of all moves:
+            after which the error stays within b counts, ``tolerance_settling_time_p95[t]`` (s), after which the
+            position error stays within t; ``jerk_count_mean`` per trial. Quantiles are of all moves:
             the k-th smallest of n with k = ⌈p·n⌉, where a move that never arrives is later than any other.
 
         Examples
         --------
         >>> r = zc.open("my-axis.h5")
         >>> r.table.loc[2, ["ki", "goal", "goal_rate"]].to_list()
-        [11767.7344682513, 'met', 0.986]
+        [11767.7344682513, 'met', 0.97975]
         >>> r.table.attrs["units"]["settling_time_p95"]
         's'
         """
@@ -276,7 +278,7 @@ class Results:
         --------
         >>> t = zc.open("my-axis.h5").trials(point=2)
         >>> t[["k1", "rig", "success"]].iloc[0].to_dict()
-        {'k1': 129.43261101715342, 'rig': 0, 'success': True}
+        {'k1': 129.43261101715342, 'rig': 0, 'success': False}
         """
         columns = self._columns.trials(self._rows(point))
         trial = columns.pop("trial").values

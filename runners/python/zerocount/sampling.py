@@ -270,7 +270,7 @@ def sample(
     >>> f.names
     ['friction.k1', 'friction.k2', 'friction.beta', 'friction.alpha', 'command.targets.0', 'initial.encoder_phase']
     >>> f([90, 600, 1e5, 0.5, 20, 0.5])
-    0.042
+    0.14475
     """
     from .results import Results
     from .studies import study as study_of

@@ -432,7 +432,7 @@ class Study:
         --------
         >>> r = zc.study("my-axis.yaml").run("my-axis.h5")
         >>> r.table.loc[2, "success_rate"]
-        0.7225
+        0.3755
         """
         words = options(output=pathlib.Path(output), threads=threads, force=force)
         with progress_bar(self.name, progress) as bar:

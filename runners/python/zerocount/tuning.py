@@ -96,11 +96,11 @@ def tune(
     Examples
     --------
     >>> free = {"controller.ki": {"log": [5e3, 5e4]}}
-    >>> tuned = zc.tune("my-axis.yaml", "tuned.h5", free=free, margins={"gain": 1, "phase": 10}, budget=5000)
+    >>> tuned = zc.tune("my-axis.yaml", "tuned.h5", free=free, margins={"gain": 1, "phase": 10}, budget=20000)
     >>> tuned.status
     'met'
     >>> tuned.manifest
-    <Study 'my-axis': 1 design point × 2061 trials>
+    <Study 'my-axis': 1 design point × 4231 trials>
     """
     from .studies import study
 

@@ -14,6 +14,7 @@
 #include "analysis/theory/trial_loops.hpp"
 #include "core/friction/law.hpp"
 #include "core/loop/encoder.hpp"
+#include "core/theory/frozen_loop.hpp"
 #include "core/theory/stability.hpp"
 #include "experiments/parameters/study_units.hpp"
 

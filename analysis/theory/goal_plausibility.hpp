@@ -3,11 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "core/theory/frozen_loop.hpp"
 #include "experiments/study/study.hpp"
 
 /// Goals that are allowed but that the encoder, its noise or the converter keeps an axis from meeting.
 namespace zerocount::theory {
+
+struct FrozenLoop;
 
 /// A warning for each test that fails, at the design point and under the condition where it fails worst:
 ///

@@ -71,7 +71,7 @@ def scipy_of(form: dict[str, Any]) -> Any:
 def every_kind(axis: zc.Study) -> zc.Study:
     """The README's study with a variable of every distribution, some of them correlated."""
     settings = {**EVERY_KIND, "correlation": CORRELATION}
-    return axis.without("sweep", "rigs", "goal").set(**{"controller.ki": 1.2e4, "command.hold": 0.1}).set(**settings)
+    return axis.without("sweep", "rigs", "goal").set(**{"controller.ki": 1.2e4, "command.hold": 0.1, "encoder.fine_errors.noise": 0}).set(**settings)
 
 
 def is_discrete(form: dict[str, Any]) -> bool:
@@ -266,7 +266,7 @@ def test_set_keeps_the_machines(noisy: zc.Study) -> None:
     """Other gains are tried on the same machines with the same noise; the point of a sweep can have another gain."""
     f = zc.sample(noisy, 3, outcome="peak_torque")
     x = f.draw(60, seed=5)
-    for settings in ({"controller.kp": 20.0}, {"controller.delay": 1}, {"controller.ki": 3e4}):
+    for settings in ({"controller.kp": 20.0}, {"controller.delay": 2}, {"controller.ki": 3e4}):
         g = f.set(settings)
         assert (g.names, g.distributions, g.outcome) == (f.names, f.distributions, f.outcome) and same(g.correlations, f.correlations)
         there = noisy.without("sweep").set({"controller.ki": noisy.checked.axes[0]["values"][3], **settings})

@@ -151,6 +151,18 @@ Verdict judge_goals(std::span<const study::Goal> goals, std::span<const measures
   return verdict;
 }
 
+std::vector<ClaimVerdict> claims_of(const Verdict& verdict) {
+  std::vector<ClaimVerdict> claims;
+  const auto add = [&claims](std::size_t goal, const Verdict& of_goal) {
+    if (of_goal.conditions.empty()) claims.push_back({goal, 0, &of_goal});
+    for (std::size_t condition = 0; condition < of_goal.conditions.size(); ++condition)
+      claims.push_back({goal, condition, &of_goal.conditions[condition]});
+  };
+  if (verdict.goals.empty()) add(0, verdict);
+  for (std::size_t goal = 0; goal < verdict.goals.size(); ++goal) add(goal, verdict.goals[goal]);
+  return claims;
+}
+
 std::vector<std::size_t> worst_worlds_first(const study::Goal& goal, const Verdict& verdict) {
   std::vector<std::size_t> order(verdict.worlds.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -74,6 +74,15 @@ Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, 
 Verdict judge_goals(std::span<const study::Goal> goals, std::span<const measures::MoveCounts> counts,
                     std::size_t points);
 
+/// The verdict on one goal under one condition.
+struct ClaimVerdict {
+  std::size_t goal{0};
+  std::size_t condition{0};  ///< 0 without conditions
+  const Verdict* verdict{nullptr};
+};
+/// The claims that a verdict is of, by goal and condition; they point into it.
+std::vector<ClaimVerdict> claims_of(const Verdict& verdict);
+
 /// From the worst status, missed, to the best: 0, 1, 2.
 int rank_of(Status status);
 /// Whether the first is worse: missed before undecided before met; of equals that with the smaller margin.

@@ -34,15 +34,15 @@ goal::BoundedProportion success_of(const measures::MoveCounts& counts, double co
 /// The verdict under a condition: of several goals that of the worst.
 void judge(const goal::Question& question, const goal::Verdict& of_point, std::size_t number,
            ConditionOfPoint& condition) {
-  std::vector<goal::Verdict> goals = of_point.goals.empty() ? std::vector{of_point} : of_point.goals;
-  std::size_t worst = 0;
-  for (std::size_t i = 1; i < goals.size(); ++i) {
-    if (is_worse(goals[i].conditions.at(number), goals[worst].conditions.at(number))) worst = i;
-  }
-  const goal::Verdict& verdict = goals[worst].conditions.at(number);
-  condition.rate = question.parts[worst].claim->machines ? verdict.machines : verdict.moves;
+  std::vector<goal::ClaimVerdict> claims = goal::claims_of(of_point);
+  std::erase_if(claims, [number](const goal::ClaimVerdict& one) { return one.condition != number; });
+  const goal::ClaimVerdict worst =
+      std::ranges::min(claims, [](const auto& a, const auto& b) { return is_worse(*a.verdict, *b.verdict); });
+  const goal::Verdict& verdict = *worst.verdict;
+  const study::Goal& goal = *question.parts[worst.goal].claim;
+  condition.rate = goal.machines ? verdict.machines : verdict.moves;
   condition.status = verdict.status;
-  if (has_several(question)) condition.goal = question.parts[worst].claim->name;
+  if (has_several(question)) condition.goal = goal.name;
 }
 
 }  // namespace

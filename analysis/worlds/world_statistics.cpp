@@ -33,42 +33,26 @@ RatesOfWorlds judged_rates(const goal::Question& question, const goal::Verdict& 
   return rates;
 }
 
-/// A goal under a condition, and the verdict on it.
-struct Claim {
-  const study::Goal& goal;
-  const goal::Verdict& verdict;
-};
-
-/// Each goal under each condition.
-std::vector<Claim> claims_of(const goal::Question& question, const goal::Verdict& verdict) {
-  std::vector<Claim> claims;
-  for (std::size_t i = 0; i < question.parts.size(); ++i) {
-    const goal::Verdict& of_goal = verdict.goals.empty() ? verdict : verdict.goals[i];
-    const study::Goal& goal = *question.parts[i].claim;
-    if (of_goal.conditions.empty()) claims.push_back({goal, of_goal});
-    for (const goal::Verdict& under : of_goal.conditions) claims.push_back({goal, under});
-  }
-  return claims;
-}
-
 /// [world] the worst verdict of the claims on it.
-std::vector<goal::Status> worst_statuses(const std::vector<Claim>& claims) {
-  std::vector<goal::Status> worst(claims.front().verdict.worlds.size(), goal::Status::met);
-  for (const Claim& claim : claims) {
+std::vector<goal::Status> worst_statuses(std::span<const goal::ClaimVerdict> claims) {
+  std::vector<goal::Status> worst(claims.front().verdict->worlds.size(), goal::Status::met);
+  for (const goal::ClaimVerdict& claim : claims) {
     for (std::size_t world = 0; world < worst.size(); ++world)
-      worst[world] = std::min(worst[world], claim.verdict.worlds[world].status,
+      worst[world] = std::min(worst[world], claim.verdict->worlds[world].status,
                               [](auto a, auto b) { return goal::rank_of(a) < goal::rank_of(b); });
   }
   return worst;
 }
 
 /// [world] whether it falls short of a claim, as observed.
-std::vector<bool> short_of_claims(const std::vector<Claim>& claims) {
-  std::vector<bool> bad(claims.front().verdict.worlds.size(), false);
-  for (const auto& [goal, verdict] : claims) {
+std::vector<bool> short_of_claims(const goal::Question& question,
+                                  std::span<const goal::ClaimVerdict> claims) {
+  std::vector<bool> bad(claims.front().verdict->worlds.size(), false);
+  for (const goal::ClaimVerdict& claim : claims) {
+    const study::Goal& goal = *question.parts[claim.goal].claim;
     const double wanted = goal.machines.value_or(goal.moves);
     for (std::size_t world = 0; world < bad.size(); ++world) {
-      const goal::WorldVerdict& one = verdict.worlds[world];
+      const goal::WorldVerdict& one = claim.verdict->worlds[world];
       if ((goal.machines ? one.machines.value : one.moves.value) < wanted) bad[world] = true;
     }
   }
@@ -114,9 +98,9 @@ PointWorlds point_worlds(const measures::PointSummary& point, const goal::Questi
   const goal::Question question = result.goal ? only(all, result.goal->goal) : all;
   result.asked = result.goal ? judged_rates(question, *result.goal) : result.success;
   if (result.goal) {
-    const std::vector<Claim> claims = claims_of(all, *result.goal);
+    const std::vector<goal::ClaimVerdict> claims = goal::claims_of(*result.goal);
     result.statuses = worst_statuses(claims);
-    result.bad = short_of_claims(claims);
+    result.bad = short_of_claims(all, claims);
   } else {
     result.bad = below_median(result, succeeded, confidence);
   }

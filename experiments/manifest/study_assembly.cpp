@@ -174,11 +174,11 @@ std::optional<study::DrawLevel> drawn_mean(const study::StudyPlan& plan, std::si
 }
 
 // Lists what all trials of a rig (or world) share at all points; under each condition that overrides it.
-void add_shared(study::InputColumn column, study::InputSource source, bool overridden,
+void add_shared(const study::InputColumn& column, study::InputSource source, bool overridden,
                 const std::vector<std::string>& conditions, std::vector<study::InputColumn>& columns,
                 std::vector<study::InputSource>& sources) {
   if (!overridden) {
-    columns.push_back(std::move(column));
+    columns.push_back(column);
     sources.push_back(source);
     return;
   }

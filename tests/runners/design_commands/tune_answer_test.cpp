@@ -121,6 +121,25 @@ TEST(TuneAnswer, NamesWhatTheBudgetWasNotEnoughFor) {
   EXPECT_EQ(json_of(answer, study)["left_out"], (nlohmann::ordered_json{"room", "limits"}));
 }
 
+TEST(TuneAnswer, SaysWhatTheMovesOfOneMachineOfTheProofCannotShow) {
+  const study::Study study = manifest::parse_study(R"(zerocount: 1
+name: axis
+seed: 1
+rigs: 10
+trials: 400
+command: {targets: [9, 0], hold: 0.1}
+conditions: {empty: {}, loaded: {plant.inertia: 8.0e-4}}
+goal: {on: [0], band: 1, within: 0.05, moves: 0.9, machines: 0.8}
+tune: {free: {controller.ki: {log: [1.0e-5, 1.0e-4]}, controller.kp: [0, 1.0e-3]}}
+)",
+                                                   "axis.yaml");
+  TuneAnswer answer = answer_for(study, goal::Status::undecided);
+  answer.proof->verdict.conditions.resize(2);
+  EXPECT_THAT(text_of(answer, study),
+              HasSubstr("\n20 moves cannot show 90 % of one machine: 29 without a miss are needed; one just "
+                        "below it has no miss with a probability of 12.2 %\n"));
+}
+
 /// A verdict on each of two goals under each of two conditions: the second goal is the worst, under the
 /// second.
 goal::Verdict verdict_on_claims() {

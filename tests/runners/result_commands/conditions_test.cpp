@@ -206,6 +206,16 @@ TEST_F(ConditionsOfResults, HaveSensitivitiesAndJerksOfTheirOwn) {
   }
 }
 
+TEST_F(ConditionsOfResults, AreNamedByVerdictsAndPlans) {
+  EXPECT_NE(run({"judge", "rigs-both.h5"}).find(": the goal 'large' is missed under condition loaded\n"),
+            std::string::npos)
+      << run({"judge", "rigs-both.h5"});
+  const std::string one_goal = said({"judge", "worlds-both.h5"}).at("headline");
+  EXPECT_NE(one_goal.find(" under condition "), std::string::npos) << one_goal;
+  EXPECT_NE(run({"plan", "rigs-both.yaml"}).find("under the conditions empty, loaded together"),
+            std::string::npos);
+}
+
 TEST_F(ConditionsOfResults, HaveSeriesOfTheirOwn) {
   for (const Kind& kind : kinds_with_conditions) {
     const auto values_of = [&](const std::string& study) {

@@ -45,11 +45,13 @@ struct Search {
   WorstMachines found;
   std::optional<std::filesystem::path> manifest{};  ///< that is written
 
-  /// "75.4 % of 256 moves meet the goal under condition loaded".
+  /// "75.4 % of 256 moves meet the goals, the fewest 'large', under condition loaded".
   std::string judged(const JudgedMachine& machine) const {
-    return fmt::format("{:.4g} % of {} moves {}{}{}", 100.0 * machine.met, machine.moves,
+    const std::string fewest =
+        machine.goal && machine.met < 1.0 ? fmt::format(", the fewest '{}',", *machine.goal) : "";
+    return fmt::format("{:.4g} % of {} moves {}{}{}{}", 100.0 * machine.met, machine.moves,
                        goal::words_of(goal::question_of(study)).meet, study.goals.size() > 1 ? "s" : "",
-                       study::condition_text(study, machine.condition));
+                       fewest, study::condition_text(study, machine.condition));
   }
 };
 
@@ -116,6 +118,11 @@ document::Description<JudgedMachine> judged_description() {
               .shown = Shown::in_data,
               .optional = true},
              &JudgedMachine::condition_name)
+      .value({.key = "goal",
+              .meaning = "the goal that its moves meet the least often, of several",
+              .shown = Shown::in_data,
+              .optional = true},
+             &JudgedMachine::goal)
       .value(in_data("moves", "moves by which the machine is judged"), &JudgedMachine::moves)
       .value(in_data("met", "proportion of these moves that meet the goal", "1"), &JudgedMachine::met);
 }

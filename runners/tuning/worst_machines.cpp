@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/move_event.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "core/failure/failure.hpp"
@@ -365,6 +366,33 @@ class MachineSearch {
     }
   }
 
+  /// What a trial shows of all goals together, then of each.
+  std::vector<ClaimResult> counts_of(const trial::TrialOutcome& outcome) const {
+    std::vector<ClaimResult> counts(1);
+    add_to(counts.front(), {&outcome, 1});
+    for (const measures::CountedGoal& goal : measures::asked_of_moves(given_)) {
+      ClaimResult& count = counts.emplace_back();
+      for (const trial::MoveOutcome& move : outcome.moves) {
+        if (!measures::asks(goal, move)) continue;
+        ++count.moves;
+        count.met += measures::meets(goal, move) ? 1 : 0;
+      }
+    }
+    return counts;
+  }
+
+  static std::vector<ClaimResult> sum_of(const std::vector<std::vector<ClaimResult>>& trials) {
+    std::vector<ClaimResult> sums(trials.front().size());
+    for (const std::vector<ClaimResult>& trial : trials) {
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        sums[i].moves += trial[i].moves;
+        sums[i].met += trial[i].met;
+        sums[i].values.insert(sums[i].values.end(), trial[i].values.begin(), trial[i].values.end());
+      }
+    }
+    return sums;
+  }
+
   /// The worst first.
   void sort_by(std::vector<BoxPoint>& points, std::size_t stage) const {
     std::ranges::stable_sort(points, [&](const BoxPoint& a, const BoxPoint& b) {
@@ -441,22 +469,18 @@ class MachineSearch {
       for (std::int64_t i = 0; i < trials_of_verdict; ++i)
         trials.push_back(trial_of(point, given_.trials + stage_trials.back() + i));
     }
-    std::vector<ClaimResult> results = trials::results_of(
+    const std::vector<std::vector<ClaimResult>> results = trials::results_of(
         trials_of_verdict, trials_at_once,
         [&](std::int64_t i) { return trials[static_cast<std::size_t>(i)]; }, stop_,
-        [&](const trial::TrialOutcome& outcome) {
-          ClaimResult result;
-          add_to(result, {&outcome, 1});
-          return result;
-        });
-    ClaimResult result;
-    for (const ClaimResult& one : results) {
-      result.moves += one.moves;
-      result.met += one.met;
-      result.values.insert(result.values.end(), one.values.begin(), one.values.end());
-    }
+        [&](const trial::TrialOutcome& outcome) { return counts_of(outcome); });
+    const std::vector<ClaimResult> sums = sum_of(results);
+    const ClaimResult& result = sums.front();
     machine.moves = result.moves;
     machine.met = met_proportion(result);
+    if (sums.size() > 2) {
+      const auto worst = std::ranges::min_element(sums.begin() + 1, sums.end(), {}, met_proportion);
+      machine.goal = goal_name(given_, {static_cast<std::size_t>(worst - sums.begin() - 1), 0});
+    }
     const auto latest = std::ranges::max_element(result.values) - result.values.begin();
     const std::int64_t asked = result.moves / trials_of_verdict;
     machine.trial = first + latest / asked * rigs_of(point);

@@ -38,10 +38,11 @@ WorstMachine worst_machine(const study::Study& study, std::int64_t point,
 struct JudgedMachine {
   std::int64_t condition{0};
   std::optional<std::string> condition_name{};  ///< without conditions none
-  std::int64_t rig{0};    ///< of the study, from which it has its profiles; 0 without rigs
-  std::int64_t trial{0};  ///< its worst trial, of the manifest
-  std::int64_t moves{0};  ///< by which it is judged
-  double met{0.0};        ///< proportion of these moves that meet the goal
+  std::int64_t rig{0};                ///< of the study, from which it has its profiles; 0 without rigs
+  std::int64_t trial{0};              ///< its worst trial, of the manifest
+  std::int64_t moves{0};              ///< by which it is judged
+  double met{0.0};                    ///< proportion of these moves that meet all goals which ask them
+  std::optional<std::string> goal{};  ///< of several goals the one that its moves meet the least often
   std::vector<std::pair<std::string, double>> inputs;
   std::vector<double> quantiles;  ///< [machine input] (study::machine_inputs)
   std::string manifest;           ///< empty if no manifest describes it

@@ -1633,6 +1633,8 @@ class Again(Record):
     ----------
     condition : str or None
         The condition that it bears, with conditions.
+    goal : str or None
+        The goal that its moves meet the least often, of several.
     moves : int
         Moves by which the machine is judged.
     met : float or None
@@ -1640,6 +1642,7 @@ class Again(Record):
     """
 
     condition: str | None
+    goal: str | None
     moves: int
     met: float | None
 
@@ -1655,6 +1658,8 @@ class Box(Record):
         Its worst trial, of its manifest.
     condition : str or None
         The condition that it bears, with conditions.
+    goal : str or None
+        The goal that its moves meet the least often, of several.
     moves : int
         Moves by which the machine is judged.
     met : float or None
@@ -1670,6 +1675,7 @@ class Box(Record):
     rig: int
     trial: int
     condition: str | None
+    goal: str | None
     moves: int
     met: float | None
     inputs: dict[str, float | None]
@@ -1688,6 +1694,8 @@ class Likely(Record):
         Its worst trial, of its manifest.
     condition : str or None
         The condition that it bears, with conditions.
+    goal : str or None
+        The goal that its moves meet the least often, of several.
     moves : int
         Moves by which the machine is judged.
     met : float or None
@@ -1703,6 +1711,7 @@ class Likely(Record):
     rig: int
     trial: int
     condition: str | None
+    goal: str | None
     moves: int
     met: float | None
     inputs: dict[str, float | None]

@@ -198,10 +198,26 @@ TEST_F(Claims, OfTheWorstMachineIsThatOfItsWorstCondition) {
   const Json replayed = Json::parse(program({"judge", "worst.h5", "--format", "json"}).out);
   EXPECT_TRUE(!replayed["claims"][0].contains("condition")) << replayed;
   EXPECT_DOUBLE_EQ(replayed["rate"].get<double>(), both["box"]["met"].get<double>());
+  EXPECT_FALSE(both["box"].contains("goal")) << "there is one";
   // The trial that is named is one under the named condition.
   const int trial = both["trial"];
   EXPECT_EQ(both["condition"], two_conditions[static_cast<std::size_t>(trial / 40 % 2)].name);
   EXPECT_EQ(both["rig"], trial % 40);
+}
+
+// Of several goals it is named which one the worst machine meets the least often, as its manifest shows.
+TEST_F(Claims, OfTheWorstMachineNameTheGoal) {
+  const std::string goals =
+      "goals:\n  large: {on: [0, 1], band: 1, within: 0.03, moves: 0.9}\n"
+      "  small: {on: [2], band: 40, within: 0.09, moves: 0.8}\n";
+  folder_.write("both.yaml", study(two_conditions, 80, goals));
+  const Json box = answer({"worst", "both.yaml", "-o", "worst.yaml", "--set", "controller.ki=1.0e-5"})["box"];
+  ASSERT_LT(box["met"], 1.0);
+  ASSERT_EQ(program({"run", "worst.yaml", "-o", "worst.h5", "--quiet"}).code, 0);
+  const Json claims = Json::parse(program({"judge", "worst.h5", "--format", "json"}).out)["claims"];
+  ASSERT_EQ(claims.size(), 2U);
+  ASSERT_NE(claims[0]["rate"], claims[1]["rate"]);
+  EXPECT_EQ(box["goal"], claims[claims[0]["rate"] < claims[1]["rate"] ? 0 : 1]["goal"]) << claims;
 }
 
 }  // namespace

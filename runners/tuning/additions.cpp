@@ -223,9 +223,11 @@ Effect load_mode(const study::Study& study, std::int64_t point, double frequency
 std::vector<Limit> additions_to(const EffectRuns& runs) {
   const std::vector<ConditionEffects> effects = runs.effects(added_effects);
   std::vector<ChangedPoint> points;
+  points.reserve(effects.size());
   for (const ConditionEffects& one : effects) points.push_back(runs.changed(std::array{&one}));
   runs.run(points, runs.units());
   std::vector<Limit> rows;
+  rows.reserve(points.size() + 1);
   for (const ChangedPoint& one : points) rows.push_back(limit_of(runs, one));
   if (!can_have_load(runs)) rows.push_back(ModeSearch(runs).lowest());
   return rows;

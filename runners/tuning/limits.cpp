@@ -47,6 +47,7 @@ std::vector<ChangedPoint> pairs_of(const EffectRuns& runs, const std::vector<Con
 void keep_promising(const EffectRuns& runs, std::span<const ChangedPoint> alone, std::int64_t count,
                     std::vector<ChangedPoint>& pairs) {
   std::vector<double> margins;
+  margins.reserve(pairs.size());
   for (const ChangedPoint& one : pairs) margins.push_back(margin_on(runs, one, count));
   const auto last_kept = margins.begin() + (std::ssize(margins) - 1) / 2;
   std::ranges::nth_element(margins, last_kept, std::ranges::greater());
@@ -103,6 +104,7 @@ std::vector<Limit> limits_of(const EffectRuns& runs) {
   const std::vector<ConditionEffects> causes = runs.effects(idealisations_of);
   std::vector<Limit> limits{limit_of(runs, runs.base())};
   std::vector<ChangedPoint> alone;
+  alone.reserve(causes.size());
   for (const ConditionEffects& one : causes) alone.push_back(runs.changed(std::array{&one}));
   if (misses_nothing(limits.front())) {
     for (const ChangedPoint& one : alone)

@@ -310,10 +310,10 @@ class MachineSearch {
   /// Keeps the worst of the points, the worst first. After each stage a part of those that have not run all
   /// trials goes on, by the trials that all of them have run.
   void race(std::vector<BoxPoint>& points) const {
-    const auto newcomers = std::ranges::stable_partition(
-        points, [](const BoxPoint& point) { return point.results.size() == stages; });
-    std::vector<BoxPoint> running(newcomers.begin(), newcomers.end());
-    points.erase(newcomers.begin(), newcomers.end());
+    const auto newcomers = std::stable_partition(
+        points.begin(), points.end(), [](const BoxPoint& point) { return point.results.size() == stages; });
+    std::vector<BoxPoint> running(newcomers, points.end());
+    points.erase(newcomers, points.end());
     for (std::size_t stage = 0; stage < stages; ++stage) {
       simulate(running, stage);
       sort_by(running, stage);

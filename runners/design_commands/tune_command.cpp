@@ -2,6 +2,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -256,7 +257,8 @@ ExitCode tune_manifest(const command_line::Arguments& arguments) {
 /// The extras of a proof that was made before.
 ExitCode tune_file(const command_line::Arguments& arguments) {
   for (const char* const option : {"output", "force", "manifest"}) {
-    if (arguments.has(option))
+    const bool is_of_page = std::string_view(option) == "force" && arguments.has("report");
+    if (arguments.has(option) && !is_of_page)
       arguments.refuse(
           fmt::format("option '--{}': is of a manifest; the extras of a results file need "
                       "--extras, --budget and --report alone",

@@ -111,6 +111,7 @@ QUESTIONS = [
     "identify slide.csv --sliding",
     "learn worlds.h5",
     "tune tune.yaml -o tuned.h5 --budget 4700 --force",
+    "tune tuned.h5 --extras margins,limits --budget 3000",
     "limits axis.yaml",
     "worst axis.yaml",
     "worst claims.yaml",

@@ -77,12 +77,15 @@ TEST(TuneAnswer, UnreachableSaysByHowMuchTheGoalIsMissed) {
 TEST(TuneAnswer, NamesEachMarginWithItsUnitAndWhatIsWanted) {
   const study::Study study = axis();
   TuneAnswer answer = answer_for(study, goal::Status::met);
-  answer.margins = SmallestMargins{.gain = never, .phase = 41.0, .delay = 10.0, .machines = 8};
+  answer.margins =
+      SmallestMargins{.gain = never, .phase = 41.0, .delay = 10.0, .sensitivity = 1.5, .machines = 8};
   EXPECT_THAT(
       text_of(answer, study),
       HasSubstr(
-          "smallest margins of 8 machines before they slide: gain margin ∞ dB (at least 6 wanted), "
-          "phase margin 41 degrees (at least 30 wanted), delay margin 10 samples or more (none wanted)\n"));
+          "smallest margins of 8 machines before they slide, at ±10 % of inertia, ±30 % of damping, ±5 % of "
+          "torque constant: gain margin ∞ dB (at least 6 wanted), "
+          "phase margin 41 degrees (at least 30 wanted), delay margin 10 samples or more (none wanted), "
+          "sensitivity 1.5 (none wanted)\n"));
 }
 
 TEST(TuneAnswer, NamesTheMarginsThatTheNearestPointLacks) {

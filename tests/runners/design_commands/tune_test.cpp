@@ -227,7 +227,13 @@ TEST_F(Tune, MakesTheExtrasThatAreAskedFor) {
   EXPECT_EQ(limits["limits"][0]["cause"], "none");
   EXPECT_TRUE(limits["room"].empty());
   EXPECT_EQ(limits["margins"]["machines"], 2048);
-  EXPECT_EQ(program({"tune", "tuned.h5", "--force"}).code, 2);
+  EXPECT_EQ(program({"tune", "tuned.h5", "--force"}).code, 2) << "nothing is written";
+  folder_.write("page.html", "another page");
+  const std::vector<std::string> page{"tune", "tuned.h5", "--extras", "none", "--report", "page.html"};
+  EXPECT_EQ(program(page).code, 2) << "it is there";
+  std::vector<std::string> replacing = page;
+  replacing.emplace_back("--force");
+  EXPECT_EQ(program(replacing).code, 0);
 }
 
 TEST_F(Tune, NamesTheExtrasThatABudgetLeavesOutWithTheCommandThatMakesThem) {
@@ -387,7 +393,7 @@ TEST_F(Tune, WithoutAPointThatKeepsTheMarginsNamesTheNearest) {
     write_axis(
         "goal: {band: 1, within: 0.05, moves: 0.9}\ntune: {free: {controller.ki: {log: [2.0e-5, 1.0e-4]}, "
         "controller.kp: [0, 5.0e-4]}, margins: {" +
-        margins + "}}\n");
+        margins + ", spread: off}}\n");
   };
   write("gain: 14, phase: off, delay: off");
   const ProgramResult result = tune({"--report", "none.html"}, "3000");

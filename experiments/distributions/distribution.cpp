@@ -198,7 +198,7 @@ Distribution widened(const Distribution& distribution, double factor) {
                  return Uniform{away(centre, d.low), away(centre, d.high)};
                },
                [&](const LogUniform& d) -> Distribution {
-                 const double more = std::pow(d.high / d.low, 0.5 * (factor - 1.0));
+                 const double more = numerics::pow(d.high / d.low, 0.5 * (factor - 1.0));
                  return LogUniform{d.low / more, d.high * more};
                },
                [&](const Normal& d) -> Distribution {
@@ -208,7 +208,7 @@ Distribution widened(const Distribution& distribution, double factor) {
                  return TruncatedNormal{d.mean, factor * d.sd, away(d.mean, d.low), away(d.mean, d.high)};
                },
                [&](const Lognormal& d) -> Distribution {
-                 return Lognormal{d.median, std::sqrt(std::expm1(factor * factor * std::log1p(d.cv * d.cv)))};
+                 return Lognormal{d.median, std::sqrt(numerics::expm1(factor * factor * numerics::log1p(d.cv * d.cv)))};
                },
                [&](const Triangular& d) -> Distribution {
                  return Triangular{away(d.mode, d.low), d.mode, away(d.mode, d.high)};

@@ -43,7 +43,7 @@ def tune(
     goal: Mapping[str, Any] | None = None,
     free: Mapping[str, Any] | None = None,
     minimise: str | None = None,
-    margins: Mapping[str, float] | None = None,
+    margins: Mapping[str, Any] | None = None,
     budget: int | str | None = None,
     extras: str | None = None,
     threads: int | None = None,
@@ -69,11 +69,12 @@ def tune(
     minimise : str, optional
         The criterion, such as ``"band_settling_time.p95"``.
     margins : dict, optional
-        Least margins ``gain`` (dB), ``phase`` (degrees) and ``delay`` (samples).
+        Least margins ``gain`` (dB), ``phase`` (degrees) and ``delay`` (samples), the largest ``sensitivity``, and
+        the ``spread`` of the machines that keep them.
     budget : int or str, optional
         Of the search, the proof and the extras: a number of trials, or a time such as ``"60s"``.
     extras : str, optional
-        What follows the proof: ``"none"``, ``"all"`` (default) or some of ``"margins,room,controls,limits,maps"``
+        What follows the proof: ``"none"``, ``"all"`` (default) or some of ``"margins,room,robustness,controls,limits,maps"``
         (maps on a page).
     threads : int, optional
         Default: all cores.
@@ -96,7 +97,8 @@ def tune(
     Examples
     --------
     >>> free = {"controller.ki": {"log": [5e3, 5e4]}}
-    >>> tuned = zc.tune("my-axis.yaml", "tuned.h5", free=free, margins={"gain": 1, "phase": 10}, budget=20000)
+    >>> margins = {"gain": 1, "phase": 10, "spread": "off"}
+    >>> tuned = zc.tune("my-axis.yaml", "tuned.h5", free=free, margins=margins, budget=20000)
     >>> tuned.status
     'met'
     >>> tuned.manifest

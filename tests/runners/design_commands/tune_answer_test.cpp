@@ -211,7 +211,7 @@ TEST(TuneAnswer, IsTheProvenPartTheExtrasAndTheEffort) {
   answer.delay_sought = true;
   answer.delays = {1.0};
   answer.room = {{"controller.ki", 1e-5, 2e-5, std::nullopt, std::nullopt}};
-  answer.limits = {tuning::Limit{.cause = "none", .rate = 0.9}};
+  answer.limits = {tuning::Limit{.effect = "none", .rate = 0.9}};
   const Tuning tuning{answer, study, "tuned.h5"};
   const auto without_blank_lines = [](std::string text) {
     for (std::size_t at = 0; (at = text.find("\n\n")) != std::string::npos;) text.erase(at, 1);

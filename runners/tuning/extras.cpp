@@ -119,6 +119,7 @@ void ExtrasMaker::make() {
   };
   if (!wanted.empty() && !of_.settings.quiet && of_.measured_speed > 0.0) {
     std::vector<std::string> each;
+    each.reserve(wanted.size());
     for (const Extra extra : wanted)
       each.push_back(fmt::format("{} {}", name_of(extra), status::duration_text(seconds_of(extra))));
     of_.line.clear();

@@ -1508,6 +1508,14 @@ class TuneAnswer(Answer):
         That condition, with conditions.
     room : dict[str, list[float or None]]
         Range of each parameter in which the goal seems met, the others as tuned.
+    robustness : pandas.DataFrame
+        Rates at the tuned values with other seeds, spreads and delays.
+
+        - ``premise``: what differs from the study
+        - ``holds``: whether every goal is met under every condition
+        - ``rate``: proportion of moves, or of machines, that meet the worst goal; of seeds the lowest
+        - ``note``: what stayed, or why there is no rate
+
     alternatives : pandas.DataFrame
         Simpler and other controls at their own best values.
 
@@ -1572,6 +1580,7 @@ class TuneAnswer(Answer):
     delay_lost: float | None
     delay_lost_condition: str | None
     room: dict[str, list[float | None]]
+    robustness: pandas.DataFrame
     alternatives: pandas.DataFrame
     limits: pandas.DataFrame
     frontier: pandas.DataFrame
@@ -1605,20 +1614,6 @@ class LimitsAnswer(Answer):
         - ``condition``: the worst condition, which the rate is of
         - ``rates``: the rates of all goals under all conditions, where there are several
         - ``note``: what the rate does not show, what is assumed, or why there is none
-
-    additions : pandas.DataFrame
-        Rates with an effect added to those of the study.
-
-        - ``effect``: effect that is added to those of the study
-        - ``rate``: proportion of moves, or of machines, that meet the question with it
-        - ``note``: what is assumed of it, or found
-
-    additions : pandas.DataFrame
-        Rates with an effect added to those of the study.
-
-        - ``effect``: effect that is added to those of the study
-        - ``rate``: proportion of moves, or of machines, that meet the question with it
-        - ``note``: what is assumed of it, or found
 
     """
 

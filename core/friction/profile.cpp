@@ -7,9 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include <boost/math/tools/minima.hpp>
-
 #include "core/numerics/elementary_functions.hpp"
+#include "core/numerics/minimum.hpp"
 
 namespace zerocount::friction {
 
@@ -111,8 +110,7 @@ double refined(const Profile& profile, double position, double spacing, double s
   constexpr int bits = 26;  // of the position; the value is flat there, so this is far more than it needs
   const auto signed_value = [&](double at) { return sign * value_at(profile, at); };
   const double found =
-      boost::math::tools::brent_find_minima(signed_value, position - spacing, position + spacing, bits)
-          .second;
+      numerics::minimum_between(position - spacing, position + spacing, bits, signed_value).second;
   return sign * std::min(signed_value(position), found);
 }
 

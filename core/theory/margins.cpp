@@ -7,8 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include <boost/math/tools/minima.hpp>
-
+#include "core/numerics/minimum.hpp"
 #include "core/theory/crossovers.hpp"
 #include "core/theory/linear_loop.hpp"
 
@@ -66,8 +65,8 @@ Margin peak_sensitivity(const FrozenLoop& loop) {
     if (distances[i] > distances[i - 1] || distances[i] > distances[i + 1]) continue;
     // Of the logarithm of the angle, because the method stops at an absolute tolerance too.
     const auto [log_angle, distance] =
-        boost::math::tools::brent_find_minima([&](double log) { return distance_at(std::exp(log)); },
-                                              std::log(angles[i - 1]), std::log(angles[i + 1]), bits);
+        numerics::minimum_between(std::log(angles[i - 1]), std::log(angles[i + 1]), bits,
+                                  [&](double log) { return distance_at(std::exp(log)); });
     if (distance < nearest) std::tie(at_nearest, nearest) = std::pair(std::exp(log_angle), distance);
   }
   return {1.0 / nearest, at_nearest / (2.0 * std::numbers::pi * loop.sample_time)};

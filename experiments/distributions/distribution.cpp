@@ -208,7 +208,8 @@ Distribution widened(const Distribution& distribution, double factor) {
                  return TruncatedNormal{d.mean, factor * d.sd, away(d.mean, d.low), away(d.mean, d.high)};
                },
                [&](const Lognormal& d) -> Distribution {
-                 return Lognormal{d.median, std::sqrt(numerics::expm1(factor * factor * numerics::log1p(d.cv * d.cv)))};
+                 return Lognormal{d.median,
+                                  std::sqrt(numerics::expm1(factor * factor * numerics::log1p(d.cv * d.cv)))};
                },
                [&](const Triangular& d) -> Distribution {
                  return Triangular{away(d.mode, d.low), d.mode, away(d.mode, d.high)};

@@ -7,6 +7,7 @@ import pathlib
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 import zerocount as zc
 
@@ -102,7 +103,8 @@ def test_everything_else_works_without_them(axis: zc.Study, folder: pathlib.Path
     f = zc.sample(r, 1, outcome="settling_time")
     assert without["loaded"] == []
     assert answers["judge"] == r.judge().status and answers["trace"] == r.trace(1, 3).error[-1]
-    assert answers["trial"] == [0.0, 0.0] and answers["sample"] == f(f.draw(5)).tolist()
+    assert answers["trial"] == [0.0, 0.0]
+    np.testing.assert_array_equal(answers["sample"], f(f.draw(5)))  # of moves that do not settle the time is NaN
     assert answers["compare"] == zc.compare(r, points=(0, 1)).verdict and answers["plan"]["trials"] == 299
     assert answers["figures"] == r.figures and answers["figure"] and answers["summary"] == 2
     assert answers["report"] == "without.html" and answers["shown"][0] == repr(r)

@@ -192,8 +192,9 @@ std::span<const GeneralKey> general_keys() {
            "controller.kp: [0, 1000]}, minimise: band_settling_time.p95, margins: {gain: 6, phase: 30, "
            "delay: 0.5}}: ranges of parameters, the criterion, and margins of the loop (dB, degrees, "
            "samples; sensitivity: the largest |S|), each off by the word, or `commissioning`: {gain: 6, "
-           "phase: 45, delay: 1, sensitivity: 1.6}; spread: {inertia: 0.1, damping: 0.3, "
-           "torque_constant: 0.05}: parts by which machines differ in what the study does not draw"},
+           "phase: 45, delay: 1, sensitivity: 1.6, spread: typical}; spread: {inertia: 0.1, damping: 0.3, "
+           "torque_constant: 0.05}, or `typical` for these: parts by which machines differ in what the study "
+           "does not draw"},
           "tune: {free: {controller.ki: {log: [5.0e+3, 3.0e+5]}}}",
           {{"free", "", "a map of parameters and ranges: {controller.ki: {log: [5.0e+3, 3.0e+5]}}"},
            text({"minimise"}, &study::Tuning::minimise),
@@ -209,8 +210,14 @@ std::span<const GeneralKey> general_keys() {
                 real({.name = "delay", .none = "off"}, margin, &study::LoopMargins::delay),
                 real({.name = "sensitivity", .none = "off"}, numerics::above(1),
                      &study::LoopMargins::sensitivity),
-                map({.name = "spread", .none = "off"},
-                    "off, or {inertia: 0.1, damping: 0.3, torque_constant: 0.05} (parts of their values)",
+                map({.name = "spread",
+                     .none = "off",
+                     .presets = {{"typical",
+                                  [](Reading& reading) {
+                                    part_of<study::LoopSpread>(reading) = study::typical_spread;
+                                  }}}},
+                    "off, typical, or {inertia: 0.1, damping: 0.3, torque_constant: 0.05} (parts of their "
+                    "values)",
                     {real({.name = "inertia", .none = "off"}, spread, &study::LoopSpread::inertia),
                      real({.name = "damping", .none = "off"}, spread, &study::LoopSpread::damping),
                      real({.name = "torque_constant", .none = "off"}, spread,

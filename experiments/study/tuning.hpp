@@ -20,10 +20,13 @@ struct FreeParameter {
 /// combinations: what a data sheet does not tell exactly. Only of what the study does not draw. Each is off
 /// where it has no value.
 struct LoopSpread {
-  std::optional<double> inertia{0.1};  ///< of plant.inertia, and of the load
-  std::optional<double> damping{0.3};  ///< of the contact's damping, before sliding and while sliding
-  std::optional<double> torque_constant{0.05};  ///< of the torque, or force, that a code makes
+  std::optional<double> inertia{};          ///< of plant.inertia, and of the load
+  std::optional<double> damping{};          ///< of the contact's damping, before sliding and while sliding
+  std::optional<double> torque_constant{};  ///< of the torque, or force, that a code makes
 };
+
+/// What data sheets usually leave open.
+constexpr LoopSpread typical_spread{.inertia = 0.1, .damping = 0.3, .torque_constant = 0.05};
 
 /// Margins that the linear loop of every machine must keep, at every stiffness of the contact before it
 /// slides. Each is off where it has no value.
@@ -35,8 +38,10 @@ struct LoopMargins {
   LoopSpread spread{};
 };
 
-/// What is accepted when a loop is commissioned: 6 dB, 45°, a sensitivity of at most 1.6, a sample of delay.
-constexpr LoopMargins commissioning_margins{.gain = 6.0, .phase = 45.0, .delay = 1.0, .sensitivity = 1.6};
+/// What is accepted when a loop is commissioned: 6 dB, 45°, a sensitivity of at most 1.6, a sample of delay,
+/// of machines with a typical spread.
+constexpr LoopMargins commissioning_margins{
+    .gain = 6.0, .phase = 45.0, .delay = 1.0, .sensitivity = 1.6, .spread = typical_spread};
 
 /// The task of `zerocount tune` (`tune`): values of the free parameters that meet the goal of the study and
 /// keep the margins, and of these the ones with the smallest criterion.

@@ -35,6 +35,11 @@ struct MachineLoops {
   bool slides;
 };
 
+template <class Machine>
+MachineLoops loops_with(const Machine& machine, bool slides) {
+  return {machine.softest, machine.stiffest, slides};
+}
+
 struct Loops {
   std::vector<theory::TrialLoop> loops;
   double hold{0.0};  ///< s
@@ -310,27 +315,36 @@ void LoopExaminer::add_critical(std::int64_t condition, const Less& less) {
     if (machines_[i].condition != condition) continue;
     if (!first || less(machines_[i], machines_[*first])) first = i;
   }
-  if (std::ranges::find(critical_, *first) == critical_.end()) critical_.push_back(*first);
+  for (const std::size_t corner : likely_worst_corners(machines_[*first].spread)) {
+    const Corner one{*first, corner};
+    if (std::ranges::find(critical_, one) == critical_.end()) critical_.push_back(one);
+  }
 }
 
-bool LoopExaminer::keeps(const study::Study& candidate, const Machine& machine,
-                         const study::LoopMargins& margins, bool slides) {
-  if (!is_wanted(margins)) return true;
-  return std::ranges::all_of(corners(candidate, machine), [&](const trial::TrialParameters& p) {
-    return keeps_margins(p, {machine.softest, machine.stiffest, slides}, margins);
-  });
+std::vector<LoopExaminer::Corner> LoopExaminer::examined_corners() const {
+  std::vector<Corner> corners;
+  for (std::size_t machine = 0; machine < machines_.size(); ++machine) {
+    const study::LoopSpread& spread = machines_[machine].spread;
+    if (machines_[machine].draw) {
+      for (const std::size_t corner : likely_worst_corners(spread)) corners.push_back({machine, corner});
+    } else {
+      const std::size_t count = corners_of({}, spread).size();
+      for (std::size_t corner = 0; corner < count; ++corner) corners.push_back({machine, corner});
+    }
+  }
+  return corners;
 }
 
-std::vector<trial::TrialParameters> LoopExaminer::corners(const study::Study& candidate,
-                                                          const Machine& machine) {
-  return corners_of(study::study_trial(candidate, 0, machine.trial).parameters, machine.spread);
+trial::TrialParameters LoopExaminer::at(const Corner& corner, const study::Study& candidate) const {
+  const Machine& machine = machines_[corner.machine];
+  return corners_of(study::study_trial(candidate, 0, machine.trial).parameters,
+                    machine.spread)[corner.corner];
 }
 
 bool LoopExaminer::may_keep(const study::Study& candidate, const study::LoopMargins& margins,
                             bool slides) const {
-  return std::ranges::all_of(critical_, [&](std::size_t index) {
-    const Machine& one = machines_[index];
-    return keeps(candidate, one, margins, slides);
+  return !is_wanted(margins) || std::ranges::all_of(critical_, [&](const Corner& one) {
+    return keeps_margins(at(one, candidate), loops_with(machines_[one.machine], slides), margins);
   });
 }
 
@@ -338,36 +352,40 @@ double LoopExaminer::shortfall(const study::Study& candidate, const study::LoopM
                                bool slides) const {
   double largest = 0.0;
   if (!is_wanted(margins)) return largest;
-  for (const std::size_t index : critical_) {
-    const Machine& one = machines_[index];
-    for (const trial::TrialParameters& p : corners(candidate, one))
-      largest = std::max(largest, shortfall_of(p, {one.softest, one.stiffest, slides}, margins));
-  }
+  for (const Corner& one : critical_)
+    largest = std::max(largest,
+                       shortfall_of(at(one, candidate), loops_with(machines_[one.machine], slides), margins));
   return largest;
 }
 
 bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins& margins, bool slides,
                          const std::stop_token& stop) {
-  std::vector<char> kept(machines_.size(), 1);
-  parallel::for_each_index(machines_.size(), [&](std::size_t i) {
+  if (!is_wanted(margins)) return true;
+  const std::vector<Corner> corners = examined_corners();
+  std::vector<char> kept(corners.size(), 1);
+  parallel::for_each_index(corners.size(), [&](std::size_t i) {
     if (stop.stop_requested()) throw trial::Interrupted{};
-    kept[i] = keeps(candidate, machines_[i], margins, slides) ? 1 : 0;
+    kept[i] =
+        keeps_margins(at(corners[i], candidate), loops_with(machines_[corners[i].machine], slides), margins)
+            ? 1
+            : 0;
   });
   const auto broken = std::ranges::find(kept, 0);
   if (broken == kept.end()) return true;
-  const auto index = static_cast<std::size_t>(broken - kept.begin());
-  if (std::ranges::find(critical_, index) == critical_.end()) critical_.push_back(index);
+  const Corner& first = corners[static_cast<std::size_t>(broken - kept.begin())];
+  if (std::ranges::find(critical_, first) == critical_.end()) critical_.push_back(first);
   return false;
 }
 
 SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool slides,
                                          const std::stop_token& stop) const {
-  std::vector<SmallestMargins> found(machines_.size(), no_limit());
-  parallel::for_each_index(machines_.size(), [&](std::size_t i) {
+  const std::vector<Corner> corners = examined_corners();
+  std::vector<SmallestMargins> found(corners.size(), no_limit());
+  parallel::for_each_index(corners.size(), [&](std::size_t i) {
     if (stop.stop_requested()) throw trial::Interrupted{};
-    const MachineLoops machine{machines_[i].softest, machines_[i].stiffest, slides};
-    for (const trial::TrialParameters& p : corners(candidate, machines_[i]))
-      include(found[i], margins_of_machine(p, machine, machines_[i].draw, machines_[i].condition));
+    const Machine& machine = machines_[corners[i].machine];
+    found[i] = margins_of_machine(at(corners[i], candidate), loops_with(machine, slides), machine.draw,
+                                  machine.condition);
   });
   SmallestMargins all = no_limit();
   all.machines = examined_;
@@ -375,7 +393,8 @@ SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool sli
   all.conditions.resize(static_cast<std::size_t>(conditions_), all);
   for (std::size_t i = 0; i < found.size(); ++i) {
     include(all, found[i]);
-    if (conditions_ > 0) include(all.conditions[static_cast<std::size_t>(machines_[i].condition)], found[i]);
+    if (conditions_ > 0)
+      include(all.conditions[static_cast<std::size_t>(machines_[corners[i].machine].condition)], found[i]);
   }
   return all;
 }
@@ -384,8 +403,8 @@ std::optional<double> LoopExaminer::lowest_mode(const study::Study& candidate, b
                                                 const std::stop_token& stop) const {
   const auto bears = [&](double frequency) {
     if (stop.stop_requested()) throw trial::Interrupted{};
-    return std::ranges::all_of(critical_, [&](std::size_t index) {
-      const Machine& one = machines_[index];
+    return std::ranges::all_of(critical_, [&](const Corner& corner) {
+      const Machine& one = machines_[corner.machine];
       trial::TrialParameters p = study::study_trial(candidate, 0, one.trial).parameters;
       p.plant = theory::with_load_mode(p.plant, frequency);
       return none_unstable(loops_of(p, {one.softest, one.stiffest, slides}, 0.0));

@@ -86,19 +86,26 @@ class LoopExaminer {
     double stiffest;  ///< N m/rad
   };
 
-  static bool keeps(const study::Study& candidate, const Machine& machine, const study::LoopMargins& margins,
-                    bool slides);
-  /// The machine at its place in the spread's box: its corners.
-  static std::vector<trial::TrialParameters> corners(const study::Study& candidate, const Machine& machine);
+  /// A machine at one of the corners of its spread (corners_of).
+  struct Corner {
+    std::size_t machine;
+    std::size_t corner;
+    bool operator==(const Corner&) const = default;
+  };
 
-  /// Adds the first machine under the condition in this order, if it is not there.
+  /// All corners of a machine that stands for all; of others, which differ in more, the likely worst.
+  std::vector<Corner> examined_corners() const;
+  trial::TrialParameters at(const Corner& corner, const study::Study& candidate) const;
+
+  /// Adds the likely worst corners of the first machine under the condition in this order, if they are not
+  /// there.
   template <class Less>
   void add_critical(std::int64_t condition, const Less& less);
 
   std::vector<Machine> machines_;
-  std::int64_t examined_{0};           ///< machines for which they stand, under each condition
-  std::int64_t conditions_{0};         ///< 0: none
-  std::vector<std::size_t> critical_;  ///< indices of machines
+  std::int64_t examined_{0};    ///< machines for which they stand, under each condition
+  std::int64_t conditions_{0};  ///< 0: none
+  std::vector<Corner> critical_;
 };
 
 }  // namespace zerocount::tuning

@@ -59,4 +59,13 @@ std::vector<trial::TrialParameters> corners_of(const trial::TrialParameters& mac
   return machines;
 }
 
+std::vector<std::size_t> likely_worst_corners(const study::LoopSpread& spread) {
+  const auto is_spread = [](const std::optional<double>& part) { return part.value_or(0.0) != 0.0; };
+  const std::size_t torques = is_spread(spread.torque_constant) ? 2 : 1;
+  const std::size_t dampings = is_spread(spread.damping) ? 2 : 1;
+  const std::size_t highest_torque = torques - 1;
+  if (!is_spread(spread.inertia)) return {highest_torque};
+  return {highest_torque, dampings * torques + highest_torque};
+}
+
 }  // namespace zerocount::tuning

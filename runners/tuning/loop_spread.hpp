@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -32,5 +33,9 @@ bool draws(const study::Study& study, std::int64_t condition, const Fits& fits) 
 ///     inertia: J and JL times 1 ± s;  damping: c and cs times 1 ± s;  torque constant: times 1 ± s
 std::vector<trial::TrialParameters> corners_of(const trial::TrialParameters& machine,
                                                const study::LoopSpread& spread);
+
+/// The places in corners_of() at which margins usually are smallest: the lowest damping with the highest
+/// torque constant, both inertias.
+std::vector<std::size_t> likely_worst_corners(const study::LoopSpread& spread);
 
 }  // namespace zerocount::tuning

@@ -147,7 +147,7 @@ TEST(LoopExaminer, SpreadsWhatTheStudyDoesNotDraw) {
       }
     }
   }
-  const study::Study spread = with_margins("{gain: 6}");
+  const study::Study spread = with_margins("{gain: 6, spread: typical}");
   const SmallestMargins found = LoopExaminer(spread, 4).margins_of(spread, true);
   EXPECT_NEAR(found.gain, worst.gain, 1e-9);
   EXPECT_NEAR(found.phase, worst.phase, 1e-9);
@@ -158,7 +158,7 @@ TEST(LoopExaminer, SpreadsWhatTheStudyDoesNotDraw) {
 // What is drawn is not spread as well, and a margin that is wanted is one of every corner.
 TEST(LoopExaminer, LeavesDrawnQuantitiesToTheStudy) {
   const auto spread = [](const std::string& more) {
-    const study::Study study = with_margins("{gain: 6}", more);
+    const study::Study study = with_margins("{gain: 6, spread: typical}", more);
     return LoopExaminer(study, 4).margins_of(study, true).spread;
   };
   EXPECT_EQ(spread("").inertia, 0.1);
@@ -170,7 +170,7 @@ TEST(LoopExaminer, LeavesDrawnQuantitiesToTheStudy) {
 }
 
 TEST(LoopExaminer, KeepsASensitivityThatIsTheLargestOfAnyLoop) {
-  const study::Study study = with_margins("{gain: 6}");
+  const study::Study study = with_margins("{gain: 6, spread: typical}");
   const double largest = LoopExaminer(study, 4).margins_of(study, true).sensitivity;
   for (const double wanted : {0.999 * largest, 1.001 * largest}) {
     const study::LoopMargins margins{

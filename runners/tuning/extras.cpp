@@ -63,10 +63,11 @@ ExtrasMaker::ExtrasMaker(const Context& context, TuneAnswer& answer)
       details_{tuned_, answer.free, answer.gains, of_.search.units(), 0, of_.effort} {
   const auto points_if = [&](Extra extra, std::int64_t points) { return wants(extra) ? points : 0; };
   const std::int64_t points =
-      points_if(Extra::limits, points_of_limits) + points_if(Extra::robustness, points_of_robustness) +
-      (is_met() ? points_if(Extra::margins, points_of_delay) +
-                      points_if(Extra::room, points_of_room * std::ssize(answer_.free))
-                : 0);
+      points_if(Extra::limits, points_of_limits) +
+      (is_met()
+           ? points_if(Extra::margins, points_of_delay) + points_if(Extra::robustness, points_of_robustness) +
+                 points_if(Extra::room, points_of_room * std::ssize(answer_.free))
+           : 0);
   if (!wants(Extra::controls)) controls_.clear();
   plan_ = plan_rest(of_.study, points,
                     wants(Extra::maps) ? trials_of_maps(of_.search.units(), answer_.free.size()) : 0,
@@ -90,7 +91,7 @@ double ExtrasMaker::seconds_of(Extra extra) const {
       trials = is_met() ? points_of_room * std::ssize(answer_.free) * each : 0;
       break;
     case Extra::robustness:
-      trials = points_of_robustness * units_of_limits().trials();
+      trials = is_met() ? points_of_robustness * units_of_limits().trials() : 0;
       break;
     case Extra::controls:
       trials =
@@ -169,6 +170,7 @@ void ExtrasMaker::make(Extra extra) {
       if (is_met()) try_to([&] { answer_.room = room_of(details_); });
       return;
     case Extra::robustness:
+      if (!is_met()) return;  // there is nothing that could hold
       return try_to([&] {
         const study::Study tuned = tuned_for_limits();
         const trials::Replicates units = units_of_limits();

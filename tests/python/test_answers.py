@@ -63,7 +63,7 @@ def asked(axis: zc.Study, small: zc.Results, other: zc.Results, results_of: Resu
     axis.set(rigs=50, trials=100).save(manifest)
     axis = zc.study(manifest)
     worlds, goal = results_of("unknown-friction"), {"band": 1, "within": 0.05, "moves": 0.8}
-    machines = small.study.set(goal={"band": 1, "within": 0.05, "moves": 0.3, "machines": 0.9}, trials=400, rigs=20).run(folder / "m.h5")
+    machines = small.study.set(goal={"band": 2, "within": 0.05, "moves": 0.5, "machines": 0.7}, trials=400, rigs=20).run(folder / "m.h5")
     wide = "{success_rate: 0.5, arrival_rate: 0.5, stable_rate: 0.5, jerk_count: 1000, settling_time: 1}"
     margins.write_text(f"margins: {wide}\n", encoding="utf-8")
     few = axis.without("rigs").set(trials=50, **{"command.hold": 0.1}).sweep("controller.ki", [1e4])

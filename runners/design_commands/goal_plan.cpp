@@ -41,6 +41,7 @@ bool is_on_machines(const study::Study& study) {
 /// The studies with their times, where goals on machines leave a choice between rigs and trials on each.
 std::vector<PlannedStudy> with_times(const std::vector<goal::Needs>& studies, const study::Study& study) {
   std::vector<PlannedStudy> planned;
+  planned.reserve(studies.size());
   for (const goal::Needs& one : studies) planned.push_back({one});
   if (studies.empty() || !is_on_machines(study)) return planned;
   const double seconds_per_trial =

@@ -71,7 +71,7 @@ std::string percent_text(double proportion) {
   return (proportion < negligible ? "less than " : "") + percent_at_most(proportion);
 }
 
-/// What a test finds: how far the goal is out of reach, above 1 if it is, and why.
+/// Result of a test: a factor that is above 1 where the goal is out of reach, and the reason.
 struct Doubt {
   double ratio{0.0};
   std::string text{};

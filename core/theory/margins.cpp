@@ -63,7 +63,7 @@ Margin peak_sensitivity(const FrozenLoop& loop) {
   double nearest = std::abs(1.0 + open_loop(Complex(-1.0), loop.plant, loop.controller));
   for (std::size_t i = 1; i + 1 < angles.size(); ++i) {
     if (distances[i] > distances[i - 1] || distances[i] > distances[i + 1]) continue;
-    // Of the logarithm of the angle, because the method stops at an absolute tolerance too.
+    // The variable is the logarithm of the angle, because the method also stops at an absolute tolerance.
     const auto [log_angle, distance] =
         numerics::minimum_between(std::log(angles[i - 1]), std::log(angles[i + 1]), bits,
                                   [&](double log) { return distance_at(std::exp(log)); });

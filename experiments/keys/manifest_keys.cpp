@@ -44,7 +44,7 @@ constexpr numerics::Interval open_unit{.low = 0.0, .high = 1.0};
 constexpr std::int64_t max_worlds = 10'000;
 // The rig is a 32-bit counter word of a rotor's random numbers.
 constexpr std::int64_t max_rigs = std::int64_t{1} << 32;
-// Of a part of a value, by which it may be less.
+// Range of a relative spread.
 constexpr numerics::Interval spread{.low = 0.0, .high = 1.0, .low_included = true};
 constexpr numerics::Interval margin{.low = 0.0, .high = 1e6, .low_included = true, .high_included = true};
 

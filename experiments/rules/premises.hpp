@@ -9,7 +9,7 @@
 
 namespace zerocount::rules {
 
-/// What the study says of each effect of a real axis that is absent by default. An effect is considered where
+/// Lists the effects of a real axis that are absent by default. An effect is considered where
 /// one of its parameters can differ from 0 in some trial of some point under some condition; otherwise it is
 /// stated to be absent where the manifest gives one of them.
 /// @param is_given whether the manifest gives the slot

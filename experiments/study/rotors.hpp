@@ -35,8 +35,8 @@ class Rotors {
   Rotors(distributions::ProfileDescription description, std::optional<DrawnMean> mean, std::uint64_t seed,
          std::string_view name, std::int64_t count);
 
-  /// The same rotors with the random field, and its mean if that is drawn, `factor` times as far from their
-  /// centres (distributions::widened).
+  /// Rotors with the same random numbers, whose random field, and mean if it is drawn, deviate `factor` times
+  /// as much from their centres (distributions::widened).
   std::shared_ptr<const Rotors> widened(double factor) const;
 
   /// Whether all profiles are equal.

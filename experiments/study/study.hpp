@@ -176,7 +176,7 @@ struct ObservedCounts {
   std::int64_t of{1};         ///< trials, all on one rig
 };
 
-/// What a study says of an effect of a real axis.
+/// Whether a study has an effect of a real axis.
 enum class PremiseState {
   considered,   ///< it acts in some trials
   stated_none,  ///< the manifest gives its parameter as 0

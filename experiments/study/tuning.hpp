@@ -25,7 +25,7 @@ struct LoopSpread {
   std::optional<double> torque_constant{};  ///< of the torque, or force, that a code makes
 };
 
-/// What data sheets usually leave open.
+/// Spread that data sheets usually leave open.
 constexpr LoopSpread typical_spread{.inertia = 0.1, .damping = 0.3, .torque_constant = 0.05};
 
 /// Margins that the linear loop of every machine must keep, at every stiffness of the contact before it

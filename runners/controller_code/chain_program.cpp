@@ -85,7 +85,7 @@ class ChainWriter {
     return single_ ? Term(Operation::count_difference, {a, b}) : a - b;
   }
 
-  /// What has to be remembered of the first sample.
+  /// Writes the variables that keep values of the first sample.
   void start() {
     const bool differs = cascade_ || of_.controller.kd != 0.0 || (stands_ && blocks_.standstill.kd != 0.0);
     if (differs) last_count_ = state("last_count", "at the sample before, counts", Type::count);

@@ -7,7 +7,7 @@
 
 namespace zerocount::controller_code {
 
-/// What a reader of the written controller needs to know, line by line.
+/// Lines of the comment at the top of a written controller.
 std::vector<std::string> heading_lines(const ControllerToWrite& chain, Precision precision);
 
 }  // namespace zerocount::controller_code

@@ -130,7 +130,7 @@ std::string spent_text(const TuneAnswer& answer) {
                                  : std::string());
 }
 
-/// What was not made, and the command that makes it.
+/// Names the extras that were left out, and the command that makes them.
 std::string left_out_sentence(Of tuning) {
   const TuneAnswer& answer = tuning.answer;
   if (answer.left_out.empty()) return "";

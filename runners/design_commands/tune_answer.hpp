@@ -17,7 +17,7 @@ struct Tuning {
   bool is_of_file{false};        ///< nothing was searched: the proof was made before
 };
 
-/// What is proven, or that nothing could be, and what the values do: it stands before the extras are made.
+/// Adds the verdict, the proof and the behaviour of the moves, which are printed before the extras are made.
 document::AnswerDescription<Tuning> proven_answer();
 
 /// One extra, by simulation.

@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "analysis/theory/load_mode.hpp"
 #include "experiments/rules/value_rules.hpp"
 
 namespace zerocount::tuning {
 namespace {
 
-constexpr double added_noise = 0.1;  // counts rms
-constexpr double added_delay = 1.0;  // samples
-constexpr double load_part = 0.5;    // of the inertia
-constexpr double load_damping = 0.01;
+constexpr double added_noise = 0.1;        // counts rms
+constexpr double added_delay = 1.0;        // samples
 constexpr double allowed_loss = 0.01;      // of each rate, by a mode that is borne
 constexpr double lowest_frequency = 10.0;  // Hz
 constexpr double precision = 1.05;         // of the frequency
@@ -53,20 +51,13 @@ std::string refusal_of_delay(study::PointEdit at) {
 
 // Mode.
 
-motion::LoadParameters load_of(double inertia, double frequency) {
-  const double reduced = load_part * (1.0 - load_part) * inertia;  // of both masses against each other
-  const double rate = 2.0 * std::numbers::pi * frequency;
-  return {.inertia = load_part * inertia,
-          .stiffness = reduced * rate * rate,
-          .damping = 2.0 * load_damping * reduced * rate};
-}
-
 std::string refusal_of_load(study::PointEdit at, double frequency) {
-  const motion::LoadParameters load = load_of(at.limits("plant.inertia").typical, frequency);
-  at.scale("plant.inertia", 1.0 - load_part);
-  at.set("plant.load.inertia", load.inertia);
-  at.set("plant.load.stiffness", load.stiffness);
-  at.set("plant.load.damping", load.damping);
+  const motion::PlantParameters rigid{.inertia = at.limits("plant.inertia").typical};
+  const motion::PlantParameters plant = theory::with_load_mode(rigid, frequency);
+  at.scale("plant.inertia", plant.inertia / rigid.inertia);
+  at.set("plant.load.inertia", plant.load.inertia);
+  at.set("plant.load.stiffness", plant.load.stiffness);
+  at.set("plant.load.damping", plant.load.damping);
   return rules::refusal_of(at);
 }
 
@@ -215,8 +206,7 @@ Effect load_mode(const study::Study& study, std::int64_t point, double frequency
           .note = "half of the inertia, 1 % damping",
           .refusal = refusal_of_load(study::PointEdit(study, point), frequency),
           .change = [frequency](trial::TrialParameters& p) {
-            p.plant.load = load_of(p.plant.inertia, frequency);
-            p.plant.inertia *= 1.0 - load_part;
+            p.plant = theory::with_load_mode(p.plant, frequency);
           }};
 }
 

@@ -10,8 +10,7 @@ namespace zerocount::tuning {
 /// quadrature to that of each encoder that closes the loop, and one sample of delay.
 std::vector<Effect> added_effects(const study::Study& study, std::int64_t point);
 
-/// A mode of the load: half of the inertia is behind a coupling with this natural frequency (Hz) and 1 % of
-/// critical damping, both masses free; the encoders are on the motor.
+/// A mode of the load at this natural frequency (Hz): theory::with_load_mode.
 Effect load_mode(const study::Study& study, std::int64_t point, double frequency);
 
 /// Rates of the goal with each of these effects added, and, if the study has no second mass, with the lowest

@@ -177,8 +177,9 @@ void judge_overshoot(const MoveBehaviour& row, const study::Study& study, std::v
   if (!(row.overshoot_of_step.p95 > max_overshoot_of_step) ||
       !(row.overshoot.p95 > overshoot_in_band(row, study)))
     return;
+  // Whole counts, which overshoot is measured in.
   const double limit =
-      std::max(std::floor(max_overshoot_of_step * row.smallest_step), overshoot_in_band(row, study));
+      std::floor(std::max(max_overshoot_of_step * row.smallest_step, overshoot_in_band(row, study)));
   found.push_back(
       {"overshoot",
        fmt::format("5 % of the moves{} overshoot by {:.3g} % of the step or more (from {} counts)",

@@ -25,7 +25,7 @@ constexpr double examining = 0.3;           // of the time left, at most, to fin
 constexpr std::size_t walkers = 24;
 constexpr std::int64_t first_places = 96;  // the best of which become walkers
 constexpr int rounds_of_walkers = 60;
-constexpr int tries_before_walking = 8;  // for a later generation
+constexpr int tries_before_walking = 8;  // of a later generation, if they find less than half of it
 constexpr double walked_part = 0.6;      // of the difference of two others
 constexpr double crossover = 0.9;        // probability that a coordinate moves
 
@@ -227,8 +227,8 @@ class Search {
       for (std::size_t i = candidates.size(); i < wanted; ++i)
         places.push_back(place_near_elites(step_ / (1.0 + 0.2 * tries)));
       add_admissible(places, wanted, candidates);
-      return ++tries < (problem_.shortfall ? tries_before_walking : tries_of_candidate) &&
-             candidates.size() < wanted;
+      const bool is_thin = 2 * candidates.size() < wanted && problem_.shortfall;
+      return ++tries < (is_thin ? tries_before_walking : tries_of_candidate) && candidates.size() < wanted;
     });
     if (problem_.shortfall)
       approach(candidates, wanted, {}, [&](std::int64_t) { return place_near_elites(step_); });

@@ -79,6 +79,7 @@ TEST(TuneAnswer, NamesEachMarginWithItsUnitAndWhatIsWanted) {
   TuneAnswer answer = answer_for(study, goal::Status::met);
   answer.margins =
       SmallestMargins{.gain = never, .phase = 41.0, .delay = 10.0, .sensitivity = 1.5, .machines = 8};
+  answer.margins->spread = study::typical_spread;
   EXPECT_THAT(
       text_of(answer, study),
       HasSubstr(

@@ -11,8 +11,11 @@
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/text/percent.hpp"
+#include "analysis/text/si_prefix.hpp"
 #include "analysis/text/text.hpp"
 #include "core/numerics/bisection.hpp"
+#include "experiments/parameters/study_units.hpp"
+#include "results/layout/measure_table.hpp"
 
 namespace zerocount::goal {
 namespace {
@@ -23,18 +26,36 @@ std::string with_bounds(const BoundedProportion& proportion) {
                      text::percent_at_most(proportion.high));
 }
 
-/// "|error| ≤ 1 count", "|position error| ≤ 1e-08 m".
+/// "|error| ≤ 1 count", "|position error| ≤ 10 nm".
 std::string band_text(const study::Goal& goal) {
-  if (goal.tolerance) return fmt::format("|position error| ≤ {:g}", *goal.tolerance);
+  if (goal.tolerance)
+    return "|position error| ≤ " +
+           text::with_si_prefix(*goal.tolerance, parameters::unit_on(goal.axis, "rad"));
   if (goal.band == 0) return "error 0";
   return fmt::format("|error| ≤ {} count{}", goal.band, goal.band == 1 ? "" : "s");
 }
 
-/// ", overshoot ≤ 200, peak_torque ≤ 45"; empty without limits.
+/// The largest value of a limit with its unit: "200 counts", "45 N", "1 µm".
+std::string largest_text(const study::GoalLimit& limit, parameters::AxisKind axis) {
+  study::StudyFeatures features{.axis = axis, .motion = true, .position_error = true};
+  features.tolerances.count = 1;
+  const auto stem = [](std::string_view name) { return name.substr(0, name.find('[')); };
+  const auto measures = layout::measure_table(features);
+  const auto measure = std::ranges::find_if(measures, [&](const layout::Measure& one) {
+    return stem(one.field.column.name) == stem(limit.measure);
+  });
+  const std::string_view unit = measure == measures.end() ? "1" : measure->field.column.unit;
+  if (unit == "rad") return text::with_si_prefix(limit.largest, parameters::unit_on(axis, unit));
+  if (unit == "1") return fmt::format("{:g}", limit.largest);
+  const char* plural = unit == "count" && limit.largest != 1.0 ? "s" : "";
+  return fmt::format("{:g} {}{}", limit.largest, parameters::unit_on(axis, unit), plural);
+}
+
+/// ", overshoot ≤ 200 counts, peak_torque ≤ 45 N"; empty without limits.
 std::string limits_text(const study::Goal& goal) {
   std::string text;
   for (const study::GoalLimit& limit : goal.limits)
-    text += fmt::format(", {} ≤ {:g}", limit.measure, limit.largest);
+    text += fmt::format(", {} ≤ {}", limit.measure, largest_text(limit, goal.axis));
   return text;
 }
 

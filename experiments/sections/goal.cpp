@@ -175,6 +175,7 @@ void read_goal(const yaml::Field& field, std::string_view name, keys::Reading& r
   yaml::Problems& problems = reading.problems;
   study::Goal& goal = study.goals.emplace_back();
   goal.name = name;
+  goal.axis = reading.plan.units.axis;
   keys::read_key(field, *keys::find_general_key("goal"), reading);
   if (field.node->kind != yaml::YamlNode::Kind::map) return study.goals.pop_back();
   if (const auto within = yaml::find_field(field, "within"))

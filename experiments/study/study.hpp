@@ -154,7 +154,8 @@ struct GoalLimit {
 struct Goal {
   std::string name{};                 ///< of `goals`; empty where the study has one goal
   std::int64_t band{0};               ///< counts; one of StudyFeatures::bands; not used with a tolerance
-  std::optional<double> tolerance{};  ///< rad; one of StudyFeatures::tolerances
+  std::optional<double> tolerance{};  ///< rad, or m; one of StudyFeatures::tolerances
+  parameters::AxisKind axis{};        ///< of the study: it determines the units
   double within{1.0};                 ///< s from the start of the move
   std::vector<std::int64_t> on{};     ///< moves of a trial that it is about, rising; empty: all
   std::vector<GoalLimit> limits{};

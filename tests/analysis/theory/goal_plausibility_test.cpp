@@ -20,8 +20,8 @@ namespace {
 constexpr double count = 1e-8;  // m
 
 /// A linear axis with k1 = 1e6 N/m and counts of 10 nm.
-study::Study study_with(const std::string& goal, const std::string& more = "",
-                        const std::string& encoder = "resolution: 1.0e-8") {
+study::Study study_asking(const std::string& goal, const std::string& more = "",
+                          const std::string& encoder = "resolution: 1.0e-8") {
   return manifest::parse_study(
       fmt::format(
           "zerocount: 1\nname: goals\naxis: linear\nseed: 1\ntrials: 2\n{}\n"
@@ -37,7 +37,7 @@ study::Study study_with(const std::string& goal, const std::string& more = "",
 std::vector<std::string> doubts(const std::string& goal, const std::string& dac = "bits: 20, range: 50",
                                 const std::string& encoder = "resolution: 1.0e-8") {
   const std::string moves = goal.find("moves:") == std::string::npos ? ", moves: 0.5" : "";
-  return doubtful_goals(study_with("goal: {" + goal + moves + "}", "dac: {" + dac + "}\n", encoder));
+  return doubtful_goals(study_asking("goal: {" + goal + moves + "}", "dac: {" + dac + "}\n", encoder));
 }
 
 class GoalPlausibility : public testing::Test {
@@ -143,8 +143,8 @@ TEST_F(GoalPlausibility, NoiseMovesTheAxisByTheLinearLoop) {
       const std::string of_bandwidth =
           std::isfinite(bandwidth) ? fmt::format(", noise_bandwidth: {}", bandwidth) : "";
       const study::Study study =
-          study_with("", "dac: {bits: 24, range: 50}\n",
-                     fmt::format("resolution: 1.0e-8, fine_errors: {{noise: {}{}}}", noise, of_bandwidth));
+          study_asking("", "dac: {bits: 24, range: 50}\n",
+                       fmt::format("resolution: 1.0e-8, fine_errors: {{noise: {}{}}}", noise, of_bandwidth));
       trial::TrialParameters p = study::study_trial(study, 0, 0).parameters;
       p.friction.uniform.k2 = 0.0;
       p.command.hold = 5.0;
@@ -173,7 +173,7 @@ TEST_F(GoalPlausibility, AToleranceHoldsTheMotionByNoise) {
     const std::string encoder = fmt::format("resolution: 1.0e-8, fine_errors: {{noise: {:.17g}}}", noise);
     double least = std::numeric_limits<double>::infinity();
     const trial::TrialParameters p =
-        study::study_trial(study_with("", "dac: {bits: 20, range: 50}\n", encoder), 0, 0).parameters;
+        study::study_trial(study_asking("", "dac: {bits: 20, range: 50}\n", encoder), 0, 0).parameters;
     for (const TrialLoop& loop : trial_loops(p)) {
       if (!loop.slides)
         least = std::min(least,
@@ -193,7 +193,7 @@ TEST_F(GoalPlausibility, AToleranceHoldsTheMotionByNoise) {
 }
 
 TEST_F(GoalPlausibility, TheGoalAndItsConditionAreNamed) {
-  const study::Study study = study_with(
+  const study::Study study = study_asking(
       "goals: {coarse: {band: 2, within: 0.1, moves: 0.5}, fine: {tolerance: 1.0e-8, within: 0.1, moves: "
       "0.5}}\n"
       "conditions: {cold: {dac.resolution: 1.0e-5}, warm: {dac.resolution: 0.15}}",
@@ -202,7 +202,7 @@ TEST_F(GoalPlausibility, TheGoalAndItsConditionAreNamed) {
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_TRUE(lines.front().starts_with("point 0 (all) under condition warm: goal fine: one code of the DAC"))
       << lines.front();
-  EXPECT_TRUE(doubtful_goals(study_with("", "dac: {bits: 20, range: 50}\n")).empty());
+  EXPECT_TRUE(doubtful_goals(study_asking("", "dac: {bits: 20, range: 50}\n")).empty());
 }
 
 }  // namespace

@@ -138,21 +138,13 @@ void PointAccumulator::add(const trial::TrialOutcome& trial, std::span<const tri
 }
 
 void PointAccumulator::add_measures(std::span<const trial::MoveOutcome> moves, std::size_t moves_of_trial) {
-  for (MeasureAccumulator& measure : measures_)
-    add_trials(measure, first_trial_ + measured_, moves, moves_of_trial);
-  measured_ += static_cast<std::int64_t>(moves.size() / moves_of_trial);
-}
-
-void PointAccumulator::add_measures_in_tasks(std::span<const trial::MoveOutcome> moves,
-                                             std::size_t moves_of_trial) {
   // Few enough moves to stay in the cache while all measures are added.
   constexpr std::size_t moves_at_a_time = 1024;
   const std::size_t trials_at_a_time = std::max<std::size_t>(1, moves_at_a_time / moves_of_trial);
   while (!moves.empty()) {
     const auto some = moves.first(std::min(moves.size(), trials_at_a_time * moves_of_trial));
-    oneapi::tbb::parallel_for(std::size_t{0}, measures_.size(), [&](std::size_t i) {
-      add_trials(measures_[i], first_trial_ + measured_, some, moves_of_trial);
-    });
+    for (MeasureAccumulator& measure : measures_)
+      add_trials(measure, first_trial_ + measured_, some, moves_of_trial);
     measured_ += static_cast<std::int64_t>(some.size() / moves_of_trial);
     moves = moves.subspan(some.size());
   }

@@ -120,10 +120,9 @@ class PointAccumulator {
   /// its jerks are out of order or not those that its outcome counts, or its moves are not of the kind.
   void add(const trial::TrialOutcome& trial, std::span<const trial::Jerk> jerks);
 
-  /// The two parts of add(), which may run at the same time: the measures, of many trials with
-  /// `moves_of_trial` moves each; and the rest, of one trial.
+  /// The two parts of add(): the measures, of many trials with `moves_of_trial` moves each; and the rest, of
+  /// one trial.
   void add_measures(std::span<const trial::MoveOutcome> moves, std::size_t moves_of_trial);
-  void add_measures_in_tasks(std::span<const trial::MoveOutcome> moves, std::size_t moves_of_trial);
   void add_counts(std::span<const trial::MoveOutcome> moves, std::span<const trial::Jerk> jerks);
 
   /// Adds the trials that follow these, of the same point. The statistics do not depend on how the trials of

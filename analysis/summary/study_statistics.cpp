@@ -2,24 +2,27 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
+#include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "analysis/iso230/results_group.hpp"
 #include "analysis/measures/point_columns.hpp"
-#include "analysis/measures/trial_value.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::summary {
 namespace {
 
 constexpr std::int64_t jerks_at_once = 65536;
-constexpr std::int64_t trials_of_task = 1024;
 
 [[noreturn]] void fail(const reading::AllTrialsFile& file, const std::string& what) {
   throw Failure(ExitCode::bad_data, fmt::format("{}: {}", file.path().string(), what));
@@ -69,36 +72,104 @@ class JerkStream {
   std::vector<trial::Jerk> taken_;
 };
 
-void add_trial(SummedPoint& point, const reading::AllTrialsFile& file, std::int64_t row,
-               std::span<const trial::MoveOutcome> moves, JerkStream& jerk_stream) {
+std::int64_t jerks_of(std::span<const trial::MoveOutcome> moves) {
   std::int64_t count = 0;
   for (const trial::MoveOutcome& move : moves) count += move.jerk_count;
-  const std::span<const trial::Jerk> jerks = jerk_stream.take(row, count);
-  try {
-    point.trials().add_counts(moves, jerks);
-  } catch (const Failure& failure) {
-    fail(file, fmt::format("trial {}: {}", row, failure.what()));
-  }
+  return count;
 }
 
-/// Adds the trials `rows` of the file, all of one design point, with these moves.
-void add_trials(SummedPoint& point, const reading::AllTrialsFile& file, layout::RowRange rows,
-                std::span<const trial::MoveOutcome> moves, JerkStream& jerks) {
-  const auto moves_of_trial = static_cast<std::size_t>(file.moves());
-  const auto add_counts = [&] {
-    std::span<const trial::MoveOutcome> rest = moves;
-    for (std::int64_t row = rows.first; row < rows.end(); ++row) {
-      add_trial(point, file, row, rest.first(moves_of_trial), jerks);
-      rest = rest.subspan(moves_of_trial);
+/// Trials of a file that follow one another, in one chunk.
+struct Block {
+  layout::RowRange rows;
+  std::span<const trial::MoveOutcome> moves;  ///< [trial, move], of the chunk
+  std::vector<trial::Jerk> jerks;
+  std::shared_ptr<const std::vector<trial::MoveOutcome>> chunk;
+};
+
+/// Divides the trials `rows` of a file into blocks: the chunks of the file, or parts with not too many jerks.
+class BlockReader {
+ public:
+  BlockReader(const reading::AllTrialsFile& file, layout::RowRange rows)
+      : file_(file), rows_(rows), jerks_(file, rows) {}
+
+  std::optional<Block> next() {
+    if (rows_.count == 0) return std::nullopt;
+    if (unread_.empty()) read_chunk();
+    const auto moves = static_cast<std::size_t>(file_.moves());
+    Block block{{rows_.first, 0}, unread_, {}, chunk_};
+    while (!unread_.empty() && std::ssize(block.jerks) < jerks_at_once) {
+      const auto jerks = jerks_.take(block.rows.end(), jerks_of(unread_.first(moves)));
+      block.jerks.insert(block.jerks.end(), jerks.begin(), jerks.end());
+      unread_ = unread_.subspan(moves);
+      ++block.rows.count;
     }
-  };
-  if (rows.count < trials_of_task) {  // tasks would take longer
-    add_counts();
-    point.trials().add_measures(moves, moves_of_trial);
-  } else {
-    oneapi::tbb::parallel_invoke(add_counts,
-                                 [&] { point.trials().add_measures_in_tasks(moves, moves_of_trial); });
+    block.moves = block.moves.first(block.moves.size() - unread_.size());
+    rows_ = {block.rows.end(), rows_.count - block.rows.count};
+    if (rows_.count == 0 && !jerks_.at_end())
+      fail(file_, "jerks are recorded beyond those that the trials counted");
+    return block;
   }
+
+ private:
+  void read_chunk() {
+    const std::int64_t chunk = layout::chunk_rows(file_.moves());
+    const std::int64_t in_chunk = (rows_.first - file_.rows().first) % chunk;
+    chunk_ = std::make_shared<std::vector<trial::MoveOutcome>>(
+        file_.outcomes({rows_.first, std::min(chunk - in_chunk, rows_.count)}));
+    unread_ = *chunk_;
+  }
+
+  const reading::AllTrialsFile& file_;
+  layout::RowRange rows_;  ///< in no block yet
+  JerkStream jerks_;
+  std::shared_ptr<const std::vector<trial::MoveOutcome>> chunk_;
+  std::span<const trial::MoveOutcome> unread_;  ///< of the chunk, in no block yet
+};
+
+/// The sums of the trials of a block at one point. @param moves, jerks of the block from there on
+SummedPoint sums_of(const reading::AllTrialsFile& file, const study::Study& study, const Wanted& wanted,
+                    layout::RowRange rows, std::span<const trial::MoveOutcome>& moves,
+                    std::span<const trial::Jerk>& jerks) {
+  const auto of_trial = static_cast<std::size_t>(file.moves());
+  const auto of_rows = moves.first(static_cast<std::size_t>(rows.count) * of_trial);
+  SummedPoint sums(study, rows.first / study.trials, rows.first % study.trials, file.header().version,
+                   file.table());
+  for (std::int64_t row = rows.first; row < rows.end(); ++row, moves = moves.subspan(of_trial)) {
+    const auto trial = moves.first(of_trial);
+    const auto count = static_cast<std::size_t>(jerks_of(trial));
+    try {
+      sums.trials().add_counts(trial, jerks.first(count));
+    } catch (const Failure& failure) {
+      fail(file, fmt::format("trial {}: {}", row, failure.what()));
+    }
+    jerks = jerks.subspan(count);
+  }
+  sums.trials().add_measures(of_rows, of_trial);
+  if (wanted.undecided) sums.add_undecided(rows, of_rows);
+  if (wanted.predictions) sums.add(theory::prediction_of(study, rows));
+  return sums;
+}
+
+/// The sums of a block, [point, from that of the first trial], or why there are none.
+struct BlockSums {
+  std::vector<SummedPoint> points{};
+  std::exception_ptr failure{};
+};
+
+BlockSums sums_of(const reading::AllTrialsFile& file, const study::Study& study, const Wanted& wanted,
+                  const Block& block) {
+  BlockSums sums;
+  std::span<const trial::MoveOutcome> moves = block.moves;
+  std::span<const trial::Jerk> jerks = block.jerks;
+  try {
+    for (layout::RowRange rows{block.rows.first, 0}; rows.first < block.rows.end(); rows.first = rows.end()) {
+      rows.count = std::min(study.trials - rows.first % study.trials, block.rows.end() - rows.first);
+      sums.points.push_back(sums_of(file, study, wanted, rows, moves, jerks));
+    }
+  } catch (const Failure&) {
+    sums.failure = std::current_exception();
+  }
+  return sums;
 }
 
 }  // namespace
@@ -110,21 +181,36 @@ StudyAccumulator::StudyAccumulator(const study::Study& study, const Wanted& want
 }
 
 void StudyAccumulator::add(const reading::AllTrialsFile& file, layout::RowRange rows) {
-  JerkStream jerks(file, rows);
-  using Outcomes = std::span<const trial::MoveOutcome>;
-  measures::visit_blocks(file, rows, [&](layout::RowRange block, Outcomes rest) {
-    for (layout::RowRange of_point{block.first, 0}; of_point.first < block.end();
-         of_point.first = of_point.end()) {
-      of_point.count = std::min(study_.trials - of_point.first % study_.trials, block.end() - of_point.first);
-      const auto count = static_cast<std::size_t>(of_point.count * file.moves());
-      SummedPoint& sums = point(of_point.first / study_.trials, file.header().version, file.table());
-      add_trials(sums, file, of_point, rest.first(count), jerks);
-      if (wanted_.undecided) sums.add_undecided(of_point, rest.first(count));
-      if (wanted_.predictions) sums.add(theory::prediction_of(study_, of_point));
-      rest = rest.subspan(count);
+  namespace tbb = oneapi::tbb;
+  BlockReader reader(file, rows);
+  const auto read = [&](tbb::flow_control& control) -> std::shared_ptr<Block> {
+    std::optional<Block> block = reader.next();
+    if (!block) {
+      control.stop();
+      return nullptr;
     }
-  });
-  if (!jerks.at_end()) fail(file, "jerks are recorded beyond those that the trials counted");
+    return std::make_shared<Block>(std::move(*block));
+  };
+  const auto sum = [&](const std::shared_ptr<Block>& block) {
+    return std::make_shared<BlockSums>(sums_of(file, study_, wanted_, *block));
+  };
+  const auto add_sums = [&](const std::shared_ptr<BlockSums>& sums) {
+    if (sums->failure) std::rethrow_exception(sums->failure);  // here, so that it is that of the first trial
+    for (SummedPoint& next : sums->points) {
+      SummedPoint& all = point(next.point(), file.header().version, file.table());
+      if (all.trials().trials() == 0) {
+        all = std::move(next);
+      } else {
+        all += next;
+      }
+    }
+  };
+  tbb::parallel_pipeline(
+      2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
+      tbb::make_filter<void, std::shared_ptr<Block>>(tbb::filter_mode::serial_in_order, read) &
+          tbb::make_filter<std::shared_ptr<Block>, std::shared_ptr<BlockSums>>(tbb::filter_mode::parallel,
+                                                                               sum) &
+          tbb::make_filter<std::shared_ptr<BlockSums>, void>(tbb::filter_mode::serial_in_order, add_sums));
 }
 
 void StudyAccumulator::add(const reading::ResultsFile& file, std::int64_t number) {

@@ -37,9 +37,9 @@ struct PointResults {
 /// Computes the statistics of the points of a study. The trials come from one results file or several, in
 /// order of rows: as rows of outcomes, or as the sums of a file that keeps statistics.
 ///
-///     for each file, for each of its points
-///       add the trials, or their sums, to the sums of the point
-///       before the next point begins: take the statistics that follow from the sums
+///     for each file, for each block of its trials, in parallel
+///       read the block, sum its trials at each point, and add the sums to those of the points in order
+///       before the next point begins: take the statistics that follow from the sums of a point
 ///
 /// Files are read once, in blocks. The memory does not grow with the number of trials (see PointAccumulator).
 class StudyAccumulator {

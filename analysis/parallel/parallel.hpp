@@ -7,6 +7,9 @@
 /// Work on all cores, without the headers of the library that does it.
 namespace zerocount::parallel {
 
+/// Threads that work in parallel at most.
+int threads();
+
 /// Calls `work` for each index below `count`, in parallel.
 void for_each_index(std::size_t count, const std::function<void(std::size_t)>& work);
 

@@ -12,6 +12,7 @@
 #include "analysis/goal/question.hpp"
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/trial_value.hpp"
+#include "analysis/parallel/parallel.hpp"
 #include "core/batch/batch.hpp"
 #include "core/failure/failure.hpp"
 #include "runners/trials/trial_set.hpp"
@@ -19,8 +20,11 @@
 namespace zerocount::tuning {
 namespace {
 
-constexpr std::int64_t trials_in_lanes = 256;    // one thread runs them at once
-constexpr std::int64_t trials_of_reference = 8;  // likewise, where lanes do not run them
+// One thread runs so many trials at once: enough to fill the lanes, and few enough for all threads.
+constexpr std::int64_t min_trials_in_lanes = 32;
+constexpr std::int64_t max_trials_in_lanes = 256;
+constexpr std::int64_t trials_of_reference = 8;  // where lanes do not run them
+constexpr std::int64_t parts_of_thread = 2;      // at least, where few trials are run
 
 /// A part of an entry that one thread runs.
 struct Part {
@@ -80,10 +84,12 @@ std::vector<trial::TrialParameters> trials_of(const Part& part, const trials::Re
   return trials;
 }
 
-/// Units that one thread runs at once: enough for the lanes, or few where the trials take long.
-std::int64_t units_of_part(const UnitsToRun& entry, const trials::Replicates& units) {
+/// Units that one thread runs at once. @param all trials that are run together
+std::int64_t units_of_part(const UnitsToRun& entry, const trials::Replicates& units, std::int64_t all) {
   const bool in_lanes = batch::runs_in_lanes(trial_of(entry, units, entry.from, 0));
-  const std::int64_t trials = in_lanes ? trials_in_lanes : trials_of_reference;
+  const std::int64_t trials = in_lanes ? std::clamp(all / (parts_of_thread * parallel::threads()),
+                                                    min_trials_in_lanes, max_trials_in_lanes)
+                                       : trials_of_reference;
   return std::max<std::int64_t>(1, trials / units.trials_each);
 }
 
@@ -251,8 +257,10 @@ void run_units(std::span<const UnitsToRun> entries, const trials::Replicates& un
   for (const UnitsToRun& entry : entries) {
     entry.results->resize(static_cast<std::size_t>(entry.to));
     set.count += (entry.to - entry.from) * units.trials_each;
+  }
+  for (const UnitsToRun& entry : entries) {
     if (entry.from >= entry.to) continue;
-    const std::int64_t size = units_of_part(entry, units);
+    const std::int64_t size = units_of_part(entry, units, set.count);
     for (std::int64_t from = entry.from; from < entry.to; from += size)
       parts.push_back({&entry, from, std::min(from + size, entry.to)});
   }

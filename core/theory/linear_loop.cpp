@@ -137,12 +137,32 @@ double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controll
   return numerics::spectral_radius(loop_map(plant, controller));
 }
 
-Complex open_loop(Complex z, const HeldPlant& plant, const loop::LinearChain& controller) {
+namespace {
+
+/// The first element of (z·I − A)⁻¹·(b + b_before/z): the count per torque decided, but for whole delays.
+Complex plant_response(Complex z, const HeldPlant& plant) {
   const Eigen::Index states = plant.A.rows();
+  const auto m = [&](Eigen::Index i, Eigen::Index j) { return (i == j ? z : 0.0) - plant.A(i, j); };
+  const auto drive = [&](Eigen::Index i) { return plant.b(i) + plant.b_before(i) / z; };
+  // Of two or three states, as most plants have, Cramer's rule: c are the cofactors of the first column of m.
+  if (states == 2) {
+    const Complex c[] = {m(1, 1), -m(0, 1)};
+    return (c[0] * drive(0) + c[1] * drive(1)) / (c[0] * m(0, 0) + c[1] * m(1, 0));
+  }
+  if (states == 3) {
+    const Complex c[] = {m(1, 1) * m(2, 2) - m(1, 2) * m(2, 1), m(0, 2) * m(2, 1) - m(0, 1) * m(2, 2),
+                         m(0, 1) * m(1, 2) - m(0, 2) * m(1, 1)};
+    return (c[0] * drive(0) + c[1] * drive(1) + c[2] * drive(2)) /
+           (c[0] * m(0, 0) + c[1] * m(1, 0) + c[2] * m(2, 0));
+  }
   const Eigen::MatrixXcd resolvent = z * Eigen::MatrixXcd::Identity(states, states) - plant.A;
-  const Eigen::VectorXcd response =
-      numerics::solve(resolvent, plant.b.cast<Complex>() + plant.b_before.cast<Complex>() / z);
-  return controller_response(z, controller) * std::pow(z, -plant.delay) * response(0);
+  return numerics::solve(resolvent, plant.b.cast<Complex>() + plant.b_before.cast<Complex>() / z)(0);
+}
+
+}  // namespace
+
+Complex open_loop(Complex z, const HeldPlant& plant, const loop::LinearChain& controller) {
+  return controller_response(z, controller) * std::pow(z, -plant.delay) * plant_response(z, plant);
 }
 
 Complex controller_response(Complex z, const loop::LinearChain& controller, double error_gain) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -335,6 +336,19 @@ std::optional<std::string> targets_text(const study::Study& study, std::int64_t 
                      unit, text, moves > shown ? ", …" : "");
 }
 
+/// Warns of the first point whose moves may end before they arrive, and says how many there are.
+void warn_of_short_moves(std::span<const PointReading> points) {
+  const auto is_short = [](const PointReading& point) { return point.theory.approach.exceeds_hold(); };
+  const auto first = std::ranges::find_if(points, is_short);
+  if (first == points.end()) return;
+  const auto others = std::ranges::count_if(points, is_short) - 1;
+  status::tell(
+      "warning: point {} ({}){}: the loop's slowest time constant{}: moves may end before they arrive{}\n",
+      first->point, first->label, first->condition ? " under condition " + *first->condition : "",
+      theory::slowness_text(first->theory.approach),
+      others > 0 ? fmt::format("; likewise {} more of the {} examined", others, points.size()) : "");
+}
+
 std::vector<PointReading> examined_points(const study::Study& study, std::int64_t count) {
   const std::vector<std::string> names = summary::short_labels(study.points.labels, study.points.axes);
   std::vector<PointReading> points;
@@ -349,12 +363,8 @@ std::vector<PointReading> examined_points(const study::Study& study, std::int64_
          study.conditions.empty() ? std::nullopt
                                   : std::optional(study.conditions[static_cast<std::size_t>(condition)]),
          theory::examine(study, point, condition, rotors), targets_text(study, point, condition)});
-    const theory::Approach& approach = points.back().theory.approach;
-    if (!approach.exceeds_hold()) continue;
-    status::tell(
-        "warning: point {} ({}){}: the loop's slowest time constant{}: moves may end before they arrive\n",
-        point, points.back().label, study::condition_text(study, condition), theory::slowness_text(approach));
   }
+  warn_of_short_moves(points);
   return points;
 }
 

@@ -249,6 +249,7 @@ void ExtrasMaker::add_control(const OtherControl& control, const trials::Effort&
   StudySearch search(study, control.free, plan.size, of_.journal, of_.elapsed, effort);
   SearchSettings limits;
   limits.seed = study.seed;
+  limits.begins_anew = has_budget();
   limits.effort = plan.effort;
   const SearchResult found = search.run(limits, starts_from(tuned, control.free));
   answer_.points += found.points;

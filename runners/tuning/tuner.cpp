@@ -222,6 +222,7 @@ class Tuner {
   void find() {
     SearchSettings search;
     search.seed = study_.seed;
+    search.begins_anew = settings_.budget.trials || settings_.budget.seconds;
     search.effort = plan_.effort;
     search.tell = [&](const SearchProgress& progress) {
       line_.show([&] {

@@ -18,6 +18,7 @@ constexpr std::size_t places_at_once = 32;  // to be examined
 constexpr double first_step = 0.15;         // in the unit cube
 constexpr double step_ratio = 0.8;          // from generation to generation
 constexpr int patience = 4;                 // generations without improvement
+constexpr double part_on_faces = 0.2;       // of later generations
 constexpr double min_improvement = 0.005;   // of the criterion
 constexpr double examining = 0.3;           // of the time left, at most, to find candidates of a generation
 
@@ -38,19 +39,24 @@ class Search {
         step_(first_step) {}
 
   SearchResult run() {
-    first_generation();
+    race_starts();
+    fill_ranges();
     int without = 0;
     while (!population_.empty()) {
+      ++result_.generations;
       tell();
-      if (!goes_on()) break;
+      result_.converged = without >= patience;
+      if (!goes_on() || (result_.converged && !settings_.begins_anew)) break;
       const Estimate before = best_estimate();
-      next_generation();
+      const bool has_direction = before.rate > 0.0;
+      if (!has_direction || without % (patience + 1) == patience) {
+        step_ = first_step;
+        fill_ranges();
+      } else {
+        next_generation();
+      }
       if (population_.empty()) break;
       without = improves(before, best_estimate()) ? 0 : without + 1;
-      if (without >= patience) {
-        result_.converged = true;
-        break;
-      }
     }
     return finish();
   }
@@ -95,23 +101,30 @@ class Search {
     result_.cut = result_.cut || !ended;
   }
 
-  void first_generation() {
+  /// A generation that is evenly spread over the ranges and their faces.
+  void fill_ranges() {
     const auto wanted = static_cast<std::size_t>(problem_.size.first_candidates);
     std::vector<double> start;
     for (std::size_t i = 0; i < problem_.free.size(); ++i) start.push_back(numbers_.uniform());
     std::vector<Candidate> candidates;
-    std::vector<UnitCubePoint> places;
-    for (const Values& values : problem_.starts) places.push_back(place_of(problem_.free, values));
-    find(candidates, [&] {
-      add_admissible(places, wanted, candidates);
-      return false;
-    });
     for (const std::vector<std::size_t>& face : problem_.faces)
       spread(candidates, start, face,
              candidates.size() + static_cast<std::size_t>(problem_.size.face_candidates));
     const std::size_t on_faces =
         problem_.faces.size() * static_cast<std::size_t>(problem_.size.face_candidates);
     spread(candidates, start, {}, wanted + std::min(candidates.size(), on_faces));
+    race(std::move(candidates));
+  }
+
+  /// Runs them on all units before any other candidate, so that they are not dropped by chance.
+  void race_starts() {
+    std::vector<Candidate> candidates;
+    std::vector<UnitCubePoint> places;
+    for (const Values& values : problem_.starts) places.push_back(place_of(problem_.free, values));
+    find(candidates, [&] {
+      add_admissible(places, places.size(), candidates);
+      return false;
+    });
     race(std::move(candidates));
   }
 
@@ -213,6 +226,10 @@ class Search {
       const double moved = centre[i] + along * (to[i] - from[i]) + step * numbers_.normal();
       place.push_back(std::clamp(moved, 0.0, 1.0));
     }
+    if (!problem_.faces.empty() && numbers_.uniform() < part_on_faces) {
+      for (const std::size_t parameter : problem_.faces[index_below(problem_.faces.size())])
+        place[parameter] = 0.0;
+    }
     return place;
   }
 
@@ -238,7 +255,6 @@ class Search {
 
   /// Lets the candidates race with the population; the best of all become the population.
   void race(std::vector<Candidate> candidates) {
-    ++result_.generations;
     result_.points += std::ssize(candidates);
     for (Candidate& one : population_) candidates.push_back(std::move(one));
     population_.clear();
@@ -251,7 +267,8 @@ class Search {
         verify_leaders(candidates);
         if (candidates.empty()) return;
         drop(candidates, units);
-        if (units == problem_.size.max_units) return;
+        const bool tells_them_apart = estimate_of(problem_.aim, candidates.front(), units).rate > 0.0;
+        if (units == problem_.size.max_units || !tells_them_apart) return;
         units = std::min(2 * units, problem_.size.max_units);
       }
     });
@@ -346,7 +363,8 @@ class Search {
               !is_significantly_later(aim, one, *sure, error_of_dropping));
     };
     const auto most = static_cast<std::size_t>(max_after(problem_.size, units));
-    std::vector<char> chosen(candidates.size(), 0);
+    std::vector<char> chosen;
+    for (const Candidate& one : candidates) chosen.push_back(std::ssize(one.units) > units ? 1 : 0);
     std::size_t count = 0;
     const auto choose = [&](std::size_t i) {
       if (count == most || chosen[i] != 0 || !stays(candidates[i])) return;
@@ -383,7 +401,8 @@ class Search {
 
   /// A generation of which no candidate can end its race is not begun.
   bool goes_on() const {
-    return result_.generations < settings_.generations && !settings_.effort.is_spent() &&
+    return (result_.generations < settings_.generations || settings_.begins_anew) &&
+           !settings_.effort.is_spent() &&
            settings_.effort.trials_left() >= problem_.size.max_units * problem_.trials_of_unit;
   }
 

@@ -21,9 +21,9 @@ namespace zerocount::tuning {
 struct SearchProblem {
   std::vector<study::FreeParameter> free;
   Aim aim;
-  std::vector<Values> starts{};  ///< candidates of the first generation, such as the manifest's values
-  /// Faces of the ranges on which the first generation seeks too, each the free parameters that are at their
-  /// low ends: a control with fewer blocks, which may be the better one, and the only admissible one.
+  std::vector<Values> starts{};  ///< such as the manifest's values: the result is worse only by chance
+  /// Faces of the ranges on which the search seeks too, each the free parameters that are at their low ends:
+  /// a control with fewer blocks, which may be the better one, and the only admissible one.
   std::vector<std::vector<std::size_t>> faces{};
   SearchSize size{};
   std::int64_t trials_of_unit{1};
@@ -53,8 +53,9 @@ struct SearchProgress {
 
 struct SearchSettings {
   std::uint64_t seed{0};
-  int generations{30};
-  trials::Effort effort{};                            ///< the search spends its trials
+  int generations{30};      ///< at most, unless it begins anew
+  bool begins_anew{false};  ///< where generations improve nothing, until the effort is spent
+  trials::Effort effort{};  ///< the search spends its trials
   std::function<void(const SearchProgress&)> tell{};  ///< called after each generation
 };
 
@@ -71,13 +72,17 @@ struct SearchResult {
 
 /// Seeks the best values within the effort.
 ///
-///     candidates = points that fill the ranges and the faces, and `starts`       // first generation
+///     population = the best of `starts`, by a race
+///     candidates = points that fill the ranges and the faces                     // first generation
 ///     if too few of them are admissible: those that differential evolution of `shortfall` finds
 ///     repeat until generations improve nothing, or the effort is spent:
-///       for units = first_units, 2·first_units, … max_units:                     // race
+///       for units = first_units, 2·first_units, … max_units, while any move meets the goal:   // race
 ///         evaluate all candidates up to `units`
-///         drop those not admissible, significantly worse than the best, or beyond max_after(units)
-///       population = the best `elites`; candidates = points near them
+///         drop those not admissible, significantly worse than the best, or beyond max_after(units), but
+///         none that have more units already
+///       population = the best `elites`
+///       candidates = points near them, or on a face near them; or, where no move of theirs meets the goal,
+///       and where the search begins anew, points that fill the ranges and the faces
 ///
 /// Where the effort ends within a race, the candidates with the most units stay. Differential evolution is
 /// that of Storn and Price (Journal of Global Optimization 11, 1997), rand/1/bin: once its walkers are in an

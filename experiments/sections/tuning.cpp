@@ -4,11 +4,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "experiments/keys/key_reading.hpp"
+#include "experiments/parameters/study_units.hpp"
 #include "experiments/parameters/unknown_key.hpp"
+#include "experiments/rules/effect_rules.hpp"
 #include "experiments/sections/goal.hpp"
 #include "experiments/study/study_table.hpp"
 
@@ -99,6 +102,23 @@ void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuni
   }
 }
 
+/// Reports free parameters that have no effect whatever values all of them take.
+void check_effects_of_free(const yaml::Field& map, const study::Tuning& tuning, keys::Reading& reading) {
+  const auto is_free = [&](std::string_view name) {
+    return std::ranges::find(tuning.free, name, &study::FreeParameter::name) != tuning.free.end();
+  };
+  for (const rules::EffectRule& rule : rules::effect_rules(reading.plan)) {
+    if (rule.warn_only || std::ranges::any_of(rule.depends_on, is_free) ||
+        rules::can_have_effect(reading.plan, rule))
+      continue;
+    for (const yaml::YamlEntry& entry : map.node->entries) {
+      if (!is_free(entry.key) || !rules::covers(rule, entry.key)) continue;
+      reading.problems.add(entry.place, yaml::entry_of(map, entry).path,
+                           parameters::text_on(reading.plan.units.axis, rule.what), rule.expected);
+    }
+  }
+}
+
 }  // namespace
 
 void read_tuning(const yaml::Field& field, keys::Reading& reading) {
@@ -106,8 +126,10 @@ void read_tuning(const yaml::Field& field, keys::Reading& reading) {
   tuning.emplace();
   keys::read_key(field, *keys::find_general_key("tune"), reading);
   if (field.node->kind != yaml::YamlNode::Kind::map) return tuning.reset();
-  if (const auto free = yaml::find_field(field, "free"))
+  if (const auto free = yaml::find_field(field, "free")) {
     read_free(*free, reading.plan, *tuning, reading.problems);
+    check_effects_of_free(*free, *tuning, reading);
+  }
   if (reading.study.goals.empty())
     reading.problems.add(field, "without a goal there is nothing to meet",
                          "goal: {band: 1, within: 0.05, moves: 0.99}");

@@ -28,7 +28,7 @@ OtherControl with_zeros(const study::Study& study, const std::vector<std::size_t
 }
 
 /// The bandwidth is sought up to 1/4 of the sample rate, from one at which the observer has nearly no effect:
-/// at 1/100 of a cycle in a trial it has removed less than 1 % of a constant disturbance by the end. The
+/// at 1/1000 of a cycle in a trial it has removed 0.6 % of a constant disturbance by the end. The
 /// model of the observer has the inertia of the plant. Nothing for a study with an observer, a cascade, two
 /// phases or a plugin.
 std::optional<OtherControl> with_observer(const study::Study& study) {
@@ -41,7 +41,7 @@ std::optional<OtherControl> with_observer(const study::Study& study) {
   };
   if (!is_plain || std::ranges::any_of(study.tuning->free, is_of_observer)) return std::nullopt;
   const double rate = p.controller.sample_rate;
-  const double lowest = 0.01 / (p.command.hold * static_cast<double>(study.moves));
+  const double lowest = 0.001 / (p.command.hold * static_cast<double>(study.moves));
   OtherControl control{"observer added", {}, {}, study.tuning->free};
   control.free.push_back(
       {.name = observer_bandwidth, .unit = "Hz", .low = lowest, .high = 0.25 * rate, .logarithmic = true});

@@ -1,6 +1,7 @@
 #include "analysis/report/page.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <string_view>
 #include <vector>
@@ -72,6 +73,17 @@ std::string script_hashes(const std::vector<std::string>& sources) {
   return text;
 }
 
+/// What page.html has in its head, where it is not finished.
+constexpr std::string_view unfinished_mark = "<meta name=\"zerocount\" content=\"unfinished\">\n";
+
+std::string state_elements(PageState state) {
+  if (state == PageState::finished) return "";
+  const std::string reload =
+      state == PageState::live ? fmt::format("<meta http-equiv=\"refresh\" content=\"{}\">\n", live_interval)
+                               : std::string();
+  return std::string(unfinished_mark) + reload;
+}
+
 ordered_json figures_json(const ReportPage& page) {
   ordered_json figures = ordered_json::array();
   for (const PageSection& section : page.sections) {
@@ -123,6 +135,13 @@ std::string filled(std::string_view pattern, const std::map<std::string_view, st
 
 }  // namespace
 
+bool is_unfinished_page(const std::filesystem::path& path) {
+  std::string head(1000, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head.find(unfinished_mark) != std::string::npos;
+}
+
 ordered_json figure_theme() {
   return ordered_json::parse(embedded_file("theme.json"));
 }
@@ -146,7 +165,8 @@ std::string html_page(const ReportPage& page) {
                                              {"sections", sections},
                                              {"figures", script_json(figures_json(page))},
                                              {"scripts", script_elements(sources)},
-                                             {"script-hashes", script_hashes(sources)}});
+                                             {"script-hashes", script_hashes(sources)},
+                                             {"state", state_elements(page.state)}});
 }
 
 }  // namespace zerocount::report

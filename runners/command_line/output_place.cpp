@@ -39,17 +39,6 @@ fs::path file_in_folder(const Arguments& arguments, std::string_view option) {
   return output;
 }
 
-/// @throws Failure (bad_input) if `output` is another output.
-void require_apart(const Arguments& arguments, const fs::path& output, std::span<const fs::path> others) {
-  std::error_code error;
-  for (const fs::path& other : others) {
-    if (fs::weakly_canonical(fs::absolute(output), error) ==
-        fs::weakly_canonical(fs::absolute(other), error)) {
-      arguments.refuse(fmt::format("{} is the name of two outputs; name two files", output.string()));
-    }
-  }
-}
-
 /// @throws Failure: bad_input if `output` exists and --force is not given; machine_failed if it is
 /// write-protected.
 void require_replaceable(const Arguments& arguments, const fs::path& output) {
@@ -87,6 +76,16 @@ void require_no_input(const Arguments& arguments, const fs::path& output, std::s
     if (fs::equivalent(input, output, error)) {
       arguments.refuse(
           fmt::format("{} is an input and must not be overwritten; name another output", output.string()));
+    }
+  }
+}
+
+void require_apart(const Arguments& arguments, const fs::path& output, std::span<const fs::path> others) {
+  std::error_code error;
+  for (const fs::path& other : others) {
+    if (fs::weakly_canonical(fs::absolute(output), error) ==
+        fs::weakly_canonical(fs::absolute(other), error)) {
+      arguments.refuse(fmt::format("{} is the name of two outputs; name two files", output.string()));
     }
   }
 }

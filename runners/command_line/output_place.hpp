@@ -31,6 +31,10 @@ std::optional<std::filesystem::path> text_place(const Arguments& arguments, std:
 void require_no_input(const Arguments& arguments, const std::filesystem::path& output,
                       std::span<const std::filesystem::path> inputs);
 
+/// @throws Failure (bad_input) if `output` is another output, whether or not it exists.
+void require_apart(const Arguments& arguments, const std::filesystem::path& output,
+                   std::span<const std::filesystem::path> others);
+
 /// Checks the input and output files of a verb before any work; "-" means a standard stream.
 /// @throws Failure (bad_input) if two inputs are standard input, or if an output is an input, another
 /// output, or exists and --force is not given.

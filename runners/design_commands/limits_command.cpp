@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/report/figures/figure.hpp"
 #include "analysis/text/percent.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
@@ -112,6 +113,25 @@ std::string not_simulated(const std::vector<Limit>& limits) {
   return lines;
 }
 
+/// The rates with a cause switched off, beside that with none; nothing where none was simulated.
+std::vector<document::Figure> limits_figures(const std::vector<Limit>& limits) {
+  document::FigureData data{
+      "limits",
+      {{"cause", "switched off", ""}, {"rate", "rate of the goal", "1"}, {"none", "nothing off", "1"}}};
+  for (const Limit& one : limits)
+    if (one.rate)
+      data.rows.push_back({one.effect, report::datum(*one.rate), report::datum(*limits.front().rate)});
+  const std::size_t rows = data.rows.size();
+  if (rows < 2) return {};
+  document::Figure figure = report::figure_of(
+      "tuning-limits", "tuning-limits", "What limits the goal",
+      "The rate of the goal with a cause of failures switched off, on the same machines with the same random "
+      "numbers. A bar begins at the rate with nothing switched off.",
+      {std::move(data)});
+  report::set_rows(figure, rows, 24);
+  return {std::move(figure)};
+}
+
 struct PointLimits {
   const study::Study& study;
   std::vector<Limit> limits;
@@ -187,7 +207,8 @@ document::Description<std::vector<Limit>> limits_description(const std::string& 
                             .heading = "switched off",
                             .meaning = "cause of failures that is switched off"}),
              limit_rows)
-      .sentence(not_simulated);
+      .sentence(not_simulated)
+      .figures(limits_figures);
 }
 
 commands::Command limits_command() {

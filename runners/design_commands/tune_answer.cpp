@@ -99,7 +99,7 @@ void add_proven(Description<Tuning>& items) {
   add_proof(items);
   add_behaviour(items);
   add_margins(items);
-  items.sentence(file_sentence);
+  items.sentence(file_sentence).figures(worst_figures);
 }
 
 void add_extra(Description<Tuning>& items, Extra extra) {
@@ -115,7 +115,8 @@ void add_extra(Description<Tuning>& items, Extra extra) {
     case Extra::limits:
       return add_limits(items);
     case Extra::maps:
-      return;  // they are figures
+      items.figures(map_figures);
+      return;
   }
 }
 
@@ -174,7 +175,7 @@ void add_closing(Description<Tuning>& items) {
              [](Of t) { return t.answer.interrupted; })
       .sentence(effort_sentence)
       .sentence(left_out_sentence)
-      .figures([](Of t) { return t.drawn ? tune_figures(t) : std::vector<document::Figure>(); });
+      .figures(frontier_figures);
 }
 
 document::AnswerDescription<Tuning> described(const std::function<void(Description<Tuning>&)>& add) {

@@ -1,3 +1,4 @@
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <sstream>
@@ -9,25 +10,23 @@
 #include <fmt/format.h>
 
 #include "analysis/parallel/parallel.hpp"
-#include "analysis/report/answer_page.hpp"
 #include "analysis/report/embedded_files.hpp"
 #include "analysis/report/page.hpp"
-#include "analysis/report/report.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest_text/point_manifest.hpp"
 #include "experiments/yaml/text_file.hpp"
-#include "results/reading/all_trials_file.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/output_lock.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
-#include "runners/commands/figure_picture.hpp"
+#include "runners/commands/live_page.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/examined_point.hpp"
 #include "runners/design_commands/tune_answer.hpp"
+#include "runners/design_commands/tune_page.hpp"
 #include "runners/forecast/engine_use.hpp"
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/standard_output/standard_output.hpp"
@@ -66,38 +65,13 @@ constexpr const char* tune_help =
     "5min. Extras that it is not enough for are named. Without it the search takes 500000 trials at\n"
     "most, and tune measures at its start how long that is on this machine.\n"
     "Ctrl-C keeps the simulated points, and after the proof what is printed; the same command goes on.\n"
+    "--watch writes the page for a browser from the beginning, every 2 s: the best values so far, then\n"
+    "the proven answer, then the extras as they come; at the end it is the page of --report.\n"
     "-m writes the manifest with the tuned values, text and comments kept.\n"
     "The exit code is 0 if the goal is met, 1 if no values in the ranges meet it, 3 if the proof\n"
     "does not decide it, 130 after Ctrl-C.\n"
     "\n"
     "Example: zerocount tune my-axis.yaml -o tuned.h5 -m tuned.yaml\n";
-
-/// `--report`, once it can be written.
-std::optional<std::filesystem::path> page_option(const command_line::Arguments& arguments,
-                                                 const std::filesystem::path& output) {
-  std::optional<std::filesystem::path> page = command_line::text_place(arguments, "report");
-  if (!page) return page;
-  command_line::require_places(arguments, {arguments.operands()[0], output}, {*page});
-  if (commands::drawing_kind(arguments, "report", *page) != commands::DrawingKind::page)
-    arguments.refuse(fmt::format("option '--report': '{}' does not end in .html", page->string()));
-  return page;
-}
-
-/// The answer with its figures, then the report on the results file of the proof, where there is one that
-/// can be reported.
-report::ReportPage tuning_page(const Tuning& tuning) {
-  report::ReportPage page =
-      report::answer_page(tune_answer().of(tuning, ExitCode::success, document::Audience::people));
-  page.title = fmt::format("{}: tuning", tuning.study.name);
-  page.subtitle = tuning.study.description;
-  page.sections.front().name = "tuning";
-  page.sections.front().title = "Tuning";
-  if (!tuning.answer.proof) return page;
-  for (report::PageSection& section :
-       report::study_report(reading::AllTrialsFile(tuning.output)).page.sections)
-    page.sections.push_back(std::move(section));
-  return page;
-}
 
 /// `--manifest`, once it can be written.
 std::optional<std::filesystem::path> manifest_option(const command_line::Arguments& arguments,
@@ -142,7 +116,8 @@ std::vector<tuning::Extra> extras_option(const command_line::Arguments& argument
                       "margins,room,robustness,controls,limits,maps",
                       name));
     if (extra == tuning::Extra::maps && !with_page)
-      arguments.refuse("option '--extras': maps are drawn on a page; expected --report PAGE with them");
+      arguments.refuse(
+          "option '--extras': maps are drawn on a page; expected --report PAGE or --watch PAGE with them");
     wanted.push_back(*extra);
   }
   if (wanted.empty()) arguments.refuse("option '--extras': expected none, all, or names");
@@ -201,14 +176,33 @@ class TunePrinter {
 struct TuneTask {
   const study::Study& study;
   tuning::TuneSettings settings;
-  std::optional<std::filesystem::path> page;
+  std::vector<std::filesystem::path> pages;       ///< for the answer
+  std::optional<std::filesystem::path> watched;   ///< for the answer, and what is found before
   std::optional<std::filesystem::path> manifest;  ///< for the tuned values
   bool is_of_file;
 };
 
+/// "14688 of 60000 trials", "21 of 60 s", "14688 trials": what a search has spent.
+std::string spent_of(const tuning::TuneBudget& budget, const tuning::SearchProgress& progress,
+                     double seconds) {
+  if (budget.seconds) return fmt::format("{:.3g} of {:g} s", seconds, *budget.seconds);
+  return budget.trials ? fmt::format("{} of {} trials", progress.trials, *budget.trials)
+                       : fmt::format("{} trials", progress.trials);
+}
+
+/// `--report` and `--watch`, once they can be written.
+void take_pages(const command_line::Arguments& arguments, std::vector<std::filesystem::path> others,
+                TuneTask& task) {
+  if (const auto page = commands::page_option(arguments, "report", others)) {
+    task.pages.push_back(*page);
+    others.push_back(*page);
+  }
+  task.watched = commands::watched_page(arguments, others);
+}
+
 ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
   const bool in_html = arguments.choice("format") == "html";
-  task.settings.page = task.page || in_html;
+  task.settings.page = !task.pages.empty() || task.watched || in_html;
   task.settings.extras = extras_option(arguments, task.settings.page);
   if (task.settings.page) report::require_drawing_libraries();
   const parallel::ThreadLimit limit(trials::threads_to_use(task.settings.threads));
@@ -217,9 +211,17 @@ ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
   if (!engine.empty() && !task.settings.quiet) status::tell("{}\n", engine);
   plugins::require_no_hidden_state(task.study);
   const status::InterruptionWatch interruption;
+  commands::LivePage live(task.watched, frame_of(task.study), {});
+  task.settings.listener = live.listener();
   TunePrinter printer(arguments);
   const auto tuning_of = [&](const tuning::TuneAnswer& answer, bool drawn = false) {
     return Tuning{answer, task.study, task.settings.output, drawn, task.is_of_file};
+  };
+  const auto start = std::chrono::steady_clock::now();
+  task.settings.searching = [&](const tuning::SearchProgress& progress) {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    live.show(
+        {search_section({task.study, progress, spent_of(task.settings.budget, progress, elapsed.count())})});
   };
   task.settings.found = [&](const tuning::TuneAnswer& found) {
     const std::string line = sanity_line(tuning_of(found));
@@ -228,47 +230,61 @@ ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
   task.settings.proven = [&](const tuning::TuneAnswer& proven) {
     if (task.manifest) command_line::write_text(*task.manifest, tuned_manifest(task.study, proven));
     printer.print_proven(tuning_of(proven));
+    live.show(tuning_sections(tuning_of(proven)));
   };
   task.settings.ready = [&](tuning::Extra extra, const tuning::TuneAnswer& answer) {
     printer.print_extra(extra, tuning_of(answer));
+    live.show(tuning_sections(tuning_of(answer)));
   };
-  const tuning::TuneAnswer found = (task.is_of_file ? tuning::describe_tuned : tuning::tune)(
-      task.study, task.settings, interruption.token());
-  if (task.manifest && found.gains.empty())
-    status::tell("no values to write into {}\n", task.manifest->string());
-  if (task.page) command_line::write_text(*task.page, report::html_page(tuning_page(tuning_of(found, true))));
-  return printer.print_rest(tuning_of(found, in_html));
+  return live.during([&] {
+    const tuning::TuneAnswer found = (task.is_of_file ? tuning::describe_tuned : tuning::tune)(
+        task.study, task.settings, interruption.token());
+    if (task.manifest && found.gains.empty())
+      status::tell("no values to write into {}\n", task.manifest->string());
+    if (!task.pages.empty() || task.watched) {
+      const std::string page = report::html_page(tuning_page(tuning_of(found)));
+      for (const std::filesystem::path& place : task.pages) command_line::write_text(place, page);
+      live.finish(page);
+    }
+    return printer.print_rest(tuning_of(found, in_html));
+  });
 }
 
 ExitCode tune_manifest(const command_line::Arguments& arguments) {
   tuning::TuneSettings settings = tune_settings(arguments);
   settings.output = command_line::output_place(arguments);
   const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
-  const std::optional<std::filesystem::path> page = page_option(arguments, settings.output);
-  std::vector<std::filesystem::path> others{settings.output};
-  if (page) others.push_back(*page);
-  const std::optional<std::filesystem::path> manifest = manifest_option(arguments, study, std::move(others));
-  const storage::OutputLock lock(settings.output);
-  storage::require_replaceable(settings.output);
-  commands::print_fallback_lock(lock, settings.output);
-  return run_task(arguments, {study, std::move(settings), page, manifest, false});
+  const std::filesystem::path output = settings.output;
+  TuneTask task{study, std::move(settings), {}, {}, {}, false};
+  take_pages(arguments, {arguments.operands()[0], output}, task);
+  std::vector<std::filesystem::path> others = task.pages;
+  others.push_back(output);
+  if (task.watched) others.push_back(*task.watched);
+  task.manifest = manifest_option(arguments, study, std::move(others));
+  const storage::OutputLock lock(output);
+  storage::require_replaceable(output);
+  commands::print_fallback_lock(lock, output);
+  return run_task(arguments, std::move(task));
 }
 
 /// The extras of a proof that was made before.
 ExitCode tune_file(const command_line::Arguments& arguments) {
   for (const char* const option : {"output", "force", "manifest"}) {
-    const bool is_of_page = std::string_view(option) == "force" && arguments.has("report");
+    const bool is_of_page =
+        std::string_view(option) == "force" && (arguments.has("report") || arguments.has("watch"));
     if (arguments.has(option) && !is_of_page)
       arguments.refuse(
           fmt::format("option '--{}': is of a manifest; the extras of a results file need "
-                      "--extras, --budget and --report alone",
+                      "--extras, --budget, --report and --watch alone",
                       option));
   }
   tuning::TuneSettings settings = tune_settings(arguments);
   settings.output = arguments.operands()[0];
   const study::Study study = commands::load_study(arguments.operands()[0], arguments);
-  const std::optional<std::filesystem::path> page = page_option(arguments, settings.output);
-  return run_task(arguments, {study, std::move(settings), page, std::nullopt, true});
+  const std::filesystem::path output = settings.output;
+  TuneTask task{study, std::move(settings), {}, {}, {}, true};
+  take_pages(arguments, {output}, task);
+  return run_task(arguments, std::move(task));
 }
 
 ExitCode tune(const command_line::Arguments& arguments) {
@@ -286,6 +302,7 @@ commands::Command tune_command() {
             {"manifest,m", "TUNED", "write the manifest with the tuned values"},
             {"extras", "E", "none, all (default), or some of margins,room,robustness,controls,limits,maps"},
             {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"},
+            commands::watch_option(),
             {"threads", "N", "threads to use; default: all cores"},
             set_option(),
             {"quiet,q", "", "print no progress"},

@@ -9,6 +9,7 @@
 #include "analysis/statistics/spread_over.hpp"
 #include "analysis/text/text.hpp"
 #include "runners/design_commands/limits_command.hpp"
+#include "runners/design_commands/tune_figures.hpp"
 #include "runners/design_commands/tune_parts.hpp"
 #include "runners/design_commands/worst_command.hpp"
 
@@ -272,7 +273,8 @@ void add_room(Description<Tuning>& items) {
              ranges_of_room)
       .table({.heading = "room of each parameter, the others as tuned", .shown = Shown::to_people},
              room_columns(), room_rows)
-      .sentence(ends_of_room_sentence);
+      .sentence(ends_of_room_sentence)
+      .figures(room_figures);
 }
 
 void add_robustness(Description<Tuning>& items) {

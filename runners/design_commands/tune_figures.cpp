@@ -15,7 +15,6 @@ using document::Figure;
 using document::FigureData;
 using nlohmann::ordered_json;
 using report::datum;
-using tuning::Limit;
 using tuning::MapCell;
 using tuning::TriedPoint;
 using tuning::TuneAnswer;
@@ -159,22 +158,6 @@ Figure room_figure(const TuneAnswer& answer) {
   return figure;
 }
 
-Figure limits_figure(const TuneAnswer& answer) {
-  FigureData data{
-      "limits",
-      {{"cause", "switched off", ""}, {"rate", "rate of the goal", "1"}, {"none", "nothing off", "1"}}};
-  for (const Limit& one : answer.limits)
-    if (one.rate) data.rows.push_back({one.effect, datum(*one.rate), datum(*answer.limits.front().rate)});
-  const std::size_t rows = data.rows.size();
-  Figure figure = report::figure_of(
-      "tuning-limits", "tuning-limits", "What limits the goal",
-      "The rate of the goal at the tuned point with a cause of failures switched off, on machines of the "
-      "search. A bar begins at the rate with nothing switched off.",
-      {std::move(data)});
-  report::set_rows(figure, rows, 24);
-  return figure;
-}
-
 Figure worst_figure(const WorstMachine& worst, const study::Study& study,
                     const reading::AllTrialsFile& file) {
   constexpr std::int64_t buckets = 400;
@@ -185,20 +168,33 @@ Figure worst_figure(const WorstMachine& worst, const study::Study& study,
   return figure;
 }
 
+bool is_drawn(const Tuning& tuning) {
+  return tuning.drawn && tuning.answer.proof;
+}
+
 }  // namespace
 
-std::vector<Figure> tune_figures(const Tuning& tuning) {
-  const TuneAnswer& answer = tuning.answer;
+std::vector<Figure> map_figures(const Tuning& tuning) {
   std::vector<Figure> figures;
-  if (!answer.proof) return figures;
-  for (const TuningMap& map : answer.maps) figures.push_back(map_figure(answer, map));
-  if (!answer.tried.empty()) figures.push_back(frontier_figure(answer, tuning.study));
-  if (!answer.room.empty()) figures.push_back(room_figure(answer));
-  if (!answer.limits.empty()) figures.push_back(limits_figure(answer));
-  if (answer.worst && !tuning.study.plugin)
-    figures.push_back(
-        worst_figure(*answer.worst, answer.proof->study, reading::AllTrialsFile(tuning.output)));
+  if (!is_drawn(tuning)) return figures;
+  for (const TuningMap& map : tuning.answer.maps) figures.push_back(map_figure(tuning.answer, map));
   return figures;
+}
+
+std::vector<Figure> frontier_figures(const Tuning& tuning) {
+  if (!is_drawn(tuning) || tuning.answer.tried.empty()) return {};
+  return {frontier_figure(tuning.answer, tuning.study)};
+}
+
+std::vector<Figure> room_figures(const Tuning& tuning) {
+  if (!is_drawn(tuning) || tuning.answer.room.empty()) return {};
+  return {room_figure(tuning.answer)};
+}
+
+std::vector<Figure> worst_figures(const Tuning& tuning) {
+  if (!is_drawn(tuning) || !tuning.answer.worst || tuning.study.plugin) return {};
+  return {
+      worst_figure(*tuning.answer.worst, tuning.answer.proof->study, reading::AllTrialsFile(tuning.output))};
 }
 
 }  // namespace zerocount::design_commands

@@ -7,7 +7,12 @@
 
 namespace zerocount::design_commands {
 
-/// The maps, the frontier, room and limits, and the worst machine of the proof; none without a proof.
-std::vector<document::Figure> tune_figures(const Tuning& tuning);
+// Of a tuning that is drawn (Tuning::drawn); none without a proof, or without the extra.
+
+std::vector<document::Figure> map_figures(const Tuning& tuning);
+std::vector<document::Figure> frontier_figures(const Tuning& tuning);
+std::vector<document::Figure> room_figures(const Tuning& tuning);
+/// The worst machine of the proof.
+std::vector<document::Figure> worst_figures(const Tuning& tuning);
 
 }  // namespace zerocount::design_commands

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -22,8 +23,7 @@
 #include "runners/commands/figure_picture.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
-#include "runners/status/status.hpp"
-#include "runners/verification/traced_trial.hpp"
+#include "runners/verification/verified_report.hpp"
 
 namespace zerocount::result_commands {
 namespace {
@@ -68,19 +68,7 @@ report::StudyReport report_of(const command_line::Arguments& arguments, const re
                                                      comparison::rules_of(compare, file.point_labels()));
   }
   if (const auto database = arguments.value("history")) options.history = history_of_study(*database, file);
-  const study::Study& study = file.study();
-  options.check = [&](const report::ReplayedTrial& replayed) {
-    auto [different, parting] = verification::compare_with_record(file, study, replayed.result);
-    if (parting)
-      different.push_back(
-          verification::text_of(*parting) +
-          ", because the loop amplifies the rounding that parts the two engines, and the figure "
-          "is of the reference engine");
-    return different;
-  };
-  report::StudyReport report = report::study_report(file, options);
-  for (const std::string& warning : report.warnings) status::tell("zerocount: warning: {}\n", warning);
-  return report;
+  return verification::verified_report(file, std::move(options));
 }
 
 /// The output file. Its name must end in one of `extensions`, and it must not be an input.

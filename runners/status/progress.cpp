@@ -1,6 +1,7 @@
 #include "runners/status/progress.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,8 +14,12 @@ double seconds(std::chrono::steady_clock::duration duration) {
 
 }  // namespace
 
-Progress::Progress(std::int64_t total, std::int64_t kept, double samples, bool quiet)
-    : total_(total), kept_(kept), samples_(samples), line_(quiet), start_(Clock::now()) {}
+Progress::Progress(std::int64_t total, std::int64_t kept, double samples, bool quiet, Listener listener)
+    : total_(total),
+      kept_(kept),
+      samples_(samples),
+      line_(quiet, std::move(listener)),
+      start_(Clock::now()) {}
 
 std::string Progress::text(std::int64_t done, double elapsed) const {
   const double proportion =

@@ -12,7 +12,7 @@ namespace zerocount::status {
 class Progress {
  public:
   /// @param total trials to run @param kept trials of earlier runs @param samples per trial, for the rate
-  Progress(std::int64_t total, std::int64_t kept, double samples, bool quiet);
+  Progress(std::int64_t total, std::int64_t kept, double samples, bool quiet, Listener listener = {});
 
   /// Sets a projected total, which may change again.
   void project(std::int64_t total);

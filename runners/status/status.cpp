@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -30,8 +31,9 @@ void write_fitted(std::string_view text) {
   write(terminal::fitted_to(STDERR_FILENO, text));
 }
 
-StatusLine::StatusLine(bool quiet)
+StatusLine::StatusLine(bool quiet, Listener listener)
     : quiet_(quiet),
+      listener_(std::move(listener)),
       terminal_(terminal::obeys_escapes(STDERR_FILENO)),
       interval_(terminal_ ? terminal_interval : first_log_interval),
       last_(Clock::now()) {}
@@ -41,6 +43,7 @@ StatusLine::~StatusLine() {
 }
 
 void StatusLine::show(const std::function<std::string()>& text) {
+  if (listener_) listener_(text());
   if (quiet_) return;
   const Clock::time_point now = Clock::now();
   if (now - last_ < interval_) return;
@@ -57,6 +60,7 @@ void StatusLine::show(const std::function<std::string()>& text) {
 }
 
 void StatusLine::finish(std::string_view text) {
+  if (listener_) listener_(std::string(text));
   if (quiet_) return;
   clear();
   write_fitted(fmt::format("{}\n", text));

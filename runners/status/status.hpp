@@ -23,12 +23,15 @@ void tell(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   write_fitted(fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
+/// Gets the text of a StatusLine each time that it changes, beside the terminal, or without one.
+using Listener = std::function<void(std::string text)>;
+
 /// How far a long command is: on a terminal one line that is updated in place and fits it; otherwise a new
 /// line after 5 s, and then after twice as long each time, up to an hour, so that logs stay short. Commands
-/// that end sooner show nothing.
+/// that end sooner show nothing. A quiet one shows nothing either; both tell the listener.
 class StatusLine {
  public:
-  explicit StatusLine(bool quiet = false);
+  explicit StatusLine(bool quiet = false, Listener listener = {});
   /// Removes the line from a terminal.
   ~StatusLine();
   StatusLine(const StatusLine&) = delete;
@@ -45,6 +48,7 @@ class StatusLine {
   using Clock = std::chrono::steady_clock;
 
   bool quiet_;
+  Listener listener_;
   bool terminal_;             ///< the line is updated in place
   Clock::duration interval_;  ///< between two texts
   bool shown_{false};         ///< the cursor is behind a text on the terminal

@@ -7,6 +7,10 @@
 #include <fmt/format.h>
 
 #include "analysis/parallel/parallel.hpp"
+#include "analysis/report/answer_page.hpp"
+#include "analysis/report/report_sections.hpp"
+#include "analysis/summary/summary.hpp"
+#include "analysis/summary_answer/summary_answer.hpp"
 #include "core/text/number_text.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
@@ -16,12 +20,12 @@
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
+#include "runners/commands/live_page.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/forecast/engine_use.hpp"
 #include "runners/forecast/study_size.hpp"
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/status/interruption.hpp"
-#include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_commands/study_commands.hpp"
 #include "runners/study_run/earlier_shards.hpp"
@@ -29,6 +33,7 @@
 #include "runners/study_run/file_run.hpp"
 #include "runners/study_run/sequential_run.hpp"
 #include "runners/trials/study_runner.hpp"
+#include "runners/verification/verified_report.hpp"
 
 namespace zerocount::study_commands {
 namespace {
@@ -43,6 +48,9 @@ constexpr const char* run_help =
     "If FILE has the same study with fewer trials, only the missing trials are run and added.\n"
     "The run first checks that the disk has room for the shards and the file; --force skips\n"
     "this check.\n"
+    "--watch writes a page for a browser every 2 s: progress, time left, and what the trials so far\n"
+    "show of the goal, under every condition. It loads itself again without a network. At the end it\n"
+    "is the page of 'zerocount report FILE'; after Ctrl-C or an error it says so.\n"
     "\n"
     "Examples:\n"
     "  zerocount run experiments/manifests/paper-gains.yaml -o gains.h5\n"
@@ -77,6 +85,7 @@ struct RunRequest {
   int threads{0};
   bool quiet{false};
   bool force{false};
+  std::optional<fs::path> page;  ///< --watch
 };
 
 /// The requested engine.
@@ -98,6 +107,7 @@ void require_study_of_option(const command_line::Arguments& arguments, const stu
 RunRequest run_request(const command_line::Arguments& arguments) {
   RunRequest request;
   request.output = command_line::output_place(arguments);
+  request.page = commands::watched_page(arguments, {arguments.operands()[0], request.output});
   request.study = commands::load_study(arguments.operands()[0], arguments, {&request.output, 1});
   require_study_of_option(arguments, request.study);
   request.study.engine = engine_of(arguments);
@@ -118,6 +128,45 @@ study_run::ForeignShards foreign_shards(const RunRequest& request) {
   return request.force ? study_run::ForeignShards::remove : study_run::ForeignShards::refuse;
 }
 
+/// What the trials show that are finished so far.
+std::vector<report::PageSection> sections_so_far(const fs::path& output) {
+  const summary::StudySummary summary =
+      summary::summarise_unfinished(output, statistics::summary_confidence, false);
+  return {report::answer_section("so-far", "The answer so far", summary_answer::summary_answer(summary))};
+}
+
+/// The page of the finished file: its report or, where it does not keep every trial, its summary.
+report::ReportPage page_of(const fs::path& output) {
+  if (shards::keeps_every_trial(output))
+    return verification::verified_report(reading::AllTrialsFile(output)).page;
+  const summary::StudySummary summary = summary::summarise_file(output);
+  return report::answer_page(summary_answer::summary_answer(summary));
+}
+
+void run_to_output(const RunRequest& request, const status::Listener& listener, const std::stop_token& stop) {
+  const study_run::ExistingUse existing =
+      request.force ? study_run::ExistingUse::none
+                    : study_run::use_of_existing(request.output, request.study, request.wanted);
+  if (existing == study_run::ExistingUse::complete) {
+    // Shards left by a run that was killed at its very end. Shards of other studies are kept.
+    const fs::path directory = layout::shards_directory(request.output);
+    study_run::remove_shards(
+        directory,
+        study_run::choose_shards(shards::list_shards(directory, request.study).shards, request.wanted).all);
+    if (!request.quiet) status::tell("{}: already complete, nothing to run\n", request.output.string());
+    return;
+  }
+  storage::require_replaceable(request.output);
+  if (request.study.stop) {
+    study_run::run_sequential(request.study, request.output,
+                              {request.threads, request.quiet, foreign_shards(request), listener}, stop);
+  } else {
+    study_run::run_to_file({request.study, request.output, request.wanted, request.threads, request.quiet,
+                            foreign_shards(request), !request.force, listener},
+                           existing, stop);
+  }
+}
+
 ExitCode run(const command_line::Arguments& arguments) {
   const RunRequest request = run_request(arguments);
   const parallel::ThreadLimit limit(trials::threads_to_use(request.threads));
@@ -132,49 +181,41 @@ ExitCode run(const command_line::Arguments& arguments) {
   const status::InterruptionWatch interruption;
   const storage::OutputLock lock(request.output);
   commands::print_fallback_lock(lock, request.output);
-  const study_run::ExistingUse existing =
-      request.force ? study_run::ExistingUse::none
-                    : study_run::use_of_existing(request.output, request.study, request.wanted);
-  if (existing == study_run::ExistingUse::complete) {
-    // Shards left by a run that was killed at its very end. Shards of other studies are kept.
-    const fs::path directory = layout::shards_directory(request.output);
-    study_run::remove_shards(
-        directory,
-        study_run::choose_shards(shards::list_shards(directory, request.study).shards, request.wanted).all);
-    if (!request.quiet) status::tell("{}: already complete, nothing to run\n", request.output.string());
+  commands::LivePage live(request.page,
+                          {.title = request.study.name,
+                           .subtitle = request.study.description,
+                           .footer = "",
+                           .sections = {},
+                           .kind = "run"},
+                          [&] { return sections_so_far(request.output); });
+  return live.during([&] {
+    run_to_output(request, live.listener(), interruption.token());
+    if (request.page) live.finish(report::html_page(page_of(request.output)));
     return ExitCode::success;
-  }
-  storage::require_replaceable(request.output);
-  if (!request.study.stop) {
-    study_run::run_to_file({request.study, request.output, request.wanted, request.threads, request.quiet,
-                            foreign_shards(request), !request.force},
-                           existing, interruption.token());
-    return ExitCode::success;
-  }
-  return study_run::run_sequential(request.study, request.output,
-                                   {request.threads, request.quiet, foreign_shards(request)},
-                                   interruption.token());
+  });
 }
 
 }  // namespace
 
 commands::Command run_command() {
-  return {{"run",
-           "MANIFEST|FILE -o FILE",
-           {{"output,o", "FILE", "the results file to make (required)"},
-            {"threads", "N", "threads to use; default: all cores"},
-            command_line::choice_option("engine", "NAME", {"batch", "reference"},
-                                        "many trials at a time in SIMD lanes, or one at a time"),
-            {"shard", "I/N", "run only the I-th of N parts, into a part file for 'zerocount merge'"},
-            {"study", "SHA256", "refuse a study with another hash, such as one whose manifest has changed"},
-            {"set", "KEY=VALUE",
-             "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},
-            {"quiet,q", "", "print no progress"},
-            {"force", "",
-             "replace FILE, remove unfinished runs of other studies, skip the check of disk space"}}},
-          "run a study: manifest in, results file out",
-          run_help,
-          run};
+  return {
+      {"run",
+       "MANIFEST|FILE -o FILE",
+       {{"output,o", "FILE", "the results file to make (required)"},
+        command_line::excluding({"shard"}, commands::watch_option()),
+        {"threads", "N", "threads to use; default: all cores"},
+        command_line::choice_option("engine", "NAME", {"batch", "reference"},
+                                    "many trials at a time in SIMD lanes, or one at a time"),
+        {"shard", "I/N", "run only the I-th of N parts, into a part file for 'zerocount merge'"},
+        {"study", "SHA256", "refuse a study with another hash, such as one whose manifest has changed"},
+        {"set", "KEY=VALUE",
+         "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},
+        {"quiet,q", "", "print no progress"},
+        {"force", "",
+         "replace FILE and PAGE, remove unfinished runs of other studies, skip the check of disk space"}}},
+      "run a study: manifest in, results file out",
+      run_help,
+      run};
 }
 
 }  // namespace zerocount::study_commands

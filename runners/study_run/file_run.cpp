@@ -50,7 +50,8 @@ void run_to_file(const FileRun& request, ExistingUse existing, const std::stop_t
   const std::vector<layout::RowRange> missing = shards::missing_ranges(earlier.usable, wanted);
   const std::int64_t kept = wanted.count - layout::total_rows(missing);
 
-  status::Progress progress(wanted.count, kept, trials::samples_per_trial(request.study), request.quiet);
+  status::Progress progress(wanted.count, kept, trials::samples_per_trial(request.study), request.quiet,
+                            request.listener);
   std::int64_t done = kept;
   trials::RunSettings settings;
   settings.threads = request.threads;

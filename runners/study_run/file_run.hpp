@@ -5,6 +5,7 @@
 
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
+#include "runners/status/status.hpp"
 #include "runners/study_run/earlier_shards.hpp"
 #include "runners/study_run/existing_output.hpp"
 
@@ -19,6 +20,7 @@ struct FileRun {
   bool quiet{false};
   ForeignShards foreign{ForeignShards::refuse};
   bool check_room{true};  ///< refuse a run for which the disk has no room
+  status::Listener listener{};
 };
 
 /// Runs the trials that are missing, by way of shards, and writes the results file.

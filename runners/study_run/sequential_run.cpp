@@ -123,8 +123,8 @@ void assemble_decided(const std::vector<shards::ShardInfo>& shards, const study:
 
 }  // namespace
 
-ExitCode run_sequential(const study::Study& study, const fs::path& output,
-                        const SequentialRunSettings& settings, const std::stop_token& stop) {
+void run_sequential(const study::Study& study, const fs::path& output, const SequentialRunSettings& settings,
+                    const std::stop_token& stop) {
   const fs::path directory = layout::shards_directory(output);
   storage::make_directory(directory);
   EarlierShards earlier = earlier_shards(directory, study, layout::all_rows(study), settings.foreign);
@@ -136,7 +136,7 @@ ExitCode run_sequential(const study::Study& study, const fs::path& output,
     done += shard.rows.count;
   }
   status::Progress progress(study::point_count(study) * study.trials, done, trials::samples_per_trial(study),
-                            settings.quiet);
+                            settings.quiet, settings.listener);
   trials::RunSettings run;
   run.threads = settings.threads;
   run.finished = [&](std::int64_t trials) { progress.update(done += trials); };
@@ -171,7 +171,6 @@ ExitCode run_sequential(const study::Study& study, const fs::path& output,
                                 : "max_trials; some success rates are known less well than requested";
     status::tell("wrote {}: {} trials at each point ({})\n", output.string(), trials, why);
   }
-  return ExitCode::success;
 }
 
 }  // namespace zerocount::study_run

@@ -6,6 +6,7 @@
 
 #include "core/failure/failure.hpp"
 #include "experiments/study/study.hpp"
+#include "runners/status/status.hpp"
 #include "runners/study_run/earlier_shards.hpp"
 
 namespace zerocount::study_run {
@@ -14,6 +15,7 @@ struct SequentialRunSettings {
   int threads{0};  ///< 0: all cores
   bool quiet{false};
   ForeignShards foreign{ForeignShards::refuse};
+  status::Listener listener{};
 };
 
 /// Start of the last override in the file of such a study; the final number of trials follows.
@@ -26,7 +28,7 @@ inline constexpr std::string_view decided_key = "stop.max_trials=";
 /// of the study with an additional override of `stop.max_trials` by the final number of trials. An existing
 /// file is replaced.
 /// @throws Failure (interrupted) if `stop` was requested.
-ExitCode run_sequential(const study::Study& study, const std::filesystem::path& output,
-                        const SequentialRunSettings& settings, const std::stop_token& stop);
+void run_sequential(const study::Study& study, const std::filesystem::path& output,
+                    const SequentialRunSettings& settings, const std::stop_token& stop);
 
 }  // namespace zerocount::study_run

@@ -151,7 +151,7 @@ class Tuner {
       : study_(study),
         settings_(settings),
         journal_(open_journal(study, settings)),
-        line_(settings.quiet),
+        line_(settings.quiet, settings.listener),
         effort_(whole_effort(settings, journal_, stop)),
         speed_(speed_of(study, settings.budget, effort_, journal_)),
         plan_(plan_search(study, settings.budget, effort_, speed_)),
@@ -230,6 +230,7 @@ class Tuner {
                            progress.points, progress.trials, 100.0 * progress.estimate.rate,
                            text_of(progress.best->values));
       });
+      if (settings_.searching) settings_.searching(progress);
     };
     result_ = search_.run(search);
     answer_.examined = std::ssize(search_.examined());
@@ -427,7 +428,7 @@ namespace {
 TuneAnswer with_extras(const study::Study& study, const TuneSettings& settings, const std::stop_token& stop) {
   const auto start = Clock::now();
   TuningJournal journal({}, {}, false);
-  status::StatusLine line(settings.quiet);
+  status::StatusLine line(settings.quiet, settings.listener);
   const trials::Effort effort = whole_effort(settings, journal, stop);
   const study::Study fresh = on_fresh_machines(study);
   const double measured = settings.budget.trials ? 0.0 : measured_speed(fresh, effort);

@@ -14,12 +14,14 @@
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/summary/claims_of_point.hpp"
 #include "experiments/study/study.hpp"
+#include "runners/status/status.hpp"
 #include "runners/tuning/answer_details.hpp"
 #include "runners/tuning/behaviour.hpp"
 #include "runners/tuning/limits.hpp"
 #include "runners/tuning/loop_examiner.hpp"
 #include "runners/tuning/nearest_point.hpp"
 #include "runners/tuning/race/frontier.hpp"
+#include "runners/tuning/race/search.hpp"
 #include "runners/tuning/robustness.hpp"
 #include "runners/tuning/tune_plan.hpp"
 #include "runners/tuning/tuning_map.hpp"
@@ -53,6 +55,8 @@ struct TuneSettings {
   bool page{false};  ///< a page is written afterwards, for which some of the time is kept
   std::vector<Extra> extras{};
   bool force{false};  ///< replace the output, and unfinished runs of other studies
+  status::Listener listener{};
+  std::function<void(const SearchProgress&)> searching{};  ///< called after each generation of the search
   /// Called before the proof, with what the values that are to be proven do.
   std::function<void(const TuneAnswer&)> found{};
   std::function<void(const TuneAnswer&)> proven{};        ///< called when the proof stands, before the extras

@@ -1,0 +1,113 @@
+#include "runners/design_commands/tune_page.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/report/report_sections.hpp"
+#include "analysis/statistics/proportion.hpp"
+#include "results/layout/header.hpp"
+#include "runners/design_commands/limits_command.hpp"
+#include "runners/design_commands/tune_parts.hpp"
+#include "runners/verification/verified_report.hpp"
+
+namespace zerocount::design_commands {
+namespace {
+
+using tuning::Extra;
+
+/// The rate of the worst goal as far as the units of the search show it.
+document::Bounded bounded_rate(const SearchMoment& moment) {
+  const tuning::Estimate& estimate = moment.progress.estimate;
+  const auto meeting = std::llround(estimate.rate * static_cast<double>(estimate.units));
+  return document::bounded(estimate.rate, statistics::clopper_pearson(meeting, estimate.units));
+}
+
+document::AnswerDescription<SearchMoment> search_answer() {
+  using At = const SearchMoment&;
+  document::AnswerDescription<SearchMoment> answer{
+      {.name = "tune", .meaning = "values of the free parameters with which the axis meets its goal"}, {}};
+  answer.items
+      .headline([](At at) {
+        return "best so far: " + values_text(named(at.study.tuning->free, at.progress.best->values));
+      })
+      .value({.heading = "rate, with 95 % bounds", .notation = document::Notation::percent}, bounded_rate)
+      .value({.heading = "of"}, [](At at) { return rated_words(at.study, at.progress.estimate.worst); })
+      .value({.heading = "simulated"},
+             [](At at) {
+               return fmt::format("{} machines, the same for all points; {} points in generation {}",
+                                  at.progress.estimate.units, at.progress.points, at.progress.generation);
+             })
+      .value({.heading = "budget used"}, &SearchMoment::spent)
+      .sentence([](At) {
+        return "The best of many points looks a little too good by the machines of the search: the proof "
+               "decides, on others.";
+      });
+  return answer;
+}
+
+const char* question_of(Extra extra) {
+  switch (extra) {
+    case Extra::margins:
+      return "How much more delay does it bear?";
+    case Extra::room:
+      return "How much may each value change?";
+    case Extra::robustness:
+      return "Does it hold under other premises?";
+    case Extra::controls:
+      return "Would another control do?";
+    case Extra::limits:
+      return "What limits it?";
+    case Extra::maps:
+      break;
+  }
+  return "Where else is the goal met?";
+}
+
+void add(std::vector<report::PageSection>& sections, std::string name, std::string title,
+         const document::AnswerDescription<Tuning>& description, const Tuning& tuning) {
+  report::PageSection section =
+      report::answer_section(std::move(name), std::move(title),
+                             description.of(tuning, ExitCode::success, document::Audience::people));
+  if (!section.html.empty() || !section.figures.empty()) sections.push_back(std::move(section));
+}
+
+}  // namespace
+
+report::ReportPage frame_of(const study::Study& study) {
+  return {.title = fmt::format("{}: tuning", study.name),
+          .subtitle = study.description,
+          .footer = "",
+          .sections = {},
+          .kind = "tune"};
+}
+
+report::PageSection search_section(const SearchMoment& moment) {
+  return report::answer_section("so-far", "The answer so far", search_answer().of(moment));
+}
+
+std::vector<report::PageSection> tuning_sections(const Tuning& tuning) {
+  std::vector<report::PageSection> sections;
+  add(sections, "tuning", "Tuning", proven_answer(), tuning);
+  for (const Extra extra : tuning::all_extras)
+    add(sections, "tuning-" + std::string(tuning::name_of(extra)), question_of(extra), extra_answer(extra),
+        tuning);
+  return sections;
+}
+
+report::ReportPage tuning_page(Tuning tuning) {
+  tuning.drawn = true;
+  report::ReportPage page = frame_of(tuning.study);
+  page.footer = fmt::format("zerocount {}", layout::current_provenance().zerocount_version);
+  if (tuning.answer.interrupted) page.state = report::PageState::unfinished;
+  page.sections = tuning_sections(tuning);
+  add(page.sections, "tuning-search", "What was searched?", closing_answer(), tuning);
+  if (!tuning.answer.proof) return page;
+  for (report::PageSection& section :
+       verification::verified_report(reading::AllTrialsFile(tuning.output)).page.sections)
+    page.sections.push_back(std::move(section));
+  return page;
+}
+
+}  // namespace zerocount::design_commands

@@ -64,18 +64,20 @@ document::AnswerDescription<Moment> moment_answer() {
 
 }  // namespace
 
+void require_page_place(const command_line::Arguments& arguments, const std::vector<fs::path>& others,
+                        const fs::path& page) {
+  if (report::is_unfinished_page(page)) return storage::require_replaceable(page);
+  command_line::require_places(arguments, others, {page});
+  if (!yaml::is_standard_stream(page)) command_line::require_apart(arguments, page, others);
+}
+
 std::optional<fs::path> page_option(const command_line::Arguments& arguments, const std::string& option,
                                     const std::vector<fs::path>& others) {
   std::optional<fs::path> page = command_line::text_place(arguments, option);
   if (!page) return page;
   if (drawing_kind(arguments, option, *page) != DrawingKind::page)
     arguments.refuse(fmt::format("option '--{}': '{}' does not end in .html", option, page->string()));
-  if (!yaml::is_standard_stream(*page)) command_line::require_apart(arguments, *page, others);
-  if (report::is_unfinished_page(*page)) {
-    storage::require_replaceable(*page);
-  } else {
-    command_line::require_places(arguments, others, {*page});
-  }
+  require_page_place(arguments, others, *page);
   report::require_drawing_libraries();
   return page;
 }

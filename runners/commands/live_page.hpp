@@ -18,8 +18,13 @@
 
 namespace zerocount::commands {
 
-/// The page of `option`, such as --report, once it can be written; nothing without the option. A page that is
-/// unfinished (report::is_unfinished_page) is replaced without --force, because the same command goes on.
+/// Checks the place of a page, as command_line::require_places. A page that is unfinished
+/// (report::is_unfinished_page) is replaced without --force, because the same command goes on.
+/// @param others inputs and outputs of the command
+void require_page_place(const command_line::Arguments& arguments,
+                        const std::vector<std::filesystem::path>& others, const std::filesystem::path& page);
+
+/// The page of `option`, such as --report, once it can be written; nothing without the option.
 /// @param others inputs and outputs of the command
 /// @throws Failure as command_line::text_place and require_places; bad_input if it does not end in .html;
 /// machine_failed if the program cannot draw

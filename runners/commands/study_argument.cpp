@@ -30,11 +30,7 @@ study::Study study_in_file(const fs::path& path, const command_line::Arguments& 
   if (!arguments.values("set").empty())
     arguments.refuse("option '--set': changes a manifest, not a results file; expected a manifest");
   const reading::ResultsFile file(path);
-  if (file.header().plugin)
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: its controller is a plugin, which the file does not contain; expected its "
-                              "manifest",
-                              path.string()));
+  require_simulable(file);
   const auto differs = [&](const parameters::EarlierDefault& earlier) {
     return file.header().version <= earlier.until_version;
   };
@@ -47,6 +43,14 @@ study::Study study_in_file(const fs::path& path, const command_line::Arguments& 
 }
 
 }  // namespace
+
+void require_simulable(const reading::ResultsFile& file) {
+  if (file.header().plugin)
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: its controller is a plugin, which the file does not contain; expected its "
+                              "manifest",
+                              file.path().string()));
+}
 
 bool is_results_file(const fs::path& path) {
   if (path.extension() == ".h5") return true;

@@ -6,12 +6,16 @@
 #include <span>
 
 #include "experiments/study/study.hpp"
+#include "results/reading/results_file.hpp"
 #include "runners/command_line/command_line.hpp"
 
 namespace zerocount::commands {
 
 /// Whether `path` is a results file, by its signature or by its name (the signature may be damaged).
 bool is_results_file(const std::filesystem::path& path);
+
+/// @throws Failure (bad_input) if the trials of the file's study cannot be run: its controller is a plugin
+void require_simulable(const reading::ResultsFile& file);
 
 /// The study of a finished results file, by its description: none of its trials is read, nor its checksum.
 /// @throws Failure as layout::recorded_study and shards::inspect_header

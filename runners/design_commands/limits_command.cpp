@@ -134,6 +134,7 @@ std::vector<document::Figure> limits_figures(const std::vector<Limit>& limits) {
 
 struct PointLimits {
   const study::Study& study;
+  trials::Replicates units;
   std::vector<Limit> limits;
   std::vector<Limit> additions;
 };
@@ -143,6 +144,19 @@ std::vector<LimitRow> addition_rows(const PointLimits& found) {
   rows.reserve(found.additions.size());
   for (const Limit& one : found.additions) rows.push_back({one, found.limits.front()});
   return rows;
+}
+
+/// What the rates are of.
+std::string simulated_sentence(const PointLimits& found) {
+  const bool on_rigs = found.study.rigs > 0;
+  return fmt::format(
+      "simulated: the {} {} of the study{}, in each row with the same random numbers; pairs of "
+      "causes first on some of them",
+      found.units.count, on_rigs ? "machines" : "trials",
+      on_rigs                          ? fmt::format(" with {} trial{} each", found.units.trials_each,
+                            found.units.trials_each == 1 ? "" : "s")
+      : found.study.conditions.empty() ? std::string()
+                                       : " under each condition");
 }
 
 /// "96.5 % of the moves meet the goal; most of them, 100 %, with twice the sample rate".
@@ -171,22 +185,31 @@ document::AnswerDescription<PointLimits> limits_answer() {
               .meaning = "rates with an effect added to those of the study"},
              limit_columns({.key = "effect", .heading = "added", .meaning = "effect that is added"}),
              addition_rows)
-      .sentence([](const PointLimits& found) { return not_simulated(found.additions); });
+      .sentence([](const PointLimits& found) { return not_simulated(found.additions); })
+      .sentence(simulated_sentence);
   return answer;
 }
 
 ExitCode limits(const command_line::Arguments& arguments) {
   const ExaminedPoint examined = point_to_examine(arguments);
   const status::InterruptionWatch interruption;
-  const PointLimits found = unless_interrupted([&]() -> PointLimits {
-    const tuning::EffectRuns runs(examined.study, trials::replicates_of(examined.study, examined.point),
-                                  interruption.token());
-    return {examined.study, tuning::limits_of(runs), tuning::additions_to(runs)};
-  });
-  return answers::print(arguments, limits_answer(), found);
+  return answers::print(arguments, unless_interrupted([&] {
+                          return limits_of(examined.study, examined.point, interruption.token());
+                        }));
 }
 
 }  // namespace
+
+document::Answer limits_of(const study::Study& study, std::int64_t point, const trials::Effort& effort) {
+  const trials::Replicates units = trials::replicates_of(study, point);
+  const tuning::EffectRuns runs(study, units, effort);
+  return limits_answer().of({study, units, tuning::limits_of(runs), tuning::additions_to(runs)});
+}
+
+std::int64_t trials_of_limits(const study::Study& study, std::int64_t point) {
+  constexpr std::int64_t usual_rows = 24;
+  return usual_rows * trials::replicates_of(study, point).trials();
+}
 
 std::string rated_words(const study::Study& study, std::size_t claim) {
   const tuning::ClaimPlace place = tuning::place_of_claim(study, claim);

@@ -1,13 +1,21 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "analysis/document/description.hpp"
+#include "analysis/document/answer.hpp"
 #include "analysis/goal/question.hpp"
 #include "runners/tuning/limits.hpp"
 
 namespace zerocount::design_commands {
+
+/// The answer of `limits` on a point of a study with targets.
+/// @throws trial::Interrupted, trials::Spent
+document::Answer limits_of(const study::Study& study, std::int64_t point, const trials::Effort& effort);
+
+/// Trials that limits_of() runs, about, where something is missed.
+std::int64_t trials_of_limits(const study::Study& study, std::int64_t point);
 
 /// "moves meet the goal 'small' under condition loaded in the worst world": what the rate of a claim
 /// (tuning::Aim::claims) is the proportion of.

@@ -1,7 +1,11 @@
+#include "runners/design_commands/rare_command.hpp"
+
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,8 +32,6 @@
 
 namespace zerocount::design_commands {
 namespace {
-
-constexpr std::int64_t usual_trials = 1'000'000;
 
 constexpr const char* rare_help =
     "Estimates the probability that a move misses the goal, down to about 1e-8, where plain trials\n"
@@ -107,7 +109,7 @@ rare::RareSettings settings_of(const command_line::Arguments& arguments) {
   const command_line::Budget budget = command_line::budget_option(arguments);
   settings.max_trials = budget.trials;
   settings.seconds = budget.seconds;
-  if (!budget.trials && !budget.seconds) settings.max_trials = usual_trials;
+  if (!budget.trials && !budget.seconds) settings.max_trials = usual_rare_trials;
   settings.quiet = arguments.has("quiet");
   settings.force = arguments.has("force");
   return settings;
@@ -121,18 +123,26 @@ document::AnswerDescription<rare::RareReading> rare_answer() {
   return answer;
 }
 
+/// @throws Failure (bad_input) if there is nothing that could make a trial fail
+rare::Question question_with_draws(const study::Study& study, const rare::Population& of,
+                                   measures::MoveEvent event, const std::string& name) {
+  rare::Question question = rare::question_of(study, of, std::move(event));
+  if (question.coordinates.empty())
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: it draws nothing for each trial; expected distributions, such as "
+                              "friction.k1: {{lognormal: {{median: 110, cv: 0.1}}}}",
+                              name));
+  return question;
+}
+
 ExitCode rare(const command_line::Arguments& arguments) {
   const rare::RareSettings settings = settings_of(arguments);
   const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
   const auto threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
   const rare::Population of{named_point(arguments, study), world_to_ask(arguments, study),
                             condition_to_ask(arguments, study)};
-  const rare::Question question = rare::question_of(study, of, event_to_ask(arguments, study));
-  if (question.coordinates.empty())
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: it draws nothing for each trial; expected distributions, such as "
-                              "friction.k1: {{lognormal: {{median: 110, cv: 0.1}}}}",
-                              arguments.operands()[0]));
+  const rare::Question question =
+      question_with_draws(study, of, event_to_ask(arguments, study), arguments.operands()[0]);
   const parallel::ThreadLimit limit(trials::threads_to_use(threads));
   commands::print_warnings(study);
   plugins::require_no_hidden_state(study);
@@ -147,6 +157,19 @@ ExitCode rare(const command_line::Arguments& arguments) {
 }
 
 }  // namespace
+
+document::Answer rare_of(const study::Study& study, const rare::Population& of,
+                         const trials::Effort& effort) {
+  const rare::Question question =
+      question_with_draws(study, of, measures::missed_question(study), study.name);
+  rare::RareSettings settings;
+  settings.max_trials = std::min(usual_rare_trials, effort.trials_left());
+  if (std::isfinite(effort.seconds_left())) settings.seconds = effort.seconds_left();
+  settings.quiet = true;
+  const rare::RareAnswer answer = rare::run_rare(question, settings, effort.stop());
+  effort.spend(std::min(answer.state.trials, effort.trials_left()));
+  return rare_answer().of(rare::RareReading{answer, question, {}});
+}
 
 commands::Command rare_command() {
   return {{"rare",

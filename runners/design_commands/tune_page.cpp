@@ -8,9 +8,9 @@
 #include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "results/layout/header.hpp"
+#include "runners/commands/verified_report.hpp"
 #include "runners/design_commands/limits_command.hpp"
 #include "runners/design_commands/tune_parts.hpp"
-#include "runners/verification/verified_report.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -105,7 +105,7 @@ report::ReportPage tuning_page(Tuning tuning) {
   add(page.sections, "tuning-search", "What was searched?", closing_answer(), tuning);
   if (!tuning.answer.proof) return page;
   for (report::PageSection& section :
-       verification::verified_report(reading::AllTrialsFile(tuning.output)).page.sections)
+       commands::verified_report(reading::AllTrialsFile(tuning.output)).page.sections)
     page.sections.push_back(std::move(section));
   return page;
 }

@@ -174,6 +174,12 @@ document::AnswerDescription<Search> worst_answer() {
       .table({.key = "machine_inputs", .heading = "these machines", .shown = Shown::to_people},
              input_columns(), input_rows)
       .sentence(profiles_sentence)
+      .sentence([](const Search& s) {
+        return fmt::format(
+            "simulated: the trials of the study, then machines that are sought, by up to 64 "
+            "trials each on the same random numbers; each machine that is named by {} new moves",
+            s.found.in_box.moves);
+      })
       .sentence(replay_sentence);
   return answer;
 }
@@ -206,6 +212,11 @@ ExitCode worst(const command_line::Arguments& arguments) {
 }
 
 }  // namespace
+
+document::Answer worst_of(const study::Study& study, std::int64_t point, const trials::Effort& effort) {
+  return worst_answer().of(
+      {study, tuning::worst_machines(study, trials::replicates_of(study, point), std::nullopt, effort)});
+}
 
 std::string values_text(const NamedValues& values) {
   std::string text;

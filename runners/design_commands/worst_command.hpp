@@ -1,13 +1,18 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "analysis/document/description.hpp"
+#include "analysis/document/answer.hpp"
 #include "runners/tuning/worst_machines.hpp"
 
 namespace zerocount::design_commands {
+
+/// The answer of `worst` on a point of a study with targets, whose machine is written to no manifest.
+/// @throws as tuning::worst_machines
+document::Answer worst_of(const study::Study& study, std::int64_t point, const trials::Effort& effort);
 
 using NamedValues = std::vector<std::pair<std::string, double>>;
 

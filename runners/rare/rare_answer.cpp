@@ -116,8 +116,8 @@ std::string status_sentence(Of r) {
   std::string text = fmt::format("undecided: {}", reason);
   if (answer.estimate.status == EstimateStatus::budget ||
       answer.estimate.status == EstimateStatus::no_failure)
-    text += answer.state.learned ? "; the same command goes on"
-                                 : "; the search for failures needs a larger --budget";
+    text += answer.state.learned && !r.output.empty() ? "; the same command goes on"
+                                                      : "; the search for failures needs a larger --budget";
   if (answer.max_seconds)
     text += "\na --budget in time makes this answer depend on the machine; one in trials does not";
   return text;
@@ -142,6 +142,15 @@ std::string plain_sentence(Of r) {
         "plain trials went on: failures are frequent, or depend too much on chance for a learned "
         "distribution, or none was found to learn from\n";
   return text;
+}
+
+std::string simulated_sentence(Of r) {
+  return fmt::format("simulated: {} trials, each on a machine of its own: {} plain ones{}",
+                     r.answer.state.trials, r.answer.state.plain_trials,
+                     is_learned(r.answer)
+                         ? ", others driven towards failures, and others drawn from what these showed, "
+                           "and weighted"
+                         : "");
 }
 
 std::string premise_sentence(Of r) {
@@ -170,7 +179,7 @@ std::string replays_sentence(Of r) {
   for (std::size_t i = 0; i < drawn.size() && replays.size() < max_replays; ++i) {
     if (drawn[i].failed > 0.0) replays.push_back(fmt::format("--trial {}", i));
   }
-  if (replays.empty()) return "";
+  if (replays.empty() || r.output.empty()) return "";
   return fmt::format("{0} holds {1} drawn trials, {2} of them failures; for example\nzerocount trace {0} {3}",
                      r.output.string(), drawn.size(), failures_drawn(r.answer.state),
                      fmt::join(replays, ", "));
@@ -405,6 +414,7 @@ Description<RareReading> rare_description() {
       .object(in_data("plain", "what the plain trials show"), plain_description(),
               [](Of r) -> const RareAnswer& { return r.answer; })
       .sentence(plain_sentence)
+      .sentence(simulated_sentence)
       .sentence(premise_sentence)
       .table(
           {.key = "scores",

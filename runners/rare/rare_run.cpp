@@ -43,7 +43,7 @@ std::string difference(const fs::path& file, const RareRecord& record, const Que
 /// The record from which this run goes on, if there is one.
 std::optional<RareRecord> earlier_record(const Question& question, const RareSettings& settings) {
   std::error_code error;
-  if (!fs::exists(settings.output, error) || settings.force) return std::nullopt;
+  if (settings.output.empty() || !fs::exists(settings.output, error) || settings.force) return std::nullopt;
   std::string problem = "it is no estimate of 'zerocount rare'";
   if (is_rare_file(settings.output)) {
     RareRecord record = read_rare_file(settings.output);
@@ -145,6 +145,7 @@ class RareRun {
   }
 
   void write() const {
+    if (settings_.output.empty()) return;
     const document::Description<RareReading> description = rare_description();
     const document::Members contents =
         description.members_of(RareReading{answer_, question_, settings_.output});

@@ -14,7 +14,7 @@
 namespace zerocount::rare {
 
 struct RareSettings {
-  std::filesystem::path output;
+  std::filesystem::path output;  ///< of the weighted trials; empty: none is written
   double confidence{statistics::summary_confidence};
   double ratio{2.0};                       ///< wanted of the bounds, high / low
   std::optional<std::int64_t> max_trials;  ///< of this run

@@ -1,3 +1,5 @@
+#include "runners/result_commands/learn_command.hpp"
+
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -254,7 +256,11 @@ document::AnswerDescription<Outcome> learn_answer() {
       .table({.key = "unknowns", .meaning = "what a measurement of each unknown decides"},
              measurement_description(), &Outcome::measurements)
       .sentence(meanings_text)
-      .sentence(undecided_worlds_sentence);
+      .sentence(undecided_worlds_sentence)
+      .sentence([](Of o) {
+        return fmt::format("nothing was simulated: this follows from the trials of {} worlds in the file",
+                           o.worlds.bad.size());
+      });
   return answer;
 }
 
@@ -266,30 +272,30 @@ document::AnswerDescription<Outcome> learn_answer() {
                   path));
 }
 
+[[noreturn]] void refuse_open_loop(const std::string& path) {
+  throw Failure(
+      ExitCode::bad_input,
+      fmt::format("{}: no move of an open-loop study is judged; expected a study with targets", path));
+}
+
 /// Refuses what the description of the file tells, before its trials are read.
 void require_worlds(const command_line::Arguments& arguments) {
   const std::string& path = arguments.operands()[0];
   const study::Study study = commands::described_study(path);
   command_line::point_option(arguments, study.points.labels);
   if (study.worlds == 0) refuse_equal_worlds(path);
-  if (study.open_loop) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: no move of an open-loop study is judged; expected a study with targets", path));
-  }
+  if (study.open_loop) refuse_open_loop(path);
 }
 
-Outcome outcome_of(const command_line::Arguments& arguments, const summary::StudySummary& summary) {
-  const auto asked = command_line::point_option(arguments, summary.labels);
-  const summary::ChosenPoint chosen = summary::choose_point(summary, asked);
-  if (summary::world_inputs_of(summary, chosen.point).empty()) refuse_equal_worlds(arguments.operands()[0]);
-  Outcome outcome{
-      .summary = summary,
-      .chosen = chosen,
-      .judged = {},
-      .precision = command_line::probability_option(arguments, "precision").value_or(usual_precision),
-      .worlds =
-          *summary::worlds_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from))};
+Outcome outcome_of(const std::string& path, const summary::StudySummary& summary,
+                   const summary::ChosenPoint& chosen, double precision) {
+  if (summary::world_inputs_of(summary, chosen.point).empty()) refuse_equal_worlds(path);
+  Outcome outcome{.summary = summary,
+                  .chosen = chosen,
+                  .judged = {},
+                  .precision = precision,
+                  .worlds = *summary::worlds_of_point(summary, chosen.point,
+                                                      static_cast<std::size_t>(chosen.chosen_from))};
   if (summary.question.claim()) outcome.judged = summary::judge_point(summary, chosen);
   if (outcome.worlds_differ())
     outcome.learned =
@@ -316,12 +322,23 @@ ExitCode exit_code_after(const Outcome& outcome) {
 
 ExitCode learn(const command_line::Arguments& arguments) {
   require_worlds(arguments);
-  const summary::StudySummary summary = summary::summarise_file(arguments.operands()[0]);
-  const Outcome outcome = outcome_of(arguments, summary);
+  const std::string& path = arguments.operands()[0];
+  const summary::StudySummary summary = summary::summarise_file(path);
+  const auto asked = command_line::point_option(arguments, summary.labels);
+  const Outcome outcome =
+      outcome_of(path, summary, summary::choose_point(summary, asked),
+                 command_line::probability_option(arguments, "precision").value_or(usual_precision));
   return answers::print(arguments, learn_answer().of(outcome, exit_code_after(outcome)));
 }
 
 }  // namespace
+
+document::Answer learned_of(const std::string& name, const summary::StudySummary& summary,
+                            const summary::ChosenPoint& chosen) {
+  if (summary.world_inputs.empty()) refuse_equal_worlds(name);
+  if (summary.features.open_loop) refuse_open_loop(name);
+  return learn_answer().of(outcome_of(name, summary, chosen, usual_precision));
+}
 
 commands::Command learn_command() {
   return {{"learn",

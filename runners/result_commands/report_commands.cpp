@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -21,9 +22,12 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/figure_picture.hpp"
+#include "runners/commands/live_page.hpp"
+#include "runners/commands/verified_report.hpp"
+#include "runners/result_commands/report_parts.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
-#include "runners/verification/verified_report.hpp"
+#include "runners/status/interruption.hpp"
 
 namespace zerocount::result_commands {
 namespace {
@@ -39,7 +43,15 @@ constexpr const char* report_help =
     "With a baseline, the page also has the result of 'zerocount compare'. The exit code does\n"
     "not depend on that result. With a history, it has the earlier runs and when they changed.\n"
     "\n"
-    "Example: zerocount report gains.h5 -o gains.html\n";
+    "--with adds the answers of other commands on the study of the file at the chosen point: limits\n"
+    "(what stands between it and the goal), worst (which machine it suits worst), learn (which\n"
+    "unknown to measure), rare (how often a move fails that plain trials do not show). It tells first\n"
+    "how long they take; --budget bounds them together. A part that has no answer says why. After\n"
+    "Ctrl-C the page has the parts that are ready, and the exit code is 130.\n"
+    "\n"
+    "Examples:\n"
+    "  zerocount report gains.h5 -o gains.html\n"
+    "  zerocount report gains.h5 -o gains.html --with limits,worst --budget 2min\n";
 
 constexpr const char* plot_help =
     "Draws one figure of the report as a file, for a paper: a picture, for which it needs node, and\n"
@@ -68,7 +80,7 @@ report::StudyReport report_of(const command_line::Arguments& arguments, const re
                                                      comparison::rules_of(compare, file.point_labels()));
   }
   if (const auto database = arguments.value("history")) options.history = history_of_study(*database, file);
-  return verification::verified_report(file, std::move(options));
+  return commands::verified_report(file, std::move(options));
 }
 
 /// The output file. Its name must end in one of `extensions`, and it must not be an input.
@@ -86,15 +98,35 @@ std::filesystem::path picture_or_page(const command_line::Arguments& arguments,
   for (const char* const option : {"baseline", "margins", "history"}) {
     if (const auto path = arguments.value(option)) inputs.emplace_back(*path);
   }
-  command_line::require_places(arguments, inputs, {output});
+  commands::require_page_place(arguments, inputs, output);
   return output;
+}
+
+/// Puts the sections before what was run, which ends the page.
+void add_parts(report::ReportPage& page, std::vector<report::PageSection> sections) {
+  const auto last = std::ranges::find(page.sections, "run", &report::PageSection::name);
+  page.sections.insert(last, std::make_move_iterator(sections.begin()),
+                       std::make_move_iterator(sections.end()));
 }
 
 ExitCode write_report(const command_line::Arguments& arguments) {
   const std::filesystem::path output = picture_or_page(arguments, {".html", ".htm"});
+  const std::vector<std::string_view> parts = parts_option(arguments);
+  const command_line::Budget budget = command_line::budget_option(arguments);
   const reading::AllTrialsFile file(arguments.operands()[0]);
-  command_line::write_text(output, report::html_page(report_of(arguments, file).page));
-  return ExitCode::success;
+  report::ReportPage page = report_of(arguments, file).page;
+  // Without parts Ctrl-C ends the command at once.
+  if (parts.empty()) {
+    command_line::write_text(output, report::html_page(page));
+    return ExitCode::success;
+  }
+  const status::InterruptionWatch interruption;
+  add_parts(page, part_sections({file, command_line::point_option(arguments, file.point_labels())}, parts,
+                                budget, interruption.token()));
+  const bool is_interrupted = interruption.token().stop_requested();
+  if (is_interrupted) page.state = report::PageState::unfinished;
+  command_line::write_text(output, report::html_page(page));
+  return is_interrupted ? ExitCode::interrupted : ExitCode::success;
 }
 
 /// The file that shows the figure, by the extension of its name. @param title of a page
@@ -126,6 +158,11 @@ ExitCode plot(const command_line::Arguments& arguments) {
   return ExitCode::success;
 }
 
+std::vector<command_line::OptionSpec> with_part_options(std::vector<command_line::OptionSpec> own) {
+  for (command_line::OptionSpec& option : part_options()) own.push_back(std::move(option));
+  return own;
+}
+
 /// The options of both verbs. @param own those of one of them, which come first
 std::vector<command_line::OptionSpec> options_of_report(std::vector<command_line::OptionSpec> own) {
   own.insert(own.end(),
@@ -144,8 +181,9 @@ std::vector<command_line::OptionSpec> options_of_report(std::vector<command_line
 
 commands::Command report_command() {
   return {{"report", "FILE",
-           options_of_report({{"output,o", "PAGE",
-                               "the page to write, such as report.html; - is standard output (required)"}})},
+           options_of_report(with_part_options(
+               {{"output,o", "PAGE",
+                 "the page to write, such as report.html; - is standard output (required)"}}))},
           "write one HTML page on a results file",
           report_help,
           write_report};

@@ -22,6 +22,7 @@
 #include "runners/commands/command.hpp"
 #include "runners/commands/live_page.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/commands/verified_report.hpp"
 #include "runners/forecast/engine_use.hpp"
 #include "runners/forecast/study_size.hpp"
 #include "runners/plugins/hidden_state.hpp"
@@ -33,7 +34,6 @@
 #include "runners/study_run/file_run.hpp"
 #include "runners/study_run/sequential_run.hpp"
 #include "runners/trials/study_runner.hpp"
-#include "runners/verification/verified_report.hpp"
 
 namespace zerocount::study_commands {
 namespace {
@@ -138,7 +138,7 @@ std::vector<report::PageSection> sections_so_far(const fs::path& output) {
 /// The page of the finished file: its report or, where it does not keep every trial, its summary.
 report::ReportPage page_of(const fs::path& output) {
   if (shards::keeps_every_trial(output))
-    return verification::verified_report(reading::AllTrialsFile(output)).page;
+    return commands::verified_report(reading::AllTrialsFile(output)).page;
   const summary::StudySummary summary = summary::summarise_file(output);
   return report::answer_page(summary_answer::summary_answer(summary));
 }

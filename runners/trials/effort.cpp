@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <functional>
 #include <limits>
@@ -58,6 +59,14 @@ Effort Effort::share(std::optional<std::int64_t> trials, std::optional<double> s
     account->start_timer();
   }
   return Effort(std::move(account));
+}
+
+Effort Effort::part(std::int64_t parts) const {
+  const std::int64_t trials = trials_left();
+  const double seconds = seconds_left();
+  return share(
+      trials == std::numeric_limits<std::int64_t>::max() ? std::nullopt : std::optional(trials / parts),
+      std::isinf(seconds) ? std::nullopt : std::optional(seconds / static_cast<double>(parts)));
 }
 
 std::int64_t Effort::trials_left() const {

@@ -28,6 +28,9 @@ class Effort {
   /// @param trials limit; of the whole's without a value @param seconds from now on; likewise
   Effort share(std::optional<std::int64_t> trials, std::optional<double> seconds) const;
 
+  /// One of so many equal parts of what is left.
+  Effort part(std::int64_t parts) const;
+
   std::int64_t trials_left() const;  ///< the largest number without a limit
   double seconds_left() const;       ///< infinite without a limit; may be negative
   bool is_spent() const;             ///< no trial or no time is left, or a stop was requested

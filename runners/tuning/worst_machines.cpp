@@ -117,7 +117,7 @@ class MachineSearch {
  public:
   /// @param study under the condition alone, and its units @param condition its name; empty: there is none
   MachineSearch(const study::Study& study, const trials::Replicates& units, std::string condition,
-                const std::optional<std::filesystem::path>& folder, const std::stop_token& stop)
+                const std::optional<std::filesystem::path>& folder, const trials::Effort& effort)
       : given_(study),
         units_(units),
         condition_(std::move(condition)),
@@ -127,7 +127,7 @@ class MachineSearch {
         numbers_{designs::random_key(study.seed, "worst machine"), 0},
         event_(measures::missed_question(study_)),
         late_(late_time(study, units.point)),
-        stop_(stop) {
+        effort_(effort) {
     if (inputs_.empty())
       throw Failure(ExitCode::bad_input,
                     fmt::format("{}: it draws nothing that differs between machines; expected distributions, "
@@ -142,7 +142,7 @@ class MachineSearch {
   /// @param likely_met proportion of the moves that the worst likely machine of other conditions meets: one
   /// of this condition is sought only if a machine of the box meets less, since no likely one is worse
   WorstMachines run(double likely_met) {
-    const std::vector<UnitResult> results = results_of(given_, units_, units_.count, nullptr, stop_);
+    const std::vector<UnitResult> results = results_of(given_, units_, units_.count, nullptr, effort_);
     const std::vector<std::int64_t> order = worst_units(results);
     std::vector<BoxPoint> named{worst_in(MachineRegion::box, order), machine_of(order.front())};
     std::vector<JudgedMachine> judgements{judged(named[0]), judged(named[1])};
@@ -344,7 +344,7 @@ class MachineSearch {
       return drawn;
     };
     trials::run({static_cast<std::int64_t>(points.size() * trials), (points.size() + size - 1) / size, draw},
-                stop_, [&](std::size_t block, std::span<const trial::TrialOutcome> outcomes) {
+                effort_, [&](std::size_t block, std::span<const trial::TrialOutcome> outcomes) {
                   for (BoxPoint& point : points_of(block)) {
                     add_to(point.results.back(), outcomes.first(trials));
                     outcomes = outcomes.subspan(trials);
@@ -471,7 +471,7 @@ class MachineSearch {
     }
     const std::vector<std::vector<ClaimResult>> results = trials::results_of(
         trials_of_verdict, trials_at_once,
-        [&](std::int64_t i) { return trials[static_cast<std::size_t>(i)]; }, stop_,
+        [&](std::int64_t i) { return trials[static_cast<std::size_t>(i)]; }, effort_,
         [&](const trial::TrialOutcome& outcome) { return counts_of(outcome); });
     const std::vector<ClaimResult> sums = sum_of(results);
     const ClaimResult& result = sums.front();
@@ -496,7 +496,7 @@ class MachineSearch {
   random::NumberSource numbers_;
   measures::MoveEvent event_;
   double late_;  ///< a time that counts for one that is never reached, s
-  std::stop_token stop_;
+  trials::Effort effort_;
   bool has_profile_{false};
   bool has_profile_per_rig_{false};
 };
@@ -544,9 +544,19 @@ WorstMachine worst_machine(const study::Study& study, std::int64_t point,
   return machine;
 }
 
+std::int64_t trials_of_worst_machines(const study::Study& study, const trials::Replicates& units) {
+  // A race takes 4 trials of each machine, 12 more of a quarter, and 48 more of a quarter of these.
+  constexpr auto of_newcomer =
+      stage_trials[0] + (stage_trials[1] - stage_trials[0]) / 4 + (stage_trials[2] - stage_trials[1]) / 16;
+  constexpr auto first = static_cast<std::int64_t>(worst_rigs + max_corners + filling_points);
+  constexpr auto later = static_cast<std::int64_t>(generations * children);
+  return units.trials() +
+         study::condition_count(study) * (of_newcomer * (first + later) + 3 * trials_of_verdict);
+}
+
 WorstMachines worst_machines(const study::Study& study, const trials::Replicates& units,
                              const std::optional<std::filesystem::path>& folder,
-                             const std::stop_token& stop) {
+                             const trials::Effort& effort) {
   std::vector<WorstMachines> under;  // [condition]
   double likely_met = std::numeric_limits<double>::infinity();
   trials::Replicates alone = units;
@@ -555,7 +565,7 @@ WorstMachines worst_machines(const study::Study& study, const trials::Replicates
     const std::string name =
         study.conditions.empty() ? "" : study.conditions[static_cast<std::size_t>(condition)];
     WorstMachines& found = under.emplace_back(
-        MachineSearch(under_condition(study, condition), alone, name, folder, stop).run(likely_met));
+        MachineSearch(under_condition(study, condition), alone, name, folder, effort).run(likely_met));
     likely_met = std::min(likely_met, found.likely.met);
     found.of_study.claim.condition = static_cast<std::size_t>(condition);
     found.of_study.trial = study::turns_of(study).trial_of(found.of_study.trial, condition);

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -75,8 +74,13 @@ struct WorstMachines {
 ///     the worst is judged by 256 trials of its own
 ///
 /// @param folder from which the study's manifest names its files; none if it is not a file
-/// @throws trial::Interrupted; Failure (bad_input) if the study draws nothing that differs between machines
+/// @throws trial::Interrupted, trials::Spent; Failure (bad_input) if the study draws nothing that differs
+/// between machines
 WorstMachines worst_machines(const study::Study& study, const trials::Replicates& units,
-                             const std::optional<std::filesystem::path>& folder, const std::stop_token& stop);
+                             const std::optional<std::filesystem::path>& folder,
+                             const trials::Effort& effort);
+
+/// Trials that worst_machines() runs, about.
+std::int64_t trials_of_worst_machines(const study::Study& study, const trials::Replicates& units);
 
 }  // namespace zerocount::tuning

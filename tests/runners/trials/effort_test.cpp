@@ -45,6 +45,20 @@ TEST(Effort, NeverSpendsMoreTrialsThanItHas) {
   }
 }
 
+// Equal parts, taken one after the other, are all that there is; what one of them leaves goes to the later ones.
+TEST(Effort, IsDividedIntoEqualParts) {
+  const Effort whole = Effort().share(1000, 60.0);
+  for (std::int64_t left = 4; left > 0; --left) {
+    const Effort part = whole.part(left);
+    EXPECT_EQ(part.trials_left(), whole.trials_left() / left);
+    EXPECT_NEAR(part.seconds_left(), 60.0 / static_cast<double>(left), 1.0);
+    part.spend(left == 3 ? 10 : part.trials_left());
+  }
+  EXPECT_EQ(whole.trials_left(), 0);
+  EXPECT_EQ(Effort().part(3).trials_left(), std::numeric_limits<std::int64_t>::max());
+  EXPECT_EQ(Effort().part(3).seconds_left(), std::numeric_limits<double>::infinity());
+}
+
 TEST(Effort, StopsWhatRunsWhenItsTimeIsOver) {
   const Effort whole = Effort().share({}, 60.0);
   const auto start = std::chrono::steady_clock::now();

@@ -1,4 +1,4 @@
-#include "runners/verification/verified_report.hpp"
+#include "runners/commands/verified_report.hpp"
 
 #include <string>
 #include <vector>
@@ -6,14 +6,14 @@
 #include "runners/status/status.hpp"
 #include "runners/verification/traced_trial.hpp"
 
-namespace zerocount::verification {
+namespace zerocount::commands {
 
 report::StudyReport verified_report(const reading::AllTrialsFile& file, report::ReportOptions options) {
   options.check = [&](const report::ReplayedTrial& replayed) {
-    auto [different, parting] = compare_with_record(file, file.study(), replayed.result);
+    auto [different, parting] = verification::compare_with_record(file, file.study(), replayed.result);
     if (parting)
       different.push_back(
-          text_of(*parting) +
+          verification::text_of(*parting) +
           ", because the loop amplifies the rounding that parts the two engines, and the figure "
           "is of the reference engine");
     return different;
@@ -23,4 +23,4 @@ report::StudyReport verified_report(const reading::AllTrialsFile& file, report::
   return report;
 }
 
-}  // namespace zerocount::verification
+}  // namespace zerocount::commands

@@ -1,0 +1,237 @@
+#include "runners/result_commands/report_parts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/document/markup.hpp"
+#include "analysis/goal/question.hpp"
+#include "analysis/report/report_sections.hpp"
+#include "analysis/summary/judged_point.hpp"
+#include "core/failure/failure.hpp"
+#include "runners/commands/study_argument.hpp"
+#include "runners/design_commands/limits_command.hpp"
+#include "runners/design_commands/rare_command.hpp"
+#include "runners/design_commands/worst_command.hpp"
+#include "runners/result_commands/learn_command.hpp"
+#include "runners/status/progress.hpp"
+#include "runners/status/status.hpp"
+#include "runners/tuning/tune_plan.hpp"
+
+namespace zerocount::result_commands {
+namespace {
+
+/// The point that the report speaks of, and its study.
+struct Asked {
+  const reading::AllTrialsFile& file;
+  const summary::StudySummary& summary;
+  summary::ChosenPoint chosen;
+
+  const study::Study& study() const { return file.study(); }
+  std::string name() const { return file.path().string(); }
+};
+
+/// An answer, and what it is of where a part has several.
+struct TitledAnswer {
+  std::string title;
+  document::Answer answer;
+};
+using Answers = std::vector<TitledAnswer>;
+
+Answers limits_part(const Asked& asked, const trials::Effort& effort) {
+  return {{"", design_commands::limits_of(asked.study(), asked.chosen.point, effort)}};
+}
+
+Answers worst_part(const Asked& asked, const trials::Effort& effort) {
+  return {{"", design_commands::worst_of(asked.study(), asked.chosen.point, effort)}};
+}
+
+Answers learn_part(const Asked& asked, const trials::Effort&) {
+  return {{"", learned_of(asked.name(), asked.summary, asked.chosen)}};
+}
+
+/// The world that does worst by the goal.
+std::optional<std::int64_t> worst_world(const Asked& asked) {
+  const study::Study& study = asked.study();
+  if (study.worlds == 0) return std::nullopt;
+  if (!asked.summary.question.claim())
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: without a goal it is not known which of its worlds is the worst; "
+                              "'zerocount rare' is asked of one with --world",
+                              asked.name()));
+  const goal::Verdict verdict = summary::judge_point(asked.summary, asked.chosen).verdict;
+  return static_cast<std::int64_t>(goal::worst_worlds_first(study.goals[verdict.goal], verdict).front());
+}
+
+/// Under each condition a probability of its own.
+Answers rare_part(const Asked& asked, const trials::Effort& effort) {
+  const study::Study& study = asked.study();
+  const std::optional<std::int64_t> world = worst_world(asked);
+  const std::string in_world = world ? fmt::format("In world {}, the worst", *world) : "";
+  if (study.conditions.empty())
+    return {{in_world, design_commands::rare_of(study, {asked.chosen.point, world, {}}, effort)}};
+  Answers answers;
+  const auto conditions = std::ssize(study.conditions);
+  for (std::int64_t i = 0; i < conditions; ++i) {
+    answers.push_back(
+        {fmt::format("{}{}Under condition {}", in_world, world ? ". " : "",
+                     study.conditions[static_cast<std::size_t>(i)]),
+         design_commands::rare_of(study, {asked.chosen.point, world, i}, effort.part(conditions - i))});
+  }
+  return answers;
+}
+
+struct Part {
+  std::string_view name;
+  const char* question;
+  bool judges_moves;  ///< it simulates moves, and needs targets
+  Answers (*answer)(const Asked&, const trials::Effort&);
+  std::int64_t (*trials)(const Asked&);  ///< that it runs, about, or at most
+};
+
+constexpr std::array<Part, 4> all_parts{{
+    {"limits", "What limits it?", true, limits_part,
+     [](const Asked& a) { return design_commands::trials_of_limits(a.study(), a.chosen.point); }},
+    {"worst", "Which machine does it suit worst?", true, worst_part,
+     [](const Asked& a) {
+       return tuning::trials_of_worst_machines(a.study(), trials::replicates_of(a.study(), a.chosen.point));
+     }},
+    {"learn", "Which unknown should be measured next?", false, learn_part,
+     [](const Asked&) { return std::int64_t{0}; }},
+    {"rare", "How often does a move fail that plain trials do not show?", true, rare_part,
+     [](const Asked& a) { return design_commands::usual_rare_trials * study::condition_count(a.study()); }},
+}};
+
+const Part& part_named(std::string_view name) {
+  return *std::ranges::find(all_parts, name, &Part::name);
+}
+
+std::string all_names() {
+  std::vector<std::string_view> names;
+  for (const Part& part : all_parts) names.push_back(part.name);
+  return fmt::format("{}", fmt::join(names, ","));
+}
+
+/// What the answers of a part are, as HTML and figures.
+report::PageSection section_of(const Part& part, const Answers& answers) {
+  report::PageSection section{std::string(part.name), part.question, "", {}};
+  for (const auto& [title, answer] : answers) {
+    report::PageSection one = report::answer_section("", "", answer);
+    if (!title.empty()) section.html += fmt::format("<h3>{}</h3>\n", document::markup(title));
+    section.html += one.html;
+    for (report::Figure& figure : one.figures) {
+      // The names of the figures of a page differ.
+      if (!section.figures.empty()) figure.name += fmt::format("-{}", section.figures.size() + 1);
+      if (!title.empty()) figure.title = title + ": " + figure.title;
+      section.figures.push_back(std::move(figure));
+    }
+  }
+  return section;
+}
+
+/// The answers of a part or, in place of them, why there are none.
+report::PageSection answered(const Part& part, const Asked& asked, const trials::Effort& effort) {
+  std::string missing;
+  try {
+    if (effort.is_interrupted()) throw trial::Interrupted{};
+    if (part.judges_moves) {
+      commands::require_simulable(asked.file);
+      goal::require_targets(asked.study(), asked.name());
+    }
+    return section_of(part, part.answer(asked, effort));
+  } catch (const Failure& failure) {
+    if (failure.code() == ExitCode::machine_failed) throw;
+    missing = failure.what();
+  } catch (const trials::Spent&) {
+    missing = "the budget is not enough";
+  } catch (const trial::Interrupted&) {
+    missing = effort.is_interrupted() ? "interrupted" : "the budget is not enough";
+  }
+  return {std::string(part.name),
+          part.question,
+          fmt::format("<p class=\"warning\">Left out: {}</p>\n", document::markup(missing)),
+          {}};
+}
+
+/// Trials/s of the study here; nothing where that cannot be measured.
+std::optional<double> speed_of(const Asked& asked, const trials::Effort& effort) {
+  try {
+    commands::require_simulable(asked.file);
+    return tuning::measured_speed(asked.study(), effort);
+  } catch (const Failure&) {
+    return std::nullopt;
+  } catch (const trial::Interrupted&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::vector<command_line::OptionSpec> part_options() {
+  return {{"with", "PARTS", "add answers of other commands: all, or some of " + all_names()},
+          command_line::needing({"with"}, {"budget", "B",
+                                           "of these answers together: a number of trials, or a time such as "
+                                           "60s or 5min"})};
+}
+
+std::vector<std::string_view> parts_option(const command_line::Arguments& arguments) {
+  const std::optional<std::string> text = arguments.value("with");
+  std::vector<std::string> asked;
+  if (text) {
+    std::istringstream names(*text);
+    for (std::string name; std::getline(names, name, ',');) asked.push_back(name);
+  }
+  const auto wants = [&](std::string_view name) { return std::ranges::find(asked, name) != asked.end(); };
+  for (const std::string& name : asked) {
+    if (name != "all" && std::ranges::find(all_parts, name, &Part::name) == all_parts.end())
+      arguments.refuse(
+          fmt::format("option '--with': '{}' is not a part; expected all, or some of {}", name, all_names()));
+  }
+  std::vector<std::string_view> parts;
+  for (const Part& part : all_parts) {
+    if (wants(part.name) || wants("all")) parts.push_back(part.name);
+  }
+  if (text && parts.empty()) arguments.refuse("option '--with': expected all, or some of " + all_names());
+  return parts;
+}
+
+std::vector<report::PageSection> part_sections(const PartsSubject& subject,
+                                               const std::vector<std::string_view>& names,
+                                               const command_line::Budget& budget,
+                                               const std::stop_token& stop) {
+  std::vector<report::PageSection> sections;
+  if (names.empty()) return sections;
+  const summary::StudySummary summary = summary::summarise(subject.file);
+  const Asked asked{subject.file, summary, summary::choose_point(summary, subject.point)};
+  const trials::Effort effort = trials::Effort(stop).share(budget.trials, budget.seconds);
+  const std::optional<double> speed = speed_of(asked, effort);
+  const auto seconds_of = [&](std::string_view name) {
+    const auto trials = std::min(part_named(name).trials(asked), effort.trials_left());
+    return std::min(static_cast<double>(trials) / *speed, effort.seconds_left());
+  };
+  if (speed) {
+    std::vector<std::string> each;
+    double all = 0.0;
+    for (const std::string_view name : names) {
+      all += seconds_of(name);
+      each.push_back(fmt::format("{} {}", name, status::duration_text(seconds_of(name))));
+    }
+    status::tell("the parts take at most {}: {}; Ctrl-C leaves out what remains\n",
+                 status::duration_text(std::min(all, effort.seconds_left())), fmt::join(each, ", "));
+  }
+  status::StatusLine line;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    line.show([&] { return std::string(names[i]); });
+    sections.push_back(
+        answered(part_named(names[i]), asked, effort.part(std::ssize(names) - static_cast<std::int64_t>(i))));
+  }
+  return sections;
+}
+
+}  // namespace zerocount::result_commands

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <string_view>
+#include <vector>
+
+#include "analysis/report/page.hpp"
+#include "results/reading/all_trials_file.hpp"
+#include "runners/command_line/command_line.hpp"
+#include "runners/command_line/option_values.hpp"
+
+namespace zerocount::result_commands {
+
+/// `--with`, the parts of a report that are answers of other commands, and `--budget` of them.
+std::vector<command_line::OptionSpec> part_options();
+
+/// The names of --with in the order in which they are answered; none without the option.
+/// @throws Failure (bad_input) for another name
+std::vector<std::string_view> parts_option(const command_line::Arguments& arguments);
+
+/// What the parts are of.
+struct PartsSubject {
+  const reading::AllTrialsFile& file;
+  std::optional<std::int64_t> point;  ///< default: the best
+};
+
+/// The answers of these commands on the file's study, each as a section under its question. A part that
+/// cannot be answered says why.
+///
+///     tell how long each takes at most, by the trials that it runs and the speed of the study here
+///     for each part: answer it within an equal share of what is left of the budget
+///
+/// @param stop leaves out the part that is in work, and the later ones
+std::vector<report::PageSection> part_sections(const PartsSubject& subject,
+                                               const std::vector<std::string_view>& names,
+                                               const command_line::Budget& budget,
+                                               const std::stop_token& stop);
+
+}  // namespace zerocount::result_commands

@@ -10,6 +10,7 @@
 
 #include "analysis/document/markup.hpp"
 #include "analysis/report/embedded_files.hpp"
+#include "analysis/report/figures/axis_ticks.hpp"
 #include "analysis/report/html.hpp"
 #include "core/hash/sha256.hpp"
 
@@ -89,7 +90,7 @@ ordered_json figures_json(const ReportPage& page) {
   for (const PageSection& section : page.sections) {
     for (const Figure& figure : section.figures) {
       figures.push_back(
-          {{"name", figure.name}, {"specification", figure.specification}, {"data", data_json(figure)}});
+          {{"name", figure.name}, {"specification", with_tick_labels(figure)}, {"data", data_json(figure)}});
     }
   }
   return {{"theme", figure_theme()}, {"figures", figures}};

@@ -158,7 +158,7 @@ def test_lines_have_the_arrays_of_the_data(small: zc.Results, results_of: Result
     line = next(line for line in axes.lines if len(line.get_xdata()) == 3)
     assert np.allclose(line.get_xdata(), small.table["ki"], rtol=1e-5)
     assert np.allclose(line.get_ydata(), small.table["goal_rate"], rtol=1e-5)
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("controller.ki (N m/(rad s))", "rate of moves in goal")
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("controller.ki (kN m/(rad s))", "rate of moves in goal")
     assert axes.get_ylim() == (0, 1) and axes.get_xlim() == (5e3, 4e4)
     r = results_of("paper-fig7")
     (axes,) = r.plot("paper-fig7").matplotlib().axes

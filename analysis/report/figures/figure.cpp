@@ -126,10 +126,6 @@ nlohmann::ordered_json round_numbers(double low, double high, double smallest) {
   return numbers;
 }
 
-void set_number_format(nlohmann::ordered_json& axis, double largest) {
-  if (largest < 0.01) axis["labelExpr"] = "datum.value === 0 ? '0' : format(datum.value, '~e')";
-}
-
 bool spaced_by_ratio(const std::vector<double>& sorted) {
   if (sorted.size() < 3 || sorted.front() <= 0.0) return false;
   const double steps = static_cast<double>(sorted.size() - 1);

@@ -45,9 +45,6 @@ nlohmann::ordered_json datum(double value, int digits = 6);
 /// not positive.
 nlohmann::ordered_json round_numbers(double low, double high, double smallest);
 
-/// Sets the number format of an axis with the maximum `largest`: powers of ten for small numbers.
-void set_number_format(nlohmann::ordered_json& axis, double largest);
-
 /// Whether sorted positive numbers are closer to equal ratios than to equal differences.
 bool spaced_by_ratio(const std::vector<double>& sorted);
 

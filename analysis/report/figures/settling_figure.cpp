@@ -154,7 +154,6 @@ std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
   if (start > 0.0 && end > 12.0 * start) {  // otherwise a few late arrivals would compress all others
     x["scale"]["type"] = "symlog";
     x["scale"]["constant"] = start / 4.0;
-    x["axis"]["format"] = "~g";
     x["axis"]["values"] = round_numbers(0.0, end, start / 4.0);
     figure.caption += "The time axis is linear near zero and logarithmic beyond.";
   }

@@ -39,7 +39,6 @@ struct CellEdges {
 
 void set_axis(ordered_json& channel, const study::SweepAxis& axis, const CellEdges& edges) {
   channel["title"] = axis_title(axis);
-  set_number_format(channel["axis"], edges.values.back());
   channel["scale"]["domain"] = {edges.values.front(), edges.values.back()};
   if (edges.by_ratio) channel["scale"]["type"] = "log";
 }

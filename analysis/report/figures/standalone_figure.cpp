@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/figures/axis_ticks.hpp"
 #include "analysis/report/page.hpp"
 #include "analysis/text/text.hpp"
 
@@ -93,7 +94,7 @@ ordered_json theme_of(const Figure& figure) {
 }  // namespace
 
 ordered_json standalone_specification(const Figure& figure) {
-  ordered_json specification = figure.specification;
+  ordered_json specification = with_tick_labels(figure);
   const bool composed = specification.contains("vconcat");
   set_width(specification, composed ? width - room_of_axis : width);
   if (!composed) specification["autosize"] = {{"type", "fit-x"}, {"contains", "padding"}};

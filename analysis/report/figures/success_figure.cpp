@@ -189,7 +189,6 @@ Figure along_axis(const ReportedStudy& reported, const RateSubject& subject, std
   speak_of_question(figure, words);
   ordered_json& encoding = figure.specification["encoding"];
   encoding["x"]["title"] = axis_title(swept);
-  set_number_format(encoding["x"]["axis"], values_of(swept).back());
   if (spaced_by_ratio(values_of(swept))) encoding["x"]["scale"]["type"] = "log";
   encoding["x"]["scale"]["domain"] = {values_of(swept).front(), values_of(swept).back()};
   if (groups.size() * subject.lines.size() == 1) encoding["color"]["legend"] = nullptr;

@@ -137,8 +137,13 @@ class _View:
             (self.axes.set_xlim if name == "x" else self.axes.set_ylim)(*scale["domain"])
         if channel.get("title"):
             axis.set_label_text(channel["title"])
-        if "p" in style.get("format", ""):
-            axis.set_major_formatter(required("matplotlib.ticker", "a figure").PercentFormatter(1.0))
+        if "labelExpr" in style:
+            ticker = required("matplotlib.ticker", "a figure")
+            scaled = re.search(r"format\(datum\.value(?: \* ([\d.e-]+))?, '\.\d~r'\)(?: \+ '(.*?)')?", style["labelExpr"])
+            factor, suffix = (float(scaled[1] or 1), scaled[2] or "") if scaled else (1.0, "")
+            axis.set_major_formatter(
+                ticker.FuncFormatter(lambda value, _: f"{value * factor:.4g}{suffix}") if scaled else ticker.EngFormatter(sep="")
+            )
         if style.get("labels") is False:
             axis.set_tick_params(labelleft=False, labelbottom=False)
             if name in self.labels:

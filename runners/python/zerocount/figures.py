@@ -76,13 +76,13 @@ class Figure:
         Returns
         -------
         matplotlib.figure.Figure
-            With axes in the units of the data.
+            Its axes have the units of the data, their labels SI prefixes.
 
         Examples
         --------
         >>> picture = zc.open("my-axis.h5").plot("settling").matplotlib()
         >>> picture.axes[0].get_xlabel()
-        'arrival (s)'
+        'arrival (ms)'
         """
         return drawn(self.specification)
 

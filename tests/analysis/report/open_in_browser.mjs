@@ -103,6 +103,9 @@ async function checkPage({page, said, requests, name}) {
     const marks = [...figure.querySelectorAll(".plot svg .role-mark path, .plot svg .role-mark rect, .plot svg .role-mark line")];
     const drawn = marks.filter(mark => mark.getBoundingClientRect().width + mark.getBoundingClientRect().height > 1);
     return {name: figure.id, marks: drawn.length, fits: !!svg && svg.getBoundingClientRect().right <= plot.right + 1,
+            repeated: [...figure.querySelectorAll(".plot svg .role-axis-label")].map(axis => [...axis.querySelectorAll("text")]
+              .filter(label => label.getAttribute("opacity") !== "0" && label.textContent !== "").map(label => label.textContent))
+              .filter(labels => new Set(labels).size < labels.length).map(labels => labels.join(" | ")),
             titles: figure.querySelectorAll(".plot svg .role-axis-title").length, caption: figure.querySelector("figcaption").textContent.length};
   }));
   expect(figures.length > 0, `${name}: there are figures`);
@@ -110,6 +113,7 @@ async function checkPage({page, said, requests, name}) {
     expect(figure.marks > 0, `${name}: ${figure.name} has marks`);
     expect(figure.fits, `${name}: ${figure.name} fits its place`);
     expect(figure.titles > 0, `${name}: ${figure.name} names its axes`);
+    expect(figure.repeated.length === 0, `${name}: ${figure.name} repeats labels of an axis: ${figure.repeated.join("; ")}`);
     expect(figure.caption > 60, `${name}: ${figure.name} has a caption`);
   }
   return figures.length;

@@ -47,11 +47,13 @@ std::vector<Figure> figures_of_paper(const ReportedStudy& reported, Replays& rep
   return figures;
 }
 
-std::vector<Figure> traces(const ReportedStudy& reported, Replays& replays) {
-  std::vector<Figure> figures;
-  for (const SampleTrial& trial : sample_trials(reported))
-    figures.push_back(trace_figure(reported, trial, replays.run(trial)));
-  return figures;
+std::vector<Figure> responses(const ReportedStudy& reported, Replays& replays) {
+  const std::vector<SampleTrial> trials = sample_trials(reported);
+  if (trials.empty()) return {};
+  std::vector<ReplayedTrial> replayed;
+  replayed.reserve(trials.size());
+  for (const SampleTrial& trial : trials) replayed.push_back(replays.run(trial));
+  return {response_figure(reported, trials, replayed)};
 }
 
 std::string warnings_html(const std::vector<std::string>& warnings) {
@@ -73,7 +75,8 @@ PageSection success_section(const ReportedStudy& reported) {
   std::vector<Figure> maps = stability_maps(reported);
   // A study with a map has many points: the map shows them better than a long table.
   (maps.empty() ? section.html : section.html_after) = points_html(reported);
-  section.figures = success_figures(reported);
+  if (std::optional<Figure> success = success_figure(reported))
+    section.figures.push_back(std::move(*success));
   for (Figure& map : maps) section.figures.push_back(std::move(map));
   return section;
 }
@@ -150,9 +153,9 @@ StudyReport study_report(const reading::AllTrialsFile& file, const ReportOptions
   if (std::optional<Figure> bode = bode_figure(worst))
     add(page, {"loop", "Stability margins", "", under_worst_condition(reported, {std::move(*bode)})});
   if (reported.study.plugin) {
-    add(page, {"traces", "Single trials", without_traces_html(*reported.study.plugin), {}});
+    add(page, {"traces", "Response", without_traces_html(*reported.study.plugin), {}});
   } else {
-    add(page, {"traces", "Single trials", "", traces(reported, replays)});
+    add(page, {"traces", "Response", "", responses(reported, replays)});
     add(page, {"paper", "The paper's figures", "", figures_of_paper(reported, replays)});
   }
   add(page, {"run", "What was run", run_html(reported), {}});

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/goal/success_bounds.hpp"
+#include "analysis/report/figures/axis_ticks.hpp"
 #include "analysis/summary/best_point.hpp"
 #include "analysis/summary/conditions_of_point.hpp"
 #include "analysis/summary/point_names.hpp"
@@ -104,9 +105,8 @@ std::string shown_bounds(const ReportedStudy& reported) {
 }
 
 std::string precision_text(const ReportedStudy& reported, const study::Goal& goal) {
-  return goal.tolerance
-             ? fmt::format("{:g} {}", *goal.tolerance, parameters::unit_on(reported.study.units.axis, "rad"))
-             : fmt::format("{} count{}", goal.band, goal.band == 1 ? "" : "s");
+  return goal.tolerance ? si_text(*goal.tolerance, parameters::unit_on(reported.study.units.axis, "rad"))
+                        : fmt::format("{} count{}", goal.band, goal.band == 1 ? "" : "s");
 }
 
 layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point) {

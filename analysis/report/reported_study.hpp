@@ -87,7 +87,7 @@ inline constexpr std::string_view dependence_sentence =
 inline constexpr std::string_view too_narrow_sentence =
     "Bounds assume independent trials, and are too narrow here.";
 
-/// How near a move that settles is to its target: "1 count", "1e-08 m".
+/// How near a move that settles is to its target: "1 count", "10 nm".
 std::string precision_text(const ReportedStudy& reported, const study::Goal& goal);
 
 /// Reads the whole file once, and under conditions once more for each.

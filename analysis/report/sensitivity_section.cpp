@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -15,11 +16,33 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t max_factors = 12;
 
+/// Sensitivities of one output at one point, under each condition.
+struct OutputAtPoint {
+  std::vector<const sensitivity::PointSensitivity*> points;
+  std::vector<const sensitivity::OutputSensitivity*> outputs;  ///< [points]
+};
+
+std::vector<OutputAtPoint> outputs_at_points(const sensitivity::StudySensitivity& study) {
+  std::vector<OutputAtPoint> found;
+  for (const sensitivity::PointSensitivity& point : study.points) {
+    for (const sensitivity::OutputSensitivity& output : point.outputs) {
+      if (!output.estimated) continue;
+      auto same = std::ranges::find_if(found, [&](const OutputAtPoint& one) {
+        return one.points.front()->point == point.point && one.outputs.front()->output == output.output;
+      });
+      if (same == found.end()) same = found.insert(found.end(), OutputAtPoint{});
+      same->points.push_back(&point);
+      same->outputs.push_back(&output);
+    }
+  }
+  return found;
+}
+
 void add_index(FigureData& data, const sensitivity::FactorSensitivity& factor, const char* index,
-               const sensitivity::BoundedNumber& number) {
+               const sensitivity::BoundedNumber& number, const std::string& condition) {
   if (!std::isfinite(number.value)) return;
-  data.rows.push_back(
-      ordered_json::array({factor.name, index, datum(number.value), datum(number.low), datum(number.high)}));
+  data.rows.push_back(ordered_json::array(
+      {factor.name, index, datum(number.value), datum(number.low), datum(number.high), condition}));
 }
 
 /// "settling time" for "settling_time".
@@ -28,27 +51,31 @@ std::string label_text(std::string name) {
   return name;
 }
 
-Figure figure_for(const sensitivity::StudySensitivity& study, const sensitivity::PointSensitivity& point,
-                  const sensitivity::OutputSensitivity& output) {
+/// The label of a point without its condition.
+std::string label_of_point(const sensitivity::PointSensitivity& point) {
+  const std::string under = point.condition ? ", " + *point.condition : "";
+  return point.label.ends_with(under) ? point.label.substr(0, point.label.size() - under.size())
+                                      : point.label;
+}
+
+Figure figure_for(const sensitivity::StudySensitivity& study, const OutputAtPoint& shown,
+                  bool several_points) {
   const bool total = study.from_saltelli;
   const std::string level = text::percent(study.confidence);
+  const sensitivity::PointSensitivity& point = *shown.points.front();
+  const std::string& name = shown.outputs.front()->output;
   FigureData data{"factors",
                   {{"factor", "parameter", ""},
                    {"index", "index", ""},
                    {"value", "value", "1"},
                    {"low", fmt::format("lower {} bound", level), "1"},
-                   {"high", fmt::format("upper {} bound", level), "1"}}};
-  const std::size_t shown = std::min(max_factors, output.factors.size());
-  for (std::size_t i = 0; i < shown; ++i) {
-    const sensitivity::FactorSensitivity& factor = output.factors[i];
-    add_index(data, factor, "first order: alone", factor.first_order);
-    add_index(data, factor, "total: with all others", factor.total);
-  }
+                   {"high", fmt::format("upper {} bound", level), "1"},
+                   {"condition", point.condition ? "condition" : "", ""}}};
   std::string caption = fmt::format(
-      "Sobol' indices of {} at point {} (dots) with {} bounds (bars), for each random parameter, strongest "
+      "Sobol' indices of {} at point {} (dots) with {} bounds (bars){}, for each random parameter, strongest "
       "first: the proportion of the variance that the parameter {}. A parameter influences the output if its "
       "lower bound{} is above {}. Bounds that include {} leave it open. ",
-      label_text(output.output), point.label, level,
+      label_text(name), label_of_point(point), level, point.condition ? ", under each condition" : "",
       total ? "explains alone (first order), or has a part in, alone or with others (total)"
             : "explains alone",
       total ? " of the total index" : "", text::percent(sensitivity::relevant_index),
@@ -56,23 +83,47 @@ Figure figure_for(const sensitivity::StudySensitivity& study, const sensitivity:
   caption += total ? "What several parameters do only together counts in the total of each, so totals need "
                      "not add up to 100 %. "
                    : "What a parameter does only together with others does not show in this design. ";
-  if (shown < output.factors.size())
-    caption += fmt::format("Shown are {} of {}. ", shown, output.factors.size());
-  for (const std::string& note : output.notes) caption += note + (note.ends_with('.') ? " " : ". ");
-  const std::string of_point = study.points.size() > 1 ? fmt::format("-{}", point.point) : "";
-  Figure figure = figure_of("sensitivity", fmt::format("sensitivity-{}{}", output.output, of_point),
-                            "Sensitivity of " + label_text(output.output), caption, {std::move(data)});
+  std::size_t most = 0;
+  std::vector<FigurePanel> panels;
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < shown.outputs.size(); ++i) {
+    const sensitivity::OutputSensitivity& output = *shown.outputs[i];
+    const std::string condition = shown.points[i]->condition.value_or("");
+    panels.push_back({condition, condition});
+    const std::size_t factors = std::min(max_factors, output.factors.size());
+    most = std::max(most, factors);
+    for (std::size_t k = 0; k < factors; ++k) {
+      const sensitivity::FactorSensitivity& factor = output.factors[k];
+      add_index(data, factor, "first order: alone", factor.first_order, condition);
+      add_index(data, factor, "total: with all others", factor.total, condition);
+    }
+    if (i == 0 && factors < output.factors.size())
+      caption += fmt::format("Shown are {} of {}. ", factors, output.factors.size());
+    for (const std::string& note : output.notes)
+      if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+  }
+  for (std::string& note : notes) {
+    note.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(note.front())));
+    caption += note + (note.ends_with('.') ? " " : ". ");
+  }
+  const std::string of_point = several_points ? fmt::format("-{}", point.point) : "";
+  Figure figure = figure_of(
+      "sensitivity", fmt::format("sensitivity-{}{}", name, of_point),
+      fmt::format("Which parameters decide {}{}?", name == "success" ? "" : "the ", label_text(name)),
+      caption, {std::move(data)});
   if (!total) figure.specification["encoding"]["color"]["legend"] = nullptr;
-  set_rows(figure, shown, 28);
+  set_rows(figure, most, 28);
+  divide_into_panels(figure, "condition", panels);
   return figure;
 }
 
 std::vector<Figure> sensitivity_figures(const sensitivity::StudySensitivity& study) {
   std::vector<Figure> figures;
-  for (const sensitivity::PointSensitivity& point : study.points) {
-    for (const sensitivity::OutputSensitivity& output : point.outputs) {
-      if (output.estimated) figures.push_back(figure_for(study, point, output));
-    }
+  const std::vector<OutputAtPoint> shown = outputs_at_points(study);
+  for (const OutputAtPoint& one : shown) {
+    const bool several = one.points.front()->point != shown.front().points.front()->point ||
+                         shown.back().points.front()->point != shown.front().points.front()->point;
+    figures.push_back(figure_for(study, one, several));
   }
   return figures;
 }

@@ -99,7 +99,7 @@ void add_proven(Description<Tuning>& items) {
   add_proof(items);
   add_behaviour(items);
   add_margins(items);
-  items.sentence(file_sentence).figures(worst_figures);
+  items.sentence(file_sentence);
 }
 
 void add_extra(Description<Tuning>& items, Extra extra) {

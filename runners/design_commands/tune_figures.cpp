@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
-#include "analysis/report/figures/report_figures.hpp"
-#include "results/reading/all_trials_file.hpp"
+#include "analysis/report/figures/figure.hpp"
+#include "analysis/statistics/distributions.hpp"
+#include "analysis/statistics/proportion.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -21,7 +23,6 @@ using tuning::TuneAnswer;
 using tuning::TuningMap;
 using tuning::UnitCubePoint;
 using tuning::Values;
-using tuning::WorstMachine;
 
 std::string axis_title(const study::FreeParameter& parameter) {
   return parameter.unit == "1" ? parameter.name : fmt::format("{} ({})", parameter.name, parameter.unit);
@@ -44,18 +45,15 @@ FigureData cells_data(const TuningMap& map, const std::vector<study::FreeParamet
         [](const MapCell& one) { return ordered_json(one.keeps_margins ? "kept" : "lost"); }}});
 }
 
-/// The edges between cells in which all goals seem met and cells in which they do not.
-FigureData boundary_data(const TuningMap& map) {
-  FigureData data{"boundary", {{"x_from", "", ""}, {"x_to", "", ""}, {"y_from", "", ""}, {"y_to", "", ""}}};
-  const auto side = static_cast<std::size_t>(std::llround(std::sqrt(static_cast<double>(map.cells.size()))));
-  const auto meets = [&](std::size_t i) { return map.cells[i].seems_met; };
-  for (std::size_t i = 0; i < map.cells.size(); ++i) {
-    const MapCell& cell = map.cells[i];
-    if (i % side + 1 < side && meets(i) != meets(i + 1))
-      data.rows.push_back({datum(cell.x_to), datum(cell.x_to), datum(cell.y_from), datum(cell.y_to)});
-    if (i + side < map.cells.size() && meets(i) != meets(i + side))
-      data.rows.push_back({datum(cell.x_from), datum(cell.x_to), datum(cell.y_to), datum(cell.y_to)});
-  }
+FigureData boundaries_of(const TuningMap& map) {
+  std::vector<report::CellEdges> cells;
+  for (const MapCell& one : map.cells) cells.push_back({one.x_from, one.x_to, one.y_from, one.y_to});
+  const auto side = static_cast<std::size_t>(std::llround(std::sqrt(static_cast<double>(cells.size()))));
+  FigureData data = report::boundaries_data();
+  report::add_boundary(data, "goal seems met", cells, side,
+                       [&](std::size_t i) { return map.cells[i].seems_met; });
+  report::add_boundary(data, "margins kept", cells, side,
+                       [&](std::size_t i) { return map.cells[i].keeps_margins; });
   return data;
 }
 
@@ -68,19 +66,15 @@ FigureData places_data(std::string name, const TuningMap& map, const std::vector
 Figure map_figure(const TuneAnswer& answer, const TuningMap& map) {
   const study::FreeParameter& x = answer.free[map.x];
   const study::FreeParameter& y = answer.free[map.y];
-  std::vector<Values> tried;
-  tried.reserve(answer.tried.size());
-  for (const TriedPoint& one : answer.tried) tried.push_back(one.values);
   Figure figure = report::figure_of(
       "tuning-map", fmt::format("tuning-map-{}-{}", map.x + 1, map.y + 1),
-      fmt::format("Rate of the goal over {} and {}", x.name, y.name),
-      "The other free parameters are as tuned. The line encloses the cells in which the goal seems met, each "
+      fmt::format("Which {} and {} meet the goal?", x.name, y.name),
+      "The other free parameters are as tuned. The lines enclose the cells in which the goal seems met, each "
       "by "
-      "128 machines of the search; × marks cells whose loops do not keep the margins. Dots are the points "
-      "that "
-      "the search tried, at all values of the other parameters; the star is the tuned point.",
-      {cells_data(map, answer.free), boundary_data(map), places_data("tried", map, tried),
-       places_data("tuned", map, {answer.gains})});
+      "128 machines of the search, and those whose loops keep the margins; pale cells do not keep them. The "
+      "star "
+      "is the tuned point, at which its cell is examined; the others are examined at their centres.",
+      {cells_data(map, answer.free), boundaries_of(map), places_data("tuned", map, {answer.gains})});
   ordered_json& encoding = figure.specification["layer"][0]["encoding"];
   for (const auto& [axis, parameter] : {std::pair{"x", &x}, std::pair{"y", &y}}) {
     encoding[axis]["title"] = axis_title(*parameter);
@@ -108,6 +102,12 @@ FigureData points_data(std::string name, const TuneAnswer& answer, const std::ve
         [](const TriedPoint& one) { return ordered_json(one.estimate.units); }}});
 }
 
+/// The proportion that the worst goal of the proof asks for.
+double asked_of(const TuneAnswer& answer, const study::Study& study) {
+  const study::Goal& goal = study.goals[answer.proof->verdict.goal];
+  return goal.machines.value_or(goal.moves);
+}
+
 Figure frontier_figure(const TuneAnswer& answer, const study::Study& study) {
   std::vector<TriedPoint> tried = answer.tried;
   std::erase_if(tried, [](const TriedPoint& one) { return !std::isfinite(one.estimate.criterion); });
@@ -116,13 +116,16 @@ Figure frontier_figure(const TuneAnswer& answer, const study::Study& study) {
   const goal::Verdict& verdict = answer.proof->verdict;
   tuned.estimate.rate = study.goals[verdict.goal].machines ? verdict.machines.value : verdict.moves.value;
   Figure figure = report::figure_of(
-      "tuning-frontier", "tuning-frontier", "Success and speed",
-      "The points that the search tried, with a finite criterion. The line joins those that no other point "
+      "tuning-frontier", "tuning-frontier", "What does more speed cost?",
+      "The points that the search tried, with a finite criterion; what the goal asks for is dashed. The line "
+      "joins those that no other point "
       "with as many machines beats in both; their rates are those of the search, and so a little too good. "
       "The "
       "star is the tuned point by its proof.",
-      {points_data("frontier", answer, answer.frontier), points_data("tried", answer, tried),
-       points_data("tuned", answer, {tuned})});
+      {points_data("frontier", answer, answer.frontier),
+       points_data("tried", answer, tried),
+       points_data("tuned", answer, {tuned}),
+       {"asked", {{"rate", "asked for", "1"}}, {ordered_json::array({asked_of(answer, study)})}}});
   figure.specification["layer"][0]["encoding"]["x"]["title"] = tuning::criterion_name(study);
   return figure;
 }
@@ -149,22 +152,12 @@ Figure room_figure(const TuneAnswer& answer) {
     data.rows.push_back({axis_title(answer.free[i]), datum(answer.gains[i]), datum(low[i]), datum(high[i]),
                          datum(tuned[i]), datum(low_place[i]), datum(high_place[i])});
   }
-  Figure figure = report::figure_of("tuning-room", "tuning-room", "Room of each parameter",
+  Figure figure = report::figure_of("tuning-room", "tuning-room", "How far may each parameter move?",
                                     "The interval around the tuned value in which the goal seems met, the "
                                     "others as tuned, by simulation on "
                                     "machines of the search.",
                                     {std::move(data)});
   report::set_rows(figure, answer.room.size(), 28);
-  return figure;
-}
-
-Figure worst_figure(const WorstMachine& worst, const study::Study& study,
-                    const reading::AllTrialsFile& file) {
-  constexpr std::int64_t buckets = 400;
-  const report::SampleTrial trial{"worst-machine", "The worst machine of the proof", 0, worst.trial, buckets};
-  Figure figure = report::trace_figure(report::reported_study(file, std::nullopt), trial,
-                                       report::replay_trial(study, 0, worst.trial, buckets));
-  report::put_on_axis(figure, study.units.axis);
   return figure;
 }
 
@@ -189,12 +182,6 @@ std::vector<Figure> frontier_figures(const Tuning& tuning) {
 std::vector<Figure> room_figures(const Tuning& tuning) {
   if (!is_drawn(tuning) || tuning.answer.room.empty()) return {};
   return {room_figure(tuning.answer)};
-}
-
-std::vector<Figure> worst_figures(const Tuning& tuning) {
-  if (!is_drawn(tuning) || !tuning.answer.worst || tuning.study.plugin) return {};
-  return {
-      worst_figure(*tuning.answer.worst, tuning.answer.proof->study, reading::AllTrialsFile(tuning.output))};
 }
 
 }  // namespace zerocount::design_commands

@@ -12,7 +12,5 @@ namespace zerocount::design_commands {
 std::vector<document::Figure> map_figures(const Tuning& tuning);
 std::vector<document::Figure> frontier_figures(const Tuning& tuning);
 std::vector<document::Figure> room_figures(const Tuning& tuning);
-/// The worst machine of the proof.
-std::vector<document::Figure> worst_figures(const Tuning& tuning);
 
 }  // namespace zerocount::design_commands

@@ -186,7 +186,7 @@ void ExtrasMaker::make(Extra extra) {
         answer_.limits = limits_of(EffectRuns(tuned, units_of_limits(), of_.effort));
       });
     case Extra::maps:
-      return try_to([&] { answer_.maps = maps_of(details_, of_.search.examiner()); });
+      return try_to([&] { answer_.maps = maps_of(details_, of_.search); });
   }
 }
 

@@ -117,6 +117,11 @@ void StudySearch::evaluate(std::span<Candidate* const> candidates, std::int64_t 
   }
 }
 
+bool StudySearch::may_keep(const Values& values, bool slides) const {
+  const std::optional<study::Study> study = examined_if_allowed(values);
+  return study && examiner_.may_keep(*study, study_.tuning->margins, slides);
+}
+
 std::vector<bool> StudySearch::admissible(std::span<const Candidate> candidates) {
   std::vector<char> kept(candidates.size(), 1);
   std::vector<std::size_t> unknown;
@@ -126,9 +131,7 @@ std::vector<bool> StudySearch::admissible(std::span<const Candidate> candidates)
   parallel::for_each_index(unknown.size(), [&](std::size_t k) {
     if (stop_.stop_requested()) return;
     const Candidate& one = candidates[unknown[k]];
-    const std::optional<study::Study> study = examined_if_allowed(one.values);
-    const bool keeps = study && examiner_.may_keep(*study, study_.tuning->margins, has_slid(one.units));
-    kept[unknown[k]] = keeps ? 1 : 0;
+    kept[unknown[k]] = may_keep(one.values, has_slid(one.units)) ? 1 : 0;
   });
   if (stop_.stop_requested()) throw trial::Interrupted{};
   for (const std::size_t i : unknown) {

@@ -46,6 +46,9 @@ class StudySearch {
   std::optional<study::Study> examined_if_allowed(const Values& values) const {
     return at_values(examined_base_, free_, values);
   }
+  /// Whether values keep the margins on the machines that are critical so far. @param slides whether some
+  /// slide
+  bool may_keep(const Values& values, bool slides) const;
   const LoopExaminer& examiner() const { return examiner_; }
   LoopExaminer& examiner() { return examiner_; }
   const trials::Replicates& units() const { return units_; }
@@ -78,7 +81,7 @@ class StudySearch {
   LoopExaminer examiner_;
   TuningJournal& journal_;
   std::function<double()> elapsed_;
-  std::set<Examination> may_keep_;  ///< on the machines that are critical so far
+  std::set<Examination> may_keep_;  ///< by may_keep()
   std::set<Examination> keeps_;     ///< on all machines
   std::vector<Values> examined_;
   bool some_slid_{false};

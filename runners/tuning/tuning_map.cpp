@@ -21,18 +21,23 @@ Values values_of_cell(const TunedStudy& tuned, const TuningMap& map, double x, d
   return values;
 }
 
-void simulate(const TunedStudy& tuned, const LoopExaminer& examiner, const Values& values, MapCell& cell) {
+void simulate(const TunedStudy& tuned, const StudySearch& search, const Values& values, MapCell& cell) {
   const std::optional<study::Study> study = at_values(tuned.study, tuned.free, values);
   cell.keeps_margins = false;
   if (!study) return;
   const Candidate candidate{
       {}, values, results_of(*study, tuned.units, units_of_cell, nullptr, tuned.effort)};
-  cell.keeps_margins = examiner.may_keep(*study, study->tuning->margins, has_slid(candidate.units));
+  cell.keeps_margins = search.may_keep(values, has_slid(candidate.units));
   const Aim aim = aim_of(*study);
   const Estimate estimate = estimate_of(aim, candidate, units_of_cell);
   cell.rate = estimate.rate;
   cell.seems_met = reaches(aim, estimate);
   cell.criterion = estimate.criterion;
+}
+
+/// Number of the cell of a side in which a place of the range lies.
+int cell_at(double place) {
+  return std::clamp(static_cast<int>(place * cells_of_side), 0, cells_of_side - 1);
 }
 
 }  // namespace
@@ -42,23 +47,25 @@ std::int64_t trials_of_maps(const trials::Replicates& units, std::size_t free) {
   return pairs * cells_of_side * cells_of_side * std::min(units_of_cell, units.count) * units.trials_each;
 }
 
-std::vector<TuningMap> maps_of(const TunedStudy& tuned, const LoopExaminer& examiner) {
+std::vector<TuningMap> maps_of(const TunedStudy& tuned, const StudySearch& search) {
   std::vector<TuningMap> maps;
   for (std::size_t y = 1; y < tuned.free.size(); ++y) {
     for (std::size_t x = 0; x < y; ++x) maps.push_back({x, y, {}});
   }
+  const UnitCubePoint place = place_of(tuned.free, tuned.gains);
   for (TuningMap& map : maps) {
     for (int i = 0; i < cells_of_side * cells_of_side; ++i) {
-      const double column = i % cells_of_side;
-      const double row = i / cells_of_side;  // NOLINT(bugprone-integer-division): the number of the row
+      const int column = i % cells_of_side;
+      const int row = i / cells_of_side;
       const auto at = [&](double x, double y) {
         return values_of_cell(tuned, map, x / cells_of_side, y / cells_of_side);
       };
-      const Values centre = at(column + 0.5, row + 0.5);
+      const bool is_tuned = column == cell_at(place[map.x]) && row == cell_at(place[map.y]);
+      const Values examined = is_tuned ? tuned.gains : at(column + 0.5, row + 0.5);
       const Values from = at(column, row);
       const Values to = at(column + 1.0, row + 1.0);
-      MapCell cell{centre[map.x], centre[map.y], from[map.x], to[map.x], from[map.y], to[map.y]};
-      simulate(tuned, examiner, centre, cell);
+      MapCell cell{examined[map.x], examined[map.y], from[map.x], to[map.x], from[map.y], to[map.y]};
+      simulate(tuned, search, examined, cell);
       map.cells.push_back(cell);
     }
   }

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "runners/tuning/answer_details.hpp"
-#include "runners/tuning/loop_examiner.hpp"
+#include "runners/tuning/study_search.hpp"
 
 namespace zerocount::tuning {
 
-/// A cell of a map, around the values x and y.
+/// A cell of a map, examined at the values x and y: its centre, or the tuned values that it contains.
 struct MapCell {
   double x{0.0};
   double y{0.0};
@@ -24,14 +24,14 @@ struct MapCell {
 struct TuningMap {
   std::size_t x{0};  ///< number of the free parameter
   std::size_t y{1};
-  std::vector<MapCell> cells;
+  std::vector<MapCell> cells;  ///< of a square grid, x fastest
 };
 
 /// Trials of the maps of so many free parameters.
 std::int64_t trials_of_maps(const trials::Replicates& units, std::size_t free);
 
-/// Maps over all pairs of free parameters.
+/// Maps over all pairs of free parameters. The margins are those of the machines that the search examines.
 /// @throws trial::Interrupted, trials::Spent
-std::vector<TuningMap> maps_of(const TunedStudy& tuned, const LoopExaminer& examiner);
+std::vector<TuningMap> maps_of(const TunedStudy& tuned, const StudySearch& search);
 
 }  // namespace zerocount::tuning

@@ -23,7 +23,7 @@ ResultsOf = Callable[[str], zc.Results]
 Row = dict[str, Any]
 Drawn = tuple[zc.Figure, matplotlib.figure.Figure]
 
-ALIKE = ("bode", "settled", "jerk-", "trace-median", "trace-first", "world-rate-2", "world-rate-3")
+ALIKE = ("bode", "settled", "jerk-", "world-rate-2", "world-rate-3")
 """Figures that look alike in all studies: they are drawn of one."""
 NAMED = ("nominal", "ordinal")
 DRAWN = ["small", "stability-map", "unknown-friction", "paper-fig7", "k1-along-position", "paper-fig4"]
@@ -51,9 +51,17 @@ def kept(layer: dict[str, Any], rows: list[Row]) -> list[Row]:
     return rows
 
 
+def flat(view: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """A view without layers, or its layers and theirs."""
+    if "layer" not in view:
+        yield view
+    for layer in view.get("layer", []):
+        yield from flat(layer)
+
+
 def layers_of(specification: dict[str, Any], view: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any], list[Row]]]:
     """Mark, channels and rows of the visible layers of a view."""
-    for layer in view.get("layer", [view]):
+    for layer in flat(view):
         mark = layer["mark"] if isinstance(layer["mark"], dict) else {"type": layer["mark"]}
         data = layer.get("data") or view.get("data") or specification["data"]
         rows = data["values"] if "values" in data else specification["datasets"][data["name"]]
@@ -212,7 +220,7 @@ def test_a_figure_is_named_by_its_start(small: zc.Results) -> None:
     """A figure is found by its name or a start of it, the first one without; an unknown name is refused with the known ones."""
     names = small.figures
     assert names == by_program("plot", small.path).split() and small.plot().name == names[0]
-    for name in ("settling-time", "se", "jerk"):
+    for name in ("settled", "se", "jerk"):
         found = small.plot(name).name
         assert found == (name if name in names else next(other for other in names if other.startswith(name)))
     with pytest.raises(zc.ManifestError, match="there is no figure 'speed'; expected one of " + ", ".join(names)):
@@ -221,8 +229,8 @@ def test_a_figure_is_named_by_its_start(small: zc.Results) -> None:
 
 def test_a_figure_shows_the_trials_of_a_point(small: zc.Results) -> None:
     """The trials that are shown are those of the point, by its number or label."""
-    by_number, by_label, of_another = (small.plot("trace-worst", point=point) for point in (2, "controller.ki=40000", 0))
+    by_number, by_label, of_another = (small.plot("response", point=point) for point in (2, "controller.ki=40000", 0))
     assert by_number.specification == by_label.specification != of_another.specification
     for wrong in (3, "none"):
         with pytest.raises(zc.ManifestError, match="expected 0 to 2 or a label"):
-            small.plot("trace-worst", point=wrong)
+            small.plot("response", point=wrong)

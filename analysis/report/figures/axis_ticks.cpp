@@ -87,10 +87,14 @@ NumberAxis axis_of(const Figure& figure, ordered_json& view, const std::string& 
   };
   const ordered_json source = source_of(view, source_of(figure.specification, ordered_json::object()));
   add_channel(axis, figure, view, source, name, right);
-  if (view.contains("layer")) {
-    for (ordered_json& layer : view["layer"])
+  const auto add_layers = [&](const auto& self, ordered_json& part) -> void {
+    if (!part.contains("layer")) return;
+    for (ordered_json& layer : part["layer"]) {
       add_channel(axis, figure, layer, source_of(layer, source), name, right);
-  }
+      self(self, layer);
+    }
+  };
+  add_layers(add_layers, view);
   for (const ordered_json* channel : axis.channels) {
     const ordered_json* domain = inner_of(*channel, "scale", "domain");
     if (domain == nullptr || domain->size() != 2 || !domain->front().is_number()) continue;
@@ -196,14 +200,22 @@ std::string prefixed_expression(std::string_view symbol) {
                      figures_of_label, symbol);
 }
 
+std::string_view prefix_of(int power) {
+  return std::ranges::find(prefixes, power, &Prefix::power)->text;
+}
+
+/// Thousands of seconds are not counted in kiloseconds.
+int power_within_prefixes(int power, const PrefixableUnit& unit) {
+  return std::clamp(power, prefixes.front().power, unit.symbol == "s" ? 0 : prefixes.back().power);
+}
+
 std::string scaled_title(const TitleParts& title, int power, const std::optional<PrefixableUnit>& unit) {
   if (power == 0 && !unit)
     return title.unit.empty() ? title.text : fmt::format("{} ({})", title.text, title.unit);
   if (!unit)
     return fmt::format("{} (10{}{}{})", title.text, superscript(power), title.unit.empty() ? "" : " ",
                        title.unit);
-  const auto prefix = std::ranges::find(prefixes, power, &Prefix::power);
-  return fmt::format("{} ({}{}{})", title.text, prefix->text, unit->symbol, unit->rest);
+  return fmt::format("{} ({}{}{})", title.text, prefix_of(power), unit->symbol, unit->rest);
 }
 
 /// Widens a range of which fewer than two numbers of four figures may lie in it.
@@ -255,9 +267,7 @@ void label_ticks(NumberAxis& axis) {
     if (simple) channel["title"] = title.text;
     return;
   }
-  // Thousands of seconds are not counted in kiloseconds.
-  if (unit)
-    *power = std::clamp(*power, prefixes.front().power, unit->symbol == "s" ? 0 : prefixes.back().power);
+  if (unit) *power = power_within_prefixes(*power, *unit);
   channel["title"] = scaled_title(title, *power, unit);
   std::string expression = label_expression(*power - (unit ? unit->power : 0), "");
   if (type == "log" && !has_values && axis.high >= 10.0 * axis.low)
@@ -284,6 +294,15 @@ ordered_json with_tick_labels(const Figure& figure) {
     label_view(specification);
   }
   return specification;
+}
+
+std::string si_text(double value, std::string_view unit) {
+  const std::optional<PrefixableUnit> parts = prefixable(unit);
+  if (!parts || value == 0.0) return fmt::format("{:.4g} {}", value, unit);
+  const double plain = value * std::pow(10.0, parts->power);
+  const int power = power_within_prefixes(power_of_thousand(std::abs(plain)), *parts);
+  return fmt::format("{:.4g} {}{}{}", plain * std::pow(10.0, -power), prefix_of(power), parts->symbol,
+                     parts->rest);
 }
 
 }  // namespace zerocount::report

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <string_view>
+
 #include <nlohmann/json_fwd.hpp>
 
 #include "analysis/report/figures/figure.hpp"
@@ -17,5 +20,8 @@ namespace zerocount::report {
 /// Labels of an axis thus differ and have at most four figures. A linear range too narrow for two such labels
 /// is widened. Units without SI prefixes get a power of ten, "error (10³ counts)".
 nlohmann::ordered_json with_tick_labels(const Figure& figure);
+
+/// A value with the SI prefix of its size: "10 nm", "30 ms". Of units without prefixes: "12 counts".
+std::string si_text(double value, std::string_view unit);
 
 }  // namespace zerocount::report

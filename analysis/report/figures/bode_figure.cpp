@@ -222,9 +222,9 @@ std::optional<Figure> bode_figure(const ReportedStudy& reported) {
     for (const theory::BodePoint& point : curve.points) phases.add(point.phase);
   }
   const theory::Range magnitudes = shown_magnitudes(curves);
-  Figure figure =
-      figure_of("bode", "bode", "Bode plot of the open loop", bode_caption(reported, parameters, magnitudes),
-                {curve_data(curves), margin_data(curves), reversal_levels(phases)});
+  Figure figure = figure_of("bode", "bode", "How much margin do the loops have?",
+                            bode_caption(reported, parameters, magnitudes),
+                            {curve_data(curves), margin_data(curves), reversal_levels(phases)});
   for (ordered_json& part : figure.specification["vconcat"])
     part["encoding"]["x"]["scale"]["domain"] = {datum(frequencies.low), datum(frequencies.high)};
   ordered_json& magnitude = figure.specification["vconcat"][0]["layer"][1]["encoding"]["y"];

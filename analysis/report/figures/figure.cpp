@@ -97,6 +97,53 @@ void set_rows(Figure& figure, std::size_t rows, int row) {
   figure.specification["height"] = static_cast<int>(rows) * row;
 }
 
+void divide_into_panels(Figure& figure, const std::string& field, const std::vector<FigurePanel>& panels) {
+  if (panels.size() < 2) return;
+  const auto has_field = [&](const std::string& name) {
+    const auto data = std::ranges::find(figure.data, name, &FigureData::name);
+    return data != figure.data.end() &&
+           std::ranges::find(data->columns, field, &FigureColumn::field) != data->columns.end();
+  };
+  nlohmann::ordered_json view = figure.specification;
+  const nlohmann::ordered_json common = view["data"];
+  for (const char* const key : {"$schema", "data", "usermeta"}) view.erase(key);
+  const nlohmann::ordered_json meta =
+      figure.specification.value("usermeta", nlohmann::ordered_json::object());
+  nlohmann::ordered_json views = nlohmann::ordered_json::array();
+  for (const FigurePanel& panel : panels) {
+    nlohmann::ordered_json& part = views.emplace_back(view);
+    part["title"] = panel.title;
+    for (nlohmann::ordered_json& layer : part["layer"]) {
+      if (!layer.contains("data")) layer["data"] = common;
+      if (!layer["data"].contains("name") || !has_field(layer["data"]["name"])) continue;
+      nlohmann::ordered_json& transform = layer["transform"];
+      const nlohmann::ordered_json own = transform;
+      transform = {{{"filter", fmt::format("datum.{} == '{}'", field, panel.value)}}};
+      for (const nlohmann::ordered_json& one : own) transform.push_back(one);
+    }
+  }
+  figure.specification = {
+      {"$schema", figure.specification["$schema"]}, {"usermeta", meta}, {"vconcat", std::move(views)}};
+}
+
+FigureData boundaries_data() {
+  return {"boundaries",
+          {{"line", "", ""}, {"x_from", "", ""}, {"x_to", "", ""}, {"y_from", "", ""}, {"y_to", "", ""}}};
+}
+
+void add_boundary(FigureData& boundaries, const std::string& line, const std::vector<CellEdges>& cells,
+                  std::size_t columns, const std::function<bool(std::size_t)>& has) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const CellEdges& cell = cells[i];
+    if ((i + 1) % columns != 0 && has(i) != has(i + 1))
+      boundaries.rows.push_back(
+          {line, datum(cell.x_to), datum(cell.x_to), datum(cell.y_from), datum(cell.y_to)});
+    if (i + columns < cells.size() && has(i) != has(i + columns))
+      boundaries.rows.push_back(
+          {line, datum(cell.x_from), datum(cell.x_to), datum(cell.y_to), datum(cell.y_to)});
+  }
+}
+
 nlohmann::ordered_json datum(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
   const double rounded = text::round_to_digits(value, digits);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -36,6 +37,29 @@ nlohmann::ordered_json data_json(const Figure& figure);
 
 /// Sets the height to `rows` rows of `row` pixels each.
 void set_rows(Figure& figure, std::size_t rows, int row);
+
+/// A part of a figure that shows the rows with one value of a field.
+struct FigurePanel {
+  std::string value;  ///< of the field
+  std::string title;
+};
+
+/// Divides a figure of one view into panels, one below the other, of the rows of its datasets in which
+/// `field` has the panel's value. Datasets without the field are shown in all. One panel leaves the figure as
+/// it is.
+void divide_into_panels(Figure& figure, const std::string& field, const std::vector<FigurePanel>& panels);
+
+/// A cell of a map.
+struct CellEdges {
+  double x_from{0.0}, x_to{0.0};
+  double y_from{0.0}, y_to{0.0};
+};
+
+/// The dataset of boundaries on a map: edges between neighbouring cells of which one has a property.
+FigureData boundaries_data();
+/// Adds a boundary to it. @param cells of a grid, x fastest @param columns of it
+void add_boundary(FigureData& boundaries, const std::string& line, const std::vector<CellEdges>& cells,
+                  std::size_t columns, const std::function<bool(std::size_t)>& has);
 
 /// A number for a dataset, with `digits` significant digits; null for NaN and infinities.
 nlohmann::ordered_json datum(double value, int digits = 6);

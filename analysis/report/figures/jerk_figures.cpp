@@ -127,7 +127,7 @@ Figure raster(const ReportedStudy& reported, std::int64_t point, const jerks::Je
                            max_jerks_of_a_row, left_out);
   }
   Figure figure =
-      figure_of("jerk-raster", "jerk-raster", "Jerks of single moves", caption, {std::move(data)});
+      figure_of("jerk-raster", "jerk-raster", "When do single moves jerk?", caption, {std::move(data)});
   set_rows(figure, std::max<std::size_t>(moves.shown.size(), 12), 6);
   return figure;
 }
@@ -147,7 +147,7 @@ std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point,
        {{"moves", "moves", "1"}, [](Rate r) { return r.moves; }},
        {{"exposure", "exposure", "s"}, [](Rate r) { return datum(r.exposure); }}});
   Figure figure = figure_of(
-      "jerk-rate", "jerk-rate", "Rate of jerks",
+      "jerk-rate", "jerk-rate", "How often are there jerks after the arrival?",
       fmt::format(
           "Number of jerks per second after arrival at point {}, over all moves that "
           "arrived (line), against the time since arrival. The boxes are 95 % bounds of the rate in each "

@@ -30,7 +30,7 @@ bool shows_jerks(const ReportedStudy& reported) {
 }
 
 SampleTrial first_trial(std::int64_t point) {
-  return {"first", "first trial", point, 0};
+  return {.name = "first", .point = point};
 }
 
 /// The trial with the median number of jerks.

@@ -10,16 +10,21 @@
 /// The figures of a report. A figure is omitted if the study lacks its data.
 namespace zerocount::report {
 
-/// Success per point with bounds: over a swept number if there is one, otherwise one line per point. Several
-/// goals have a figure each, and points a line under each condition.
-std::vector<Figure> success_figures(const ReportedStudy& reported);
+/// Gives each condition its colour, the same in all figures; without conditions the legend goes. @param
+/// colour the channel, of names of conditions
+void colour_conditions(nlohmann::ordered_json& colour, const ReportedStudy& reported);
+
+/// Success per point with bounds and what is asked: over a swept number if there is one, otherwise a row per
+/// point and condition. Several goals have a panel each. Nothing for an open-loop study.
+std::optional<Figure> success_figure(const ReportedStudy& reported);
 
 /// Success over two swept numbers, with the curves of the criteria (6) and (7): one map for each combination
 /// of the other axes.
 std::vector<Figure> stability_maps(const ReportedStudy& reported);
 
-/// Distribution functions with bounds: of the arrival at several points, and of the times from which the
-/// error of the chosen point stays within each band.
+/// Distribution functions with bounds: of the times from which the error of the chosen point stays within
+/// what each goal asks, under each condition, with the goals; without a goal, of the arrival at several
+/// points, and of settling in each band.
 std::vector<Figure> distribution_figures(const ReportedStudy& reported);
 
 /// At the chosen point of a study with worlds: the times of settling in each, and the rates over each
@@ -37,19 +42,20 @@ std::optional<Figure> bode_figure(const ReportedStudy& reported);
 
 /// A shown trial of the study.
 struct SampleTrial {
-  std::string name;   ///< "median", "worst", "first-failure"
-  std::string title;  ///< plain text
+  std::string name;  ///< "median", "worst"
   std::int64_t point{0};
   std::int64_t index{0};
   std::int64_t buckets{400};  ///< resolution of its samples (see TraceThinner)
+  std::string condition{};    ///< empty without conditions
 };
 
-/// The median, the worst and the first failed trial of the chosen point, without repetitions. If no trial
-/// failed there, the first failed trial of the study. Empty for an open-loop study.
+/// The median and the worst trial of the chosen point under each condition, in order of goal::Badness. Empty
+/// for an open-loop study.
 std::vector<SampleTrial> sample_trials(const ReportedStudy& reported);
 
-/// Error and torque of a trial over time.
-Figure trace_figure(const ReportedStudy& reported, const SampleTrial& trial, const ReplayedTrial& replayed);
+/// Errors of these trials over time with the goals, and the torque of the worst. @param replayed [trial]
+Figure response_figure(const ReportedStudy& reported, const std::vector<SampleTrial>& trials,
+                       const std::vector<ReplayedTrial>& replayed);
 
 /// A figure of the paper that the study can reproduce from some trials.
 struct PaperFigure {

@@ -185,10 +185,11 @@ Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile&
   if (std::ssize(failures) > max_failures) {
     caption += fmt::format(" {} of {} failures are shown, evenly spaced.", max_failures, failures.size());
   }
-  Figure figure = figure_of("rotor", fmt::format("rotor-{}", profile.name),
-                            fmt::format("{} along the $track{}", parameter,
-                                        failures.empty() ? "" : fmt::format(", and the {}", words.failing)),
-                            caption, {std::move(trials), profile_data(profile), sector_data(sectors, words)});
+  Figure figure = figure_of(
+      "rotor", fmt::format("rotor-{}", profile.name),
+      failures.empty() ? fmt::format("How does {} vary along the $track?", parameter)
+                       : fmt::format("Where along the $track are the {}, over {}?", words.failing, parameter),
+      caption, {std::move(trials), profile_data(profile), sector_data(sectors, words)});
   figure.specification["vconcat"][0]["layer"][0]["encoding"]["y"]["title"] =
       profile.unit == "1" ? parameter : fmt::format("{} ({})", parameter, profile.unit);
   figure.specification["vconcat"][1]["encoding"]["x"]["scale"]["domain"] = {0.0, period};

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/figures/axis_ticks.hpp"
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/statistics/spread_over.hpp"
 #include "analysis/statistics/sums/histogram.hpp"
@@ -149,7 +150,8 @@ std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
                 band_of(part.study, summary), end);
     }
   }
-  Figure figure = figure_of("settling-time", "settling-time", "Arrival", caption, {std::move(data)});
+  Figure figure = figure_of("settling-time", "settling-time", "How soon do the moves arrive?", caption,
+                            {std::move(data)});
   ordered_json& x = figure.specification["encoding"]["x"];
   if (start > 0.0 && end > 12.0 * start) {  // otherwise a few late arrivals would compress all others
     x["scale"]["type"] = "symlog";
@@ -157,107 +159,30 @@ std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
     x["axis"]["values"] = round_numbers(0.0, end, start / 4.0);
     figure.caption += "The time axis is linear near zero and logarithmic beyond.";
   }
-  if (shown.size() == 1 && !has_conditions(reported))
-    figure.specification["encoding"]["color"]["legend"] = nullptr;
+  if (shown.size() == 1) colour_conditions(figure.specification["encoding"]["color"], reported);
   return figure;
 }
 
-/// Times from which the error stays within the band to the end of the move.
-statistics::Histogram<double> times_in_band(const ReportedStudy& reported, std::int64_t point,
-                                            std::size_t slot) {
-  statistics::Histogram<double> times;
-  measures::visit_trials(reported.file, rows_of(reported, point),
-                         [&](std::int64_t, std::span<const trial::MoveOutcome> moves) {
-                           for (const trial::MoveOutcome& move : moves) {
-                             if (!std::isnan(move.bands[slot].settling_time))
-                               times.add(move.bands[slot].settling_time);
-                           }
-                         });
-  return times;
-}
-
-/// The time of the goal and its proportion of moves, as rules across the figure.
-void add_goal(Figure& figure, const ReportedStudy& reported, const goal::Question& question) {
-  const study::Goal& goal = *question.claim();
-  figure.data.push_back({"goal",
-                         {{"within", "within", "s"}, {"moves", "proportion of moves", "1"}},
-                         {ordered_json::array({goal.within, goal.moves})}});
-  const ordered_json start{{"value", 0}};
-  const auto add = [&](ordered_json encoding) {
-    encoding["color"] = {{"value", "var(--ink)"}};
-    figure.specification["layer"].push_back(
-        {{"data", {{"name", "goal"}}},
-         {"mark", {{"type", "rule"}, {"strokeDash", {4, 3}}, {"strokeWidth", 1.2}}},
-         {"encoding", std::move(encoding)}});
-  };
-  add({{"x", {{"field", "within"}, {"type", "quantitative"}}}, {"y", start}, {"y2", {{"value", "height"}}}});
-  add({{"x", start}, {"x2", {{"value", "width"}}}, {"y", {{"field", "moves"}, {"type", "quantitative"}}}});
-  figure.caption += fmt::format("The dashed lines are the goal: ±{} after {} s, in {} of the moves{}. ",
-                                precision_text(reported, goal), text::short_number(goal.within),
-                                text::percent(goal.moves), question.worlds > 0 ? " of each world" : "");
-}
-
-/// The figure of all bands. Nothing for a file without bands.
-std::optional<Figure> band_figure(const ReportedStudy& reported) {
-  const trial::ErrorBands& bands = reported.study.features.bands;
-  const std::int64_t point = reported.chosen.point;
-  const measures::PointSummary& summary = point_of(reported, point);
-  FigureData data{"steps",
-                  {{"label", "band", ""},
-                   {"time", "within the band for good from", "s"},
-                   {"share", "proportion of moves", "1"},
-                   {"low", "lower 95 % bound", "1"},
-                   {"high", "upper 95 % bound", "1"}}};
-  std::vector<statistics::Histogram<double>> times;
-  double end = 0.0;
-  for (std::size_t slot = 0; slot < bands.count; ++slot) {
-    times.push_back(times_in_band(reported, point, slot));
-    if (times.back().size > 0) end = std::max(end, statistics::largest(times.back()));
-  }
-  if (end == 0.0) return std::nullopt;
-  for (std::size_t slot = 0; slot < bands.count; ++slot) {
-    if (times[slot].size == 0) continue;
-    add_curve(data, fmt::format("±{}", bands.values()[slot]), times[slot], summary.moves,
-              band_of(reported, summary), end);
-  }
-  Figure figure = figure_of(
-      "settling-time", "settled", "Within the band for good",
-      fmt::format("Proportion of all moves of {} whose error stays within ±b counts from a time on to the "
-                  "end of the move. Shortly before the end there is little time left to leave a band in. ",
-                  label_of(reported, point)),
-      {std::move(data)});
-  ordered_json& encoding = figure.specification["encoding"];
-  encoding["x"]["title"] = "within the band for good from (s)";
-  figure.specification["layer"][0]["encoding"]["y"]["title"] = "proportion of moves";
-  if (reported.study.worlds > 0) figure.caption += "It is an average over the worlds. ";
-  if (question_of(reported).claim()) add_goal(figure, reported, question_of(reported));
-  return figure;
-}
-
-/// The subject of a figure of settled moves: a goal, or a band.
+/// What moves settle in: a goal, or a band.
 struct SettledSubject {
-  std::string name;                       ///< of the figure
-  std::string precision;                  ///< "1 count"
-  measures::CountedGoal counted;          ///< the moves that are asked, and where they settle
-  std::optional<goal::Question> claim{};  ///< whose lines are drawn
+  std::string name;                    ///< of the goal; of a band "±1 count"
+  std::string precision;               ///< "1 count", "10 nm"
+  measures::CountedGoal counted;       ///< the moves that are asked, and where they settle
+  std::optional<study::Goal> claim{};  ///< whose lines are drawn
 };
 
 std::vector<SettledSubject> settled_subjects(const ReportedStudy& reported) {
   const goal::Question& question = question_of(reported);
   std::vector<SettledSubject> subjects;
   if (question.claim()) {
-    for (const goal::JudgedPart& part : question.parts) {
-      const std::string& name = part.claim->name;
-      subjects.push_back({name.empty() ? "settled" : "settled-" + name, precision_text(reported, *part.claim),
-                          part.counted, only(question, part.number)});
-    }
+    for (const goal::JudgedPart& part : question.parts)
+      subjects.push_back({part.claim->name, precision_text(reported, *part.claim), part.counted, part.claim});
     return subjects;
   }
   const trial::ErrorBands& bands = reported.study.features.bands;
   for (std::size_t slot = 0; slot < bands.count; ++slot) {
-    const std::int64_t band = bands.values()[slot];
-    subjects.push_back(
-        {fmt::format("settled-{}", band), precision_text(reported, {.band = band}), {.slot = slot}});
+    const std::string precision = precision_text(reported, {.band = bands.values()[slot]});
+    subjects.push_back({"±" + precision, precision, {.slot = slot}});
   }
   return subjects;
 }
@@ -282,76 +207,108 @@ SettledMoves settled_moves(const ReportedStudy& reported, const measures::Counte
   return settled;
 }
 
-/// A curve for each condition. Nothing where no move settles.
-std::optional<Figure> settled_figure(const ReportedStudy& reported, const SettledSubject& subject) {
-  FigureData data{"steps",
-                  {{"label", "condition", ""},
-                   {"time", "settled for good from", "s"},
-                   {"share", "proportion of moves", "1"},
-                   {"low", "lower 95 % bound", "1"},
-                   {"high", "upper 95 % bound", "1"}}};
-  const std::vector<ReportedPart> parts = parts_of(reported);
+/// Adds the curves of a subject, one for each condition; returns whether a move settles.
+bool add_settled(FigureData& data, const ReportedStudy& reported, const SettledSubject& subject) {
   std::vector<SettledMoves> settled;
+  const std::vector<ReportedPart> parts = parts_of(reported);
   double end = 0.0;
   for (const ReportedPart& part : parts) {
     settled.push_back(settled_moves(part.study, subject.counted));
     if (settled.back().times.size > 0) end = std::max(end, statistics::largest(settled.back().times));
   }
-  if (end == 0.0) return std::nullopt;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    add_curve(data, parts[i].condition, settled[i].times, settled[i].asked,
-              band_of(parts[i].study, point_of(parts[i].study, reported.chosen.point)), end);
-  const bool of_some = !subject.counted.on.empty();
-  Figure figure = figure_of(
-      "settling-time", subject.name,
-      subject.claim && has_names(*subject.claim)
-          ? fmt::format("Within ±{} for good: {}", subject.precision, subject.claim->claim()->name)
-          : fmt::format("Within ±{} for good", subject.precision),
-      fmt::format("Proportion of {} of {} whose error stays within ±{} from a time on to the end of the "
-                  "move{}. {}",
-                  of_some ? "the moves that the goal is about," : "all moves",
-                  label_of(reported, reported.chosen.point), subject.precision,
-                  has_conditions(reported) ? ", under each condition" : "",
-                  subject.counted.limits.empty() ? "" : "The limits of the goal are not in it. "),
-      {std::move(data)});
-  ordered_json& encoding = figure.specification["encoding"];
-  encoding["x"]["title"] = "within the band for good from (s)";
-  figure.specification["layer"][0]["encoding"]["y"]["title"] = "proportion of moves";
-  if (!has_conditions(reported)) encoding["color"]["legend"] = nullptr;
-  if (reported.study.worlds > 0) figure.caption += "It is an average over the worlds. ";
-  if (subject.claim) add_goal(figure, reported, *subject.claim);
-  return figure;
-}
-
-/// Whether one figure of all bands shows what the goal, if there is one, asks.
-bool bands_suffice(const ReportedStudy& reported) {
-  const goal::Question& question = question_of(reported);
-  if (has_conditions(reported) || has_several(question)) return false;
-  return !question.claim() || (!question.claim()->tolerance && question.claim()->on.empty());
-}
-
-std::vector<Figure> settled_figures(const ReportedStudy& reported) {
-  std::vector<Figure> figures;
-  const auto add = [&](std::optional<Figure> figure) {
-    if (figure) figures.push_back(std::move(*figure));
-  };
-  if (bands_suffice(reported)) {
-    add(band_figure(reported));
-  } else {
-    for (const SettledSubject& subject : settled_subjects(reported)) add(settled_figure(reported, subject));
+  if (end == 0.0) return false;
+  if (subject.claim) end = std::max(end, subject.claim->within);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::size_t first = data.rows.size();
+    add_curve(data, has_conditions(reported) ? parts[i].condition : subject.name, settled[i].times,
+              settled[i].asked, band_of(parts[i].study, point_of(parts[i].study, reported.chosen.point)),
+              end);
+    for (std::size_t row = first; row < data.rows.size(); ++row) data.rows[row].push_back(subject.name);
   }
-  return figures;
+  return true;
+}
+
+/// The times of the goals and their proportions of moves, as rules across the figure.
+void add_goals(Figure& figure, const std::vector<SettledSubject>& subjects) {
+  FigureData goals{"goals",
+                   {{"within", "within", "s"}, {"moves", "proportion of moves", "1"}, {"subject", "", ""}}};
+  for (const SettledSubject& one : subjects)
+    if (one.claim) goals.rows.push_back({one.claim->within, one.claim->moves, one.name});
+  if (goals.rows.empty()) return;
+  figure.data.push_back(std::move(goals));
+  const ordered_json start{{"value", 0}};
+  const auto add = [&](ordered_json encoding) {
+    encoding["color"] = {{"value", "var(--ink)"}};
+    figure.specification["layer"].push_back(
+        {{"data", {{"name", "goals"}}},
+         {"mark", {{"type", "rule"}, {"strokeDash", {4, 3}}, {"strokeWidth", 1.2}}},
+         {"encoding", std::move(encoding)}});
+  };
+  add({{"x", {{"field", "within"}, {"type", "quantitative"}}}, {"y", start}, {"y2", {{"value", "height"}}}});
+  add({{"x", start}, {"x2", {{"value", "width"}}}, {"y", {{"field", "moves"}, {"type", "quantitative"}}}});
+}
+
+/// "large: ±10 nm after 30 ms in 95 % of the moves".
+std::string goal_text(const SettledSubject& subject) {
+  return fmt::format("{}{}±{} after {} in {} of the moves", subject.name, subject.name.empty() ? "" : ": ",
+                     subject.precision, si_text(subject.claim->within, "s"),
+                     text::percent(subject.claim->moves));
+}
+
+/// A curve for each goal, or band, and condition: goals, and bands with conditions, in panels of their own.
+std::optional<Figure> settled_figure(const ReportedStudy& reported) {
+  FigureData data{"steps",
+                  {{"label", has_conditions(reported) ? "condition" : "of", ""},
+                   {"time", "settled for good from", "s"},
+                   {"share", "proportion of moves", "1"},
+                   {"low", "lower 95 % bound", "1"},
+                   {"high", "upper 95 % bound", "1"},
+                   {"subject", has_conditions(reported) ? "goal or band" : "", ""}}};
+  std::vector<SettledSubject> subjects = settled_subjects(reported);
+  std::erase_if(subjects, [&](const SettledSubject& one) { return !add_settled(data, reported, one); });
+  if (subjects.empty()) return std::nullopt;
+  const bool with_claim = subjects.front().claim.has_value();
+  const bool with_limits =
+      std::ranges::any_of(subjects, [](const SettledSubject& one) { return !one.counted.limits.empty(); });
+  std::string caption = fmt::format(
+      "Proportion of the moves of {} whose error stays within ±{} from a time on to the end of the move{}. ",
+      label_of(reported, reported.chosen.point), subjects.size() == 1 ? subjects.front().precision : "b",
+      has_conditions(reported) ? ", under each condition" : "");
+  if (with_claim) caption += "The dashed lines are the goal: the curve must pass above their crossing. ";
+  if (with_claim && subjects.size() == 1) caption += fmt::format("It asks {}. ", goal_text(subjects.front()));
+  if (!with_claim) caption += "Shortly before the end there is little time left to leave a band in. ";
+  if (with_limits) caption += "The limits of the goal are not in it. ";
+  if (reported.study.worlds > 0) caption += "It is an average over the worlds. ";
+  Figure figure =
+      figure_of("settling-time", "settled",
+                subjects.size() == 1
+                    ? fmt::format("How soon are the moves within ±{} for good?", subjects.front().precision)
+                    : fmt::format("How soon are the moves within {} for good?",
+                                  with_claim ? "what each goal asks" : "each band"),
+                caption, {std::move(data)});
+  ordered_json& encoding = figure.specification["encoding"];
+  encoding["x"]["title"] = "time since the start of the move (s)";
+  figure.specification["layer"][0]["encoding"]["y"]["title"] = "proportion of moves";
+  if (has_conditions(reported) || with_claim) colour_conditions(encoding["color"], reported);
+  add_goals(figure, subjects);
+  if (!has_conditions(reported) && !with_claim) return figure;
+  std::vector<FigurePanel> panels;
+  for (const SettledSubject& one : subjects)
+    panels.push_back({one.name, one.claim ? goal_text(one) : one.name});
+  if (panels.size() > 1) figure.specification["height"] = 190;
+  divide_into_panels(figure, "subject", panels);
+  return figure;
 }
 
 }  // namespace
 
 std::vector<Figure> distribution_figures(const ReportedStudy& reported) {
   std::vector<Figure> figures;
-  std::optional<Figure> arrival = arrival_figure(reported);
-  if (!reported.study.open_loop) figures = settled_figures(reported);
-  // The question of the study comes first.
-  if (arrival)
-    figures.insert(question_of(reported).claim() ? figures.end() : figures.begin(), std::move(*arrival));
+  const auto add = [&](std::optional<Figure> figure) {
+    if (figure) figures.push_back(std::move(*figure));
+  };
+  if (!question_of(reported).claim()) add(arrival_figure(reported));
+  if (!reported.study.open_loop) add(settled_figure(reported));
   return figures;
 }
 

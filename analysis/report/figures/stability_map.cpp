@@ -19,11 +19,11 @@ constexpr std::int64_t max_maps = 4;
 
 /// The cells of the values of an axis: each extends half-way to both neighbours. The first and last cell end
 /// at their values.
-struct CellEdges {
+struct AxisCells {
   std::vector<double> values;
   bool by_ratio{false};
 
-  explicit CellEdges(const study::SweepAxis& axis)
+  explicit AxisCells(const study::SweepAxis& axis)
       : values(values_of(axis)), by_ratio(spaced_by_ratio(values)) {}
 
   double between(double a, double b) const { return by_ratio ? std::sqrt(a * b) : 0.5 * (a + b); }
@@ -37,7 +37,7 @@ struct CellEdges {
   }
 };
 
-void set_axis(ordered_json& channel, const study::SweepAxis& axis, const CellEdges& edges) {
+void set_axis(ordered_json& channel, const study::SweepAxis& axis, const AxisCells& edges) {
   channel["title"] = axis_title(axis);
   channel["scale"]["domain"] = {edges.values.front(), edges.values.back()};
   if (edges.by_ratio) channel["scale"]["type"] = "log";
@@ -45,8 +45,8 @@ void set_axis(ordered_json& channel, const study::SweepAxis& axis, const CellEdg
 
 FigureData cells_of(const ReportedStudy& reported, const PointGroup& group, const study::SweepAxis& x,
                     const study::SweepAxis& y) {
-  const CellEdges x_edges(x);
-  const CellEdges y_edges(y);
+  const AxisCells x_edges(x);
+  const AxisCells y_edges(y);
   FigureData cells{"cells",
                    {{"label", "point", ""},
                     {"x_from", "", x.unit},
@@ -80,10 +80,22 @@ FigureData cells_of(const ReportedStudy& reported, const PointGroup& group, cons
   return cells;
 }
 
+/// Whether what is observed is what every goal asks for, under every condition.
+bool seems_met(const ReportedStudy& reported, std::int64_t point) {
+  return std::ranges::all_of(parts_of(reported), [&](const ReportedPart& one) {
+    return std::ranges::all_of(question_of(one.study).parts, [&](const goal::JudgedPart& part) {
+      const goal::Verdict verdict =
+          verdict_on(only(question_of(one.study), part.number), point_of(one.study, point));
+      return part.claim->machines ? verdict.machines.value >= *part.claim->machines
+                                  : verdict.moves.value >= part.claim->moves;
+    });
+  });
+}
+
 FigureData curves_of(const ReportedStudy& reported, const PointGroup& group, const study::SweepAxis& x,
                      const study::SweepAxis& y) {
-  const CellEdges x_edges(x);
-  const CellEdges y_edges(y);
+  const AxisCells x_edges(x);
+  const AxisCells y_edges(y);
   const theory::CriterionPlane plane{
       {x.name, x_edges.values.front(), x_edges.values.back(), x_edges.by_ratio},
       {y.name, y_edges.values.front(), y_edges.values.back(), y_edges.by_ratio}};
@@ -115,14 +127,50 @@ FigureData curves_of(const ReportedStudy& reported, const PointGroup& group, con
   return data;
 }
 
+/// "Which controller.ki and controller.kp meet the goal? controller.kd 0.1".
+std::string map_title(const ReportedStudy& reported, const PointGroup& group, const study::SweepAxis& x,
+                      const study::SweepAxis& y) {
+  return fmt::format("{} {} and {} {}?{}{}", question_of(reported).claim() ? "Which" : "At which", x.name,
+                     y.name, question_of(reported).claim() ? "meet the goal" : "do trials succeed",
+                     group.label.empty() ? "" : " ", group.label);
+}
+
+/// Where the goal is met by the rate of the trials; nothing without one, or where cells are missing.
+FigureData goal_boundary(const ReportedStudy& reported, const PointGroup& group, const study::SweepAxis& x,
+                         const study::SweepAxis& y) {
+  FigureData data = boundaries_data();
+  const AxisCells columns(x);
+  const AxisCells rows(y);
+  if (!question_of(reported).claim() || group.points.size() != columns.values.size() * rows.values.size())
+    return data;
+  std::vector<std::int64_t> points = group.points;
+  const auto place = [&](std::int64_t point) {
+    const auto at = static_cast<std::size_t>(point);
+    return std::pair(y.numbers[at], x.numbers[at]);
+  };
+  std::ranges::sort(points, {}, place);
+  std::vector<CellEdges> cells;
+  std::vector<char> met;
+  for (const std::int64_t point : points) {
+    const auto [row, column] = place(point);
+    cells.push_back({columns.from(column), columns.to(column), rows.from(row), rows.to(row)});
+    met.push_back(seems_met(reported, point) ? 1 : 0);
+  }
+  add_boundary(data, "goal met", cells, columns.values.size(), [&](std::size_t i) { return met[i] != 0; });
+  return data;
+}
+
 Figure map_of(const ReportedStudy& reported, const PointGroup& group, std::size_t number,
               const study::SweepAxis& x, const study::SweepAxis& y) {
   FigureData curves = curves_of(reported, group, x, y);
+  FigureData boundary = goal_boundary(reported, group, x, y);
   const goal::QuestionWords& words = words_of(question_of(reported));
   std::string caption = fmt::format(
       "Each cell is a design point. Its colour is the proportion of the {}. A star marks the chosen "
-      "point. ",
-      words.meeting);
+      "point. {}",
+      words.meeting,
+      question_of(reported).claim() ? "The boundary encloses points at which the goal is met, as observed. "
+                                    : "");
   if (!curves.rows.empty()) {
     caption +=
         "The lines are the paper's criteria (6), white, and (7), orange; solid for the trial with the lowest "
@@ -132,15 +180,18 @@ Figure map_of(const ReportedStudy& reported, const PointGroup& group, std::size_
   }
   Figure figure =
       figure_of("stability-map", number == 0 ? "stability-map" : fmt::format("stability-map-{}", number + 1),
-                group.label.empty() ? "Stability map" : fmt::format("Stability map: {}", group.label),
-                caption, {cells_of(reported, group, x, y), std::move(curves)});
+                map_title(reported, group, x, y), caption,
+                {cells_of(reported, group, x, y), std::move(curves), std::move(boundary)});
   retitle(figure, {{"success rate", words.rate}});
   ordered_json& encoding = figure.specification["layer"][0]["encoding"];
-  set_axis(encoding["x"], x, CellEdges(x));
-  set_axis(encoding["y"], y, CellEdges(y));
-  if (figure.data.back().rows.empty()) {
-    ordered_json& layers = figure.specification["layer"];
-    layers.erase(layers.begin() + 2, layers.end());
+  set_axis(encoding["x"], x, AxisCells(x));
+  set_axis(encoding["y"], y, AxisCells(y));
+  // A layer without rows would only add to the legend.
+  ordered_json& layers = figure.specification["layer"];
+  for (auto layer = layers.begin(); layer != layers.end();) {
+    const auto data =
+        std::ranges::find(figure.data, (*layer)["data"]["name"].get<std::string>(), &FigureData::name);
+    layer = data->rows.empty() ? layers.erase(layer) : layer + 1;
   }
   return figure;
 }

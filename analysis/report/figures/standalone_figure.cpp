@@ -15,8 +15,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr int width = 560;        // pixels
-constexpr int room_of_axis = 80;  // of figures that are composed of several, whose width is that of a plot
+constexpr int width = 560;                // pixels
+constexpr int room_of_axes = 80;          // beside the plots of a composed figure, unless it says its own
 constexpr double width_of_letter = 6.4;   // of a legend
 constexpr double width_of_symbol = 32.0;  // and its gaps
 constexpr double width_of_legend = 500.0;
@@ -96,7 +96,8 @@ ordered_json theme_of(const Figure& figure) {
 ordered_json standalone_specification(const Figure& figure) {
   ordered_json specification = with_tick_labels(figure);
   const bool composed = specification.contains("vconcat");
-  set_width(specification, composed ? width - room_of_axis : width);
+  const int room = specification.value("usermeta", ordered_json::object()).value("margin", room_of_axes);
+  set_width(specification, composed ? width - room : width);
   if (!composed) specification["autosize"] = {{"type", "fit-x"}, {"contains", "padding"}};
   specification["config"] = theme_of(figure);
   colour(specification, light_colours());

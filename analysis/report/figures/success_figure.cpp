@@ -20,73 +20,109 @@ using nlohmann::ordered_json;
 constexpr std::int64_t max_lines = 60;  ///< maximum number of points with a line of their own
 constexpr std::int64_t max_series = 8;  ///< number of colours
 
-std::string bounds_note(const ReportedStudy& reported) {
-  return fmt::format("The bars or bands are {}, for each point separately.", shown_bounds(reported));
-}
-
-std::vector<FigureColumn> common_columns(const ReportedStudy& reported) {
-  const goal::QuestionWords& words = words_of(question_of(reported));
-  return {{"label", "point", ""},
-          {"rate", std::string(words.rate), "1"},
-          {"low", "lower bound", "1"},
-          {"high", "upper bound", "1"},
-          {"successes", std::string(words.hits), "1"},
-          {"trials", std::string(words.events), "1"}};
-}
-
-/// The trials that a point has a line of its own for: all, or those under a condition.
+/// The trials that a point has a row or line of its own for: of one goal, under one condition.
 struct ShownLine {
+  std::string goal;       ///< empty where the study has not several
   std::string condition;  ///< empty without conditions
   const ReportedStudy& study;
   goal::Question question;
 
+  /// What the goal claims: the proportion of machines, or of moves; without one, of trials.
   goal::QuestionRate rate(std::int64_t point) const {
-    return goal::rate_of(question, point_of(study, point));
+    const measures::PointSummary& shown = point_of(study, point);
+    if (!goal::is_of_machines(question)) return goal::rate_of(question, shown);
+    const goal::Verdict verdict = verdict_on(question, shown);
+    return {verdict.machines.value,
+            {verdict.machines.low, verdict.machines.high},
+            verdict.rigs_meeting,
+            std::ssize(shown.goals.front().rigs)};
+  }
+  /// The proportion that is asked for.
+  ordered_json asked() const {
+    if (!question.claim()) return nullptr;
+    return question.claim()->machines.value_or(question.claim()->moves);
   }
 };
 
-/// The subject of a figure of rates: the study's question, or one of several goals.
-struct RateSubject {
-  std::string goal{};  ///< its name; empty where there are not several
-  std::vector<ShownLine> lines{};
-
-  std::string figure() const { return goal.empty() ? "success" : "success-" + goal; }
-  std::string title(std::string_view of_all) const {
-    return goal.empty() ? std::string(of_all) : fmt::format("{}: {}", of_all, goal);
-  }
-};
-
-std::vector<RateSubject> rate_subjects(const ReportedStudy& reported) {
-  std::vector<RateSubject> subjects;
+std::vector<ShownLine> shown_lines(const ReportedStudy& reported) {
+  std::vector<ShownLine> lines;
   for (const goal::JudgedPart& part : question_of(reported).parts) {
-    RateSubject& subject = subjects.emplace_back();
-    if (has_several(question_of(reported))) subject.goal = part.claim->name;
-    for (const ReportedPart& one : parts_of(reported))
-      subject.lines.push_back({one.condition, one.study, only(question_of(one.study), part.number)});
+    for (const ReportedPart& one : parts_of(reported)) {
+      lines.push_back({has_several(question_of(reported)) ? part.claim->name : "", one.condition, one.study,
+                       only(question_of(one.study), part.number)});
+    }
   }
-  return subjects;
+  return lines;
 }
 
-/// "kp=400 ★, loaded"; of the lines of a study with one point "loaded".
-std::string label_of_line(const ReportedStudy& reported, std::int64_t point, const ShownLine& line) {
-  return reported.names.size() == 1 && !line.condition.empty()
-             ? line.condition
-             : study::label_under(marked_label_of(reported, point), line.condition);
+/// How the figure speaks of what it shows.
+struct RateWords {
+  std::string rate;     ///< "proportion of machines that meet the goal"
+  std::string hits;     ///< "machines in goal"
+  std::string events;   ///< "machines"
+  std::string meeting;  ///< "machines that meet the goal"
+};
+
+RateWords words_of_rate(const ReportedStudy& reported) {
+  const goal::Question& question = question_of(reported);
+  const goal::QuestionWords& words = words_of(question);
+  const auto of_machines = [](const goal::JudgedPart& part) { return part.claim && part.claim->machines; };
+  if (std::ranges::none_of(question.parts, of_machines))
+    return {std::string(words.rate), std::string(words.hits), std::string(words.events),
+            std::string(words.meeting)};
+  if (std::ranges::all_of(question.parts, of_machines))
+    return {"proportion of machines that meet the goal", "machines in goal", "machines",
+            "machines that meet the goal in its proportion of moves"};
+  return {"proportion that the goal is about", "in goal", "of", "machines, or moves, that meet the goal"};
 }
 
-ordered_json row_of(const ReportedStudy& reported, std::int64_t point, const ShownLine& line) {
-  const goal::QuestionRate rate = line.rate(point);
-  return ordered_json::array({label_of_line(reported, point, line), datum(rate.value), datum(rate.bounds.low),
-                              datum(rate.bounds.high), rate.hits, rate.events});
+/// "kp=400 ★, large, loaded"; of the lines of a study with one point "large, loaded". @param with_goal
+/// whether the goals have no panels of their own
+std::string label_of_line(const ReportedStudy& reported, std::int64_t point, const ShownLine& line,
+                          bool with_goal) {
+  const bool alone = reported.names.size() == 1;
+  std::string label = alone ? "" : marked_label_of(reported, point);
+  for (const std::string& part : {with_goal ? line.goal : std::string(), line.condition})
+    if (!part.empty()) label += (label.empty() ? "" : ", ") + part;
+  return label.empty() ? label_of(reported, point) : label;
 }
 
-/// " under each condition"; empty where a point has one line.
-std::string_view lines_text(const ReportedStudy& reported) {
-  return has_conditions(reported) ? " under each condition" : "";
+FigureData rates_data(const RateWords& words) {
+  return {"points",
+          {{"label", "point", ""},
+           {"rate", words.rate, "1"},
+           {"low", "lower bound", "1"},
+           {"high", "upper bound", "1"},
+           {"successes", words.hits, "1"},
+           {"trials", words.events, "1"},
+           {"asked", "asked for", "1"},
+           {"condition", "", ""},
+           {"goal", "", ""}}};
 }
 
-/// Puts the words of the question in place of those of success.
-void speak_of_question(Figure& figure, const goal::QuestionWords& words) {
+ordered_json row_of(const std::string& label, const ShownLine& line, const goal::QuestionRate& rate) {
+  return ordered_json::array({label, datum(rate.value), datum(rate.bounds.low), datum(rate.bounds.high),
+                              rate.hits, rate.events, line.asked(), line.condition, line.goal});
+}
+
+/// @param line that shows what is asked, "dark", and what the bounds are, "bars"
+std::string bounds_note(const ReportedStudy& reported, std::string_view line, std::string_view bounds) {
+  return fmt::format(
+      "{}The {} are {}, for each point separately.",
+      question_of(reported).claim() ? fmt::format("The {} line is what the goal asks for. ", line) : "",
+      bounds, shown_bounds(reported));
+}
+
+void divide_by_goals(Figure& figure, const ReportedStudy& reported, int height) {
+  if (!has_several(question_of(reported))) return;
+  std::vector<FigurePanel> panels;
+  for (const goal::JudgedPart& part : question_of(reported).parts)
+    panels.push_back({part.claim->name, part.claim->name});
+  figure.specification["height"] = height;
+  divide_into_panels(figure, "goal", panels);
+}
+
+void use_words(Figure& figure, const RateWords& words) {
   retitle(figure, {{"success rate", words.rate}, {"successes", words.hits}, {"trials", words.events}});
 }
 
@@ -110,38 +146,53 @@ std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported, std::
   return shown;
 }
 
-Figure line_per_point(const ReportedStudy& reported, const RateSubject& subject) {
-  const std::vector<std::int64_t> shown = points_with_lines(reported, std::ssize(subject.lines));
+/// A row for each point under each condition.
+Figure row_per_point(const ReportedStudy& reported) {
+  const std::vector<ShownLine> lines = shown_lines(reported);
+  const bool alone = reported.names.size() == 1;
+  const std::vector<std::int64_t> shown = points_with_lines(reported, std::ssize(parts_of(reported)));
   const goal::Question& question = question_of(reported);
-  const goal::QuestionWords& words = words_of(question);
+  const RateWords words = words_of_rate(reported);
   std::string caption =
-      fmt::format("Proportion of the {}, of all of each point{}{}. ", words.meeting, lines_text(reported),
-                  goal::is_of_worst_world(question) ? " in its worst world" : "");
+      fmt::format("Proportion of the {}{}{}{}. ", words.meeting, alone ? "" : ", of all of each point",
+                  has_conditions(reported) ? ", under each condition" : "",
+                  goal::is_of_worst_world(question) ? ", in its worst world" : "");
   if (!reported.summary.features.dependent_trials) {
+    if (!alone) caption += "Points whose bounds do not overlap differ significantly. ";
     caption +=
-        "Points whose bounds do not overlap differ significantly. A dot at 100 % does not exclude failures: "
-        "their "
-        "probability may be up to 100 % minus the lower bound. ";
+        "A dot at 100 % does not exclude failures: their probability may be up to 100 % minus the lower "
+        "bound. ";
   }
   if (std::ssize(shown) < std::ssize(reported.summary.points)) {
     caption += fmt::format("Shown are {} of {} points, evenly spaced from the best to the worst. ",
                            shown.size(), reported.summary.points.size());
   }
-  FigureData data{"points", common_columns(reported)};
+  FigureData data = rates_data(words);
   double lowest = 1.0;
   for (const std::int64_t point : shown) {
-    for (const ShownLine& line : subject.lines) {
-      data.rows.push_back(row_of(reported, point, line));
-      lowest = std::min(lowest, line.rate(point).bounds.low);
+    for (const ShownLine& line : lines) {
+      const goal::QuestionRate rate = line.rate(point);
+      data.rows.push_back(row_of(label_of_line(reported, point, line, alone), line, rate));
+      lowest = std::min({lowest, rate.bounds.low, line.asked().is_null() ? 1.0 : line.asked().get<double>()});
     }
   }
-  Figure figure =
-      figure_of("success", subject.figure(), subject.title(fmt::format("{} at each point", words.title)),
-                caption + bounds_note(reported), {std::move(data)});
-  speak_of_question(figure, words);
-  const double from = lowest > 0.9 ? std::floor(lowest * 100.0) / 100.0 : 0.0;
+  const std::size_t rows = data.rows.size() / (alone ? 1 : question.parts.size());
+  const char* const title = !question.claim()          ? "How many trials succeed?"
+                            : !alone                   ? "Which design points meet the goal?"
+                            : has_conditions(reported) ? "Is the goal met under each condition?"
+                                                       : "Is the goal met?";
+  Figure figure = figure_of("success", "success", title, caption + bounds_note(reported, "dark", "bars"),
+                            {std::move(data)});
+  use_words(figure, words);
+  const double from = lowest > 0.9 ? std::floor(lowest * 100.0 - 0.5) / 100.0 : 0.0;
   figure.specification["layer"][0]["encoding"]["x"]["scale"]["domain"] = {from, 1};
-  set_rows(figure, shown.size() * subject.lines.size(), 24);
+  if (has_conditions(reported)) {
+    colour_conditions(figure.specification["encoding"]["color"], reported);
+  } else {
+    figure.specification["encoding"].erase("color");
+  }
+  set_rows(figure, rows, 24);
+  if (!alone) divide_by_goals(figure, reported, figure.specification["height"]);
   return figure;
 }
 
@@ -157,54 +208,68 @@ std::vector<std::int64_t> groups_shown(const ReportedStudy& reported, const std:
   return shown;
 }
 
-Figure along_axis(const ReportedStudy& reported, const RateSubject& subject, std::size_t axis) {
+Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
   const study::SweepAxis& swept = reported.summary.axes[axis];
-  const goal::QuestionWords& words = words_of(question_of(reported));
+  const std::vector<ShownLine> lines = shown_lines(reported);
+  const auto conditions = std::ssize(parts_of(reported));
+  const RateWords words = words_of_rate(reported);
   const std::vector<PointGroup> groups = groups_along(reported, {axis});
-  const std::int64_t most = std::max<std::int64_t>(max_series / std::ssize(subject.lines), 1);
+  const std::int64_t most = std::max<std::int64_t>(max_series / conditions, 1);
+  const char* const each = has_conditions(reported) ? " under each condition" : "";
   std::string caption = fmt::format(
       "Proportion of the {}, of all of each point{} (line), over {}. A star marks the chosen point. ",
-      words.meeting, lines_text(reported), axis_title(swept));
+      words.meeting, each, axis_title(swept));
   if (std::ssize(groups) > most) {
     caption += fmt::format("Shown are {} of {} lines{}: that of the chosen point, and others evenly spaced. ",
-                           most, groups.size(), lines_text(reported));
+                           most, groups.size(), each);
   }
-  FigureData data{"points", common_columns(reported)};
+  FigureData data = rates_data(words);
   data.columns.push_back({"x", swept.name, swept.unit});
   data.columns.push_back({"series", "", ""});
   for (const std::int64_t shown : groups_shown(reported, groups, most)) {
     const PointGroup& group = groups[static_cast<std::size_t>(shown)];
-    for (const ShownLine& line : subject.lines) {
+    for (const ShownLine& line : lines) {
       for (const std::int64_t point : group.points) {
-        ordered_json row = row_of(reported, point, line);
+        ordered_json row = row_of(label_of_line(reported, point, line, false), line, line.rate(point));
         row.push_back(swept.numbers[static_cast<std::size_t>(point)]);
         row.push_back(group.label.empty() ? line.condition : study::label_under(group.label, line.condition));
         data.rows.push_back(std::move(row));
       }
     }
   }
-  Figure figure = figure_of("success-along", subject.figure(),
-                            subject.title(fmt::format("{} over {}", words.title, swept.name)),
-                            caption + bounds_note(reported), {std::move(data)});
-  speak_of_question(figure, words);
+  Figure figure =
+      figure_of("success-along", "success",
+                question_of(reported).claim() ? fmt::format("At which {} is the goal met?", swept.name)
+                                              : fmt::format("How does success depend on {}?", swept.name),
+                caption + bounds_note(reported, "dashed", "bands"), {std::move(data)});
+  use_words(figure, words);
   ordered_json& encoding = figure.specification["encoding"];
   encoding["x"]["title"] = axis_title(swept);
   if (spaced_by_ratio(values_of(swept))) encoding["x"]["scale"]["type"] = "log";
   encoding["x"]["scale"]["domain"] = {values_of(swept).front(), values_of(swept).back()};
-  if (groups.size() * subject.lines.size() == 1) encoding["color"]["legend"] = nullptr;
+  if (groups.size() == 1) colour_conditions(encoding["color"], reported);
+  divide_by_goals(figure, reported, 220);
   return figure;
 }
 
 }  // namespace
 
-std::vector<Figure> success_figures(const ReportedStudy& reported) {
-  std::vector<Figure> figures;
-  if (reported.study.open_loop) return figures;
+void colour_conditions(nlohmann::ordered_json& colour, const ReportedStudy& reported) {
+  constexpr std::size_t colours = 8;
+  if (!has_conditions(reported)) {
+    colour["legend"] = nullptr;
+    return;
+  }
+  nlohmann::ordered_json range = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < reported.study.conditions.size(); ++i)
+    range.push_back(fmt::format("var(--s{})", i % colours + 1));
+  colour["scale"] = {{"domain", reported.study.conditions}, {"range", std::move(range)}};
+}
+
+std::optional<Figure> success_figure(const ReportedStudy& reported) {
+  if (reported.study.open_loop) return std::nullopt;
   const std::vector<std::size_t> numeric = numeric_axes(reported, 3);
-  for (const RateSubject& subject : rate_subjects(reported))
-    figures.push_back(numeric.empty() ? line_per_point(reported, subject)
-                                      : along_axis(reported, subject, numeric.front()));
-  return figures;
+  return numeric.empty() ? row_per_point(reported) : along_axis(reported, numeric.front());
 }
 
 }  // namespace zerocount::report

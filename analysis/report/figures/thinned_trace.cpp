@@ -55,6 +55,7 @@ ReplayedTrial replay_trial(const study::Study& study, std::int64_t point, std::i
   replayed.result.inputs = trial.inputs;
   replayed.result.outcome = trial::run_trial(trial.parameters, observers);
   replayed.samples = thinner.finish();
+  replayed.parameters = trial.parameters;
   return replayed;
 }
 

@@ -11,6 +11,7 @@ namespace zerocount::report {
 /// A trial that was simulated again, with the samples for a figure.
 struct ReplayedTrial {
   std::int64_t point{0};
+  trial::TrialParameters parameters;
   shards::TrialResult result;                ///< to compare with the record
   std::vector<trial::SampleRecord> samples;  ///< thinned
 };

@@ -86,7 +86,7 @@ std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds:
               colours ? inputs[input].values[world] : static_cast<double>(world));
   }
   Figure figure = figure_of(
-      "world-curves", "worlds", "Settled moves in each world",
+      "world-curves", "worlds", "How soon do the moves of each world settle?",
       fmt::format(
           "Proportion of the moves of each world, at {}, whose error stays within ±{} counts from a time "
           "on. {}. Bad worlds are coloured by {}{}.",
@@ -118,7 +118,8 @@ Figure rate_figure(const ReportedStudy& reported, const worlds::PointWorlds& poi
                              datum(rate.high), point.bad[world] ? "bad world" : "other world"}));
   }
   Figure figure = figure_of(
-      "world-rate", fmt::format("world-rate-{}", input + 1), fmt::format("Rate over {}", parameter.name),
+      "world-rate", fmt::format("world-rate-{}", input + 1),
+      fmt::format("Does {} decide whether a world is good?", parameter.name),
       fmt::format("Proportion of the {} in each world, at {}, with one-sided bounds {}.",
                   goal::judged_meeting(reported.summary.question), label_of(reported, reported.chosen.point),
                   point.goal ? "which all hold together with the confidence of the goal"

@@ -76,6 +76,8 @@ class _View:
     legend: dict[str, dict[str, Any]] = dataclasses.field(default_factory=dict)  # title → name → artist
 
     def draw(self, *, with_legend: bool) -> None:
+        if "title" in self.view:
+            self.axes.set_title(self.view["title"], loc="left", fontsize="small")
         for layer in self.layers():
             channels = {**self.view.get("encoding", {}), **layer.get("encoding", {})}
             # A position in pixels is an edge of the plot: the mark spans it.
@@ -113,8 +115,8 @@ class _View:
             )
 
     def layers(self) -> list[Mapping[str, Any]]:
-        """The layers; a view without them is one itself."""
-        return list(self.view.get("layer", [self.view]))
+        """The layers and theirs; a view without them is one itself."""
+        return list(_flat(self.view))
 
     def rows(self, layer: Mapping[str, Any]) -> list[Row]:
         """The data of a layer, after its filters."""
@@ -339,6 +341,14 @@ class _Layer:
             self.view.axes.annotate(
                 word, (a, b), offset, textcoords="offset points", ha=side, path_effects=effects, **style
             )
+
+
+def _flat(view: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
+    """A view without layers, or its layers and theirs."""
+    if "layer" not in view:
+        yield view
+    for layer in view.get("layer", []):
+        yield from _flat(layer)
 
 
 def _number(value: Any) -> float:

@@ -80,9 +80,9 @@ class Figure:
 
         Examples
         --------
-        >>> picture = zc.open("my-axis.h5").plot("settling").matplotlib()
+        >>> picture = zc.open("my-axis.h5").plot("settled").matplotlib()
         >>> picture.axes[0].get_xlabel()
-        'arrival (ms)'
+        'time since the start of the move (ms)'
         """
         return drawn(self.specification)
 

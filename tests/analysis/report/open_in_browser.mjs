@@ -208,7 +208,7 @@ try {
   for (const [scheme, width] of [["light", 1000], ["dark", 390]]) {
     const opened = await open(browser, tuned, {scheme, width, phone: width < 500});
     await checkPage(opened);
-    for (const name of ["tuning-map-1-2", "tuning-frontier", "tuning-room", "tuning-limits", "trace-worst-machine"])
+    for (const name of ["tuning-map-1-2", "tuning-frontier", "tuning-room", "response"])
       expect(await opened.page.locator(`#figure-${name}`).count() === 1, `${opened.name}: ${name}`);
     await opened.page.screenshot({path: join(screenshots, `tuned-${scheme}-${width}.png`), fullPage: true});
     if (width === 1000) {

@@ -15,6 +15,7 @@
 #include "analysis/summary/stored_statistics.hpp"
 #include "analysis/summary/study_statistics.hpp"
 #include "analysis/summary/summary.hpp"
+#include "core/loop/encoder.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "tests/analysis/report/run_studies.hpp"
 #include "tests/analysis/study_files.hpp"
@@ -59,7 +60,7 @@ TemporaryFolder* Report::folder = nullptr;
 TEST_F(Report, HasAFigureForAllThatTheStudyHas) {
   const std::vector<std::string> names = figure_names(study_report(file).page);
   for (const char* name : {"success", "stability-map", "settling-time", "jerk-raster", "rotor-friction.k1",
-                           "bode", "trace-median", "trace-worst"}) {
+                           "bode", "response"}) {
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
   }
   for (const std::string& name : names) EXPECT_EQ(name.find("paper"), std::string::npos) << name;
@@ -138,7 +139,7 @@ TEST_F(Report, TheCurvesOfBandsAreOfTheChosenPoint) {
   const std::vector<double> proportion = column(data, "share");
   ASSERT_FALSE(data.rows.empty());
   for (std::size_t i = 0; i < data.rows.size(); ++i) {
-    const std::size_t slot = data.rows[i][0] == "±0" ? 0 : 1;
+    const std::size_t slot = data.rows[i][0] == "±0 counts" ? 0 : 1;
     const auto settled = std::count_if(moves.begin(), moves.end(), [&](const trial::MoveOutcome& move) {
       return move.bands[slot].settling_time <= at[i] + 1e-9;
     });
@@ -148,30 +149,54 @@ TEST_F(Report, TheCurvesOfBandsAreOfTheChosenPoint) {
   }
 }
 
+/// Half of the trials do no better than the median one, and none does worse than the worst.
 TEST_F(Report, TheSampleTrialsAreWhatTheySay) {
   const ReportedStudy reported = reported_study(file);
-  const std::vector<SampleTrial> trials = sample_trials(reported);
+  const goal::Question& question = question_of(reported);
   const std::vector<trial::MoveOutcome> outcomes = file.outcomes(file.rows());
-  const auto of = [&](const SampleTrial& trial) {
-    return outcomes[static_cast<std::size_t>(trial.point * 40 + trial.index)];
+  const auto badness = [&](std::int64_t index) {
+    const auto row = static_cast<std::size_t>(reported.chosen.point * 40 + index);
+    return badness_of(question, {&outcomes[row], 1});
   };
-  ASSERT_FALSE(trials.empty());
-  const double median = reported.summary.points[static_cast<std::size_t>(reported.chosen.point)]
-                            .of(&trial::MoveOutcome::settling_time)
-                            .median.value;
+  const std::vector<SampleTrial> trials = sample_trials(reported);
+  ASSERT_EQ(trials.size(), 2U);
   for (const SampleTrial& trial : trials) {
+    EXPECT_EQ(trial.point, reported.chosen.point);
+    int better = 0, worse = 0;
+    for (std::int64_t index = 0; index < 40; ++index) {
+      better += badness(index) < badness(trial.index);
+      worse += badness(trial.index) < badness(index);
+    }
     if (trial.name == "median") {
-      EXPECT_EQ(of(trial).settling_time, median);
-      EXPECT_EQ(of(trial).outcome, trial::Outcome::zero_count);
-    }
-    if (trial.name == "worst") {
-      for (std::int64_t index = 0; index < 40; ++index)
-        EXPECT_GE(of(trial).outcome, of(SampleTrial{"", "", reported.chosen.point, index}).outcome);
-    }
-    if (trial.name == "first-failure") {
-      EXPECT_NE(of(trial).outcome, trial::Outcome::zero_count);
+      EXPECT_LE(better, 19);
+      EXPECT_LE(worse, 20);
+    } else {
+      EXPECT_EQ(worse, 0);
     }
   }
+}
+
+/// The figure's errors are those of the samples, in rad and counts.
+TEST_F(Report, TheResponseHasTheErrorsOfItsTrials) {
+  const ReportedStudy reported = reported_study(file);
+  const FigureData data = find_figure(study_report(file).page, "response").data.front();
+  const std::vector<SampleTrial> trials = sample_trials(reported);
+  const std::vector<double> error = column(data, "error");
+  const std::vector<double> counts = column(data, "counts");
+  const std::vector<double> time = column(data, "time");
+  std::size_t row = 0;
+  for (const SampleTrial& trial : trials) {
+    const ReplayedTrial replayed = replay_trial(file.study(), trial.point, trial.index, trial.buckets);
+    const double resolution = loop::fine_resolution(replayed.parameters.encoder);
+    for (const trial::SampleRecord& sample : replayed.samples) {
+      EXPECT_EQ(data.rows[row][0], trial.name);
+      EXPECT_NEAR(time[row], sample.t, 1e-8);
+      EXPECT_NEAR(counts[row], static_cast<double>(sample.error), 1e-5 * std::abs(counts[row]));
+      EXPECT_NEAR(error[row], static_cast<double>(sample.error) * resolution, 1e-5 * std::abs(error[row]));
+      ++row;
+    }
+  }
+  EXPECT_EQ(row, data.rows.size());
 }
 
 TEST_F(Report, TracesAreTheRecordedTrials) {

@@ -100,7 +100,7 @@ TEST_F(ReportCommand, PlotDrawsAFigure) {
   EXPECT_TRUE(svg.starts_with("<svg"));
   EXPECT_NE(svg.find("success rate"), std::string::npos);
   EXPECT_EQ(svg.find("var(--"), std::string::npos);
-  result = run({"plot", "a.h5", "--figure", "trace-median", "-o", "a.png"});
+  result = run({"plot", "a.h5", "--figure", "response", "-o", "a.png"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(folder->read("a.png").substr(1, 3), "PNG");
 }

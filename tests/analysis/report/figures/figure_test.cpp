@@ -85,7 +85,7 @@ TEST(StandaloneFigure, NeedsNeitherDataNorThemeNorColoursOfThePage) {
   EXPECT_EQ(whole["width"], 560);
   EXPECT_EQ(whole["config"]["background"], "white");
   EXPECT_EQ(whole["config"]["line"]["color"], light_colours()["--s1"]);
-  EXPECT_EQ(whole["layer"][0]["mark"]["color"], light_colours()["--s1"]);
+  EXPECT_EQ(whole["layer"][1]["mark"]["color"], light_colours()["--ink"]);
   EXPECT_EQ(whole["datasets"]["points"][0]["label"], "var(--a label)");
   EXPECT_EQ(whole["datasets"]["points"][0]["rate"], 0.5);
   nlohmann::ordered_json drawing = whole;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/report/figures/axis_ticks.hpp"
 #include "analysis/report/figures/figure.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/proportion.hpp"
@@ -108,6 +109,14 @@ double asked_of(const TuneAnswer& answer, const study::Study& study) {
   return goal.machines.value_or(goal.moves);
 }
 
+/// "band_settling_time.p95 (s)".
+std::string criterion_title(const study::Study& study) {
+  const std::string name = tuning::criterion_name(study);
+  if (tuning::is_proportion_of_allowed(study)) return name + ", of the time that its goal allows";
+  const std::string& unit = tuning::criteria_of(study).front().measure->field.column.unit;
+  return unit == "1" || unit.empty() ? name : fmt::format("{} ({})", name, unit);
+}
+
 Figure frontier_figure(const TuneAnswer& answer, const study::Study& study) {
   std::vector<TriedPoint> tried = answer.tried;
   std::erase_if(tried, [](const TriedPoint& one) { return !std::isfinite(one.estimate.criterion); });
@@ -126,8 +135,19 @@ Figure frontier_figure(const TuneAnswer& answer, const study::Study& study) {
        points_data("tried", answer, tried),
        points_data("tuned", answer, {tuned}),
        {"asked", {{"rate", "asked for", "1"}}, {ordered_json::array({asked_of(answer, study)})}}});
-  figure.specification["layer"][0]["encoding"]["x"]["title"] = tuning::criterion_name(study);
+  figure.specification["layer"][0]["encoding"]["x"]["title"] = criterion_title(study);
   return figure;
+}
+
+/// "18.5 to 63.9 µN m/count".
+std::string range_text(double low, double high, const std::string& unit) {
+  std::string first = report::si_text(low, unit);
+  const std::string last = report::si_text(high, unit);
+  const auto unit_of = [](const std::string& text) {
+    return text.substr(std::min(text.find(' '), text.size()));
+  };
+  if (unit_of(first) == unit_of(last)) first.resize(first.size() - unit_of(first).size());
+  return fmt::format("{} to {}", first, last);
 }
 
 Figure room_figure(const TuneAnswer& answer) {
@@ -145,19 +165,21 @@ Figure room_figure(const TuneAnswer& answer) {
                    {"tuned", "tuned", ""},
                    {"low", "goal seems met from", ""},
                    {"high", "to", ""},
+                   {"range", "", ""},
                    {"place", "", ""},
                    {"low_place", "", ""},
                    {"high_place", "", ""}}};
   for (std::size_t i = 0; i < answer.room.size(); ++i) {
-    data.rows.push_back({axis_title(answer.free[i]), datum(answer.gains[i]), datum(low[i]), datum(high[i]),
-                         datum(tuned[i]), datum(low_place[i]), datum(high_place[i])});
+    data.rows.push_back({answer.free[i].name, datum(answer.gains[i]), datum(low[i]), datum(high[i]),
+                         range_text(low[i], high[i], answer.free[i].unit), datum(tuned[i]),
+                         datum(low_place[i]), datum(high_place[i])});
   }
   Figure figure = report::figure_of("tuning-room", "tuning-room", "How far may each parameter move?",
                                     "The interval around the tuned value in which the goal seems met, the "
                                     "others as tuned, by simulation on "
-                                    "machines of the search.",
+                                    "machines of the search, with its ends.",
                                     {std::move(data)});
-  report::set_rows(figure, answer.room.size(), 28);
+  report::set_rows(figure, answer.room.size(), 36);
   return figure;
 }
 

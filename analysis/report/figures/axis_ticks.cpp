@@ -243,7 +243,10 @@ void label_ticks(NumberAxis& axis) {
   for (ordered_json* one : axis.channels) {
     if (const ordered_json* found = inner_of(*one, "scale", "type")) type = found->get<std::string>();
     if (const ordered_json* found = inner_of(*one, "scale", "constant")) constant = found->get<double>();
-    has_values = has_values || inner_of(*one, "axis", "values") != nullptr;
+    if (const ordered_json* values = inner_of(*one, "axis", "values")) {
+      has_values = true;
+      (*one)["axis"]["tickCount"] = values->size();  // fewer would leave out every other one
+    }
     if (const ordered_json* found = inner_of(*one, "axis", "format")) {
       percent = percent || found->get<std::string>().ends_with('p');
       (*one)["axis"].erase("format");
@@ -270,9 +273,11 @@ void label_ticks(NumberAxis& axis) {
   if (unit) *power = power_within_prefixes(*power, *unit);
   channel["title"] = scaled_title(title, *power, unit);
   std::string expression = label_expression(*power - (unit ? unit->power : 0), "");
-  if (type == "log" && !has_values && axis.high >= 10.0 * axis.low)
-    expression =
-        fmt::format("indexof('125', substring(format(datum.value, 'e'), 0, 1)) < 0 ? '' : {}", expression);
+  if (type == "log" && !has_values && axis.high >= 2.5 * axis.low) {
+    const char* const digits = axis.high >= 10.0 * axis.low ? "125" : "123457";
+    expression = fmt::format("indexof('{}', substring(format(datum.value, 'e'), 0, 1)) < 0 ? '' : {}", digits,
+                             expression);
+  }
   style["labelExpr"] = expression;
 }
 
@@ -298,7 +303,8 @@ ordered_json with_tick_labels(const Figure& figure) {
 
 std::string si_text(double value, std::string_view unit) {
   const std::optional<PrefixableUnit> parts = prefixable(unit);
-  if (!parts || value == 0.0) return fmt::format("{:.4g} {}", value, unit);
+  if (!parts || value == 0.0)
+    return fmt::format("{:.4g}{}{}", value, unit == "1" ? "" : " ", unit == "1" ? "" : unit);
   const double plain = value * std::pow(10.0, parts->power);
   const int power = power_within_prefixes(power_of_thousand(std::abs(plain)), *parts);
   return fmt::format("{:.4g} {}{}{}", plain * std::pow(10.0, -power), prefix_of(power), parts->symbol,

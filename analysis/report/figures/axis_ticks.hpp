@@ -15,13 +15,14 @@ namespace zerocount::report {
 ///     linear: the title gets the SI prefix of the largest number, "time (ms)"; proportions get "%"
 ///     logarithmic, over less than about six decades: likewise, by the middle of the range
 ///     logarithmic, over more: each label has its own prefix, "10 nm"
-///     label the ticks that four figures state exactly; of decades those at 1, 2 and 5
+///     label the ticks that four figures state exactly; of a decade or more those at 1, 2 and 5
 ///
 /// Labels of an axis thus differ and have at most four figures. A linear range too narrow for two such labels
 /// is widened. Units without SI prefixes get a power of ten, "error (10³ counts)".
 nlohmann::ordered_json with_tick_labels(const Figure& figure);
 
-/// A value with the SI prefix of its size: "10 nm", "30 ms". Of units without prefixes: "12 counts".
+/// A value with the SI prefix of its size: "10 nm", "30 ms". Of units without prefixes: "12 counts"; of "1"
+/// none.
 std::string si_text(double value, std::string_view unit);
 
 }  // namespace zerocount::report

@@ -184,12 +184,12 @@ Figure row_per_point(const ReportedStudy& reported) {
   Figure figure = figure_of("success", "success", title, caption + bounds_note(reported, "dark", "bars"),
                             {std::move(data)});
   use_words(figure, words);
-  const double from = lowest > 0.9 ? std::floor(lowest * 100.0 - 0.5) / 100.0 : 0.0;
+  const double from = lowest >= 0.8 ? std::floor(lowest * 100.0 - 0.5) / 100.0 : 0.0;
   figure.specification["layer"][0]["encoding"]["x"]["scale"]["domain"] = {from, 1};
   if (has_conditions(reported)) {
     colour_conditions(figure.specification["encoding"]["color"], reported);
   } else {
-    figure.specification["encoding"].erase("color");
+    figure.specification["encoding"]["color"] = {{"value", "var(--s1)"}};
   }
   set_rows(figure, rows, 24);
   if (!alone) divide_by_goals(figure, reported, figure.specification["height"]);

@@ -24,19 +24,39 @@ std::size_t leading_input(const worlds::PointWorlds& point) {
   return point.rule ? point.rule->conditions.front().input : 0;
 }
 
-/// [world] times from which the error stays within the band of this slot, of moves of the chosen point.
-std::vector<statistics::Histogram<double>> times_of_worlds(const ReportedStudy& reported, std::size_t slot) {
-  std::vector<statistics::Histogram<double>> times(static_cast<std::size_t>(reported.study.worlds));
+/// Moves of a world that are asked, and the times from which they are settled.
+struct WorldMoves {
+  statistics::Histogram<double> times;
+  std::int64_t asked{0};
+};
+
+/// [world] those of the chosen point.
+std::vector<WorldMoves> moves_of_worlds(const ReportedStudy& reported, const measures::CountedGoal& goal) {
+  std::vector<WorldMoves> worlds(static_cast<std::size_t>(reported.study.worlds));
   const layout::RowRange rows = rows_of(reported, reported.chosen.point);
   measures::visit_trials(
       reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-        const auto world = static_cast<std::size_t>(study::world_of(reported.study, row - rows.first));
+        WorldMoves& world =
+            worlds[static_cast<std::size_t>(study::world_of(reported.study, row - rows.first))];
         for (const trial::MoveOutcome& move : moves) {
-          const double time = move.bands[slot].settling_time;
-          if (!std::isnan(time)) times[world].add(time);
+          if (!measures::asks(goal, move)) continue;
+          ++world.asked;
+          const double time = measures::settling_time(goal, move);
+          if (!std::isnan(time)) world.times.add(time);
         }
       });
-  return times;
+  return worlds;
+}
+
+/// Draws what is asked as a dashed line across the figure. @param channel "x" or "y"
+void add_asked(Figure& figure, const char* channel, double value) {
+  ordered_json encoding{
+      {"x", nullptr}, {"y", nullptr}, {"detail", nullptr}, {"color", {{"value", "var(--ink)"}}}};
+  encoding[channel] = {{"field", "asked"}, {"type", "quantitative"}};
+  figure.specification["layer"].push_back(
+      {{"data", {{"values", {{{"asked", value}}}}}},
+       {"mark", {{"type", "rule"}, {"strokeDash", {4, 3}}, {"strokeWidth", 1.2}}},
+       {"encoding", std::move(encoding)}});
 }
 
 void add_curve(FigureData& data, std::size_t world, const statistics::Histogram<double>& times,
@@ -59,15 +79,15 @@ void add_curve(FigureData& data, std::size_t world, const statistics::Histogram<
 
 /// One curve of settled moves for each world ("horsetail").
 std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds::PointWorlds& point) {
-  const trial::ErrorBands& bands = reported.study.features.bands;
-  if (bands.count == 0) return std::nullopt;
+  const goal::Question& question = reported.summary.question;
+  if (!question.claim() && reported.study.features.bands.count == 0) return std::nullopt;
   const std::vector<worlds::WorldInput>& inputs =
       summary::world_inputs_of(reported.summary, reported.chosen.point);
-  const std::size_t slot = reported.summary.question.counted().slot.value_or(0);
-  const std::vector<statistics::Histogram<double>> times = times_of_worlds(reported, slot);
-  double end = 0.0;
-  for (const statistics::Histogram<double>& one : times) {
-    if (one.size > 0) end = std::max(end, statistics::largest(one));
+  const std::vector<WorldMoves> moves =
+      moves_of_worlds(reported, question.claim() ? question.counted() : measures::CountedGoal{.slot = 0});
+  double end = question.claim() ? question.claim()->within : 0.0;
+  for (const WorldMoves& one : moves) {
+    if (one.times.size > 0) end = std::max(end, statistics::largest(one.times));
   }
   const bool colours = !inputs.empty();
   const std::size_t input = leading_input(point);
@@ -78,25 +98,32 @@ std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds:
                    {"share", "proportion of moves", "1"},
                    {"bad", "bad world", ""},
                    {"value", parameter, colours ? inputs[input].unit : "1"}}};
-  const std::vector<measures::MoveCounts> trials =
-      measures::in_worlds(point_of(reported, reported.chosen.point).worlds->succeeded);
-  for (std::size_t world = 0; world < std::min(times.size(), max_world_curves); ++world) {
-    const std::int64_t moves = trials[world].moves * reported.file.moves();
-    add_curve(data, world, times[world], moves, end, point.bad[world],
+  for (std::size_t world = 0; world < std::min(moves.size(), max_world_curves); ++world) {
+    add_curve(data, world, moves[world].times, moves[world].asked, end, point.bad[world],
               colours ? inputs[input].values[world] : static_cast<double>(world));
   }
   Figure figure = figure_of(
       "world-curves", "worlds", "How soon do the moves of each world settle?",
       fmt::format(
-          "Proportion of the moves of each world, at {}, whose error stays within ±{} counts from a time "
+          "Proportion of the moves of each world, at {}, whose error stays within ±{} from a time "
           "on. {}. Bad worlds are coloured by {}{}.",
-          label_of(reported, reported.chosen.point), bands.values()[slot],
+          label_of(reported, reported.chosen.point),
+          precision_text(reported, question.claim()
+                                       ? *question.claim()
+                                       : study::Goal{.band = reported.study.features.bands.values()[0]}),
           summary::bad_worlds_sentence(point, inputs, reported.summary.question), parameter,
-          times.size() > max_world_curves ? fmt::format("; shown are the first {}", max_world_curves) : ""),
+          moves.size() > max_world_curves ? fmt::format("; shown are the first {}", max_world_curves) : ""),
       {std::move(data)});
-  figure.specification["layer"][1]["encoding"]["color"]["title"] =
-      colours && inputs[input].unit != "1" ? fmt::format("{} ({})", parameter, inputs[input].unit)
-                                           : parameter;
+  ordered_json& layers = figure.specification["layer"];
+  layers[1]["encoding"]["color"]["title"] = colours && inputs[input].unit != "1"
+                                                ? fmt::format("{} ({})", parameter, inputs[input].unit)
+                                                : parameter;
+  if (std::ranges::find(point.bad, true) == point.bad.end())
+    layers.erase(1);  // a layer without rows has no scale
+  if (question.claim()) {
+    add_asked(figure, "x", question.claim()->within);
+    add_asked(figure, "y", question.claim()->moves);
+  }
   return figure;
 }
 
@@ -130,7 +157,9 @@ Figure rate_figure(const ReportedStudy& reported, const worlds::PointWorlds& poi
       parameter.unit == "1" ? parameter.name : fmt::format("{} ({})", parameter.name, parameter.unit);
   std::vector<double> sorted = parameter.values;
   std::sort(sorted.begin(), sorted.end());
-  if (sorted.front() > 0.0 && sorted.back() > 5.0 * sorted.front()) x["scale"]["type"] = "log";
+  if (sorted.front() > 0.0 && sorted.back() > 5.0 * sorted.front()) x["scale"] = {{"type", "log"}};
+  if (const std::optional<study::Goal>& claim = reported.summary.question.claim())
+    add_asked(figure, "y", claim->machines.value_or(claim->moves));
   return figure;
 }
 

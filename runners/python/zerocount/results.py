@@ -524,7 +524,7 @@ class Results:
 
         Examples
         --------
-        >>> f = zc.open("my-axis.h5").plot("settling")
+        >>> f = zc.open("my-axis.h5").plot("settled")
         >>> f.specification["$schema"]
         'https://vega.github.io/schema/vega-lite/v6.json'
         """

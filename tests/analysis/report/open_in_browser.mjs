@@ -147,6 +147,19 @@ async function checkHover({page, name}, figure, words) {
   expect(false, `${name}: the pointer over ${figure} shows a value`);
 }
 
+/// The star of a map lies on a cell whose loops keep the margins.
+async function checkStar({page, name}, figure) {
+  const margins = await page.evaluate(figure => {
+    const {data} = JSON.parse(document.getElementById("figures").textContent).figures.find(one => one.name === figure);
+    const rows = name => data.find(one => one.name === name);
+    const objects = ({columns, rows}) => rows.map(row => Object.fromEntries(columns.map(([field], i) => [field, row[i]])));
+    const [star] = objects(rows("tuned"));
+    return objects(rows("cells")).filter(cell =>
+      cell.x_from <= star.x && star.x < cell.x_to && cell.y_from <= star.y && star.y < cell.y_to).map(cell => cell.margins);
+  }, figure);
+  expect(margins.length === 1 && margins[0] === "kept", `${name}: the cell of ${figure}'s star keeps the margins: ${margins}`);
+}
+
 /// The security policy stops scripts and texts of code that are not those of the page. The console tells of it: a last check.
 async function checkPolicy({page, name}) {
   const ran = await page.evaluate(() => {
@@ -214,6 +227,7 @@ try {
     if (width === 1000) {
       await checkTables(opened);
       await checkHover(opened, "tuning-map-1-2", "margins");
+      await checkStar(opened, "tuning-map-1-2");
     }
     await opened.context.close();
   }

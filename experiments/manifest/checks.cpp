@@ -17,13 +17,6 @@ namespace {
 
 constexpr std::size_t max_reported = 20;
 
-bool has_effect(const study::StudyPlan& plan, const std::vector<rules::EffectRule>& rules,
-                const parameters::Parameter& parameter) {
-  return std::all_of(rules.begin(), rules.end(), [&](const rules::EffectRule& rule) {
-    return !rules::covers(rule, parameter.name) || rules::can_have_effect(plan, rule);
-  });
-}
-
 // Whether the coarse encoder is used. If not, that of a linear axis has the resolution of the fine one.
 bool uses_coarse_encoder(const study::StudyPlan& plan) {
   const auto is_coarse = [](const study::ValueLimits& encoder) {
@@ -47,7 +40,8 @@ bool is_required(const study::StudyPlan& plan, const std::vector<rules::EffectRu
                  const parameters::Parameter& parameter) {
   if (!parameters::exists_on(parameter, plan.units.axis)) return false;
   if (parameters::has_default(parameter)) {
-    return !parameters::default_holds(parameter, plan.units) && has_effect(plan, rules, parameter);
+    return !parameters::default_holds(parameter, plan.units) &&
+           rules::has_effect(plan, rules, parameter.name);
   }
   // Required values of the command and of elements of lists are checked where these are read.
   if (!parameter.only_on || parameter.element) return false;

@@ -347,8 +347,9 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version,
   study.plan = plan;
   if (problems.empty()) check_measured_machines(study, m.places, m.reading);
   if (problems.empty()) check_unseen_motions(study, m.places, m.reading);
-  study.premises = rules::premises_of(
-      *plan, [&](std::size_t slot) { return given_place(m.places, *plan, slot).has_value(); });
+  for (std::size_t slot = 0; slot < plan->table.rows.size(); ++slot)
+    plan->given.push_back(given_place(m.places, *plan, slot).has_value());
+  study.premises = rules::premises_of(*plan);
   study.warnings = std::move(m.reading.warnings);
   return study;
 }

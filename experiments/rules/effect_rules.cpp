@@ -396,4 +396,9 @@ bool can_have_effect(const study::StudyPlan& plan, const EffectRule& rule) {
   });
 }
 
+bool has_effect(const study::StudyPlan& plan, std::span<const EffectRule> rules, std::string_view name) {
+  return std::ranges::all_of(
+      rules, [&](const EffectRule& rule) { return !covers(rule, name) || can_have_effect(plan, rule); });
+}
+
 }  // namespace zerocount::rules

@@ -33,4 +33,7 @@ bool covers(const EffectRule& rule, std::string_view name);
 /// Whether the keys of the rule have an effect at some design point. True if a value could not be read.
 bool can_have_effect(const study::StudyPlan& plan, const EffectRule& rule);
 
+/// Whether the parameter with this dotted path has an effect at some design point, by all of these rules.
+bool has_effect(const study::StudyPlan& plan, std::span<const EffectRule> rules, std::string_view name);
+
 }  // namespace zerocount::rules

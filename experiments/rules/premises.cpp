@@ -54,13 +54,12 @@ bool can_differ_from_zero(const study::StudyPlan& plan, std::size_t slot) {
   return found;
 }
 
-study::PremiseState state_of(const PremiseRow& row, const study::StudyPlan& plan,
-                             const std::function<bool(std::size_t)>& is_given) {
+study::PremiseState state_of(const PremiseRow& row, const study::StudyPlan& plan) {
   auto state = study::PremiseState::assumed;
   for (std::size_t slot = 0; slot < plan.table.rows.size(); ++slot) {
     const std::string_view name = plan.table.rows[slot].name;
     if (std::ranges::none_of(row.keys, [&](std::string_view key) { return is_named(name, key); })) continue;
-    if (!is_given(slot)) continue;
+    if (!plan.given[slot]) continue;
     if (can_differ_from_zero(plan, slot)) return study::PremiseState::considered;
     state = study::PremiseState::stated_none;
   }
@@ -69,12 +68,11 @@ study::PremiseState state_of(const PremiseRow& row, const study::StudyPlan& plan
 
 }  // namespace
 
-std::vector<study::Premise> premises_of(const study::StudyPlan& plan,
-                                        const std::function<bool(std::size_t slot)>& is_given) {
+std::vector<study::Premise> premises_of(const study::StudyPlan& plan) {
   std::vector<study::Premise> premises;
   for (const PremiseRow& row : premise_table()) {
     if (row.closed_loop && plan.open_loop) continue;
-    premises.push_back({row.assumption, state_of(row, plan, is_given)});
+    premises.push_back({row.assumption, state_of(row, plan)});
   }
   // Spectra are not parameters.
   if (!plan.common.disturbance.spectra.empty()) premises.back().state = study::PremiseState::considered;

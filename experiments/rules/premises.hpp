@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <functional>
 #include <vector>
 
 #include "experiments/study/plan.hpp"
@@ -12,8 +10,6 @@ namespace zerocount::rules {
 /// Lists the effects of a real axis that are absent by default. An effect is considered where
 /// one of its parameters can differ from 0 in some trial of some point under some condition; otherwise it is
 /// stated to be absent where the manifest gives one of them.
-/// @param is_given whether the manifest gives the slot
-std::vector<study::Premise> premises_of(const study::StudyPlan& plan,
-                                        const std::function<bool(std::size_t slot)>& is_given);
+std::vector<study::Premise> premises_of(const study::StudyPlan& plan);
 
 }  // namespace zerocount::rules

@@ -110,6 +110,7 @@ struct StudyPlan {
   bool open_loop{false};                                   ///< the list is one of torque levels
   std::optional<SequenceCycle> sequence;                   ///< set if the list belongs to a sequence
   std::vector<Value> base;                                 ///< [slot], used unless an axis assigns a value
+  std::vector<bool> given;     ///< [slot] whether the manifest, an axis or a table of samples has its value
   std::vector<PlanAxis> axes;  ///< the last axis changes fastest, and takes precedence over the others
   /// Number of conditions that every machine bears; 0: none. Where there are any, an axis has their
   /// overrides: the last one of the manifest.

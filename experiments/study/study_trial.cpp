@@ -338,6 +338,7 @@ StudyTrial commanded_trial(const Study& study, std::int64_t point, std::int64_t 
   const TrialPlace place = place_of(study, point, index);
   const GivenDraws none;
   TrialInProgress t = begin_trial(draws_of(study, point, place.draw, none), place.point);
+  set_resolution(t.numbers, t.trial.parameters.dac);
   set_targets(study, t.numbers, t.trial);
   complete_trial(study.units, t.trial.parameters);
   round_targets(t.trial);

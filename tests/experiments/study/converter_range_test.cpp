@@ -19,6 +19,7 @@ TEST(ConverterRange, GivesTheResolutionOfEveryTrial) {
     const StudyTrial trial = study_trial(study, 0, index);
     const loop::DacParameters& dac = trial.parameters.dac;
     EXPECT_DOUBLE_EQ(dac.resolution, trial.inputs[range] / std::pow(2.0, dac.bits - 1)) << index;
+    EXPECT_EQ(commanded_trial(study, 0, index).parameters.dac.resolution, dac.resolution) << index;
   }
   EXPECT_EQ(study.columns.inputs[range].unit, "N m");
 }

@@ -15,10 +15,10 @@ using document::Description;
 using document::in_data;
 using document::Notation;
 using document::Shown;
+using summary::MoveBehaviour;
+using summary::UpperValues;
 using text::short_number;
-using tuning::MoveBehaviour;
 using tuning::Refusal;
-using tuning::UpperValues;
 
 using Moves = const MoveBehaviour&;
 
@@ -32,7 +32,7 @@ void add_upper(Description<MoveBehaviour>& columns, const std::string& key, cons
              [values](Moves row) { return (row.*values).max; });
 }
 
-std::optional<double> of_rest(Moves row, double tuning::RestTorque::*value) {
+std::optional<double> of_rest(Moves row, double summary::RestTorque::*value) {
   return row.rest ? std::optional((*row.rest).*value) : std::nullopt;
 }
 
@@ -49,9 +49,9 @@ void add_shown_columns(Description<MoveBehaviour>& columns) {
       .value(to_people("of the range", Notation::percent), [](Moves row) { return row.peak_of_range.max; })
       .value(to_people("moves that saturate", Notation::percent), &MoveBehaviour::saturated)
       .value(to_people("rms torque at rest"),
-             [](Moves row) { return of_rest(row, &tuning::RestTorque::rms); })
+             [](Moves row) { return of_rest(row, &summary::RestTorque::rms); })
       .value(to_people("of it changes"),
-             [](Moves row) { return of_rest(row, &tuning::RestTorque::changes); });
+             [](Moves row) { return of_rest(row, &summary::RestTorque::changes); });
 }
 
 Description<MoveBehaviour> behaviour_columns() {
@@ -81,13 +81,13 @@ Description<MoveBehaviour> behaviour_columns() {
       .value(in_data("saturated", "moves in which the converter clipped, as a proportion", "1"),
              &MoveBehaviour::saturated)
       .value(in_data("rest_torque_rms", "rms of the torque at rest, N m (N on a linear axis)"),
-             [](Moves row) { return of_rest(row, &tuning::RestTorque::rms); })
+             [](Moves row) { return of_rest(row, &summary::RestTorque::rms); })
       .value(in_data("rest_torque_changes",
                      "rms of its changes from sample to sample, N m (N on a linear axis)"),
-             [](Moves row) { return of_rest(row, &tuning::RestTorque::changes); })
+             [](Moves row) { return of_rest(row, &summary::RestTorque::changes); })
       .value(in_data("rest_torque_changes_of_range",
                      "the same as a proportion of the converter's largest torque", "1"),
-             [](Moves row) { return of_rest(row, &tuning::RestTorque::of_range); });
+             [](Moves row) { return of_rest(row, &summary::RestTorque::of_range); });
   add_shown_columns(columns);
   return columns;
 }

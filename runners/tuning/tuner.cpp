@@ -124,7 +124,7 @@ void describe_proof(study::Study proven, const reading::AllTrialsFile& file, con
   answer.late_limit =
       late_value(judged.candidate, worst_claim, judged.units.count, proven.goals[verdict.goal].moves) *
       criteria_of(proven)[verdict.goal].scale;
-  answer.behaviour = behaviour_in(file, proven);
+  answer.behaviour = summary::behaviour_in(file, proven);
   answer.proof = Proof{std::move(proven),
                        verdict,
                        {},
@@ -136,9 +136,10 @@ void describe_proof(study::Study proven, const reading::AllTrialsFile& file, con
 
 /// Gives the moves of a proof the torque at rest that simulated machines showed, where it does not measure
 /// it.
-void add_rest_torque(std::vector<MoveBehaviour>& behaviour, const std::vector<MoveBehaviour>& simulated) {
-  for (MoveBehaviour& row : behaviour) {
-    const auto same = std::ranges::find_if(simulated, [&](const MoveBehaviour& one) {
+void add_rest_torque(std::vector<summary::MoveBehaviour>& behaviour,
+                     const std::vector<summary::MoveBehaviour>& simulated) {
+  for (summary::MoveBehaviour& row : behaviour) {
+    const auto same = std::ranges::find_if(simulated, [&](const summary::MoveBehaviour& one) {
       return one.number == row.number && one.condition == row.condition;
     });
     if (!row.rest && same != simulated.end()) row.rest = same->rest;
@@ -398,8 +399,8 @@ class Tuner {
   StudySearch search_;
   SearchResult result_;
   std::optional<std::size_t> examined_finalist_;
-  std::vector<MoveBehaviour> simulated_;  ///< of it, on machines of the search
-  bool margins_slide_{false};             ///< the margins are those of machines that slide too
+  std::vector<summary::MoveBehaviour> simulated_;  ///< of it, on machines of the search
+  bool margins_slide_{false};                      ///< the margins are those of machines that slide too
   TuneAnswer answer_;
 };
 

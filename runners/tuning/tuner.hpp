@@ -96,12 +96,13 @@ struct TuneAnswer {
   double criterion{0.0};  ///< by the proof
   /// Quantile study::Goal::moves of the criterion's values of the worst goal, under its worst condition.
   double late_limit{0.0};
-  std::vector<MoveBehaviour> behaviour;  ///< of the proof's moves; before the proof of the search's machines
-  std::vector<Refusal> refusals;         ///< what an engineer would refuse of it
-  std::optional<DelayLost> delay_lost;   ///< from which on a goal seems to be lost
-  bool delay_sought{false};              ///< whether up to 5 samples more were tried
-  std::vector<double> delays;            ///< [condition] controller.delay of the tuned study, samples
-  std::vector<std::string> at_edges;     ///< free parameters at an end of their range, "controller.ki = 5000"
+  std::vector<summary::MoveBehaviour>
+      behaviour;                        ///< of the proof's moves; before the proof of the search's machines
+  std::vector<Refusal> refusals;        ///< what an engineer would refuse of it
+  std::optional<DelayLost> delay_lost;  ///< from which on a goal seems to be lost
+  bool delay_sought{false};             ///< whether up to 5 samples more were tried
+  std::vector<double> delays;           ///< [condition] controller.delay of the tuned study, samples
+  std::vector<std::string> at_edges;    ///< free parameters at an end of their range, "controller.ki = 5000"
   std::vector<Room> room;
   std::vector<Variation> robustness;
   std::vector<Alternative> alternatives;

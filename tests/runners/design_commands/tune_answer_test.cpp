@@ -262,21 +262,21 @@ TEST(TuneAnswer, NamesTheLoopsThatHaveTheSmallestMargins) {
 }
 
 /// A row of 100 moves of 40 counts, of a converter of 1 N m.
-tuning::MoveBehaviour quiet_moves() {
-  tuning::MoveBehaviour row;
+summary::MoveBehaviour quiet_moves() {
+  summary::MoveBehaviour row;
   row.moves = 100;
   row.overshoot = {4.0, 6.0};
   row.overshoot_length = {4e-6, 6e-6};
   row.overshoot_of_step = {0.1, 0.15};
   row.smallest_step = 40.0;
   row.range = 1.0;
-  row.rest = tuning::RestTorque{0.2, 0.05, 0.05};
+  row.rest = summary::RestTorque{0.2, 0.05, 0.05};
   return row;
 }
 
 TEST(TuneAnswer, SaysWhatAnEngineerWouldRefuseAndWhatExcludesIt) {
   const study::Study study = axis();
-  const auto remedies_of = [&](const tuning::MoveBehaviour& row, double phase) {
+  const auto remedies_of = [&](const summary::MoveBehaviour& row, double phase) {
     std::vector<std::string> remedies;
     for (const tuning::Refusal& one : tuning::refusals_of(
              {row}, SmallestMargins{.gain = 9.0, .phase = phase, .delay = 2.0, .machines = 8}, study))
@@ -286,7 +286,7 @@ TEST(TuneAnswer, SaysWhatAnEngineerWouldRefuseAndWhatExcludesIt) {
   using Texts = std::vector<std::string>;
   EXPECT_EQ(remedies_of(quiet_moves(), 30.0), Texts({}));
   EXPECT_EQ(remedies_of(quiet_moves(), 29.9), Texts({"tune: {margins: {phase: 30}}"}));
-  tuning::MoveBehaviour row = quiet_moves();
+  summary::MoveBehaviour row = quiet_moves();
   row.overshoot_of_step.p95 = 0.26;
   EXPECT_EQ(remedies_of(row, 41.0), Texts({"limits: {overshoot: 10}"}));
   row.overshoot = {1.0, 1.0};  // within the goal's band of 1 count

@@ -1,0 +1,141 @@
+#include "analysis/summary/move_behaviour.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "analysis/measures/trial_value.hpp"
+#include "analysis/parallel/parallel.hpp"
+#include "analysis/statistics/quantile.hpp"
+#include "core/loop/dac.hpp"
+#include "core/loop/encoder.hpp"
+
+namespace zerocount::summary {
+namespace {
+
+UpperValues upper_values(const std::vector<double>& values) {
+  if (values.empty()) return {};
+  return {statistics::sample_quantile(values, 0.95), std::ranges::max(values)};
+}
+
+/// The name of the goal; nothing where goals have none.
+std::optional<std::string> name_of_goal(const study::Study& study, std::size_t goal) {
+  if (study.goals.empty() || study.goals[goal].name.empty()) return std::nullopt;
+  return study.goals[goal].name;
+}
+
+}  // namespace
+
+TrialScale scale_of(const trial::TrialParameters& p) {
+  TrialScale scale{loop::fine_resolution(p.encoder), -loop::lowest_torque(p.dac), {}};
+  if (p.command.profile.shape == loop::ReferenceShape::sine) return scale;
+  std::int64_t before = 0;
+  for (const std::int64_t target : p.command.targets) {
+    scale.steps.push_back(std::abs(static_cast<double>(target - before)));
+    before = target;
+  }
+  return scale;
+}
+void BehaviourCounter::RowValues::add(const trial::MoveOutcome& move, const TrialScale& scale) {
+  const auto overshoot = static_cast<double>(move.overshoot);
+  overshoots.push_back(overshoot);
+  lengths.push_back(overshoot * scale.resolution);
+  const double step = scale.steps.empty() ? 0.0 : scale.steps[static_cast<std::size_t>(move.number)];
+  if (step > 0.0) {
+    of_steps.push_back(overshoot / step);
+    smallest_step = std::min(smallest_step, step);
+  }
+  ++moves;
+  if (std::isfinite(move.peak_torque)) {  // not of a move that was stopped
+    peaks.push_back(move.peak_torque);
+    of_ranges.push_back(move.peak_torque / scale.largest_torque);
+  }
+  range = std::min(range, scale.largest_torque);
+  saturated += move.saturated ? 1 : 0;
+  if (!std::isfinite(move.rest_torque_power) || !std::isfinite(move.rest_torque_noise)) return;
+  ++at_rest;
+  power += move.rest_torque_power;
+  noise += move.rest_torque_noise;
+  noise_of_range += move.rest_torque_noise / (scale.largest_torque * scale.largest_torque);
+}
+
+BehaviourCounter::BehaviourCounter(const study::Study& study)
+    : study_(study),
+      goals_(measures::asked_of_moves(study)),
+      conditions_(static_cast<std::size_t>(study::condition_count(study))),
+      rows_((goals_.size() + 1) * conditions_) {}
+
+BehaviourCounter::RowValues& BehaviourCounter::row(std::size_t goal, std::int64_t condition) {
+  return rows_[goal * conditions_ + static_cast<std::size_t>(condition)];
+}
+
+void BehaviourCounter::add(const TrialScale& scale, std::int64_t condition,
+                           std::span<const trial::MoveOutcome> moves) {
+  for (const trial::MoveOutcome& move : moves) {
+    bool is_asked = false;
+    for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
+      if (!measures::asks(goals_[goal], move)) continue;
+      is_asked = true;
+      row(goal, condition).add(move, scale);
+    }
+    if (!is_asked) row(goals_.size(), condition).add(move, scale);
+  }
+}
+
+std::vector<MoveBehaviour> BehaviourCounter::behaviour() const {
+  std::vector<MoveBehaviour> all;
+  for (std::size_t goal = 0; goal <= goals_.size(); ++goal) {
+    for (std::size_t condition = 0; condition < conditions_; ++condition) {
+      const RowValues& values = rows_[goal * conditions_ + condition];
+      if (values.moves > 0) all.push_back(behaviour_of(values, goal, condition));
+    }
+  }
+  return all;
+}
+
+MoveBehaviour BehaviourCounter::behaviour_of(const RowValues& values, std::size_t goal,
+                                             std::size_t condition) const {
+  MoveBehaviour one;
+  one.number = goal;
+  one.goal = goal < goals_.size() ? name_of_goal(study_, goal) : std::optional("no goal");
+  if (!study_.conditions.empty()) one.condition = study_.conditions[condition];
+  one.moves = values.moves;
+  one.overshoot = upper_values(values.overshoots);
+  one.overshoot_length = upper_values(values.lengths);
+  one.overshoot_of_step = upper_values(values.of_steps);
+  one.smallest_step = values.smallest_step;
+  one.peak_torque = upper_values(values.peaks);
+  one.peak_of_range = upper_values(values.of_ranges);
+  one.range = values.range;
+  one.saturated = static_cast<double>(values.saturated) / static_cast<double>(one.moves);
+  if (values.at_rest > 0) {
+    const auto moves = static_cast<double>(values.at_rest);
+    one.rest = RestTorque{std::sqrt(values.power / moves), std::sqrt(values.noise / moves),
+                          std::sqrt(values.noise_of_range / moves)};
+  }
+  return one;
+}
+
+std::vector<MoveBehaviour> behaviour_in(const reading::AllTrialsFile& file, const study::Study& study,
+                                        std::int64_t point) {
+  BehaviourCounter counter(study);
+  const study::TrialTurns turns = study::turns_of(study);
+  const auto moves = static_cast<std::size_t>(file.moves());
+  const std::int64_t trials = file.header().trials;
+  const layout::RowRange rows{point * trials, trials};
+  measures::visit_blocks(file, rows,
+                         [&](layout::RowRange block, std::span<const trial::MoveOutcome> outcomes) {
+                           const std::int64_t first = block.first - rows.first;
+                           std::vector<TrialScale> scales(static_cast<std::size_t>(block.count));
+                           parallel::for_each_index(scales.size(), [&](std::size_t i) {
+                             const std::int64_t trial = first + static_cast<std::int64_t>(i);
+                             scales[i] = scale_of(study::commanded_trial(study, point, trial).parameters);
+                           });
+                           for (std::size_t i = 0; i < scales.size(); ++i)
+                             counter.add(scales[i], turns.condition_of(first + static_cast<std::int64_t>(i)),
+                                         outcomes.subspan(i * moves, moves));
+                         });
+  return counter.behaviour();
+}
+
+}  // namespace zerocount::summary

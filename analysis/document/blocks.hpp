@@ -51,6 +51,9 @@ using Block = std::variant<HeadlineBlock, SentenceBlock, FactsBlock, TableBlock,
 /// content and what is shown in data only are left out.
 std::vector<Block> blocks(const Answer& answer);
 
+/// The block as a fragment of HTML.
+std::string html(const Block& block);
+
 /// A value as people read it, without its unit; "–" where it is unknown.
 std::string shown_value(const Item& item, const Content& content);
 

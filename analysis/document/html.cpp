@@ -1,3 +1,8 @@
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "analysis/document/answer.hpp"
@@ -7,23 +12,67 @@
 namespace zerocount::document {
 namespace {
 
-std::string table_html(const TableBlock& table) {
-  std::string html = table.title.empty() ? "" : fmt::format("<h3>{}</h3>\n", prose_markup(table.title));
-  html += "<div class=\"scroll\"><table><thead><tr>";
-  for (const BlockColumn& column : table.columns) {
-    html += fmt::format(
-        "<th{}>{}{}</th>", column.numeric ? "" : " class=\"text\"", markup(column.head),
-        column.unit.empty() ? "" : fmt::format("<span class=\"unit\">{}</span>", markup(column.unit)));
-  }
+/// A table with more columns does not fit a page.
+constexpr std::size_t max_columns = 10;
+
+std::string facts_html(const std::vector<Fact>& facts) {
+  std::string html = "<table class=\"facts\"><tbody>\n";
+  for (const Fact& fact : facts)
+    html += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", markup(fact.name), markup(fact.value));
+  return html + "</tbody></table>\n";
+}
+
+std::string unit_html(const BlockColumn& column) {
+  return column.unit.empty() ? "" : fmt::format("<span class=\"unit\">{}</span>", markup(column.unit));
+}
+
+/// Each cell has the head of its column, which a phone shows in front of it.
+std::string cell_html(const BlockColumn& column, std::size_t row) {
+  return fmt::format("<td{} data-head=\"{}\">{}</td>", column.numeric ? "" : " class=\"text wrap\"",
+                     markup(column.head + (column.unit.empty() ? "" : " (" + column.unit + ")")),
+                     markup(column.cells[row]));
+}
+
+/// The columns as one table.
+std::string columns_html(std::span<const BlockColumn* const> columns) {
+  std::string html = "<table><thead><tr>";
+  for (const BlockColumn* const column : columns)
+    html += fmt::format("<th{}>{}{}</th>", column->numeric ? "" : " class=\"text\"", markup(column->head),
+                        unit_html(*column));
   html += "</tr></thead><tbody>\n";
-  for (std::size_t row = 0; !table.columns.empty() && row < table.columns.front().cells.size(); ++row) {
+  for (std::size_t row = 0; row < columns.front()->cells.size(); ++row) {
     html += "<tr>";
-    for (const BlockColumn& column : table.columns)
-      html += fmt::format("<td{}>{}</td>", column.numeric ? "" : " class=\"text wrap\"",
-                          markup(column.cells[row]));
+    for (const BlockColumn* const column : columns) html += cell_html(*column, row);
     html += "</tr>\n";
   }
-  return html + "</tbody></table></div>\n";
+  return html + "</tbody></table>\n";
+}
+
+/// A single row of many columns, one below the other.
+std::vector<Fact> facts_of_row(const TableBlock& table) {
+  std::vector<Fact> facts;
+  for (const BlockColumn& column : table.columns)
+    facts.push_back({column.head, column.cells.front() + (column.unit.empty() ? "" : " " + column.unit)});
+  return facts;
+}
+
+/// One that is too wide is several, each with the first column.
+std::string table_html(const TableBlock& table) {
+  std::string html = table.title.empty() ? "" : fmt::format("<h3>{}</h3>\n", prose_markup(table.title));
+  if (table.columns.empty()) return html;
+  std::vector<const BlockColumn*> all;
+  for (const BlockColumn& column : table.columns) all.push_back(&column);
+  if (all.size() <= max_columns) return html + columns_html(all);
+  if (all.front()->cells.size() == 1) return html + facts_html(facts_of_row(table));
+  const std::size_t parts = (all.size() - 2) / (max_columns - 1) + 1;
+  const std::size_t in_part = (all.size() - 2) / parts + 1;
+  for (std::size_t from = 1; from < all.size(); from += in_part) {
+    std::vector<const BlockColumn*> part{all.front()};
+    part.insert(part.end(), all.begin() + static_cast<std::ptrdiff_t>(from),
+                all.begin() + static_cast<std::ptrdiff_t>(std::min(from + in_part, all.size())));
+    html += columns_html(part);
+  }
+  return html;
 }
 
 /// The HTML of each kind of block.
@@ -35,12 +84,7 @@ struct BlockHtml {
   std::string operator()(const SentenceBlock& block) const {
     return fmt::format("<p class=\"lines\">{}</p>\n", prose_markup(block.sentence));
   }
-  std::string operator()(const FactsBlock& block) const {
-    std::string html = "<div class=\"scroll\"><table class=\"facts\"><tbody>\n";
-    for (const Fact& fact : block.facts)
-      html += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", markup(fact.name), markup(fact.value));
-    return html + "</tbody></table></div>\n";
-  }
+  std::string operator()(const FactsBlock& block) const { return facts_html(block.facts); }
   std::string operator()(const TableBlock& block) const { return table_html(block); }
   std::string operator()(const SectionBlock& block) const {
     return fmt::format("<h3>{}</h3>\n", prose_markup(block.title));
@@ -54,10 +98,14 @@ struct BlockHtml {
 
 }  // namespace
 
+std::string html(const Block& block) {
+  return std::visit(BlockHtml{}, block);
+}
+
 std::string html(const Answer& answer) {
-  std::string html;
-  for (const Block& block : blocks(answer)) html += std::visit(BlockHtml{}, block);
-  return html;
+  std::string text;
+  for (const Block& block : blocks(answer)) text += html(block);
+  return text;
 }
 
 }  // namespace zerocount::document

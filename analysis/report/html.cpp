@@ -23,7 +23,7 @@ void add_row(std::vector<HtmlColumn>& columns, std::vector<std::string> cells) {
 }
 
 std::string html_table(const std::vector<HtmlColumn>& columns) {
-  std::string text = "<div class=\"scroll\"><table><thead><tr>";
+  std::string text = "<table><thead><tr>";
   for (const HtmlColumn& column : columns) {
     text += fmt::format(
         "<th{}>{}{}</th>", column.text ? " class=\"text\"" : "", document::markup(column.head),
@@ -34,31 +34,23 @@ std::string html_table(const std::vector<HtmlColumn>& columns) {
   for (std::size_t row = 0; !columns.empty() && row < columns.front().cells.size(); ++row) {
     text += "<tr>";
     for (const HtmlColumn& column : columns)
-      text += fmt::format("<td{}>{}</td>", column.text ? " class=\"text wrap\"" : "",
-                          document::markup(column.cells[row]));
+      text += fmt::format("<td{} data-head=\"{}\">{}</td>", column.text ? " class=\"text wrap\"" : "",
+                          document::markup(column.head), document::markup(column.cells[row]));
     text += "</tr>\n";
   }
-  return text + "</tbody></table></div>\n";
+  return text + "</tbody></table>\n";
 }
 
 std::string html_facts(const std::vector<HtmlFact>& facts) {
-  std::string text = "<div class=\"scroll\"><table class=\"facts\"><tbody>\n";
+  std::string text = "<table class=\"facts\"><tbody>\n";
   for (const HtmlFact& fact : facts)
     text += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", document::markup(fact.name),
                         document::markup(fact.value));
-  return text + "</tbody></table></div>\n";
+  return text + "</tbody></table>\n";
 }
 
-std::string html_verdict(const std::string& headline, const std::vector<std::string>& lines) {
-  std::string html =
-      fmt::format("<div class=\"verdict\"><p class=\"headline\">{}</p>\n", document::prose_markup(headline));
-  for (const std::string& line : lines) html += fmt::format("<p>{}</p>\n", document::prose_markup(line));
-  return html + "</div>\n";
-}
-
-std::string html_preformatted(const std::string& head, const std::string& text, bool open) {
-  return fmt::format("<details{}><summary>{}</summary><pre>{}</pre></details>\n", open ? " open" : "",
-                     document::markup(head), document::markup(text));
+std::string html_folded(const std::string& head, const std::string& html) {
+  return fmt::format("<details><summary>{}</summary>{}</details>\n", document::markup(head), html);
 }
 
 std::string script_json(const nlohmann::ordered_json& json) {

@@ -19,7 +19,7 @@ struct HtmlColumn {
 /// Adds a cell to each column.
 void add_row(std::vector<HtmlColumn>& columns, std::vector<std::string> cells);
 
-/// The columns as a table that scrolls if it is too wide.
+/// The columns as a table; on a phone each row is a card.
 std::string html_table(const std::vector<HtmlColumn>& columns);
 
 /// A row of a table of names and values.
@@ -29,11 +29,8 @@ struct HtmlFact {
 };
 std::string html_facts(const std::vector<HtmlFact>& facts);
 
-/// Conclusions: a headline, and a paragraph for each of `lines`. All plain text.
-std::string html_verdict(const std::string& headline, const std::vector<std::string>& lines);
-
-/// Preformatted text below the line `head`, which hides and shows it. @param open shown at first
-std::string html_preformatted(const std::string& head, const std::string& text, bool open = false);
+/// HTML below the line `head`, which shows and hides it. It is not printed.
+std::string html_folded(const std::string& head, const std::string& html);
 
 /// For the content of <script type="application/json">: escapes every '<', so that the content cannot end the
 /// script or open a comment. Replaces bytes that are not UTF-8 by U+FFFD; NaN and infinity become null.

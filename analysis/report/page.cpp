@@ -105,9 +105,12 @@ std::string figure_html(const Figure& figure) {
 }
 
 std::string section_html(const PageSection& section) {
-  std::string text = fmt::format("<section id=\"{}\"><h2>{}</h2>\n{}\n", document::markup(section.name),
-                                 document::markup(section.title), section.html);
+  std::string text = fmt::format("<section id=\"{}\">", document::markup(section.name));
+  if (!section.title.empty()) text += fmt::format("<h2>{}</h2>\n", document::markup(section.title));
+  text += section.html + "\n";
+  if (!section.figures.empty()) text += "<div class=\"figures\">\n";
   for (const Figure& figure : section.figures) text += figure_html(figure);
+  if (!section.figures.empty()) text += "</div>\n";
   return text + section.html_after + "</section>\n";
 }
 
@@ -115,9 +118,11 @@ std::string section_html(const PageSection& section) {
 std::string contents_html(const ReportPage& page) {
   if (page.sections.size() < 2) return "";
   std::string text;
-  for (const PageSection& section : page.sections)
+  for (const PageSection& section : page.sections) {
+    if (section.title.empty()) continue;
     text += fmt::format("<a href=\"#{}\">{}</a>\n", document::markup(section.name),
                         document::markup(section.title));
+  }
   return text;
 }
 

@@ -11,7 +11,7 @@ namespace zerocount::report {
 /// A section of the page.
 struct PageSection {
   std::string name;   ///< anchor in the page
-  std::string title;  ///< plain text
+  std::string title;  ///< plain text; empty for the first screen, which follows the title of the page
   std::string html;   ///< before the figures
   std::vector<Figure> figures;
   std::string html_after{};  ///< after the figures

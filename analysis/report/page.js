@@ -70,8 +70,9 @@
     const body = element.createTBody();
     for (const row of data.rows) {
       const line = body.insertRow();
-      for (const [[, , unit], i] of shown) {
+      for (const [[, title, unit], i] of shown) {
         const cell = line.insertCell();
+        cell.dataset.head = title;
         cell.textContent = number(row[i]);
         if (unit === "") cell.className = "text";
       }
@@ -86,11 +87,6 @@
       if (details.open && !place.hasChildNodes()) place.append(table(figure.data[0]));
     });
   }
-
-  // Paper shows what a reader would open.
-  addEventListener("beforeprint", () => {
-    for (const details of document.querySelectorAll("details:not(.data)")) details.open = true;
-  });
 
   let drawing = Promise.resolve();
   const drawAll = () => {

@@ -72,6 +72,8 @@ PageSection success_section(const ReportedStudy& reported) {
                       : question_of(reported).claim() ? "The goal"
                                                       : "Success";
   PageSection section{"points", title, "", {}};
+  // The first screen has the requirements of the only point.
+  if (reported.summary.points.size() == 1 && question_of(reported).claim()) return section;
   std::vector<Figure> maps = stability_maps(reported);
   // A study with a map has many points: the map shows them better than a long table.
   (maps.empty() ? section.html : section.html_after) = points_html(reported);
@@ -91,7 +93,7 @@ std::vector<Figure> under_worst_condition(const ReportedStudy& reported, std::ve
 PageSection zero_count_section(const ReportedStudy& reported) {
   PageSection section{"zero-counts", "Zero counts", "", {}};
   if (question_of(reported).claim())
-    section.html = zero_counts_html(reported) + zero_count_tables_html(reported);
+    section.html = zero_counts_html(reported) + html_folded("Numbers", zero_count_tables_html(reported));
   return section;
 }
 
@@ -103,7 +105,6 @@ void put_on_axis(parameters::AxisKind axis, ReportPage& page) {
   }
 }
 
-/// Marks the bounds that assume independent trials: all except those of the sensitivity indices.
 /// Why the report of a study with a plugin shows no trial sample by sample.
 std::string without_traces_html(const plugin::ControllerPlugin& plugin) {
   return fmt::format(
@@ -112,6 +113,7 @@ std::string without_traces_html(const plugin::ControllerPlugin& plugin) {
       document::markup(plugin.description.name), document::markup(plugin.description.version));
 }
 
+/// Marks the bounds that assume independent trials: all except those of the sensitivity indices.
 void qualify_bounds(const ReportedStudy& reported, ReportPage& page) {
   if (!reported.summary.features.dependent_trials) return;
   for (PageSection& section : page.sections) {
@@ -134,7 +136,9 @@ StudyReport study_report(const reading::AllTrialsFile& file, const ReportOptions
   page.footer = fmt::format(
       "zerocount {} ({}), study of {}. This page is self-contained and requests nothing from anywhere.",
       made.zerocount_version, made.git_commit, made.created);
-  add(page, {"verdict", "Verdict", verdict_html(reported), {}});
+  page.sections.emplace_back();  // the first screen, when the warnings are known
+  if (options.tuning)
+    for (const PageSection& section : options.tuning->sections) add(page, section);
   if (options.comparison)
     add(page,
         answer_section("baseline", "Against the baseline", comparison_answer().of(*options.comparison)));
@@ -158,11 +162,13 @@ StudyReport study_report(const reading::AllTrialsFile& file, const ReportOptions
     add(page, {"traces", "Response", "", responses(reported, replays)});
     add(page, {"paper", "The paper's figures", "", figures_of_paper(reported, replays)});
   }
-  add(page, {"run", "What was run", run_html(reported), {}});
+  add(page, {"run", "Provenance", run_html(reported), {}});
+  report.warnings = replays.warnings;
+  FirstScreenParts parts = options.tuning ? options.tuning->first_screen : FirstScreenParts{};
+  parts.warnings = warnings_html(report.warnings);
+  page.sections.front() = first_screen(reported, parts);
   qualify_bounds(reported, page);
   put_on_axis(reported.study.units.axis, page);
-  report.warnings = replays.warnings;
-  page.sections.front().html = warnings_html(report.warnings) + page.sections.front().html;
   return report;
 }
 

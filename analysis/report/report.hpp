@@ -9,14 +9,22 @@
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/history/series.hpp"
 #include "analysis/report/figures/thinned_trace.hpp"
+#include "analysis/report/first_screen/first_screen.hpp"
 #include "analysis/report/page.hpp"
 #include "results/reading/all_trials_file.hpp"
 
 /// The report on a results file, and its single figures.
 namespace zerocount::report {
 
+/// What a tuning tells of the study that proves it.
+struct TuningPart {
+  FirstScreenParts first_screen{};
+  std::vector<PageSection> sections{};  ///< what follows the first screen
+};
+
 /// Options of a report.
 struct ReportOptions {
+  std::optional<TuningPart> tuning{};
   std::optional<comparison::StudyComparison> comparison{};  ///< with a baseline
   std::optional<history::History> history{};                ///< earlier runs of this study
   std::optional<std::int64_t> point{};  ///< design point that the page speaks of; default: the best

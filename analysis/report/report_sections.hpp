@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "analysis/document/answer.hpp"
 #include "analysis/history/series.hpp"
@@ -15,10 +16,19 @@ namespace zerocount::report {
 /// An answer with its figures as a section.
 PageSection answer_section(std::string name, std::string title, const document::Answer& answer);
 
-/// The conclusions in words. Of a study with a goal: the goal at the chosen point, its settling times, and
-/// the worst point. Otherwise success at both with tolerance statements, and zero_counts_html() without its
-/// rate. For 100 % success it states the upper bound of the failure probability.
-std::string verdict_html(const ReportedStudy& reported);
+/// An answer as a section: its headline and its figures, all else folded.
+PageSection figures_first(std::string name, std::string title, const document::Answer& answer);
+
+/// The conclusions in words.
+struct Conclusions {
+  std::string headline;
+  std::vector<std::string> lines;
+};
+
+/// Of a study with a goal: whether it is met at the chosen point, and what the table of requirements does not
+/// say. Otherwise success there with tolerance statements, and zero_counts_html() without its rate. For 100 %
+/// success it states the upper bound of the failure probability.
+Conclusions conclusions_of(const ReportedStudy& reported);
 
 /// Zero counts at the chosen point of a study with a goal: their rate, moves that are undecided, rigs,
 /// arrival, jerks, and the prediction of the criteria.

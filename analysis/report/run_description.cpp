@@ -116,20 +116,29 @@ std::vector<HtmlFact> sweep_facts(const ReportedStudy& reported) {
   return facts;
 }
 
+/// Commands that make the study again, and that check the file.
+std::string commands_text(const ReportedStudy& reported) {
+  const std::string file = reported.file.path().filename().string();
+  return fmt::format("zerocount run {0} -o again.h5; zerocount verify {0}", file);
+}
+
 std::vector<HtmlFact> facts_of(const ReportedStudy& reported) {
   const layout::FileHeader& header = reported.file.header();
   const layout::Provenance& made = header.provenance;
   std::vector<HtmlFact> facts{
+      {"File", reported.file.path().filename().string()},
+      {"Seed", fmt::format("{}", header.seed)},
+      {"Program", fmt::format("zerocount {} ({}), {} engine; {}", made.zerocount_version, made.git_commit,
+                              layout::name_of(header.engine), made.created)},
+      {"Compiler, processor", fmt::format("{}; {}", made.compiler, made.cpu)},
+      {"SHA-256 of the manifest", header.manifest_sha256},
+      {"To repeat it", commands_text(reported)},
       {"Trials", fmt::format("{} at each of {} design point{}, {} move{} each: {} trials", header.trials,
                              header.points, header.points == 1 ? "" : "s", reported.file.moves(),
                              reported.file.moves() == 1 ? "" : "s", header.points * header.trials)},
-      {"Design", design_text(reported.study)},
-      {"Seed", fmt::format("{}", header.seed)},
-      {"Made", fmt::format("{}, by zerocount {} ({}), {} engine", made.created, made.zerocount_version,
-                           made.git_commit, layout::name_of(header.engine))},
-      {"Compiler, processor", fmt::format("{}; {}", made.compiler, made.cpu)},
-      {"SHA-256 of the manifest", header.manifest_sha256},
-      {"File", reported.file.path().filename().string()}};
+      {"Design", design_text(reported.study)}};
+  if (!header.overrides.empty())
+    facts.push_back({"Set on the command line", fmt::format("{}", fmt::join(header.overrides, ", "))});
   if (header.plugin) {
     facts.push_back({"Controller", fmt::format("plugin {} {}, SHA-256 {}", header.plugin->name,
                                                header.plugin->version, header.plugin->sha256)});
@@ -138,11 +147,7 @@ std::vector<HtmlFact> facts_of(const ReportedStudy& reported) {
     facts.push_back({"Sampled together", study::samples_text(*reported.study.samples)});
   if (!reported.study.correlations.empty())
     facts.push_back({"Correlated", study::correlations_text(reported.study.correlations)});
-  if (!header.overrides.empty())
-    facts.insert(facts.begin() + 2,
-                 {"Set on the command line", fmt::format("{}", fmt::join(header.overrides, ", "))});
-  std::vector<HtmlFact> swept = sweep_facts(reported);
-  facts.insert(facts.begin() + 1, swept.begin(), swept.end());
+  for (HtmlFact& fact : sweep_facts(reported)) facts.push_back(std::move(fact));
   return facts;
 }
 
@@ -150,16 +155,15 @@ std::vector<HtmlFact> facts_of(const ReportedStudy& reported) {
 
 std::string run_html(const ReportedStudy& reported) {
   std::string html;
-  if (!reported.study.description.empty())
-    html += fmt::format("<p>{}</p>\n", document::markup(reported.study.description));
   if (layout::is_dirty(reported.file.header().provenance)) {
     html +=
         "<p class=\"warning\">The program that ran this study had uncommitted changes: it cannot be built "
         "again from its history.</p>\n";
   }
   html += html_facts(facts_of(reported));
-  html += inputs_table(reported.file) + fixed_table(reported);
-  return html + html_preformatted("The manifest", reported.file.header().manifest);
+  html += html_folded("All parameters", inputs_table(reported.file) + fixed_table(reported));
+  return html + html_folded("The manifest",
+                            fmt::format("<pre>{}</pre>", document::markup(reported.file.header().manifest)));
 }
 
 }  // namespace zerocount::report

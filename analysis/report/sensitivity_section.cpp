@@ -143,7 +143,7 @@ std::optional<PageSection> sensitivity_section(const ReportedStudy& reported) {
   const sensitivity::StudySensitivity found = sensitivity::study_sensitivity(reported.file, question);
   const goal::QuestionRate rate = shown_rate(reported, reported.chosen.point);
   if (!sensitivity::any_estimated(found) && rate.hits < rate.events) return std::nullopt;
-  return answer_section(sensitivity_section_name, "Which parameters matter", sensitivity_answer().of(found));
+  return figures_first(sensitivity_section_name, "Which parameters matter", sensitivity_answer().of(found));
 }
 
 }  // namespace zerocount::report

@@ -103,24 +103,28 @@ std::string headline(const ReportedStudy& reported, const std::optional<summary:
                                  claim_text(reported, reported.chosen.point));
 }
 
+std::string capitalised(std::string line) {
+  if (!line.empty() && line.front() >= 'a' && line.front() <= 'z')
+    line.front() = static_cast<char>(line.front() - 'a' + 'A');
+  return line;
+}
+
 /// A line per line of the text, as a sentence.
 void add_sentences(std::vector<std::string>& lines, const std::string& text) {
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) {
     line.erase(0, line.find_first_not_of(' '));
-    if (line.empty()) continue;
-    if (line.front() >= 'a' && line.front() <= 'z')
-      line.front() = static_cast<char>(line.front() - 'a' + 'A');
-    lines.push_back(line + ".");
+    if (!line.empty()) lines.push_back(capitalised(std::move(line)) + ".");
   }
 }
 
+/// What the table of requirements does not say of the goals.
 void add_goal(std::vector<std::string>& lines, const ReportedStudy& reported,
               const summary::JudgedPoint& judged) {
   const goal::Question& question = reported.summary.question;
-  lines.push_back(fmt::format("{}: {}.", has_several(question) ? "The goals" : "The goal",
-                              goal::claim_sentence(question)));
-  add_sentences(lines, goal::goals_text(question, point_of(reported, judged.chosen.point), judged.verdict));
+  if (const auto all = rigs_meeting_all(question, point_of(reported, judged.chosen.point)))
+    lines.push_back(
+        fmt::format("{} of {} machines meet all goals under all conditions together.", all->rigs, all->of));
   if (const auto worlds = summary::worlds_of_point(reported.summary, judged.chosen.point))
     add_sentences(lines, summary::bad_worlds_sentence(
                              *worlds, summary::world_inputs_of(reported.summary, judged.chosen.point),
@@ -226,24 +230,6 @@ std::string median_bounds_text(const ReportedStudy& reported, const statistics::
                      text::short_number(median.high));
 }
 
-/// The quantiles of the settling time of each goal, under each condition.
-void add_goal_times(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
-  const measures::PointSummary& point = point_of(reported, best);
-  const goal::Question& question = question_of(reported);
-  for (const goal::GoalTimes& times : goal_times(question, point)) {
-    const study::Goal& goal = *question.parts[times.part].claim;
-    const std::string within = precision_text(reported, goal);
-    const std::string which =
-        goal.on.empty() ? "all moves" : fmt::format("the repetitions of move {}", fmt::join(goal.on, ", "));
-    lines.push_back(
-        fmt::format("Within ±{} for good{}{}: {}, {}{}.", within, at_point(reported, best),
-                    study::condition_text(reported.study, static_cast<std::int64_t>(times.condition)),
-                    within_text(point, "half of " + which, times.statistics->median.value),
-                    within_text(point, "95 % of them", times.statistics->p95.value),
-                    question.worlds > 0 ? ", on average over the worlds" : ""));
-  }
-}
-
 void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const measures::PointSummary& point = point_of(reported, best);
   const measures::MeasureStatistics& settling = point.of(&trial::MoveOutcome::settling_time);
@@ -297,7 +283,7 @@ void add_theory(std::vector<std::string>& lines, const ReportedStudy& reported) 
   beyond.add_to(lines, "Criterion (7) is exceeded");
 }
 
-std::string open_loop_verdict(const ReportedStudy& reported) {
+Conclusions open_loop_conclusions(const ReportedStudy& reported) {
   std::int64_t lost = 0;
   std::int64_t broke_away = 0;
   std::int64_t trials = 0;
@@ -307,7 +293,7 @@ std::string open_loop_verdict(const ReportedStudy& reported) {
     trials += point.trials;
   }
   const parameters::AxisKind axis = reported.study.units.axis;
-  return html_verdict(
+  return {
       parameters::text_on(axis,
                           "A material test: the $rotor was loaded by $torques, without targets, so there is "
                           "no success rate."),
@@ -316,7 +302,7 @@ std::string open_loop_verdict(const ReportedStudy& reported) {
           fmt::format(
               "In {} of {} trials the contact broke away into sliding; {} failed numerically. The table "
               "below shows how far each level moved the $rotor, and the part of creep.",
-              broke_away, trials, lost))});
+              broke_away, trials, lost))}};
 }
 
 /// What there is to say of zero counts beside their rate.
@@ -329,8 +315,8 @@ void add_of_zero_counts(std::vector<std::string>& lines, const ReportedStudy& re
 
 }  // namespace
 
-std::string verdict_html(const ReportedStudy& reported) {
-  if (reported.study.open_loop) return open_loop_verdict(reported);
+Conclusions conclusions_of(const ReportedStudy& reported) {
+  if (reported.study.open_loop) return open_loop_conclusions(reported);
   const std::int64_t best = reported.chosen.point;
   std::vector<std::string> lines;
   std::optional<summary::JudgedPoint> judged;
@@ -342,14 +328,13 @@ std::string verdict_html(const ReportedStudy& reported) {
   }
   if (judged) {
     add_goal(lines, reported, *judged);
-    add_goal_times(lines, reported, best);
   } else {
     add_success(lines, reported, best);
   }
   add_sentences(lines, summary::competition_text(reported.summary, reported.chosen));
   add_spread(lines, reported, best);
   if (!judged) add_of_zero_counts(lines, reported, best);
-  return html_verdict(headline(reported, judged), lines);
+  return {capitalised(headline(reported, judged)), std::move(lines)};
 }
 
 std::string zero_counts_html(const ReportedStudy& reported) {

@@ -218,4 +218,15 @@ document::AnswerDescription<Tuning> tune_answer() {
   });
 }
 
+document::AnswerDescription<Tuning> margins_answer() {
+  return described(add_margin_table);
+}
+
+document::AnswerDescription<Tuning> proof_answer() {
+  return described([](Description<Tuning>& items) {
+    add_refusals(items);
+    add_proof_sentences(items);
+  });
+}
+
 }  // namespace zerocount::design_commands

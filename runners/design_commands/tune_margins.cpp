@@ -29,7 +29,8 @@ struct NamedMargin {
   std::string_view unit;
   double found;
   std::optional<double> wanted;
-  bool is_upper{false};  ///< what is wanted is the largest value
+  std::optional<CriticalLoop> loop{};  ///< that has it
+  bool is_upper{false};                ///< what is wanted is the largest value
 
   /// By how much it is short of what is wanted; 0 where it is not.
   double lack() const {
@@ -39,10 +40,10 @@ struct NamedMargin {
 };
 
 std::vector<NamedMargin> margins_beside(const SmallestMargins& found, const study::LoopMargins& wanted) {
-  return {{"gain", "dB", found.gain, wanted.gain},
-          {"phase", "degrees", found.phase, wanted.phase},
-          {"delay", "samples", found.delay, wanted.delay},
-          {"sensitivity", "1", found.sensitivity, wanted.sensitivity, true}};
+  return {{"gain", "dB", found.gain, wanted.gain, found.gain_loop},
+          {"phase", "degrees", found.phase, wanted.phase, found.phase_loop},
+          {"delay", "samples", found.delay, wanted.delay, found.delay_loop},
+          {"sensitivity", "1", found.sensitivity, wanted.sensitivity, found.sensitivity_loop, true}};
 }
 
 /// "gain margin", "sensitivity".
@@ -55,18 +56,25 @@ std::string unit_text(const NamedMargin& margin) {
   return margin.unit == "1" ? "" : fmt::format(" {}", margin.unit);
 }
 
+/// "7.2 dB", "10 samples or more", "∞ dB".
+std::string found_text(const NamedMargin& margin) {
+  constexpr double longest_delay = 10.0;
+  return fmt::format("{}{}{}", std::isfinite(margin.found) ? short_number(margin.found) : "∞",
+                     unit_text(margin),
+                     margin.name == "delay" && margin.found >= longest_delay ? " or more" : "");
+}
+
+/// "at least 6 wanted", "none wanted".
+std::string wanted_text(const NamedMargin& margin) {
+  if (!margin.wanted) return "none wanted";
+  return fmt::format("at {} {:g} wanted", margin.is_upper ? "most" : "least", *margin.wanted);
+}
+
 /// "gain margin 7.2 dB (at least 6 wanted), phase margin …".
 std::string margins_text(const SmallestMargins& found, const study::LoopMargins& wanted) {
-  constexpr double longest_delay = 10.0;
   std::vector<std::string> texts;
-  for (const NamedMargin& one : margins_beside(found, wanted)) {
-    const bool is_longest = one.name == "delay" && one.found >= longest_delay;
-    texts.push_back(fmt::format(
-        "{} {}{}{} ({})", title_of(one), std::isfinite(one.found) ? short_number(one.found) : "∞",
-        unit_text(one), is_longest ? " or more" : "",
-        one.wanted ? fmt::format("at {} {:g} wanted", one.is_upper ? "most" : "least", *one.wanted)
-                   : std::string("none wanted")));
-  }
+  for (const NamedMargin& one : margins_beside(found, wanted))
+    texts.push_back(fmt::format("{} {} ({})", title_of(one), found_text(one), wanted_text(one)));
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
@@ -117,12 +125,9 @@ std::string loop_text(const CriticalLoop& loop, const study::Study& study) {
 /// The loops in which the margins are the smallest.
 std::string critical_loops_sentence(Of tuning) {
   if (!tuning.answer.margins) return "";
-  const SmallestMargins& margins = *tuning.answer.margins;
   std::vector<std::string> texts;
-  for (const auto& [name, loop] :
-       {std::pair("gain", &margins.gain_loop), std::pair("phase", &margins.phase_loop),
-        std::pair("delay", &margins.delay_loop), std::pair("sensitivity", &margins.sensitivity_loop)}) {
-    if (*loop) texts.push_back(fmt::format("{} {}", name, loop_text(**loop, tuning.study)));
+  for (const NamedMargin& one : margins_beside(*tuning.answer.margins, tuning.study.tuning->margins)) {
+    if (one.loop) texts.push_back(fmt::format("{} {}", one.name, loop_text(*one.loop, tuning.study)));
   }
   return texts.empty() ? "" : fmt::format("  found in the loops: {}", fmt::join(texts, "; "));
 }
@@ -272,6 +277,31 @@ void add_margins(Description<Tuning>& items) {
                   .include(margins_description(),
                            [](const ConditionMargins& row) -> const SmallestMargins& { return row.margins; }),
               margins_of_conditions);
+}
+
+void add_margin_table(Description<Tuning>& items) {
+  struct Row {
+    std::string margin;
+    std::string smallest;
+    std::string loop;
+  };
+  items.table({},
+              Description<Row>()
+                  .value({.heading = "margin"}, &Row::margin)
+                  .value({.heading = "smallest"}, &Row::smallest)
+                  .value({.heading = "in the loop"}, &Row::loop),
+              [](Of t) {
+                std::vector<Row> rows;
+                if (!t.answer.margins) return rows;
+                for (const NamedMargin& one : margins_beside(*t.answer.margins, t.study.tuning->margins))
+                  rows.push_back({title_of(one), fmt::format("{} ({})", found_text(one), wanted_text(one)),
+                                  one.loop ? loop_text(*one.loop, t.study) : ""});
+                return rows;
+              });
+  items.sentence([](Of t) {
+    return t.answer.margins && !t.answer.margins->stable ? "the linear loop of a machine is unstable" : "";
+  });
+  items.sentence(mode_sentence);
 }
 
 void add_nearest(Description<Tuning>& items) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/report/report.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "results/layout/header.hpp"
@@ -73,6 +74,17 @@ void add(std::vector<report::PageSection>& sections, std::string name, std::stri
   if (!section.html.empty() || !section.figures.empty()) sections.push_back(std::move(section));
 }
 
+/// The first part of the answer, and the extras.
+std::vector<report::PageSection> sections_of(const Tuning& tuning,
+                                             const document::AnswerDescription<Tuning>& first) {
+  std::vector<report::PageSection> sections;
+  add(sections, "tuning", "Tuning", first, tuning);
+  for (const Extra extra : tuning::all_extras)
+    add(sections, "tuning-" + std::string(tuning::name_of(extra)), question_of(extra), extra_answer(extra),
+        tuning);
+  return sections;
+}
+
 }  // namespace
 
 report::ReportPage frame_of(const study::Study& study) {
@@ -88,25 +100,31 @@ report::PageSection search_section(const SearchMoment& moment) {
 }
 
 std::vector<report::PageSection> tuning_sections(const Tuning& tuning) {
-  std::vector<report::PageSection> sections;
-  add(sections, "tuning", "Tuning", proven_answer(), tuning);
-  for (const Extra extra : tuning::all_extras)
-    add(sections, "tuning-" + std::string(tuning::name_of(extra)), question_of(extra), extra_answer(extra),
-        tuning);
-  return sections;
+  return sections_of(tuning, proven_answer());
 }
 
 report::ReportPage tuning_page(Tuning tuning) {
   tuning.drawn = true;
   report::ReportPage page = frame_of(tuning.study);
-  page.footer = fmt::format("zerocount {}", layout::current_provenance().zerocount_version);
+  if (tuning.answer.proof) {
+    report::ReportOptions options;
+    options.tuning = {
+        .first_screen = {.headline = page_headline(tuning),
+                         .claims = tuning.answer.proof->claims,
+                         .margins = document::html(margins_answer().of(tuning, ExitCode::success,
+                                                                       document::Audience::people))},
+        .sections = sections_of(tuning, proof_answer())};
+    add(options.tuning->sections, "tuning-search", "What was searched?", closing_answer(), tuning);
+    report::ReportPage study = commands::verified_report(reading::AllTrialsFile(tuning.output), options).page;
+    page.sections = std::move(study.sections);
+    page.footer = std::move(study.footer);
+  } else {
+    page.sections = tuning_sections(tuning);
+    page.sections.front().html += report::axis_html(tuning.study, 0);
+    add(page.sections, "tuning-search", "What was searched?", closing_answer(), tuning);
+    page.footer = fmt::format("zerocount {}", layout::current_provenance().zerocount_version);
+  }
   if (tuning.answer.interrupted) page.state = report::PageState::unfinished;
-  page.sections = tuning_sections(tuning);
-  add(page.sections, "tuning-search", "What was searched?", closing_answer(), tuning);
-  if (!tuning.answer.proof) return page;
-  for (report::PageSection& section :
-       commands::verified_report(reading::AllTrialsFile(tuning.output)).page.sections)
-    page.sections.push_back(std::move(section));
   return page;
 }
 

@@ -31,11 +31,17 @@ document::Item criterion_item();
 
 /// "met: the goal is met by controller.ki = 5000", or that nothing is proven.
 std::string tune_headline(Of tuning);
+/// The same for a page that shows the values below it.
+std::string page_headline(Of tuning);
 
 void add_refusals(document::Description<Tuning>& items);
 void add_proof(document::Description<Tuning>& items);
+/// The sentences of add_proof().
+void add_proof_sentences(document::Description<Tuning>& items);
 void add_behaviour(document::Description<Tuning>& items);
 void add_margins(document::Description<Tuning>& items);
+/// The margins as a table for a page, each with the loop that has the worst.
+void add_margin_table(document::Description<Tuning>& items);
 void add_nearest(document::Description<Tuning>& items);
 void add_delay(document::Description<Tuning>& items);
 void add_room(document::Description<Tuning>& items);

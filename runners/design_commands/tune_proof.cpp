@@ -233,6 +233,15 @@ std::string tune_headline(Of tuning) {
   return headline_of(tuning);
 }
 
+std::string page_headline(Of tuning) {
+  if (tuning.answer.status != goal::Status::met) return tune_headline(tuning);
+  const study::Study& proof = tuning.answer.proof->study;
+  return fmt::format(
+      "met by the tuned values, proven {}on {} that the search never saw",
+      tuning.study.goals.size() > 1 ? "for all goals " : "",
+      proof.rigs > 0 ? fmt::format("{} machines", proof.rigs) : fmt::format("{} trials", proof.trials));
+}
+
 void add_proof(Description<Tuning>& items) {
   items.sentence(proof_sentence)
       .table({.key = "claims",
@@ -250,6 +259,14 @@ void add_proof(Description<Tuning>& items) {
       .sentence(edges_sentence)
       .object(in_data("worst", "the worst machine of the proof"), worst_description(),
               [](Of t) { return t.answer.worst; })
+      .sentence(worst_machine_sentence);
+}
+
+void add_proof_sentences(Description<Tuning>& items) {
+  items.sentence(proof_sentence)
+      .sentence(criterion_sentence)
+      .sentence(late_sentence)
+      .sentence(edges_sentence)
       .sentence(worst_machine_sentence);
 }
 

@@ -1,6 +1,6 @@
 // Writes reports and opens them in a browser without a window: nothing in the console, no request to anywhere, marks in every
-// figure, a value at the pointer, a table behind every figure, nothing wider than the screen, by day, by night, on a phone and on
-// paper. Leaves screenshots.
+// figure, a value at the pointer, a table behind every figure, no table wider than its column, the first screen on one screen, by day,
+// by night, on a phone and on at most four pages of paper. Leaves screenshots.
 //
 // usage: node open_in_browser.mjs ZEROCOUNT ROOT CHROMIUM SCREENSHOTS
 import {execFileSync} from "node:child_process";
@@ -108,6 +108,7 @@ async function checkPage({page, said, requests, name}) {
               .filter(labels => new Set(labels).size < labels.length).map(labels => labels.join(" | ")),
             titles: figure.querySelectorAll(".plot svg .role-axis-title").length, caption: figure.querySelector("figcaption").textContent.length};
   }));
+  await checkWidths({page, name});
   expect(figures.length > 0, `${name}: there are figures`);
   for (const figure of figures) {
     expect(figure.marks > 0, `${name}: ${figure.name} has marks`);
@@ -117,6 +118,44 @@ async function checkPage({page, said, requests, name}) {
     expect(figure.caption > 60, `${name}: ${figure.name} has a caption`);
   }
   return figures.length;
+}
+
+/// The frames of the block diagram hold their text.
+async function checkDiagram({page, name}) {
+  const lost = await page.evaluate(() => {
+    const svg = [...document.querySelectorAll("svg.axis")].filter(one => one.getBoundingClientRect().width > 0);
+    if (svg.length !== 1) return [`${svg.length} drawings are shown`];
+    const frames = [...svg[0].querySelectorAll("rect")].map(frame => frame.getBBox());
+    const texts = [...svg[0].querySelectorAll("text")].filter(text => text.textContent.length > 3 && !text.textContent.startsWith("Disturbance:"));
+    return texts.filter(text => {
+      const box = text.getBBox();
+      return !frames.some(frame => box.x >= frame.x && box.x + box.width <= frame.x + frame.width + 0.5 &&
+                                   box.y >= frame.y && box.y + box.height <= frame.y + frame.height + 0.5);
+    }).map(text => text.textContent);
+  });
+  expect(lost.length === 0, `${name}: the frames of the diagram hold their text: ${lost.join("; ")}`);
+}
+
+/// No table is wider than its column, folded ones and those behind figures included.
+async function checkWidths({page, name}) {
+  const wide = await page.evaluate(async () => {
+    for (const details of document.querySelectorAll("details")) details.open = true;
+    await new Promise(resolve => setTimeout(resolve, 300));
+    const found = [...document.querySelectorAll("table,pre")].filter(one => {
+      const column = one.parentElement;
+      return one.scrollWidth > column.clientWidth + 1 || one.getBoundingClientRect().right > column.getBoundingClientRect().right + 1;
+    }).map(one => `${(one.closest("figure,section") ?? one).id} ${one.scrollWidth}: ${one.textContent.slice(0, 40)}`);
+    for (const details of document.querySelectorAll("details")) details.open = false;
+    return found;
+  });
+  expect(wide.length === 0, `${name}: no table is wider than its column: ${wide.join("; ")}`);
+}
+
+/// Prints the page on A4, on at most so many pages.
+async function checkPrint({page, name}, path, most) {
+  const pdf = (await page.pdf({path, format: "A4", printBackground: true})).toString("latin1");
+  const pages = pdf.match(/\/Type\s*\/Page\b/g).length;
+  expect(pages <= most, `${name}: ${pages} pages of paper, at most ${most}`);
 }
 
 async function checkTables({page, name}) {
@@ -190,17 +229,29 @@ try {
   const others = [["paper-fig4", 5], ["paper-fig6", 5], ["paper-fig7", 20], ["paper-fig8", 20]].map(
     ([name, trials]) => [name, report(name, shipped(name, trials))]);
   browser = await chromium.launch({executablePath: chromiumPath, args: options});
-  for (const [scheme, width] of [["light", 1000], ["dark", 390]]) {
+  for (const [scheme, width] of [["light", 1280], ["dark", 390]]) {
     const opened = await open(browser, main, {scheme, width, phone: width < 500});
     const figures = await checkPage(opened);
     expect(figures >= 10, `${opened.name}: ${figures} figures`);
     await opened.page.screenshot({path: join(screenshots, `${scheme}-${width}.png`), fullPage: true});
-    if (scheme === "light" && width === 1000) {
+    if (scheme === "light" && width === 1280) {
       await checkTables(opened);
       await checkHover(opened, "stability-map", "success rate");
       await checkHover(opened, "settling-time", "by (s)");
       await checkPolicy(opened);
-      await opened.page.pdf({path: join(screenshots, "printed.pdf"), format: "A4", printBackground: true});
+    }
+    await opened.context.close();
+  }
+  const stage = report("two-step-stage", shipped("two-step-stage", 320).replace(/^rigs: \d+/m, "rigs: 40"));
+  for (const [scheme, width] of [["light", 1280], ["dark", 390]]) {
+    const opened = await open(browser, stage, {scheme, width, phone: width < 500});
+    await checkPage(opened);
+    await checkDiagram(opened);
+    await opened.page.screenshot({path: join(screenshots, `stage-${scheme}-${width}.png`), fullPage: true});
+    if (width === 1280) {
+      const bottom = await opened.page.evaluate(() => document.getElementById("overview").getBoundingClientRect().bottom);
+      expect(bottom <= 900, `${opened.name}: the first screen ends at ${bottom} of 900 pixels`);
+      await checkPrint(opened, join(screenshots, "stage.pdf"), 4);
     }
     await opened.context.close();
   }
@@ -218,16 +269,18 @@ try {
   await checkHover(fitted, "record-2", "residual");
   await fitted.context.close();
   const tuned = tuning();
-  for (const [scheme, width] of [["light", 1000], ["dark", 390]]) {
+  for (const [scheme, width] of [["light", 1280], ["dark", 390]]) {
     const opened = await open(browser, tuned, {scheme, width, phone: width < 500});
     await checkPage(opened);
     for (const name of ["tuning-map-1-2", "tuning-frontier", "tuning-room", "response"])
       expect(await opened.page.locator(`#figure-${name}`).count() === 1, `${opened.name}: ${name}`);
     await opened.page.screenshot({path: join(screenshots, `tuned-${scheme}-${width}.png`), fullPage: true});
-    if (width === 1000) {
+    await checkDiagram(opened);
+    if (width === 1280) {
       await checkTables(opened);
       await checkHover(opened, "tuning-map-1-2", "margins");
       await checkStar(opened, "tuning-map-1-2");
+      await checkPrint(opened, join(screenshots, "tuned.pdf"), 4);
     }
     await opened.context.close();
   }

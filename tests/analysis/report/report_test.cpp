@@ -26,12 +26,7 @@ namespace zerocount::report {
 namespace {
 
 using testing::TemporaryFolder;
-
-std::size_t times_in(const std::string& text, const std::string& what) {
-  std::size_t times = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++times;
-  return times;
-}
+using testing::times_in;
 
 /// The column of a figure's data, as numbers.
 std::vector<double> column(const FigureData& data, const std::string& field) {

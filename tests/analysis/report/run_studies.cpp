@@ -26,6 +26,12 @@ std::string rich_manifest(int trials, const std::string& description) {
       nlohmann::json(description).dump(), trials);
 }
 
+std::size_t times_in(const std::string& text, const std::string& what) {
+  std::size_t times = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++times;
+  return times;
+}
+
 study::Study run_study_file(const std::filesystem::path& path, const std::string& manifest) {
   study::Study study = manifest::parse_study(manifest, "test");
   study.engine = study::Engine::reference;

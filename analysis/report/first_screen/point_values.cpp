@@ -1,0 +1,75 @@
+#include "analysis/report/first_screen/point_values.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/report/first_screen/quantity.hpp"
+#include "experiments/study/plan.hpp"
+
+namespace zerocount::report {
+namespace {
+
+std::string_view level_text(study::DrawLevel level) {
+  switch (level) {
+    case study::DrawLevel::study:
+      return "drawn once";
+    case study::DrawLevel::world:
+      return "per world";
+    case study::DrawLevel::rig:
+      return "per rig";
+    case study::DrawLevel::trial:
+      return "per trial";
+    case study::DrawLevel::contact:
+      break;
+  }
+  return "per contact";
+}
+
+}  // namespace
+
+std::size_t PointValues::slot_of(std::string_view name) const {
+  return study::find_slots(name, study_.plan->table).value().first;
+}
+
+study::ValueLimits PointValues::limits(std::size_t slot) const {
+  study::ValueLimits all = study::limits_of_slot(*study_.plan, slot, study::plan_point(*study_.plan, point_));
+  for (std::int64_t condition = 1; condition < study_.plan->conditions; ++condition) {
+    const study::ValueLimits one =
+        study::limits_of_slot(*study_.plan, slot, study::plan_point(*study_.plan, point_, condition));
+    all.low = std::min(all.low, one.low);
+    all.high = std::max(all.high, one.high);
+  }
+  return all;
+}
+
+study::ValueLimits PointValues::limits(std::string_view name) const {
+  return limits(slot_of(name));
+}
+
+bool PointValues::is_none(std::string_view name) const {
+  return limits(name).low == study_.plan->table.rows[slot_of(name)].none;
+}
+
+std::string PointValues::text(std::size_t slot) const {
+  const parameters::Parameter& parameter = study_.plan->table.rows[slot];
+  const study::ValueLimits range = limits(slot);
+  if (parameters::has_labels(parameter))
+    return std::string(parameter.labels[static_cast<std::size_t>(range.low)]);
+  if (range.low == parameter.none) return "none";
+  const std::string unit = parameters::unit_of(parameter, study_.plan->units);
+  const bool has_ends = std::isfinite(range.low) && std::isfinite(range.high);
+  return has_ends ? range_text(range.low, range.high, unit) : "about " + quantity_text(range.typical, unit);
+}
+
+std::string PointValues::text(std::string_view name) const {
+  return text(slot_of(name));
+}
+
+std::string PointValues::draw_text(std::size_t slot) const {
+  const study::Value& value =
+      *study::value_at_point(*study_.plan, slot, study::plan_point(*study_.plan, point_));
+  if (value.kind == study::Value::Kind::profile) return "along the axis";
+  return value.kind == study::Value::Kind::distribution ? std::string(level_text(value.level)) : "";
+}
+
+}  // namespace zerocount::report

@@ -1,0 +1,113 @@
+// The first screen: what is required and whether it is met, the gains in the open, and what is assumed.
+#include "analysis/report/first_screen/first_screen.hpp"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "analysis/report/first_screen/quantity.hpp"
+#include "analysis/report/first_screen/requirements.hpp"
+#include "tests/analysis/report/run_studies.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace zerocount::report {
+namespace {
+
+using testing::TemporaryFolder;
+using testing::times_in;
+
+TEST(Quantity, HasThePrefixThatTheFieldWrites) {
+  EXPECT_EQ(quantity_text(1e-8, "m"), "10\u00a0nm");
+  EXPECT_EQ(quantity_text(0.0012, "m/s"), "1.2\u00a0mm/s");
+  EXPECT_EQ(quantity_text(16000, "Hz"), "16\u00a0kHz");
+  EXPECT_EQ(quantity_text(0.0286253, "s"), "28.63\u00a0ms");
+  EXPECT_EQ(quantity_text(3.878e-6, "rad"), "3.878\u00a0µrad");
+  EXPECT_EQ(quantity_text(5.9e6, "N/m"), "5.9e6\u00a0N/m");
+  EXPECT_EQ(quantity_text(1000, "m/s^3"), "1000\u00a0m/s³");
+  EXPECT_EQ(quantity_text(0.0, "m"), "0\u00a0m");
+  EXPECT_EQ(quantity_text(0.8, "1"), "0.8");
+  EXPECT_EQ(quantity_text(1.0, "sample"), "1\u00a0sample");
+  EXPECT_EQ(quantity_text(29, "count"), "29\u00a0counts");
+}
+
+TEST(Quantity, HasOnePrefixForBothEndsOfARange) {
+  EXPECT_EQ(range_text(5e-4, 5e-3, "m/s"), "0.5 … 5\u00a0mm/s");
+  EXPECT_EQ(range_text(3.2, 3.2, "kg"), "3.2\u00a0kg");
+  EXPECT_EQ(list_text(std::vector{2e-5, 2.1e-5, 0.0}, "m"), "20, 21, 0\u00a0µm");
+}
+
+const char* const two_goals =
+    "zerocount: 1\nname: two\nseed: 3\nrigs: 4\ntrials: 16\ncommand: {targets: [3, 30], hold: 0.15}\n"
+    "goals: {small: {\"on\": [0], band: 2, within: 0.1, moves: 0.5},\n"
+    "  large: {\"on\": [1], band: 1, within: 0.12, moves: 0.6, machines: 0.5, limits: {overshoot: 20}}}\n"
+    "conditions: {plain: {}, heavy: {plant.inertia: 8.0e-4}}\n"
+    "friction: {k1: {uniform: [100, 130], per: rig}}\ncontroller: {ki: 2.0e-5, delay: 0}\n"
+    "verdict: {dwell: 0.02, window: 0.02}\n"
+    "tune: {free: {controller.ki: {log: [1.0e-5, 1.0e-4]}}}\n";
+
+/// The first screen of a study by this manifest.
+std::string screen_of(const std::string& manifest, const FirstScreenParts& parts = {}) {
+  const TemporaryFolder folder;
+  testing::run_study_file(folder / "a.h5", manifest);
+  const reading::AllTrialsFile file(folder / "a.h5");
+  return first_screen(reported_study(file), parts).html;
+}
+
+TEST(FirstScreen, HasAVerdictOnEachGoalUnderEachCondition) {
+  const std::string html = screen_of(two_goals);
+  EXPECT_EQ(times_in(html, "data-head=\"verdict\""), 4U);
+  EXPECT_EQ(times_in(html, "<td class=\"text\" data-head=\"condition\">plain<"), 2U);
+  EXPECT_EQ(times_in(html, "<td class=\"text\" data-head=\"condition\">heavy<"), 2U);
+  EXPECT_NE(html.find("<b>large</b> ±1\u00a0count for good after 120\u00a0ms; overshoot ≤ 20\u00a0counts; in "
+                      "60&nbsp;% of moves 1 of 50&nbsp;% of the machines, with 95&nbsp;% confidence"),
+            std::string::npos)
+      << html;
+  for (const char* const head : {"overshoot (95 %)", "peak torque", "moves that saturate"})
+    EXPECT_EQ(times_in(html, std::string("data-head=\"") + head), 4U) << head;
+}
+
+TEST(FirstScreen, HidesNoGain) {
+  const std::string html = screen_of(two_goals);
+  EXPECT_EQ(times_in(html, "<details"), 0U);
+  EXPECT_NE(html.find(">ki</td>"), std::string::npos);
+  EXPECT_NE(html.find("2e-5\u00a0N\u00a0m/count"), std::string::npos);
+  EXPECT_NE(html.find("1e-5 … 0.0001"), std::string::npos);  // the range of tune
+}
+
+TEST(FirstScreen, NamesEachAssumptionByItsSource) {
+  const std::string html = screen_of(two_goals);
+  const std::size_t given = html.find("given in the manifest");
+  const std::size_t assumed = html.find("assumed: defaults");
+  const std::size_t stated = html.find("stated as absent");
+  const std::size_t away = html.find("assumed away");
+  ASSERT_LT(given, assumed);
+  ASSERT_LT(assumed, stated);
+  ASSERT_LT(stated, away);
+  const auto between = [&](std::size_t from, std::size_t to, const char* words) {
+    return html.substr(from, to - from).find(words) != std::string::npos;
+  };
+  EXPECT_TRUE(between(given, assumed, "friction.k1</b> 100 … 130\u00a0N\u00a0m/rad, per rig"));
+  EXPECT_TRUE(between(assumed, stated, "beta</b> 1e5"));
+  EXPECT_TRUE(between(assumed, stated, "k2"));
+  EXPECT_TRUE(between(stated, away, "no delay"));
+  EXPECT_TRUE(between(away, html.size(), "no jitter"));
+  EXPECT_FALSE(between(given, assumed, "controller.ki"));  // it is chosen, not assumed
+}
+
+TEST(FirstScreen, ShowsWhatATuningTellsInPlaceOfItsOwn) {
+  const std::string html =
+      screen_of(two_goals, {.headline = "proven", .margins = "<p>those of the tuning</p>"});
+  EXPECT_NE(html.find(">proven</p>"), std::string::npos);
+  EXPECT_NE(html.find("those of the tuning"), std::string::npos);
+  EXPECT_EQ(html.find("crossover"), std::string::npos);
+}
+
+TEST(FirstScreen, AStudyWithoutAGoalHasNoVerdicts) {
+  const std::string html = screen_of(testing::rich_manifest(8));
+  EXPECT_EQ(html.find("verdict"), std::string::npos);
+  EXPECT_NE(html.find("No goal is stated"), std::string::npos);
+  EXPECT_NE(html.find("moves that saturate"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace zerocount::report

@@ -39,7 +39,7 @@ std::vector<SourcedValue> value_sources(const study::StudyPlan& plan) {
   const std::vector<EffectRule> rules = effect_rules(plan);
   std::vector<SourcedValue> values;
   for (const std::size_t slot : study::slots_in_table_order(plan.table)) {
-    if (!plan.table.rows[slot].of_machine) continue;
+    if (plan.table.rows[slot].name.starts_with("command.")) continue;
     if (const std::optional<ValueSource> source = source_of(plan, rules, slot))
       values.push_back({slot, *source});
   }

@@ -20,8 +20,8 @@ struct SourcedValue {
   ValueSource source{ValueSource::assumed};
 };
 
-/// The parameters of the machine whose values the trials rest on, in the order of the table: all that the
-/// manifest gives, and the defaults that have an effect at some design point. Not among them are values that
+/// The parameters whose values the trials rest on, in the order of the table: all that the manifest gives,
+/// and the defaults that have an effect at some design point. Not among them are the command, values that
 /// follow from measured ones, and effects that are absent (premises_of).
 std::vector<SourcedValue> value_sources(const study::StudyPlan& plan);
 

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "analysis/document/markup.hpp"
+#include "analysis/report/first_screen/first_screen.hpp"
 #include "analysis/report/report.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/proportion.hpp"

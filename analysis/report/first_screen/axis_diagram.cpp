@@ -61,7 +61,7 @@ void add_profile(std::vector<std::string>& lines, const PointValues& values, loo
       lines.emplace_back("trapezoidal velocity");
       break;
     case loop::ReferenceShape::s_curve:
-      lines.push_back("s-curve, jerk ≤\u00a0" + text("jerk_limit"));
+      lines.push_back("s-curve, jerk\u00a0≤\u00a0" + text("jerk_limit"));
       break;
   }
   lines.push_back("velocity ≤\u00a0" + text("velocity_limit"));

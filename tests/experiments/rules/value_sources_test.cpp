@@ -1,5 +1,5 @@
-// Where the values of the machine come from: what the manifest gives, by whatever key, and the defaults that
-// act.
+// Where the values that trials rest on come from: what the manifest gives, by whatever key, and the defaults
+// that act.
 #include "experiments/rules/value_sources.hpp"
 
 #include <map>
@@ -25,10 +25,10 @@ std::map<std::string_view, ValueSource> sources_of(const study::Study& study) {
 // Any mixture of keys that are left out, set, drawn, swept or of a condition.
 TEST(ValueSources, AValueIsGivenWhereverTheManifestHasIt) {
   std::mt19937_64 random(5);
-  const std::map<std::string, double> keys{{"plant.inertia", 1e-3},  {"friction.k1", 100.0},
-                                           {"friction.beta", 9e4},   {"encoder.fine", 8e5},
-                                           {"dac.bits", 14.0},       {"amplifier.bandwidth", 800.0},
-                                           {"controller.ki", 2.0e-5}};
+  const std::map<std::string, double> keys{{"plant.inertia", 1e-3},   {"friction.k1", 100.0},
+                                           {"friction.beta", 9e4},    {"encoder.fine", 8e5},
+                                           {"dac.bits", 14.0},        {"amplifier.bandwidth", 800.0},
+                                           {"controller.ki", 2.0e-5}, {"verdict.dwell", 0.02}};
   for (int i = 0; i < 40; ++i) {
     std::map<std::string_view, bool> given;
     std::string grid;

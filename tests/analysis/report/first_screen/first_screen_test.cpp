@@ -104,7 +104,7 @@ TEST(FirstScreen, ShowsWhatATuningTellsInPlaceOfItsOwn) {
 
 TEST(FirstScreen, AStudyWithoutAGoalHasNoVerdicts) {
   const std::string html = screen_of(testing::rich_manifest(8));
-  EXPECT_EQ(html.find("verdict"), std::string::npos);
+  EXPECT_EQ(html.find("data-head=\"verdict\""), std::string::npos);
   EXPECT_NE(html.find("No goal is stated"), std::string::npos);
   EXPECT_NE(html.find("moves that saturate"), std::string::npos);
 }

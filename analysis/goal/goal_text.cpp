@@ -11,7 +11,7 @@
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/text/percent.hpp"
-#include "analysis/text/si_prefix.hpp"
+#include "analysis/text/quantity.hpp"
 #include "analysis/text/text.hpp"
 #include "core/numerics/bisection.hpp"
 #include "experiments/parameters/study_units.hpp"
@@ -26,11 +26,13 @@ std::string with_bounds(const BoundedProportion& proportion) {
                      text::percent_at_most(proportion.high));
 }
 
+constexpr int goal_digits = 6;  // of what a goal asks for
+
 /// "|error| ≤ 1 count", "|position error| ≤ 10 nm".
 std::string band_text(const study::Goal& goal) {
   if (goal.tolerance)
     return "|position error| ≤ " +
-           text::with_si_prefix(*goal.tolerance, parameters::unit_on(goal.axis, "rad"));
+           text::quantity_text(*goal.tolerance, parameters::unit_on(goal.axis, "rad"), goal_digits);
   if (goal.band == 0) return "error 0";
   return fmt::format("|error| ≤ {} count{}", goal.band, goal.band == 1 ? "" : "s");
 }
@@ -44,11 +46,8 @@ std::string largest_text(const study::GoalLimit& limit, parameters::AxisKind axi
   const auto measure = std::ranges::find_if(measures, [&](const layout::Measure& one) {
     return stem(one.field.column.name) == stem(limit.measure);
   });
-  const std::string_view unit = measure == measures.end() ? "1" : measure->field.column.unit;
-  if (unit == "rad") return text::with_si_prefix(limit.largest, parameters::unit_on(axis, unit));
-  if (unit == "1") return fmt::format("{:g}", limit.largest);
-  const char* plural = unit == "count" && limit.largest != 1.0 ? "s" : "";
-  return fmt::format("{:g} {}{}", limit.largest, parameters::unit_on(axis, unit), plural);
+  const std::string unit = measure == measures.end() ? "1" : measure->field.column.unit;
+  return text::quantity_text(limit.largest, parameters::unit_on(axis, unit), goal_digits);
 }
 
 /// ", overshoot ≤ 200 counts, peak_torque ≤ 45 N"; empty without limits.

@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include "analysis/report/figures/figure.hpp"
+#include "analysis/statistics/distributions.hpp"
+#include "analysis/statistics/proportion.hpp"
 #include "analysis/text/percent.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
@@ -113,21 +115,44 @@ std::string not_simulated(const std::vector<Limit>& limits) {
   return lines;
 }
 
-/// The rates with a cause switched off, beside that with none; nothing where none was simulated.
+/// 95 % bounds of the rate of a limit, as if each machine, or trial, met or missed the goal as a whole.
+statistics::ConfidenceInterval bounds_of(const Limit& limit) {
+  return statistics::wilson_interval(*limit.rate, static_cast<double>(limit.estimate.units),
+                                     statistics::two_sided_normal_quantile(statistics::summary_confidence));
+}
+
+/// The rates with a cause switched off, beside that with none and what is asked for; nothing where no cause
+/// was simulated, because nothing is missed.
 std::vector<document::Figure> limits_figures(const std::vector<Limit>& limits) {
-  document::FigureData data{
-      "limits",
-      {{"cause", "switched off", ""}, {"rate", "rate of the goal", "1"}, {"none", "nothing off", "1"}}};
-  for (const Limit& one : limits)
-    if (one.rate)
-      data.rows.push_back({one.effect, report::datum(*one.rate), report::datum(*limits.front().rate)});
+  using nlohmann::ordered_json;
+  using report::datum;
+  document::FigureData data{"limits",
+                            {{"cause", "switched off", ""},
+                             {"rate", "rate of the goal", "1"},
+                             {"low", "lower 95 % bound", "1"},
+                             {"high", "upper 95 % bound", "1"}}};
+  double lowest = limits.front().asked;
+  for (const Limit& one : limits) {
+    if (!one.rate) continue;
+    const statistics::ConfidenceInterval bounds = bounds_of(one);
+    lowest = std::min(lowest, bounds.low);
+    data.rows.push_back({data.rows.empty() ? "nothing off" : one.effect, datum(*one.rate), datum(bounds.low),
+                         datum(bounds.high)});
+  }
   const std::size_t rows = data.rows.size();
   if (rows < 2) return {};
+  const document::FigureData lines{"lines",
+                                   {{"rate", "", "1"}, {"line", "", ""}},
+                                   {ordered_json::array({datum(*limits.front().rate), "as it is"}),
+                                    ordered_json::array({limits.front().asked, "asked for"})}};
   document::Figure figure = report::figure_of(
-      "tuning-limits", "tuning-limits", "What limits the goal",
+      "tuning-limits", "tuning-limits", "What limits it?",
       "The rate of the goal with a cause of failures switched off, on the same machines with the same random "
-      "numbers. A bar begins at the rate with nothing switched off.",
-      {std::move(data)});
+      "numbers, with 95 % bounds of a machine's chance. A bar that ends far above the rate as it is names "
+      "what to improve; what the goal asks for is dashed.",
+      {std::move(data), lines});
+  const double from = lowest >= 0.8 ? std::floor(lowest * 100.0 - 0.5) / 100.0 : 0.0;
+  figure.specification["layer"][0]["encoding"]["x"]["scale"]["domain"] = {from, 1};
   report::set_rows(figure, rows, 24);
   return {std::move(figure)};
 }

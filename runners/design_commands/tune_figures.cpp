@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "analysis/report/figures/axis_ticks.hpp"
 #include "analysis/report/figures/figure.hpp"
-#include "analysis/statistics/distributions.hpp"
-#include "analysis/statistics/proportion.hpp"
 
 namespace zerocount::design_commands {
 namespace {

@@ -110,12 +110,11 @@ report::ReportPage tuning_page(Tuning tuning) {
   report::ReportPage page = frame_of(tuning.study);
   if (tuning.answer.proof) {
     report::ReportOptions options;
-    options.tuning = {
-        .first_screen = {.headline = page_headline(tuning),
-                         .claims = tuning.answer.proof->claims,
-                         .margins = document::html(margins_answer().of(tuning, ExitCode::success,
-                                                                       document::Audience::people))},
-        .sections = sections_of(tuning, proof_answer())};
+    options.tuning = {.first_screen = {.headline = page_headline(tuning),
+                                       .claims = tuning.answer.proof->claims,
+                                       .margins = document::html(margins_answer().of(
+                                           tuning, ExitCode::success, document::Audience::people))},
+                      .sections = sections_of(tuning, proof_answer())};
     add(options.tuning->sections, "tuning-search", "What was searched?", closing_answer(), tuning);
     report::ReportPage study = commands::verified_report(reading::AllTrialsFile(tuning.output), options).page;
     page.sections = std::move(study.sections);

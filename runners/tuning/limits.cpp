@@ -90,6 +90,8 @@ Limit limit_of(const EffectRuns& runs, const ChangedPoint& point) {
   if (!point.refusal.empty()) return {point.name, std::nullopt, point.refusal};
   Limit limit{point.name, std::nullopt, point.note, estimate_of(runs.aim(), point.run, runs.units())};
   limit.rate = limit.estimate.rate;
+  const Claim& claim = runs.aim().claims[limit.estimate.worst];
+  limit.asked = claim.machines.value_or(claim.moves);
   if (has_named_claims(runs.study())) name_claims(runs, limit);
   return limit;
 }

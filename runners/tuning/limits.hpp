@@ -15,6 +15,7 @@ struct Limit {
   std::optional<double> rate{};  ///< empty if it is not simulated, for the reason in `note`
   std::string note{};            ///< what the rate does not show, or what is assumed
   Estimate estimate{};           ///< that the rate is of
+  double asked{1.0};             ///< the rate that its goal asks for
   /// Of several goals and conditions: the worst ones, which the rate is of, and each with its rate.
   std::optional<std::string> goal{}, condition{};
   std::optional<std::vector<std::pair<std::string, double>>> rates{};

@@ -1,97 +1,30 @@
 #include "analysis/report/first_screen/quantity.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <span>
-
-#include <fmt/format.h>
+#include "analysis/text/quantity.hpp"
 
 namespace zerocount::report {
 namespace {
 
-struct Prefix {
-  double factor;
-  std::string_view text;
-};
-
-constexpr std::array small_prefixes{Prefix{1e-12, "p"}, Prefix{1e-9, "n"}, Prefix{1e-6, "µ"},
-                                    Prefix{1e-3, "m"}, Prefix{1.0, ""}};
-constexpr std::array large_prefixes{Prefix{1.0, ""}, Prefix{1e3, "k"}, Prefix{1e6, "M"}};
-
-/// The prefixes that the field writes with a unit that begins with this one.
-std::span<const Prefix> prefixes_of(std::string_view unit) {
-  const std::string_view first = unit.substr(0, unit.find_first_of("/^"));
-  if (unit.find('^') < unit.find('/')) return {};  // a prefix would be squared too
-  if (first == "m" || first == "rad" || first == "s") return small_prefixes;
-  if (first == "Hz") return large_prefixes;
-  return {};
-}
-
-/// The largest prefix that leaves at least 1 before the decimal point; of 0 and of units without prefixes
-/// none.
-Prefix prefix_for(double largest, std::string_view unit) {
-  const std::span<const Prefix> prefixes = prefixes_of(unit);
-  Prefix chosen =
-      prefixes.empty() || !(largest > 0.0) || !std::isfinite(largest) ? Prefix{1.0, ""} : prefixes.front();
-  for (const Prefix& one : prefixes) {
-    if (largest > 0.0 && std::isfinite(largest) && largest >= 0.9999 * one.factor) chosen = one;
-  }
-  return chosen;
-}
-
-constexpr std::string_view no_break_space = "\u00a0";
-
-void replace_all(std::string& text, std::string_view what, std::string_view by) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
-    text.replace(at, what.size(), by);
-}
-
-/// Whether the unit is a word, of which there is one or several.
-bool is_counted(std::string_view unit) {
-  return unit == "count" || unit == "sample";
-}
-
-/// " nm", " m/s²", "" without a unit; without places for a line break. @param value the last before it
-std::string unit_text(std::string_view prefix, std::string_view unit, double value) {
-  if (unit.empty() || unit == "1") return "";
-  std::string text = fmt::format(" {}{}{}", prefix, unit, is_counted(unit) && value != 1.0 ? "s" : "");
-  replace_all(text, "^2", "²");
-  replace_all(text, "^3", "³");
-  replace_all(text, " ", no_break_space);
+/// Without places for a line break.
+std::string unbroken(std::string text) {
+  constexpr std::string_view no_break_space = "\u00a0";
+  for (std::size_t at = text.find(' '); at != std::string::npos; at = text.find(' ', at + 1))
+    text.replace(at, 1, no_break_space);
   return text;
 }
 
 }  // namespace
 
-std::string number_text(double value) {
-  std::string text = std::isnan(value) ? "–" : fmt::format("{:.4g}", value);
-  const std::size_t exponent = text.find('e');
-  if (exponent == std::string::npos) return text;
-  std::size_t digits = exponent + 2;
-  while (digits + 1 < text.size() && text[digits] == '0') text.erase(digits, 1);
-  if (text[exponent + 1] == '+') text.erase(exponent + 1, 1);
-  return text;
-}
-
 std::string quantity_text(double value, std::string_view unit) {
-  return range_text(value, value, unit);
-}
-
-std::string list_text(std::span<const double> values, std::string_view unit) {
-  double largest = 0.0;
-  for (const double value : values) largest = std::max(largest, std::abs(value));
-  const Prefix prefix = prefix_for(largest, unit);
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + number_text(value / prefix.factor);
-  return text + unit_text(prefix.text, unit, values.empty() ? 0.0 : values.back());
+  return unbroken(text::quantity_text(value, unit));
 }
 
 std::string range_text(double low, double high, std::string_view unit) {
-  const Prefix prefix = prefix_for(std::max(std::abs(low), std::abs(high)), unit);
-  const std::string first = number_text(low / prefix.factor);
-  const std::string last = number_text(high / prefix.factor);
-  return (first == last ? first : first + " … " + last) + unit_text(prefix.text, unit, high);
+  return unbroken(text::range_text(low, high, unit));
+}
+
+std::string list_text(std::span<const double> values, std::string_view unit) {
+  return unbroken(text::list_text(values, unit));
 }
 
 }  // namespace zerocount::report

@@ -72,11 +72,10 @@ PageSection success_section(const ReportedStudy& reported) {
                       : question_of(reported).claim() ? "The goal"
                                                       : "Success";
   PageSection section{"points", title, "", {}};
-  // The first screen has the requirements of the only point.
-  if (reported.summary.points.size() == 1 && question_of(reported).claim()) return section;
   std::vector<Figure> maps = stability_maps(reported);
-  // A study with a map has many points: the map shows them better than a long table.
-  (maps.empty() ? section.html : section.html_after) = points_html(reported);
+  // The first screen has the requirements of a single point. A map shows many points better than a table.
+  const bool has_table = reported.summary.points.size() > 1 || !question_of(reported).claim();
+  if (has_table) (maps.empty() ? section.html : section.html_after) = points_html(reported);
   if (std::optional<Figure> success = success_figure(reported))
     section.figures.push_back(std::move(*success));
   for (Figure& map : maps) section.figures.push_back(std::move(map));

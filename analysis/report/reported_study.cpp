@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 
 #include "analysis/goal/success_bounds.hpp"
-#include "analysis/report/figures/axis_ticks.hpp"
 #include "analysis/summary/best_point.hpp"
 #include "analysis/summary/conditions_of_point.hpp"
 #include "analysis/summary/point_names.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/text/percent.hpp"
+#include "analysis/text/quantity.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 
@@ -105,7 +105,7 @@ std::string shown_bounds(const ReportedStudy& reported) {
 }
 
 std::string precision_text(const ReportedStudy& reported, const study::Goal& goal) {
-  return goal.tolerance ? si_text(*goal.tolerance, parameters::unit_on(reported.study.units.axis, "rad"))
+  return goal.tolerance ? text::quantity_text(*goal.tolerance, parameters::unit_on(reported.study.units.axis, "rad"))
                         : fmt::format("{} count{}", goal.band, goal.band == 1 ? "" : "s");
 }
 

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/report/figures/axis_ticks.hpp"
 #include "analysis/report/figures/figure.hpp"
+#include "analysis/text/quantity.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -136,17 +136,6 @@ Figure frontier_figure(const TuneAnswer& answer, const study::Study& study) {
   return figure;
 }
 
-/// "18.5 to 63.9 µN m/count".
-std::string range_text(double low, double high, const std::string& unit) {
-  std::string first = report::si_text(low, unit);
-  const std::string last = report::si_text(high, unit);
-  const auto unit_of = [](const std::string& text) {
-    return text.substr(std::min(text.find(' '), text.size()));
-  };
-  if (unit_of(first) == unit_of(last)) first.resize(first.size() - unit_of(first).size());
-  return fmt::format("{} to {}", first, last);
-}
-
 Figure room_figure(const TuneAnswer& answer) {
   const UnitCubePoint tuned = tuning::place_of(answer.free, answer.gains);
   Values low = answer.gains;
@@ -168,7 +157,7 @@ Figure room_figure(const TuneAnswer& answer) {
                    {"high_place", "", ""}}};
   for (std::size_t i = 0; i < answer.room.size(); ++i) {
     data.rows.push_back({answer.free[i].name, datum(answer.gains[i]), datum(low[i]), datum(high[i]),
-                         range_text(low[i], high[i], answer.free[i].unit), datum(tuned[i]),
+                         text::range_text(low[i], high[i], answer.free[i].unit), datum(tuned[i]),
                          datum(low_place[i]), datum(high_place[i])});
   }
   Figure figure = report::figure_of("tuning-room", "tuning-room", "How far may each parameter move?",

@@ -301,14 +301,4 @@ ordered_json with_tick_labels(const Figure& figure) {
   return specification;
 }
 
-std::string si_text(double value, std::string_view unit) {
-  const std::optional<PrefixableUnit> parts = prefixable(unit);
-  if (!parts || value == 0.0)
-    return fmt::format("{:.4g}{}{}", value, unit == "1" ? "" : " ", unit == "1" ? "" : unit);
-  const double plain = value * std::pow(10.0, parts->power);
-  const int power = power_within_prefixes(power_of_thousand(std::abs(plain)), *parts);
-  return fmt::format("{:.4g} {}{}{}", plain * std::pow(10.0, -power), prefix_of(power), parts->symbol,
-                     parts->rest);
-}
-
 }  // namespace zerocount::report

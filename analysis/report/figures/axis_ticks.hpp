@@ -21,8 +21,4 @@ namespace zerocount::report {
 /// is widened. Units without SI prefixes get a power of ten, "error (10³ counts)".
 nlohmann::ordered_json with_tick_labels(const Figure& figure);
 
-/// A value with the SI prefix of its size: "10 nm", "30 ms". Of units without prefixes: "12 counts"; of "1"
-/// none.
-std::string si_text(double value, std::string_view unit);
-
 }  // namespace zerocount::report

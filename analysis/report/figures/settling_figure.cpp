@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/figures/axis_ticks.hpp"
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/statistics/spread_over.hpp"
 #include "analysis/statistics/sums/histogram.hpp"
 #include "analysis/text/percent.hpp"
+#include "analysis/text/quantity.hpp"
 #include "analysis/text/text.hpp"
 #include "experiments/study/condition_study.hpp"
 
@@ -251,7 +251,7 @@ void add_goals(Figure& figure, const std::vector<SettledSubject>& subjects) {
 /// "large: ±10 nm after 30 ms in 95 % of the moves".
 std::string goal_text(const SettledSubject& subject) {
   return fmt::format("{}{}±{} after {} in {} of the moves", subject.name, subject.name.empty() ? "" : ": ",
-                     subject.precision, si_text(subject.claim->within, "s"),
+                     subject.precision, text::quantity_text(subject.claim->within, "s"),
                      text::percent(subject.claim->moves));
 }
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/goal/goal_text.hpp"
-#include "analysis/report/figures/axis_ticks.hpp"
 #include "analysis/report/figures/report_figures.hpp"
+#include "analysis/text/quantity.hpp"
 #include "core/loop/encoder.hpp"
 
 namespace zerocount::report {
@@ -40,7 +40,7 @@ std::string course_of(const goal::Question& question, std::span<const trial::Mov
   const double time = settling_time(question, moves.first(1));
   const std::string_view settles = words_of(question).settles;
   return fmt::format("{}{}, {}",
-                     std::isfinite(time) ? fmt::format("{} after {}", settles, si_text(time, "s"))
+                     std::isfinite(time) ? fmt::format("{} after {}", settles, text::quantity_text(time, "s"))
                                          : fmt::format("never {}", settles),
                      moves.size() == 1 ? "" : " at first", goal::ending_text(question, moves));
 }

@@ -105,8 +105,9 @@ std::string shown_bounds(const ReportedStudy& reported) {
 }
 
 std::string precision_text(const ReportedStudy& reported, const study::Goal& goal) {
-  return goal.tolerance ? text::quantity_text(*goal.tolerance, parameters::unit_on(reported.study.units.axis, "rad"))
-                        : fmt::format("{} count{}", goal.band, goal.band == 1 ? "" : "s");
+  return goal.tolerance
+             ? text::quantity_text(*goal.tolerance, parameters::unit_on(reported.study.units.axis, "rad"))
+             : fmt::format("{} count{}", goal.band, goal.band == 1 ? "" : "s");
 }
 
 layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point) {

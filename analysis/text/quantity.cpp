@@ -65,8 +65,8 @@ std::string number_text(double value, int digits) {
   std::string text = std::isnan(value) ? "–" : fmt::format("{:.{}g}", value, digits);
   const std::size_t exponent = text.find('e');
   if (exponent == std::string::npos) return text;
-  std::size_t digits = exponent + 2;
-  while (digits + 1 < text.size() && text[digits] == '0') text.erase(digits, 1);
+  std::size_t begin = exponent + 2;
+  while (begin + 1 < text.size() && text[begin] == '0') text.erase(begin, 1);
   if (text[exponent + 1] == '+') text.erase(exponent + 1, 1);
   return text;
 }

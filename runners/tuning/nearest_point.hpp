@@ -20,8 +20,8 @@ struct NearestPoint {
 /// Whether these are at least as large as wanted.
 bool keeps(const SmallestMargins& margins, const study::LoopMargins& wanted);
 
-/// Of the points that keep the largest part of all margins together, the first; where every loop is unstable,
-/// one of those with the smallest gain margin. Nothing without points.
+/// The point with the least LoopExaminer::shortfall of the wanted margins. Nothing without points that are
+/// allowed.
 /// @param tried points whose margins were examined; of many about a thousand are taken
 /// @param candidate the study with such values, of the machines of `examiner`; nothing where they are not
 /// allowed together

@@ -48,14 +48,17 @@ class Search {
       result_.converged = without >= patience;
       if (!goes_on() || (result_.converged && !settings_.begins_anew)) break;
       const Estimate before = best_estimate();
+      const std::int64_t spent = result_.trials;
       const bool has_direction = before.rate > 0.0;
-      if (!has_direction || without % (patience + 1) == patience) {
+      const bool fills = !has_direction || without % (patience + 1) == patience;
+      if (fills) {
         step_ = first_step;
         fill_ranges();
       } else {
         next_generation();
       }
-      if (population_.empty()) break;
+      const bool all_is_tried = fills && result_.trials == spent;
+      if (population_.empty() || all_is_tried) break;
       without = improves(before, best_estimate()) ? 0 : without + 1;
     }
     return finish();

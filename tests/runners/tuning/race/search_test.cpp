@@ -129,6 +129,16 @@ TEST(Search, BeginsAnewWhereGenerationsImproveNothing) {
   EXPECT_LE(later, sooner);
 }
 
+TEST(Search, EndsWhereAllValuesAreTried) {
+  const MadeUpProblem truth;
+  SearchProblem problem = truth.problem(512);
+  for (study::FreeParameter& one : problem.free) one.whole = true;  // 0 and 1
+  const SearchResult result =
+      search(problem, {.seed = 1, .begins_anew = true, .effort = effort_of(1'000'000)});
+  EXPECT_EQ(result.points, 4);
+  EXPECT_LE(result.trials, 4 * 512);
+}
+
 /// A control of which some blocks are 0, and its tuned values.
 struct TunedControl {
   std::vector<std::size_t> zeros;

@@ -164,7 +164,8 @@ document::Answer rare_of(const study::Study& study, const rare::Population& of,
       question_with_draws(study, of, measures::missed_question(study), study.name);
   rare::RareSettings settings;
   settings.max_trials = std::min(usual_rare_trials, effort.trials_left());
-  if (std::isfinite(effort.seconds_left())) settings.seconds = effort.seconds_left();
+  // Some of the time remains for the description of the failures.
+  if (std::isfinite(effort.seconds_left())) settings.seconds = 0.8 * effort.seconds_left();
   settings.quiet = true;
   const rare::RareAnswer answer = rare::run_rare(question, settings, effort.stop());
   effort.spend(std::min(answer.state.trials, effort.trials_left()));

@@ -2,6 +2,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
+#include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -113,20 +115,17 @@ ExitCode write_report(const command_line::Arguments& arguments) {
   const std::filesystem::path output = picture_or_page(arguments, {".html", ".htm"});
   const std::vector<std::string_view> parts = parts_option(arguments);
   const command_line::Budget budget = command_line::budget_option(arguments);
+  // Without parts Ctrl-C ends the command at once.
+  std::optional<status::InterruptionWatch> interruption;
+  if (!parts.empty()) interruption.emplace();
+  const std::stop_token stop = interruption ? interruption->token() : std::stop_token();
   const reading::AllTrialsFile file(arguments.operands()[0]);
   report::ReportPage page = report_of(arguments, file).page;
-  // Without parts Ctrl-C ends the command at once.
-  if (parts.empty()) {
-    command_line::write_text(output, report::html_page(page));
-    return ExitCode::success;
-  }
-  const status::InterruptionWatch interruption;
   add_parts(page, part_sections({file, command_line::point_option(arguments, file.point_labels())}, parts,
-                                budget, interruption.token()));
-  const bool is_interrupted = interruption.token().stop_requested();
-  if (is_interrupted) page.state = report::PageState::unfinished;
+                                budget, stop));
+  if (stop.stop_requested()) page.state = report::PageState::unfinished;
   command_line::write_text(output, report::html_page(page));
-  return is_interrupted ? ExitCode::interrupted : ExitCode::success;
+  return stop.stop_requested() ? ExitCode::interrupted : ExitCode::success;
 }
 
 /// The file that shows the figure, by the extension of its name. @param title of a page

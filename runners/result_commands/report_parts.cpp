@@ -137,6 +137,9 @@ report::PageSection section_of(const Part& part, const Answers& answers) {
 
 /// The answers of a part or, in place of them, why there are none.
 report::PageSection answered(const Part& part, const Asked& asked, const trials::Effort& effort) {
+  const auto stopped = [&] {
+    return std::string(effort.is_interrupted() ? "interrupted" : "the budget is not enough");
+  };
   std::string missing;
   try {
     if (effort.is_interrupted()) throw trial::Interrupted{};
@@ -147,11 +150,11 @@ report::PageSection answered(const Part& part, const Asked& asked, const trials:
     return section_of(part, part.answer(asked, effort));
   } catch (const Failure& failure) {
     if (failure.code() == ExitCode::machine_failed) throw;
-    missing = failure.what();
+    missing = failure.code() == ExitCode::interrupted ? stopped() : failure.what();
   } catch (const trials::Spent&) {
-    missing = "the budget is not enough";
+    missing = stopped();
   } catch (const trial::Interrupted&) {
-    missing = effort.is_interrupted() ? "interrupted" : "the budget is not enough";
+    missing = stopped();
   }
   return {std::string(part.name),
           part.question,
@@ -210,7 +213,9 @@ std::vector<report::PageSection> part_sections(const PartsSubject& subject,
   const summary::StudySummary summary = summary::summarise(subject.file);
   const Asked asked{subject.file, summary, summary::choose_point(summary, subject.point)};
   const trials::Effort effort = trials::Effort(stop).share(budget.trials, budget.seconds);
-  const std::optional<double> speed = speed_of(asked, effort);
+  const bool simulates =
+      std::ranges::any_of(names, [&](std::string_view name) { return part_named(name).trials(asked) > 0; });
+  const std::optional<double> speed = simulates ? speed_of(asked, effort) : std::nullopt;
   const auto seconds_of = [&](std::string_view name) {
     const auto trials = std::min(part_named(name).trials(asked), effort.trials_left());
     return std::min(static_cast<double>(trials) / *speed, effort.seconds_left());

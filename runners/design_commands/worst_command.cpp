@@ -177,7 +177,7 @@ document::AnswerDescription<Search> worst_answer() {
       .sentence([](const Search& s) {
         return fmt::format(
             "simulated: the trials of the study, then machines that are sought, by up to 64 "
-            "trials each on the same random numbers; each machine that is named by {} new moves",
+            "trials each on the same random numbers; the machines of this answer by {} new moves each",
             s.found.in_box.moves);
       })
       .sentence(replay_sentence);

@@ -145,12 +145,11 @@ std::string plain_sentence(Of r) {
 }
 
 std::string simulated_sentence(Of r) {
-  return fmt::format("simulated: {} trials, each on a machine of its own: {} plain ones{}",
-                     r.answer.state.trials, r.answer.state.plain_trials,
-                     is_learned(r.answer)
-                         ? ", others driven towards failures, and others drawn from what these showed, "
-                           "and weighted"
-                         : "");
+  return fmt::format(
+      "simulated: {} trials, each on a machine of its own: {} plain ones, the others driven towards "
+      "failures{}",
+      r.answer.state.trials, r.answer.state.plain_trials,
+      is_learned(r.answer) ? ", or drawn from what these showed and weighted" : "");
 }
 
 std::string premise_sentence(Of r) {

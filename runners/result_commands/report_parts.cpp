@@ -233,8 +233,7 @@ std::vector<report::PageSection> part_sections(const PartsSubject& subject,
   status::StatusLine line;
   for (std::size_t i = 0; i < names.size(); ++i) {
     line.show([&] { return std::string(names[i]); });
-    sections.push_back(
-        answered(part_named(names[i]), asked, effort.part(std::ssize(names) - static_cast<std::int64_t>(i))));
+    sections.push_back(answered(part_named(names[i]), asked, effort.part(i + 1 < names.size() ? 2 : 1)));
   }
   return sections;
 }

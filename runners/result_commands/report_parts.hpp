@@ -30,7 +30,7 @@ struct PartsSubject {
 /// cannot be answered says why.
 ///
 ///     tell how long each takes at most, by the trials that it runs and the speed of the study here
-///     for each part: answer it within an equal share of what is left of the budget
+///     for each part: answer it within half of what is left of the budget, the last one within all
 ///
 /// @param stop leaves out the part that is in work, and the later ones
 std::vector<report::PageSection> part_sections(const PartsSubject& subject,

@@ -45,7 +45,8 @@ TEST(Effort, NeverSpendsMoreTrialsThanItHas) {
   }
 }
 
-// Equal parts, taken one after the other, are all that there is; what one of them leaves goes to the later ones.
+// Equal parts, taken one after the other, are all that there is; what one of them leaves goes to the later
+// ones.
 TEST(Effort, IsDividedIntoEqualParts) {
   const Effort whole = Effort().share(1000, 60.0);
   for (std::int64_t left = 4; left > 0; --left) {

@@ -58,6 +58,16 @@ std::string label_of_point(const sensitivity::PointSensitivity& point) {
                                       : point.label;
 }
 
+/// The names of the conditions, in order.
+std::vector<std::string> conditions_of(const sensitivity::StudySensitivity& study) {
+  std::vector<std::string> names;
+  for (const sensitivity::PointSensitivity& point : study.points) {
+    if (point.condition && std::ranges::find(names, *point.condition) == names.end())
+      names.push_back(*point.condition);
+  }
+  return names;
+}
+
 Figure figure_for(const sensitivity::StudySensitivity& study, const OutputAtPoint& shown,
                   bool several_points) {
   const bool total = study.from_saltelli;
@@ -111,7 +121,14 @@ Figure figure_for(const sensitivity::StudySensitivity& study, const OutputAtPoin
       "sensitivity", fmt::format("sensitivity-{}{}", name, of_point),
       fmt::format("Which parameters decide {}{}?", name == "success" ? "" : "the ", label_text(name)),
       caption, {std::move(data)});
-  if (!total) figure.specification["encoding"]["color"]["legend"] = nullptr;
+  if (!total) {
+    ordered_json& colour = figure.specification["encoding"]["color"];
+    colour["legend"] = nullptr;
+    if (point.condition) {
+      colour["field"] = "condition";
+      colour_by_name(colour, conditions_of(study));
+    }
+  }
   set_rows(figure, most, 28);
   divide_into_panels(figure, "condition", panels);
   return figure;

@@ -225,8 +225,14 @@ std::optional<Figure> bode_figure(const ReportedStudy& reported) {
   Figure figure = figure_of("bode", "bode", "How much margin do the loops have?",
                             bode_caption(reported, parameters, magnitudes),
                             {curve_data(curves), margin_data(curves), reversal_levels(phases)});
-  for (ordered_json& part : figure.specification["vconcat"])
+  // Not the colours of conditions.
+  const ordered_json colours{"var(--s7)", "var(--s5)", "var(--s4)", "var(--s8)"};
+  ordered_json labels = ordered_json::array();
+  for (const LoopCurve& curve : curves) labels.push_back(curve.label);
+  for (ordered_json& part : figure.specification["vconcat"]) {
     part["encoding"]["x"]["scale"]["domain"] = {datum(frequencies.low), datum(frequencies.high)};
+    part["encoding"]["color"]["scale"] = {{"domain", labels}, {"range", colours}};
+  }
   ordered_json& magnitude = figure.specification["vconcat"][0]["layer"][1]["encoding"]["y"];
   magnitude["scale"]["domain"] = {magnitudes.low, magnitudes.high};
   magnitude["axis"]["values"] = ticks_between(magnitudes, {10.0, 20.0, 40.0});

@@ -144,6 +144,13 @@ void add_boundary(FigureData& boundaries, const std::string& line, const std::ve
   }
 }
 
+void colour_by_name(nlohmann::ordered_json& colour, const std::vector<std::string>& names) {
+  constexpr std::size_t colours = 8;
+  nlohmann::ordered_json range = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < names.size(); ++i) range.push_back(fmt::format("var(--s{})", i % colours + 1));
+  colour["scale"] = {{"domain", names}, {"range", std::move(range)}};
+}
+
 nlohmann::ordered_json datum(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
   const double rounded = text::round_to_digits(value, digits);

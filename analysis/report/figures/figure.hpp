@@ -61,6 +61,9 @@ FigureData boundaries_data();
 void add_boundary(FigureData& boundaries, const std::string& line, const std::vector<CellEdges>& cells,
                   std::size_t columns, const std::function<bool(std::size_t)>& has);
 
+/// Gives each name of a colour channel its colour, whichever of them a figure shows.
+void colour_by_name(nlohmann::ordered_json& colour, const std::vector<std::string>& names);
+
 /// A number for a dataset, with `digits` significant digits; null for NaN and infinities.
 nlohmann::ordered_json datum(double value, int digits = 6);
 

@@ -255,15 +255,11 @@ Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
 }  // namespace
 
 void colour_conditions(nlohmann::ordered_json& colour, const ReportedStudy& reported) {
-  constexpr std::size_t colours = 8;
-  if (!has_conditions(reported)) {
+  if (has_conditions(reported)) {
+    colour_by_name(colour, reported.study.conditions);
+  } else {
     colour["legend"] = nullptr;
-    return;
   }
-  nlohmann::ordered_json range = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < reported.study.conditions.size(); ++i)
-    range.push_back(fmt::format("var(--s{})", i % colours + 1));
-  colour["scale"] = {{"domain", reported.study.conditions}, {"range", std::move(range)}};
 }
 
 std::optional<Figure> success_figure(const ReportedStudy& reported) {

@@ -95,8 +95,7 @@ TEST_F(Tune, ProvesTheGainsThatItFinds) {
 
   // The page, of which the browser test looks at every figure.
   const std::string page = folder_.read("page.html");
-  for (const char* const part :
-       {"tuning-frontier", "tuning-room", "response", "id=\"overview\""})
+  for (const char* const part : {"tuning-frontier", "tuning-room", "response", "id=\"overview\""})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   const Json frontier = answer["frontier"];
   for (std::size_t i = 1; i < frontier.size(); ++i) {

@@ -67,11 +67,12 @@ study::Study axis(const std::string& more) {
 }
 
 const std::string long_controller =
-    "command: {targets: [3, 9, 27, 81, 0], hold: 0.15}\n"
+    "command: {targets: [3, 9, 27, 81, 0], hold: 0.15, profile: {shape: trapezoidal}}\n"
     "controller: {kp: 1.0e-4, ki: 2.0e-5, kd: 1.0e-4, delay: 1, derivative_cutoff: 400,\n"
     "  filters: [{notch: {frequency: 400, damping: 0.1, depth: 0.2}}, {lowpass: {frequency: 900, damping: "
     "0.7}}],\n"
-    "  observer: {bandwidth: 30}, deadband: {enter: 1, leave: 2}, integrator_zone: 40}\n"
+    "  observer: {bandwidth: 30}, deadband: {enter: 1, leave: 2}, integrator_zone: 40,\n"
+    "  feedforward: {velocity: 0.1, acceleration: 5.0e-4, friction: 0.2}}\n"
     "plant: {load: {inertia: 1.0e-4}}\namplifier: {bandwidth: 500}\n"
     "disturbance: {torque: 0.01, vibration: [{amplitude: 0.002, frequency: 50}]}\n"
     "encoder: {fine_errors: {noise: 0.2}}\n";
@@ -116,10 +117,10 @@ TEST(AxisDrawing, NamesEachBlockThatIsOnWithItsNumbers) {
   for (const std::string& line : diagram.controller->lines) control += line + "\n";
   for (const char* const words :
        {"kp 0.0001", "ki 2e-5", "notch 400", "low-pass 900", "observer 30", "derivative low-pass 400",
-        "integral frozen within 1", "integrates within 40", "delay 1"})
+        "integral frozen within 1", "feed-forward velocity", "integrates within 40", "delay 1"})
     EXPECT_NE(control.find(words), std::string::npos) << words << "\n" << control;
   EXPECT_EQ(control.find("none"), std::string::npos) << control;
-  EXPECT_EQ(control.find("feed-forward"), std::string::npos) << control;
+  EXPECT_EQ(control.find("dither"), std::string::npos) << control;
   EXPECT_EQ(diagram.friction->title, "Friction: presliding");
   EXPECT_EQ(diagram.disturbance->lines.size(), 2U);
 }

@@ -1,12 +1,14 @@
 // The first screen: what is required and whether it is met, the gains in the open, and what is assumed.
 #include "analysis/report/first_screen/first_screen.hpp"
 
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "analysis/report/first_screen/quantity.hpp"
 #include "analysis/report/first_screen/requirements.hpp"
+#include "analysis/summary/move_behaviour.hpp"
 #include "tests/analysis/report/run_studies.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -64,6 +66,21 @@ TEST(FirstScreen, HasAVerdictOnEachGoalUnderEachCondition) {
       << html;
   for (const char* const head : {"overshoot (95 %)", "peak torque", "moves that saturate"})
     EXPECT_EQ(times_in(html, std::string("data-head=\"") + head), 4U) << head;
+}
+
+TEST(FirstScreen, HasTheMovesOfEachGoalUnderItsOwnCondition) {
+  const TemporaryFolder folder;
+  testing::run_study_file(folder / "a.h5", two_goals);
+  const reading::AllTrialsFile file(folder / "a.h5");
+  const std::string html = first_screen(reported_study(file), {}).html;
+  std::size_t at = 0;
+  std::set<double> peaks;
+  for (const summary::MoveBehaviour& row : summary::behaviour_in(file, file.study())) {
+    peaks.insert(row.peak_torque.max);
+    at = html.find("data-head=\"peak torque\">" + quantity_text(row.peak_torque.max, "N m") + ",", at + 1);
+    ASSERT_NE(at, std::string::npos) << *row.goal << " " << *row.condition;
+  }
+  EXPECT_GE(peaks.size(), 3U);
 }
 
 TEST(FirstScreen, HidesNoGain) {

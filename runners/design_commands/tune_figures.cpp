@@ -45,6 +45,7 @@ FigureData cells_data(const TuningMap& map, const std::vector<study::FreeParamet
 
 FigureData boundaries_of(const TuningMap& map) {
   std::vector<report::CellEdges> cells;
+  cells.reserve(map.cells.size());
   for (const MapCell& one : map.cells) cells.push_back({one.x_from, one.x_to, one.y_from, one.y_to});
   const auto side = static_cast<std::size_t>(std::llround(std::sqrt(static_cast<double>(cells.size()))));
   FigureData data = report::boundaries_data();

@@ -293,6 +293,7 @@ std::optional<Figure> settled_figure(const ReportedStudy& reported) {
   add_goals(figure, subjects);
   if (!has_conditions(reported) && !with_claim) return figure;
   std::vector<FigurePanel> panels;
+  panels.reserve(subjects.size());
   for (const SettledSubject& one : subjects)
     panels.push_back({one.name, one.claim ? goal_text(one) : one.name});
   if (panels.size() > 1) figure.specification["height"] = 190;

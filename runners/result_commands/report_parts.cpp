@@ -114,6 +114,7 @@ const Part& part_named(std::string_view name) {
 
 std::string all_names() {
   std::vector<std::string_view> names;
+  names.reserve(all_parts.size());
   for (const Part& part : all_parts) names.push_back(part.name);
   return fmt::format("{}", fmt::join(names, ","));
 }

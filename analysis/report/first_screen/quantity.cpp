@@ -5,11 +5,16 @@
 namespace zerocount::report {
 namespace {
 
-/// Without places for a line break.
+/// Without places for a line break but behind a comma and beside "…".
 std::string unbroken(std::string text) {
-  constexpr std::string_view no_break_space = "\u00a0";
+  constexpr std::string_view no_break_space = "\u00a0", to = "…";
+  const auto may_break = [&](std::size_t at) {
+    const std::string_view before = std::string_view(text).substr(0, at);
+    return before.ends_with(',') || before.ends_with(to) ||
+           std::string_view(text).substr(at + 1).starts_with(to);
+  };
   for (std::size_t at = text.find(' '); at != std::string::npos; at = text.find(' ', at + 1))
-    text.replace(at, 1, no_break_space);
+    if (!may_break(at)) text.replace(at, 1, no_break_space);
   return text;
 }
 

@@ -131,6 +131,7 @@ std::vector<document::Figure> limits_figures(const std::vector<Limit>& limits) {
                              {"rate", "rate of the goal", "1"},
                              {"low", "lower 95 % bound", "1"},
                              {"high", "upper 95 % bound", "1"}}};
+  if (limits.empty()) return {};
   double lowest = limits.front().asked;
   for (const Limit& one : limits) {
     if (!one.rate) continue;

@@ -230,11 +230,11 @@ ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
   task.settings.proven = [&](const tuning::TuneAnswer& proven) {
     if (task.manifest) command_line::write_text(*task.manifest, tuned_manifest(task.study, proven));
     printer.print_proven(tuning_of(proven));
-    live.show(tuning_sections(tuning_of(proven)));
+    if (task.watched) live.show(tuning_sections(tuning_of(proven)));
   };
   task.settings.ready = [&](tuning::Extra extra, const tuning::TuneAnswer& answer) {
     printer.print_extra(extra, tuning_of(answer));
-    live.show(tuning_sections(tuning_of(answer)));
+    if (task.watched) live.show(tuning_sections(tuning_of(answer)));
   };
   return live.during([&] {
     const tuning::TuneAnswer found = (task.is_of_file ? tuning::describe_tuned : tuning::tune)(

@@ -23,6 +23,7 @@ namespace zerocount::summary {
 namespace {
 
 constexpr std::int64_t jerks_at_once = 65536;
+constexpr std::int64_t points_of_block = 32;  // whose sums take 30 kB each
 
 [[noreturn]] void fail(const reading::AllTrialsFile& file, const std::string& what) {
   throw Failure(ExitCode::bad_data, fmt::format("{}: {}", file.path().string(), what));
@@ -86,18 +87,21 @@ struct Block {
   std::shared_ptr<const std::vector<trial::MoveOutcome>> chunk;
 };
 
-/// Divides the trials `rows` of a file into blocks: the chunks of the file, or parts with not too many jerks.
+/// Divides the trials `rows` of a file into blocks: the chunks of the file, or parts with not too many jerks
+/// and points.
 class BlockReader {
  public:
-  BlockReader(const reading::AllTrialsFile& file, layout::RowRange rows)
-      : file_(file), rows_(rows), jerks_(file, rows) {}
+  /// @param trials at each point
+  BlockReader(const reading::AllTrialsFile& file, layout::RowRange rows, std::int64_t trials)
+      : file_(file), trials_(trials), rows_(rows), jerks_(file, rows) {}
 
   std::optional<Block> next() {
     if (rows_.count == 0) return std::nullopt;
     if (unread_.empty()) read_chunk();
     const auto moves = static_cast<std::size_t>(file_.moves());
     Block block{{rows_.first, 0}, unread_, {}, chunk_};
-    while (!unread_.empty() && std::ssize(block.jerks) < jerks_at_once) {
+    const std::int64_t end = (rows_.first / trials_ + points_of_block) * trials_;
+    while (!unread_.empty() && block.rows.end() < end && std::ssize(block.jerks) < jerks_at_once) {
       const auto jerks = jerks_.take(block.rows.end(), jerks_of(unread_.first(moves)));
       block.jerks.insert(block.jerks.end(), jerks.begin(), jerks.end());
       unread_ = unread_.subspan(moves);
@@ -120,6 +124,7 @@ class BlockReader {
   }
 
   const reading::AllTrialsFile& file_;
+  std::int64_t trials_;
   layout::RowRange rows_;  ///< in no block yet
   JerkStream jerks_;
   std::shared_ptr<const std::vector<trial::MoveOutcome>> chunk_;
@@ -182,7 +187,7 @@ StudyAccumulator::StudyAccumulator(const study::Study& study, const Wanted& want
 
 void StudyAccumulator::add(const reading::AllTrialsFile& file, layout::RowRange rows) {
   namespace tbb = oneapi::tbb;
-  BlockReader reader(file, rows);
+  BlockReader reader(file, rows, study_.trials);
   const auto read = [&](tbb::flow_control& control) -> std::shared_ptr<Block> {
     std::optional<Block> block = reader.next();
     if (!block) {
@@ -205,12 +210,16 @@ void StudyAccumulator::add(const reading::AllTrialsFile& file, layout::RowRange 
       }
     }
   };
-  tbb::parallel_pipeline(
-      2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
-      tbb::make_filter<void, std::shared_ptr<Block>>(tbb::filter_mode::serial_in_order, read) &
-          tbb::make_filter<std::shared_ptr<Block>, std::shared_ptr<BlockSums>>(tbb::filter_mode::parallel,
-                                                                               sum) &
-          tbb::make_filter<std::shared_ptr<BlockSums>, void>(tbb::filter_mode::serial_in_order, add_sums));
+  const auto pipeline = [&] {
+    tbb::parallel_pipeline(
+        2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
+        tbb::make_filter<void, std::shared_ptr<Block>>(tbb::filter_mode::serial_in_order, read) &
+            tbb::make_filter<std::shared_ptr<Block>, std::shared_ptr<BlockSums>>(tbb::filter_mode::parallel,
+                                                                                 sum) &
+            tbb::make_filter<std::shared_ptr<BlockSums>, void>(tbb::filter_mode::serial_in_order, add_sums));
+  };
+  // A thread that waits here must not begin another task meanwhile, such as a block of trials.
+  tbb::this_task_arena::isolate(pipeline);
 }
 
 void StudyAccumulator::add(const reading::ResultsFile& file, std::int64_t number) {

@@ -105,8 +105,11 @@ LivePage::LivePage(std::optional<fs::path> place, report::ReportPage frame, Sect
 status::Listener LivePage::listener() {
   if (!place_) return {};
   return [this](std::string text) {
-    const std::scoped_lock lock(mutex_);
-    text_ = std::move(text);
+    {
+      const std::scoped_lock lock(mutex_);
+      text_ = std::move(text);
+    }
+    call_so_far();
   };
 }
 
@@ -141,7 +144,6 @@ void LivePage::show_until(const std::stop_token& stop) {
     never.wait_for(lock, stop, std::chrono::seconds(report::live_interval), [] { return false; });
     if (stop.stop_requested()) return;
     try {
-      call_so_far();
       write(report::PageState::live);
     } catch (const std::exception& error) {
       const auto* const failure = dynamic_cast<const Failure*>(&error);

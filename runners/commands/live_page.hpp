@@ -41,9 +41,9 @@ std::optional<std::filesystem::path> watched_page(const command_line::Arguments&
 
 /// A page that shows long work while it is done: how far it is, and the answer so far.
 ///
-///     at once, then every 2 s, in a thread of its own:
+///     when the work tells how far it is, in its thread, because the library of its files has one at a time:
 ///       show(so_far()), unless that took more than 2 % of a processor's time
-///       write the page to PAGE.part, rename it to PAGE
+///     at once, then every 2 s, in a thread of its own: write the page to PAGE.part, rename it to PAGE
 ///     finish(page): that is the page
 ///     fail(why): the page says why there is no answer, below it the answer so far
 ///
@@ -55,8 +55,8 @@ class LivePage {
 
   /// @param place nothing: there is no page, and nothing is done
   /// @param frame title, subtitle and kind of the page
-  /// @param so_far called in the thread of the page; its Failure is shown; empty: only show() tells the
-  /// answer
+  /// @param so_far called in the thread that calls listener(); its Failure is shown; empty: only show() tells
+  /// the answer
   /// @throws Failure (machine_failed) if the page cannot be written
   LivePage(std::optional<std::filesystem::path> place, report::ReportPage frame, Sections so_far);
   LivePage(const LivePage&) = delete;

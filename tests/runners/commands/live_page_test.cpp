@@ -113,7 +113,7 @@ TEST_F(LivePage, OfATuningIsItsReportAtTheEnd) {
   const std::string page = folder_.read("watched.html");
   EXPECT_EQ(page, folder_.read("report.html"));
   for (const char* const part :
-       {"id=\"tuning\"", "id=\"tuning-limits\"", "figure-tuning-room", "id=\"verdict\""})
+       {"id=\"tuning\"", "id=\"tuning-limits\"", "figure-tuning-room", "id=\"overview\""})
     EXPECT_TRUE(has(page, part));
   EXPECT_FALSE(has(page, reload));
 }

@@ -109,7 +109,7 @@ const std::vector<Answer> answers{
      {"a move misses the goal: |error| ≤ 2 counts for good"},
      {"a move does not end at zero counts"}},
     {{"report", "@.h5", "-o", "@.html"},
-     {"The goal:", "machines in goal", "rigs w/o miss", "Which design points meet the goal?",
+     {"whether the goal is met", "machines in goal", "rigs w/o miss", "Which design points meet the goal?",
       "Which parameters decide the goal?"},
      {"rigs without failure", "How many trials succeed?", "Which parameters decide success?"}},
 };

@@ -74,7 +74,7 @@ TEST_F(ReportParts, AreTheAnswersOfTheirCommands) {
 TEST_F(ReportParts, SayWhyTheyAreMissing) {
   run_study("");
   const std::string without = page({"--with", "worst,learn,rare"});
-  EXPECT_NE(without.find("<section id=\"verdict\">"), std::string::npos);
+  EXPECT_NE(without.find("<section id=\"overview\">"), std::string::npos);
   EXPECT_NE(section_in(without, "worst").find("Left out: "), std::string::npos);
   EXPECT_NE(section_in(without, "learn").find("nothing differs between worlds"), std::string::npos);
   EXPECT_NE(section_in(without, "rare").find("it draws nothing for each trial"), std::string::npos);

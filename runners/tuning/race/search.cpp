@@ -367,6 +367,7 @@ class Search {
     };
     const auto most = static_cast<std::size_t>(max_after(problem_.size, units));
     std::vector<char> chosen;
+    chosen.reserve(candidates.size());
     for (const Candidate& one : candidates) chosen.push_back(std::ssize(one.units) > units ? 1 : 0);
     std::size_t count = 0;
     const auto choose = [&](std::size_t i) {

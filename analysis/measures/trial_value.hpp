@@ -25,14 +25,19 @@ bool has_targets(const layout::Measure& measure, std::span<const trial::MoveOutc
 double value_of_trial(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves,
                       const std::function<double()>& late = {});
 
+/// Of these global rows those in the first chunk of the file's outcomes.
+inline layout::RowRange rows_of_first_chunk(const reading::AllTrialsFile& file, layout::RowRange rows) {
+  const std::int64_t chunk = layout::chunk_rows(file.moves());
+  const std::int64_t in_chunk = (rows.first - file.rows().first) % chunk;
+  return {rows.first, std::min(chunk - in_chunk, rows.count)};
+}
+
 /// Calls visit(block, outcomes) for the trials of these global rows in order. A block ends where a chunk of
 /// the file does. `outcomes` is a span of the outcomes of its moves, [trial, move].
 template <class Visit>
 void visit_blocks(const reading::AllTrialsFile& file, layout::RowRange rows, const Visit& visit) {
-  const std::int64_t chunk = layout::chunk_rows(file.moves());
-  for (layout::RowRange block{rows.first, 0}; block.first < rows.end(); block.first = block.end()) {
-    const std::int64_t in_file = block.first - file.rows().first;
-    block.count = std::min(chunk - in_file % chunk, rows.end() - block.first);
+  for (layout::RowRange block; rows.count > 0; rows = {block.end(), rows.count - block.count}) {
+    block = rows_of_first_chunk(file, rows);
     const std::vector<trial::MoveOutcome> outcomes = file.outcomes(block);
     visit(block, std::span(outcomes));
   }

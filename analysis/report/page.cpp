@@ -74,7 +74,7 @@ std::string script_hashes(const std::vector<std::string>& sources) {
   return text;
 }
 
-/// What page.html has in its head, where it is not finished.
+/// The mark of an unfinished page, in its head.
 constexpr std::string_view unfinished_mark = "<meta name=\"zerocount\" content=\"unfinished\">\n";
 
 std::string state_elements(PageState state) {

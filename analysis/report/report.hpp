@@ -16,7 +16,7 @@
 /// The report on a results file, and its single figures.
 namespace zerocount::report {
 
-/// What a tuning tells of the study that proves it.
+/// The parts of a page that come from a tuning.
 struct TuningPart {
   FirstScreenParts first_screen{};
   std::vector<PageSection> sections{};  ///< what follows the first screen

@@ -118,7 +118,7 @@ void add_sentences(std::vector<std::string>& lines, const std::string& text) {
   }
 }
 
-/// What the table of requirements does not say of the goals.
+/// Conclusions on the goals that the table of requirements does not contain.
 void add_goal(std::vector<std::string>& lines, const ReportedStudy& reported,
               const summary::JudgedPoint& judged) {
   const goal::Question& question = reported.summary.question;

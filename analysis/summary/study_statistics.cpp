@@ -17,6 +17,7 @@
 
 #include "analysis/iso230/results_group.hpp"
 #include "analysis/measures/point_columns.hpp"
+#include "analysis/measures/trial_value.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::summary {
@@ -116,10 +117,8 @@ class BlockReader {
 
  private:
   void read_chunk() {
-    const std::int64_t chunk = layout::chunk_rows(file_.moves());
-    const std::int64_t in_chunk = (rows_.first - file_.rows().first) % chunk;
     chunk_ = std::make_shared<std::vector<trial::MoveOutcome>>(
-        file_.outcomes({rows_.first, std::min(chunk - in_chunk, rows_.count)}));
+        file_.outcomes(measures::rows_of_first_chunk(file_, rows_)));
     unread_ = *chunk_;
   }
 

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr double part_of_so_far = 0.02;  // of the time of a processor
 
-/// That the calling thread has used, s.
+/// Processor time of the calling thread, s.
 double processor_seconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

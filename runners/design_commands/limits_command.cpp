@@ -172,7 +172,7 @@ std::vector<LimitRow> addition_rows(const PointLimits& found) {
   return rows;
 }
 
-/// What the rates are of.
+/// Tells what was simulated.
 std::string simulated_sentence(const PointLimits& found) {
   const bool on_rigs = found.study.rigs > 0;
   return fmt::format(

@@ -119,7 +119,7 @@ std::string all_names() {
   return fmt::format("{}", fmt::join(names, ","));
 }
 
-/// What the answers of a part are, as HTML and figures.
+/// The answers of a part as HTML and figures.
 report::PageSection section_of(const Part& part, const Answers& answers) {
   report::PageSection section{std::string(part.name), part.question, "", {}};
   for (const auto& [title, answer] : answers) {

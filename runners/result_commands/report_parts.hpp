@@ -20,7 +20,7 @@ std::vector<command_line::OptionSpec> part_options();
 /// @throws Failure (bad_input) for another name
 std::vector<std::string_view> parts_option(const command_line::Arguments& arguments);
 
-/// What the parts are of.
+/// The study and point of the parts.
 struct PartsSubject {
   const reading::AllTrialsFile& file;
   std::optional<std::int64_t> point;  ///< default: the best

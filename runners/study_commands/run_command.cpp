@@ -128,7 +128,7 @@ study_run::ForeignShards foreign_shards(const RunRequest& request) {
   return request.force ? study_run::ForeignShards::remove : study_run::ForeignShards::refuse;
 }
 
-/// What the trials show that are finished so far.
+/// The summary of the trials that are finished so far.
 std::vector<report::PageSection> sections_so_far(const fs::path& output) {
   const summary::StudySummary summary =
       summary::summarise_unfinished(output, statistics::summary_confidence, false);

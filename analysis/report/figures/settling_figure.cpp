@@ -163,7 +163,7 @@ std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
   return figure;
 }
 
-/// What moves settle in: a goal, or a band.
+/// A goal or an error band in which moves settle.
 struct SettledSubject {
   std::string name;                    ///< of the goal; of a band "±1 count"
   std::string precision;               ///< "1 count", "10 nm"

@@ -27,7 +27,7 @@ struct ShownLine {
   const ReportedStudy& study;
   goal::Question question;
 
-  /// What the goal claims: the proportion of machines, or of moves; without one, of trials.
+  /// Proportion of machines or moves that the goal claims; without a goal, of trials.
   goal::QuestionRate rate(std::int64_t point) const {
     const measures::PointSummary& shown = point_of(study, point);
     if (!goal::is_of_machines(question)) return goal::rate_of(question, shown);

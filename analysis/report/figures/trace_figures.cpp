@@ -80,7 +80,7 @@ double half_width(const std::optional<study::Goal>& goal, double resolution) {
   return (static_cast<double>(goal ? goal->band : 0) + 0.5) * resolution;
 }
 
-/// What the goals ask for: a box for each move that they are about, from `within` to its end.
+/// Goals as boxes, one for each move that they are about, from `within` to its end.
 FigureData boxes_of(const goal::Question& question, const trial::TrialParameters& parameters) {
   FigureData data{"goals",
                   {{"goal", "goal", ""},
@@ -144,7 +144,7 @@ std::vector<SampleTrial> sample_trials(const ReportedStudy& reported) {
                       .index = median->second,
                       .buckets = buckets,
                       .condition = condition});
-    // Of equals the first.
+    // Of several trials that do equally badly the first is shown.
     const auto worst = std::ranges::max_element(ranked[i], [](const auto& a, const auto& b) {
       return std::pair(a.first, -a.second) < std::pair(b.first, -b.second);
     });

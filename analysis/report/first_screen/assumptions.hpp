@@ -7,8 +7,8 @@
 
 namespace zerocount::report {
 
-/// What the trials of a design point rest on, by its source: measured, from a table of samples, given in the
-/// manifest, defaults; then the effects of a real axis that are stated to be absent, and those that are
+/// Assumptions of the trials of a design point by their source: measured, from a table of samples, given in
+/// the manifest, defaults; then the effects of a real axis that are stated to be absent, and those that are
 /// assumed to be.
 std::string assumptions_html(const study::Study& study, std::int64_t point);
 

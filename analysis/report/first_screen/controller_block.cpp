@@ -55,7 +55,7 @@ class PhaseLines {
     if (values_.can_be_positive(path_ + std::string(key)))
       lines.push_back(fmt::format("{} {}", name, text(key)));
   }
-  /// Of a parameter that can be "none".
+  /// Adds a parameter that can be "none".
   bool add_unless_none(std::string_view name, std::string_view key) {
     if (values_.is_none(path_ + std::string(key))) return false;
     lines.push_back(fmt::format("{} {}", name, text(key)));

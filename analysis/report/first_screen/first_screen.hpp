@@ -9,7 +9,7 @@
 
 namespace zerocount::report {
 
-/// What the results file alone does not tell. What is not given is made from the file.
+/// Parts that the results file does not contain. A part that is not given is made from the file.
 struct FirstScreenParts {
   std::string warnings{};  ///< HTML, above all
   std::string headline{};

@@ -146,7 +146,7 @@ std::vector<RequirementRow> rows_of_goal(std::size_t number, const ReportedStudy
   return rows;
 }
 
-/// What the rows below it are of.
+/// Head of the rows below it: their goal.
 std::string title_of(std::size_t number, const ReportedStudy& reported) {
   const std::vector<study::Goal>& goals = reported.study.goals;
   if (number < goals.size()) {

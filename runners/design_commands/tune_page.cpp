@@ -87,6 +87,10 @@ std::vector<report::PageSection> sections_of(const Tuning& tuning,
   return sections;
 }
 
+std::string margins_html(const Tuning& tuning) {
+  return document::html(margins_answer().of(tuning, ExitCode::success, document::Audience::people));
+}
+
 }  // namespace
 
 report::ReportPage frame_of(const study::Study& study) {
@@ -105,6 +109,13 @@ std::vector<report::PageSection> tuning_sections(const Tuning& tuning) {
   return sections_of(tuning, proven_answer());
 }
 
+std::string tuned_margins(const reading::AllTrialsFile& file) {
+  const study::Study& study = file.study();
+  if (!study.tuning || study::point_count(study) > 1) return "";
+  const tuning::TuneAnswer answer = tuning::margins_in(file);
+  return answer.margins ? margins_html({answer, study, file.path()}) : "";
+}
+
 report::ReportPage tuning_page(Tuning tuning) {
   tuning.drawn = true;
   report::ReportPage page = frame_of(tuning.study);
@@ -112,8 +123,7 @@ report::ReportPage tuning_page(Tuning tuning) {
     report::ReportOptions options;
     options.tuning = {.first_screen = {.headline = page_headline(tuning),
                                        .claims = tuning.answer.proof->claims,
-                                       .margins = document::html(margins_answer().of(
-                                           tuning, ExitCode::success, document::Audience::people))},
+                                       .margins = margins_html(tuning)},
                       .sections = sections_of(tuning, proof_answer())};
     add(options.tuning->sections, "tuning-search", "What was searched?", closing_answer(), tuning);
     report::ReportPage study = commands::verified_report(reading::AllTrialsFile(tuning.output), options).page;

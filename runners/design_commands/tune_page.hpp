@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analysis/report/page.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "runners/design_commands/tune_answer.hpp"
 
 namespace zerocount::design_commands {
@@ -23,6 +24,10 @@ report::PageSection search_section(const SearchMoment& moment);
 
 /// The proven answer, and the extras that are there, each under its question.
 std::vector<report::PageSection> tuning_sections(const Tuning& tuning);
+
+/// HTML of the margins that tuning gives the loops of its one point, with the spreads that it adds; empty for
+/// a study that says nothing of tuning.
+std::string tuned_margins(const reading::AllTrialsFile& file);
 
 /// These sections with their figures, and the search; then the report on the results file of the proof, where
 /// there is one.

@@ -30,6 +30,9 @@ std::string unproven_headline(const TuneAnswer& answer) {
                    "undecided: of {} points that were tried some keep the margins, but the search lost them "
                    "to faster ones that do not; a larger --budget may find them",
                    answer.examined)
+         : !answer.refusal.empty()
+             ? fmt::format("unreachable in these ranges: none of {} points that were tried is allowed: {}",
+                           answer.examined, answer.refusal)
              : fmt::format("unreachable in these ranges: none of {} points that were tried keeps the margins",
                            answer.examined);
 }
@@ -59,24 +62,33 @@ std::string met_headline(Of tuning) {
   return text + study::condition_text(study, static_cast<std::int64_t>(worst.condition)) + " by the least";
 }
 
-std::string headline_of(Of tuning) {
-  if (!tuning.answer.proof) return unproven_headline(tuning.answer);
+/// "at the best values found, controller.ki = 5000, 28.2 % of the moves meet the goal, and at least 47.4 %
+/// are wanted".
+std::string missed_by(Of tuning) {
   const std::optional<double> machines = worst_goal(tuning).machines;
   const goal::Verdict& verdict = tuning.answer.proof->verdict;
+  return fmt::format("at the best values found, {}, {:.4g} % of the {}, and at least {:g} % are wanted",
+                     tuned_text(tuning), 100.0 * (machines ? verdict.machines.value : verdict.moves.value),
+                     rated_words(tuning.study, tuning::claim_at(tuning.study, worst_claim(verdict))),
+                     100.0 * machines.value_or(worst_goal(tuning).moves));
+}
+
+std::string headline_of(Of tuning) {
+  if (!tuning.answer.proof) return unproven_headline(tuning.answer);
   switch (tuning.answer.status) {
     case goal::Status::met:
       return met_headline(tuning);
     case goal::Status::missed:
-      return fmt::format(
-          "unreachable in these ranges: at the best values found, {}, {:.4g} % of the {}, and at least {:g} "
-          "% "
-          "are wanted",
-          tuned_text(tuning), 100.0 * (machines ? verdict.machines.value : verdict.moves.value),
-          rated_words(tuning.study, tuning::claim_at(tuning.study, worst_claim(verdict))),
-          100.0 * machines.value_or(worst_goal(tuning).moves));
+      return "unreachable in these ranges: " + missed_by(tuning);
     case goal::Status::undecided:
       break;
   }
+  if (tuning.answer.proof->verdict.status == goal::Status::missed)
+    return fmt::format(
+        "undecided: the effort ended while the search still came nearer to the goal; {}; a larger --budget "
+        "may "
+        "find better ones",
+        missed_by(tuning));
   return fmt::format(
       "undecided: the trials of the proof do not decide whether the best values found, {}, meet the goal",
       tuned_text(tuning));

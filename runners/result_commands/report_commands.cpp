@@ -26,6 +26,7 @@
 #include "runners/commands/figure_picture.hpp"
 #include "runners/commands/live_page.hpp"
 #include "runners/commands/verified_report.hpp"
+#include "runners/design_commands/tune_page.hpp"
 #include "runners/result_commands/report_parts.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
@@ -81,6 +82,8 @@ report::StudyReport report_of(const command_line::Arguments& arguments, const re
     options.comparison = comparison::compare_studies(reading::AllTrialsFile(*baseline), file,
                                                      comparison::rules_of(compare, file.point_labels()));
   }
+  if (std::string margins = design_commands::tuned_margins(file); !margins.empty())
+    options.tuning = {.first_screen = {.margins = std::move(margins)}};
   if (const auto database = arguments.value("history")) options.history = history_of_study(*database, file);
   return commands::verified_report(file, std::move(options));
 }

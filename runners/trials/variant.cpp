@@ -24,18 +24,38 @@ study::Study variant_of(const study::Study& study, const std::vector<std::string
   return manifest::parse_study(study.manifest.text, study.name, all, sections::companions_of(study));
 }
 
-std::optional<study::Study> with_values(const study::Study& study, std::span<const std::string> parameters,
-                                        std::span<const double> values) {
+namespace {
+
+study::PointEdit edited(const study::Study& study, std::span<const std::string> parameters,
+                        std::span<const double> values) {
   study::PointEdit edit(study, 0);
   for (std::size_t i = 0; i < parameters.size(); ++i) edit.set(parameters[i], values[i]);
-  if (!rules::refusal_of(edit).empty()) return std::nullopt;
+  return edit;
+}
+
+std::string refusal_of_edit(const study::Study& study, const study::PointEdit& edit) {
+  std::string refusal = rules::refusal_of(edit);
   for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
     const study::ValueLimits hold = edit.limits("command.hold", condition);
-    const auto has_no_time = [&hold](const study::Goal& goal) {
-      return !rules::longer_than_the_move(goal.within, hold).empty();
-    };
-    if (std::ranges::any_of(study.goals, has_no_time)) return std::nullopt;
+    for (const study::Goal& goal : study.goals) {
+      for (const auto& fault : rules::longer_than_the_move(goal.within, hold))
+        if (refusal.empty()) refusal = fmt::format("goal: {}; expected {}", fault.what, fault.expected);
+    }
   }
+  return refusal;
+}
+
+}  // namespace
+
+std::string refusal_of_values(const study::Study& study, std::span<const std::string> parameters,
+                              std::span<const double> values) {
+  return refusal_of_edit(study, edited(study, parameters, values));
+}
+
+std::optional<study::Study> with_values(const study::Study& study, std::span<const std::string> parameters,
+                                        std::span<const double> values) {
+  const study::PointEdit edit = edited(study, parameters, values);
+  if (!refusal_of_edit(study, edit).empty()) return std::nullopt;
   return edit.study();
 }
 

@@ -20,6 +20,10 @@ std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose);
 /// @throws Failure (bad_input) as parse_study
 study::Study variant_of(const study::Study& study, const std::vector<std::string>& overrides);
 
+/// Why these values together are not allowed; empty if they are. @param parameters as with_values()
+std::string refusal_of_values(const study::Study& study, std::span<const std::string> parameters,
+                              std::span<const double> values);
+
 /// A study of one design point with these values of some of its numbers, in the units of its manifest. All
 /// random numbers stay, and so does the text of its manifest. Nothing where such values together are not
 /// allowed.

@@ -46,14 +46,16 @@ std::optional<DelayLost> delay_lost(const TunedStudy& tuned) {
     const Change later = [&](trial::TrialParameters& p) { p.controller.delay += more; };
     return seems_met(tuned.study, &later);
   };
-  constexpr double step = 0.25;
   constexpr double most = 5.0;
-  for (double more = step; more <= most; more += step) {
-    if (holds(more)) continue;
-    const double lost = last_kept(more - step, more, 3, holds);
-    return DelayLost{lost, seems_met.lost().value()};
+  constexpr double accuracy = 1.0 / 32.0;
+  double kept = 0.0;
+  for (double more = 0.25; holds(more); more = std::min(2.0 * more, most)) {
+    if (more == most) return std::nullopt;
+    kept = more;
   }
-  return std::nullopt;
+  const double lost = kept == 0.0 ? 0.25 : std::min(2.0 * kept, most);
+  return DelayLost{numerics::bisect({kept, lost}, holds, numerics::within(accuracy)).holds,
+                   seems_met.lost().value()};
 }
 
 std::optional<double> rate_in_wider_band(const TunedStudy& tuned, std::size_t goal) {

@@ -15,7 +15,7 @@
 namespace zerocount::tuning {
 namespace {
 
-constexpr std::int64_t points_of_delay = 20;  // that are simulated to find it
+constexpr std::int64_t points_of_delay = 13;  // that are simulated to find it
 constexpr std::int64_t points_of_room = 24;   // at most, of a parameter
 constexpr std::int64_t points_of_robustness = 14;
 constexpr std::int64_t points_of_limits = 24;  // usually

@@ -117,6 +117,12 @@ void StudySearch::evaluate(std::span<Candidate* const> candidates, std::int64_t 
   }
 }
 
+std::string StudySearch::refusal_of_all() const {
+  const auto is_allowed = [this](const Values& values) { return examined_if_allowed(values).has_value(); };
+  if (examined_.empty() || std::ranges::any_of(examined_, is_allowed)) return "";
+  return trials::refusal_of_values(examined_base_, names_of(free_), examined_.front());
+}
+
 bool StudySearch::may_keep(const Values& values, bool slides) const {
   const std::optional<study::Study> study = examined_if_allowed(values);
   return study && examiner_.may_keep(*study, study_.tuning->margins, slides);

@@ -46,6 +46,8 @@ class StudySearch {
   std::optional<study::Study> examined_if_allowed(const Values& values) const {
     return at_values(examined_base_, free_, values);
   }
+  /// Why the first examined point was not allowed, where none of them was; empty otherwise.
+  std::string refusal_of_all() const;
   /// Whether values keep the margins on the machines that are critical so far. @param slides whether some
   /// slide
   bool may_keep(const Values& values, bool slides) const;

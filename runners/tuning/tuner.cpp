@@ -218,6 +218,7 @@ class Tuner {
         effort_.stop());
     if (answer_.nearest && keeps(answer_.nearest->margins, study_.tuning->margins))
       answer_.status = goal::Status::undecided;
+    if (!answer_.nearest) answer_.refusal = search_.refusal_of_all();
   }
 
   void find() {
@@ -238,6 +239,7 @@ class Tuner {
     answer_.points = result_.points;
     answer_.trials = result_.trials;
     answer_.converged = result_.converged;
+    answer_.approaching = result_.approaching;
     answer_.tried = result_.tried;
     answer_.frontier = frontier_of(result_.tried, std::min(units_of_frontier, plan_.size.max_units));
     constexpr std::int64_t enough_to_tell = 1000;
@@ -368,6 +370,8 @@ class Tuner {
                         proven.attempt.number,
                         correction_of(proven.attempt.number)};
     describe_proof(std::move(run.study), reading::AllTrialsFile(settings_.output), judged, answer_);
+    if (answer_.status == goal::Status::missed && answer_.approaching)
+      answer_.status = goal::Status::undecided;
     add_rest_torque(answer_.behaviour, simulated_);
     answer_.refusals = refusals_of(answer_.behaviour, answer_.margins, study_);
   }
@@ -451,7 +455,12 @@ TuneAnswer with_extras(const study::Study& study, const TuneSettings& settings, 
   const auto find_part = [&](const std::string& name, const std::function<void()>& work) {
     if (!trials::within(effort, work)) answer.left_out.push_back(name);
   };
-  if (!answer.blind) find_part("margins", [&] { add_margins(search, slid, effort.stop(), answer); });
+  if (!answer.blind) {
+    find_part("margins", [&] {
+      add_margins(StudySearch(study, answer.free, default_search_size(study), journal, elapsed, effort), slid,
+                  effort.stop(), answer);
+    });
+  }
   find_part("torque at rest", [&] {
     add_rest_torque(answer.behaviour, simulated_behaviour(search.candidate(answer.gains), search.units(),
                                                           units_of_behaviour, effort));
@@ -466,6 +475,19 @@ TuneAnswer with_extras(const study::Study& study, const TuneSettings& settings, 
 }
 
 }  // namespace
+
+TuneAnswer margins_in(const reading::AllTrialsFile& file) {
+  const study::Study& study = file.study();
+  TuningJournal journal({}, {}, false);
+  StudySearch search(study, study.tuning->free, default_search_size(study), journal, [] { return 0.0; }, {});
+  TuneAnswer answer;
+  answer.free = study.tuning->free;
+  answer.gains = values_in_manifest(study, answer.free);
+  answer.blind = search.examiner().is_blind();
+  const bool slides = has_slid(results_in(file, study, trials::replicates_of(study, 0)));
+  if (!answer.blind) add_margins(search, slides, {}, answer);
+  return answer;
+}
 
 TuneAnswer describe_tuned(const study::Study& study, const TuneSettings& settings,
                           const std::stop_token& stop) {

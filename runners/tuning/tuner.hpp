@@ -14,6 +14,7 @@
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/summary/claims_of_point.hpp"
 #include "experiments/study/study.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "runners/status/status.hpp"
 #include "runners/tuning/answer_details.hpp"
 #include "runners/tuning/behaviour.hpp"
@@ -92,6 +93,7 @@ struct TuneAnswer {
   std::optional<double> lowest_mode;       ///< of a load, that the loops bear (LoopExaminer::lowest_mode), Hz
   bool blind{false};                       ///< the loop has no transfer function: no margins
   std::optional<NearestPoint> nearest;     ///< where no candidate keeps them
+  std::string refusal{};                   ///< why no point at all was allowed; empty if any was
   std::optional<Proof> proof;
   double criterion{0.0};  ///< by the proof
   /// Quantile study::Goal::moves of the criterion's values of the worst goal, under its worst condition.
@@ -117,6 +119,7 @@ struct TuneAnswer {
   std::int64_t points{0};             ///< that were simulated
   std::int64_t trials{0};             ///< of the search, and of those for other controls
   bool converged{false};
+  bool approaching{false};  ///< SearchResult::approaching: a proof that misses the goal does not decide it
   double seconds{0.0};
   TuneBudget budget{};
   std::int64_t spent_trials{0};       ///< of all: search, proof, and what follows
@@ -139,10 +142,15 @@ struct TuneAnswer {
 TuneAnswer tune(const study::Study& study, const TuneSettings& settings, const std::stop_token& stop);
 
 /// Makes the extras for the values that TuneSettings::output, the results file of a proof, has. Its bounds do
-/// not allow for the attempts of the tuning.
+/// not allow for the attempts of the tuning; its margins are those of margins_in().
 /// @param study of the file
 /// @throws Failure as tune()
 TuneAnswer describe_tuned(const study::Study& study, const TuneSettings& settings,
                           const std::stop_token& stop);
+
+/// The margins of the values that the file's study has, on its machines, and nothing else of the answer:
+/// those of a proof are others than the search's, and their worst may keep a little less.
+/// @param file of a study with one point and a section tune
+TuneAnswer margins_in(const reading::AllTrialsFile& file);
 
 }  // namespace zerocount::tuning

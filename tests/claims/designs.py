@@ -141,7 +141,7 @@ def main():
     cells = {}
     with concurrent.futures.ThreadPoolExecutor(wanted.jobs) as pool:
         jobs = [pool.submit(cells_of, program, manifest, wanted.budget, row, seed)
-                for row in chosen for seed in range(1, wanted.seeds + 1)]
+                for seed in range(1, wanted.seeds + 1) for row in chosen]
         for job in jobs:
             for cell, value in job.result().items():
                 cells.setdefault(cell, []).append(value)

@@ -20,6 +20,7 @@ constexpr double step_ratio = 0.8;          // from generation to generation
 constexpr int patience = 4;                 // generations without improvement
 constexpr double part_on_faces = 0.2;       // of later generations
 constexpr double min_improvement = 0.005;   // of the criterion
+constexpr double min_approach = 0.1;        // of the distance left to the goal, in `patience` generations
 constexpr double examining = 0.3;           // of the time left, at most, to find candidates of a generation
 
 // Of differential evolution.
@@ -44,6 +45,7 @@ class Search {
     int without = 0;
     while (!population_.empty()) {
       ++result_.generations;
+      margins_.push_back(best_estimate().margin);
       tell();
       result_.converged = without >= patience;
       if (!goes_on() || (result_.converged && !settings_.begins_anew)) break;
@@ -397,6 +399,16 @@ class Search {
     return now.rate > before.rate + 0.001;
   }
 
+  /// Whether some times as many generations as the last ones would reach the goal, if each came as much
+  /// nearer to it.
+  bool approaches_goal() const {
+    if (population_.empty() || result_.converged || reaches(problem_.aim, best_estimate())) return false;
+    const std::size_t back = std::min<std::size_t>(margins_.size(), patience + 1);
+    const double before = margins_[margins_.size() - back];
+    const double now = best_estimate().margin;
+    return now - before > min_approach * std::abs(now);
+  }
+
   void tell() const {
     if (!settings_.tell) return;
     settings_.tell(
@@ -411,6 +423,7 @@ class Search {
   }
 
   SearchResult finish() {
+    result_.approaching = approaches_goal();
     // Every finalist is to be fit for the proof.
     for (Candidate& one : population_) {
       if (problem_.verified(one)) result_.finalists.push_back(std::move(one));
@@ -429,6 +442,7 @@ class Search {
   std::set<Values> tried_;
   std::map<Values, Estimate> estimates_;  ///< of all that were simulated
   std::vector<Candidate> population_;     ///< the best first
+  std::vector<double> margins_;           ///< Estimate::margin of the best after each generation
   SearchResult result_;
 };
 

@@ -67,7 +67,10 @@ struct SearchResult {
   std::int64_t trials{0};
   int generations{0};
   bool converged{false};  ///< the last generations improved nothing
-  bool cut{false};        ///< the effort ended within a generation
+  /// The effort ended while the last generations came nearer to a goal that the best candidate misses: more
+  /// of it may reach the goal.
+  bool approaching{false};
+  bool cut{false};  ///< the effort ended within a generation
 };
 
 /// Seeks the best values within the effort.

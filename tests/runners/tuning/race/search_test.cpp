@@ -284,6 +284,44 @@ TEST(Search, WalksToAThinAdmissibleRegionAndAlongIt) {
   }
 }
 
+/// Whether the best candidate that a search finds misses the goal, and whether the search says that more
+/// effort may reach it.
+struct Ending {
+  bool missed;
+  bool approaching;
+};
+
+Ending ending_of(const MadeUpProblem& truth, std::int64_t trials) {
+  SearchProblem problem = truth.problem(512);
+  problem.size = search_size({.free = problem.free.size(), .max_units = 512}, trials);
+  const SearchResult result =
+      search(problem, {.seed = truth.seed, .begins_anew = true, .effort = effort_of(trials)});
+  return {!reaches(problem.aim, result.estimates.front()), result.approaching};
+}
+
+// The rate has a peak in four parameters, so that a small search ends on its slope: then the goal is not out
+// of reach. Where the peak is below the goal, a search with enough effort does not hold out any hope.
+TEST(Search, SaysWhetherItEndedOnTheWayToTheGoal) {
+  int missed = 0, approaching = 0, beyond = 0, hopeful = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    MadeUpProblem truth{.seed = seed, .fall = 8.0};
+    truth.reliable = truth.fast = Values(4);
+    for (std::size_t i = 0; i < 4; ++i) truth.reliable[i] = truth.fast[i] = truth.uniform(20 + i, 0, {});
+    const Ending early = ending_of(truth, 3'000);
+    missed += early.missed ? 1 : 0;
+    approaching += early.missed && early.approaching ? 1 : 0;
+    if (seed > 10) continue;
+    truth.highest_rate = 0.8;
+    const Ending late = ending_of(truth, 100'000);
+    beyond += late.missed ? 1 : 0;
+    hopeful += late.approaching ? 1 : 0;
+  }
+  EXPECT_GE(missed, 5);
+  EXPECT_GE(approaching, 0.7 * missed) << missed;
+  EXPECT_EQ(beyond, 10);
+  EXPECT_LE(hopeful, 2);
+}
+
 TEST(Search, DependsOnTheSeedAlone) {
   const MadeUpProblem truth;
   const SearchResult a = search(truth.problem(512), {.seed = 5, .effort = effort_of(50'000)});

@@ -16,11 +16,32 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
   return text;
 }
 
+/// The name of a file as a part of an address.
+std::string percent_encoded(std::string_view name) {
+  std::string text;
+  for (const char c : name) {
+    const bool is_plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                          std::string_view("-._~").find(c) != std::string_view::npos;
+    text += is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return text;
+}
+
 }  // namespace
 
 void add_row(std::vector<HtmlColumn>& columns, std::vector<std::string> cells) {
   for (std::size_t i = 0; i < columns.size(); ++i) columns[i].cells.push_back(std::move(cells[i]));
 }
+
+namespace {
+
+std::string linked_cell(const HtmlColumn& column, std::size_t row) {
+  std::string cell = document::markup(column.cells[row]);
+  if (row >= column.links.size() || column.links[row].empty()) return cell;
+  return fmt::format("<a href=\"./{}\">{}</a>", document::markup(percent_encoded(column.links[row])), cell);
+}
+
+}  // namespace
 
 std::string html_table(const std::vector<HtmlColumn>& columns) {
   std::string text = "<table><thead><tr>";
@@ -35,7 +56,7 @@ std::string html_table(const std::vector<HtmlColumn>& columns) {
     text += "<tr>";
     for (const HtmlColumn& column : columns)
       text += fmt::format("<td{} data-head=\"{}\">{}</td>", column.text ? " class=\"text wrap\"" : "",
-                          document::markup(column.head), document::markup(column.cells[row]));
+                          document::markup(column.head), linked_cell(column, row));
     text += "</tr>\n";
   }
   return text + "</tbody></table>\n";

@@ -14,6 +14,7 @@ struct HtmlColumn {
   std::string unit;  ///< empty: no unit
   bool text{false};  ///< left-aligned, with line breaks
   std::vector<std::string> cells;
+  std::vector<std::string> links{};  ///< [row] relative addresses of the cells; empty: none
 };
 
 /// Adds a cell to each column.

@@ -27,6 +27,7 @@
 #include "runners/commands/live_page.hpp"
 #include "runners/commands/verified_report.hpp"
 #include "runners/design_commands/tune_page.hpp"
+#include "runners/result_commands/report_index.hpp"
 #include "runners/result_commands/report_parts.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
@@ -52,8 +53,12 @@ constexpr const char* report_help =
     "how long they take; --budget bounds them together. A part that has no answer says why. After\n"
     "Ctrl-C the page has the parts that are ready, and the exit code is 130.\n"
     "\n"
+    "Of a FOLDER the page is an index of its results files: study, date, goal, verdict, and a link to\n"
+    "the report of each, which is written beside the index unless there is one as new as its file.\n"
+    "\n"
     "Examples:\n"
     "  zerocount report gains.h5 -o gains.html\n"
+    "  zerocount report results -o results/index.html --force\n"
     "  zerocount report gains.h5 -o gains.html --with limits,worst --budget 2min\n";
 
 constexpr const char* plot_help =
@@ -114,8 +119,28 @@ void add_parts(report::ReportPage& page, std::vector<report::PageSection> sectio
                        std::make_move_iterator(sections.end()));
 }
 
+/// `report FOLDER`: the index, and the pages that it needs.
+ExitCode write_index(const command_line::Arguments& arguments, const std::filesystem::path& output) {
+  for (const char* const option : {"with", "budget", "baseline", "history", "point"}) {
+    if (arguments.has(option))
+      arguments.refuse(
+          fmt::format("option '--{}': is of one results file; expected none with a folder", option));
+  }
+  const report::ReportPage page =
+      folder_index(arguments.operands()[0], output,
+                   [&](const std::filesystem::path& file, const std::filesystem::path& place) {
+                     commands::require_page_place(arguments, {file, output}, place);
+                     command_line::write_text(
+                         place, report::html_page(report_of(arguments, reading::AllTrialsFile(file)).page));
+                   });
+  command_line::write_text(output, report::html_page(page));
+  return ExitCode::success;
+}
+
 ExitCode write_report(const command_line::Arguments& arguments) {
   const std::filesystem::path output = picture_or_page(arguments, {".html", ".htm"});
+  std::error_code error;
+  if (std::filesystem::is_directory(arguments.operands()[0], error)) return write_index(arguments, output);
   const std::vector<std::string_view> parts = parts_option(arguments);
   const command_line::Budget budget = command_line::budget_option(arguments);
   // Without parts Ctrl-C ends the command at once.
@@ -182,11 +207,11 @@ std::vector<command_line::OptionSpec> options_of_report(std::vector<command_line
 }  // namespace
 
 commands::Command report_command() {
-  return {{"report", "FILE",
+  return {{"report", "FILE | FOLDER",
            options_of_report(with_part_options(
                {{"output,o", "PAGE",
                  "the page to write, such as report.html; - is standard output (required)"}}))},
-          "write one HTML page on a results file",
+          "write one HTML page on a results file, or an index of a folder of them",
           report_help,
           write_report};
 }

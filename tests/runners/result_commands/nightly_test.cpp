@@ -84,6 +84,8 @@ TEST_F(Nightly, AddsItsResultsToTheHistory) {
   EXPECT_EQ(runs("out/history.sqlite"), 2) << "the two studies, of one name and two seeds, are two series";
   const std::string page = read_bytes(last_night() / "small.html");
   EXPECT_TRUE(page.empty() || page.find("Over time") != std::string::npos);
+  const std::string index = page.empty() ? "" : read_bytes(last_night() / "index.html");
+  EXPECT_TRUE(page.empty() || index.find("href=\"./small.html\"") != std::string::npos);
   folder_.write("studies.txt", "small small.yaml trials=20\n");
   ASSERT_EQ(
       script("nightly", fmt::format("--out {0}/other --history {0}/mine.sqlite", folder_.path().string())), 0)

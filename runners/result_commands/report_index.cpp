@@ -1,0 +1,135 @@
+#include "runners/result_commands/report_index.hpp"
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/goal/goal_text.hpp"
+#include "analysis/report/html.hpp"
+#include "analysis/summary/chosen_point.hpp"
+#include "analysis/summary/judged_point.hpp"
+#include "analysis/summary/summary.hpp"
+#include "core/failure/failure.hpp"
+#include "results/layout/header.hpp"
+#include "results/shards/pieces.hpp"
+
+namespace zerocount::result_commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A row of the index.
+struct IndexedFile {
+  fs::path file;
+  std::string study{};
+  std::string created{};  ///< as layout::Header::created; empty where it is not known
+  std::string goal{};
+  std::string verdict{};
+  bool has_report{false};
+  std::string page{};  ///< its name; empty without one
+};
+
+/// The results files in the folder, and those that unfinished runs will write.
+std::vector<fs::path> results_in_folder(const fs::path& folder) {
+  constexpr std::string_view shards = ".h5.shards";
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() == ".h5") files.push_back(entry.path());
+    if (name.ends_with(shards)) files.push_back(fs::path(entry.path()).replace_extension());
+  }
+  if (error)
+    throw Failure(ExitCode::bad_input, fmt::format("{}: {}; expected a folder that can be read",
+                                                   folder.string(), error.message()));
+  std::ranges::sort(files);
+  const auto repeated = std::ranges::unique(files);
+  files.erase(repeated.begin(), repeated.end());
+  return files;
+}
+
+bool is_newer(const fs::path& page, const fs::path& file) {
+  std::error_code error;
+  const fs::file_time_type of_page = fs::last_write_time(page, error);
+  if (error) return false;
+  const fs::file_time_type of_file = fs::last_write_time(file, error);
+  return !error && of_page >= of_file;
+}
+
+/// @throws Failure if the file cannot be read
+void describe(IndexedFile& row) {
+  const layout::FileHeader header = shards::inspect_header(row.file, layout::Checksum::not_yet);
+  row.created = header.provenance.created;
+  row.has_report = header.retention == study::Retention::trials;
+  const summary::StudySummary summary = summary::summarise_file(row.file);
+  row.study = summary.name;
+  const summary::ChosenPoint chosen = summary::choose_point(summary);
+  if (!summary.question.claim()) {
+    row.verdict = summary::claim_of_chosen_point(summary, chosen);
+    return;
+  }
+  row.goal = goal::claim_sentence(summary.question);
+  row.verdict = summary::judgement_headline(summary, summary::judge_point(summary, chosen));
+}
+
+IndexedFile indexed(const fs::path& file) {
+  IndexedFile row{.file = file};
+  std::error_code error;
+  if (!fs::exists(file, error)) {
+    row.verdict = "unfinished: its run has not ended";
+    return row;
+  }
+  try {
+    describe(row);
+  } catch (const Failure& failure) {
+    return {.file = file, .verdict = failure.what()};
+  }
+  return row;
+}
+
+std::string table_of(const std::vector<IndexedFile>& rows) {
+  std::vector<report::HtmlColumn> columns;
+  for (const char* const head : {"study", "from (UTC)", "verdict", "goal", "report"}) {
+    columns.emplace_back().head = head;
+    columns.back().text = true;
+  }
+  for (const IndexedFile& row : rows) {
+    report::add_row(columns, {row.study.empty() ? row.file.filename().string() : row.study,
+                              row.created.empty() ? "–" : row.created.substr(0, 16), row.verdict, row.goal,
+                              row.page.empty() ? "–" : row.page});
+    columns.back().links.push_back(row.page);
+  }
+  return report::html_table(columns);
+}
+
+}  // namespace
+
+report::ReportPage folder_index(const fs::path& folder, const fs::path& index,
+                                const std::function<void(const fs::path&, const fs::path&)>& write_page) {
+  std::vector<IndexedFile> rows;
+  for (const fs::path& file : results_in_folder(folder)) {
+    rows.push_back(indexed(file));
+    IndexedFile& row = rows.back();
+    if (!row.has_report) continue;
+    const fs::path page = index.parent_path() / fs::path(file.filename()).replace_extension(".html");
+    if (!is_newer(page, file)) write_page(file, page);
+    row.page = page.filename().string();
+  }
+  if (rows.empty())
+    throw Failure(ExitCode::bad_input, fmt::format("{}: it has no results file; expected a folder with files "
+                                                   "*.h5, or one such file",
+                                                   folder.string()));
+  std::ranges::stable_sort(rows, std::ranges::greater(), &IndexedFile::created);
+  const std::string provenance = layout::current_provenance().zerocount_version;
+  return {.title = "Studies",
+          .subtitle = fmt::format("{} results files, the newest first", rows.size()),
+          .footer = fmt::format("zerocount {}", provenance),
+          .sections = {{"studies", "", table_of(rows), {}}},
+          .kind = "index"};
+}
+
+}  // namespace zerocount::result_commands

@@ -17,6 +17,7 @@ html_title = "zerocount"
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc"]
 
 myst_heading_anchors = 4  # as links of the pages name them
+smartquotes = False  # options have two dashes
 myst_enable_extensions = ["deflist", "attrs_image"]
 suppress_warnings = ["myst.header"]  # generated sections of schemas start below the heading of the page
 

@@ -3,6 +3,8 @@
 import base64
 import json
 
+OBJECTS = ("<Figure", "<IPython")  # what stands for an output that a page does not show
+
 
 def joined(text):
     return text if isinstance(text, str) else "".join(text)
@@ -21,9 +23,9 @@ def output_text(output, stem, index, folder):
         return f"![output of the cell above]({name})\n"
     html = joined(data.get("text/html", ""))
     if html.strip() and "<script" not in html:
-        return fenced(html, "{raw} html")
+        return fenced(f'<div class="printed">{html}</div>', "{raw} html")
     text = joined(output.get("text") or data.get("text/plain", ""))
-    return fenced(text, "text") if text.strip() else ""
+    return "" if text.startswith(OBJECTS) or not text.strip() else fenced(text, "text")
 
 
 def page(notebook, folder):

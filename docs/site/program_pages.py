@@ -25,8 +25,8 @@ def code(text, language="text"):
 
 
 def plain(text):
-    """Text without meaning for Markdown."""
-    return re.sub(r"([\\`*_<>\[\]|{}#])", r"\\\1", text)
+    """Text without meaning for Markdown, except names in backticks."""
+    return re.sub(r"([\\*_<>\[\]|{}#])", r"\\\1", text)
 
 
 def commands_of(program):

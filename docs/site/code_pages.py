@@ -8,6 +8,9 @@ PLUGIN = "core/plugin/zerocount/controller.h"
 # The header is C for any compiler, with plain comments: Doxygen reads those that describe what follows or stands before them.
 PLUGIN_FILTER = r"sed -e '4s|^/\* |/** \\file\n * |' -e '5,$s|^\( *\)/\* |\1/** |' -e 's|\([;,]\) *\(/\*\) |\1 /**< |'"
 
+# Formulas and pseudo-code in comments are indented by less than Markdown asks.
+HEADER_FILTER = r"sed -e 's|^\( *///\)   \( *[^ ]\)|\1      \2|'"
+
 
 def headers(root):
     """The headers of each folder of core that other programs include."""
@@ -27,7 +30,7 @@ def doxygen_settings(root, output):
         "STRIP_FROM_PATH": root, "FULL_PATH_NAMES": "YES", "EXTRACT_ALL": "YES", "JAVADOC_AUTOBRIEF": "YES", "QUIET": "YES",
         "WARN_IF_INCOMPLETE_DOC": "NO", "WARN_IF_DOC_ERROR": "NO", "XML_PROGRAMLISTING": "NO",
         "MACRO_EXPANSION": "YES", "EXPAND_ONLY_PREDEF": "YES", "PREDEFINED": "ZEROCOUNT_EXPORT= ZEROCOUNT_ALWAYS_INLINE=",
-        "FILTER_PATTERNS": f'*.h="{PLUGIN_FILTER}"',
+        "FILTER_PATTERNS": f'*.h="{PLUGIN_FILTER}" *.hpp="{HEADER_FILTER}"',
     }
     return "".join(f"{key} = {value}\n" for key, value in settings.items())
 

@@ -34,6 +34,7 @@ breathe_domain_by_extension = {"h": "c", "hpp": "cpp"}
 html_theme = "furo"
 html_static_path = ["static"]
 html_css_files = ["site.css"]
+html_search_scorer = str(pathlib.Path(__file__).with_name("static") / "scorer.js")
 html_show_sphinx = False
 html_copy_source = False
 lexers["csv"] = TextLexer()  # GitHub knows it, Pygments does not

@@ -1,0 +1,47 @@
+#!/usr/bin/python3
+"""Makes the archive that runs on any Linux of this architecture: program, libraries, C library, manifests, manual, completions.
+
+usage: archive.py BUILD
+
+BUILD is a build for any machine of the architecture, such as build/portable. The archive is put there.
+"""
+
+import pathlib
+import platform
+import shutil
+import subprocess
+import sys
+
+import bundle
+
+
+def place_c_library(folder):
+    """The C library, for systems with an older one; its loader finds it there."""
+    folder.mkdir(parents=True)
+    for name in sorted(bundle.OF_C_LIBRARY):
+        shutil.copy2(pathlib.Path("/lib/x86_64-linux-gnu", name).resolve(), folder / name)
+
+
+def main(build):
+    name = f"zerocount-{bundle.version()}-linux-{platform.machine()}"
+    root = build / name
+    shutil.rmtree(root, ignore_errors=True)
+    subprocess.run(["cmake", "--install", build, "--prefix", root, "--component", "program"], check=True, stdout=subprocess.DEVNULL)
+    program = root / "bin/zerocount"
+    libraries = bundle.libraries_of([program], bundle.OF_C_LIBRARY | {bundle.NETWORK})
+    bundle.place(program, root / "lib/zerocount", "$ORIGIN")
+    bundle.place_libraries(libraries, root / "lib")
+    place_c_library(root / "lib/libc")
+    shutil.copyfile(bundle.HERE / "launcher", program)
+    c_library = {"libc.so.6": pathlib.Path("/lib/x86_64-linux-gnu/libc.so.6").resolve()}
+    bundle.place_licences(libraries | c_library, root / "share/doc/zerocount/licences")
+    archive = build / f"{name}.tar.xz"
+    subprocess.run(["tar", "--create", "--sort=name", "--owner=0", "--group=0", "--numeric-owner", "--mtime=@0", "-C", build,
+                    "--use-compress-program=xz -T0 -9", "--file", archive, name], check=True)
+    size = sum(file.stat().st_size for file in root.rglob("*") if file.is_file())
+    print(f"{archive}: {archive.stat().st_size / 1e6:.1f} MB, unpacked {size / 1e6:.0f} MB, {len(libraries)} libraries")
+    shutil.rmtree(root)
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]).resolve())

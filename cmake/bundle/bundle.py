@@ -1,0 +1,94 @@
+"""Copies programs with the libraries that they need, so that they run where no package of those is installed.
+
+The C library is not among them: no process can have two, and Python brings its own.
+"""
+
+import pathlib
+import re
+import shutil
+import subprocess
+
+HERE = pathlib.Path(__file__).parent
+ROOT = HERE.parent.parent
+OF_C_LIBRARY = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1", "ld-linux-x86-64.so.2"}
+OF_COMPILER = {"libstdc++.so.6", "libgcc_s.so.1"}
+NETWORK = "libcurl.so.4"  # no_network.c stands for it
+# Packages whose code is compiled into the program.
+COMPILED_IN = ("libboost1.74-dev", "libeigen3-dev", "libsqlitecpp-dev", "nlohmann-json3-dev", "librandom123-dev", "pybind11-dev")
+
+
+def output_of(*words):
+    return subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True).stdout
+
+
+def needed_by(file):
+    return re.findall(r"\(NEEDED\).*\[(.+)\]", output_of("readelf", "--dynamic", file))
+
+
+def libraries_of(files, without):
+    """The paths of all libraries that files load, by their names, except some with all that only those load."""
+    places = {}
+    for file in files:
+        places.update(re.findall(r"^\s(\S+) => (/\S+)", output_of("ldd", file), re.MULTILINE))
+    found, waiting = {}, [name for file in files for name in needed_by(file)]
+    while waiting:
+        name = waiting.pop()
+        if name not in found and name not in without:
+            found[name] = pathlib.Path(places[name]).resolve()
+            waiting.extend(needed_by(found[name]))
+    return found
+
+
+def place(file, target, libraries):
+    """Copies a program or library, which then loads what it needs from the folder of libraries (as seen from itself)."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    shutil.copy2(file, target)
+    target.chmod(0o755)
+    subprocess.run(["strip", "--strip-unneeded", target], check=True)
+    # Not the newer RUNPATH: LD_LIBRARY_PATH, which modules of clusters set, comes before that.
+    subprocess.run(["patchelf", "--force-rpath", "--set-rpath", libraries, target], check=True)
+
+
+def without_network(folder):
+    """The library that stands for libcurl."""
+    versions = folder / "versions"
+    versions.write_text("CURL_OPENSSL_4 { global: curl_*; local: *; };\n")
+    subprocess.run(["cc", "-O2", "-shared", "-fPIC", f"-Wl,-soname,{NETWORK}", f"-Wl,--version-script={versions}",
+                    HERE / "no_network.c", "-o", folder / NETWORK], check=True)
+    versions.unlink()
+
+
+def place_libraries(libraries, folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, path in libraries.items():
+        place(path, folder / name, "$ORIGIN")
+    without_network(folder)
+
+
+def package_of(path):
+    """The package of Debian that a file is of; files of /usr/lib may be known by their older place, /lib."""
+    for known in (path, pathlib.Path("/", *path.parts[2:])):
+        found = subprocess.run(["dpkg", "-S", known], capture_output=True, text=True, check=False)
+        if found.returncode == 0:
+            return found.stdout.partition(":")[0]
+    raise SystemExit(f"{path} is of no package")
+
+
+def place_licences(libraries, folder):
+    """The licence of each library, of code that is compiled in, and of what draws the reports."""
+    folder.mkdir(parents=True, exist_ok=True)
+    packages = {package_of(path) for path in libraries.values()}
+    for package in sorted(packages.union(COMPILED_IN)):
+        shutil.copyfile(f"/usr/share/doc/{package}/copyright", folder / package)
+    for licence in sorted((ROOT / "analysis/report/node_modules").glob("*/LICENSE*")):
+        shutil.copyfile(licence, folder / f"npm-{licence.parent.name}")
+
+
+def version():
+    return re.search(r"^project\(zerocount VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)[1]
+
+
+def symbol_versions(files, family):
+    """The newest version of a family such as GLIBC that files ask the system for."""
+    words = set(re.findall(rf"\({family}_(\d[\d.]*)\)|\b{family}_(\d[\d.]*)\b", "".join(output_of("objdump", "-T", file) for file in files)))
+    return max((tuple(map(int, (one or other).split("."))) for one, other in words), default=())

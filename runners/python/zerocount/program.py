@@ -64,9 +64,9 @@ def path() -> str:
 
 
 def _installed() -> str | None:
-    """The program that was installed with the package, by pip or as packages of Debian."""
-    program = pathlib.Path(sys.prefix, "bin", "zerocount")
-    return str(program) if program.exists() else None
+    """The program that was installed with the package: in a wheel, by pip from the sources, or as packages of Debian."""
+    places = (pathlib.Path(__file__).parent / "bin" / "zerocount", pathlib.Path(sys.prefix, "bin", "zerocount"))
+    return next((str(program) for program in places if program.exists()), None)
 
 
 def run(

@@ -1,0 +1,62 @@
+#!/usr/bin/python3
+"""Makes the wheel that has program, extension and libraries, so that pip installs all of it in a bare environment.
+
+usage: wheel.py BUILD
+
+BUILD is a build for any machine of the architecture, such as build/portable, with the Python package. The wheel is put there.
+"""
+
+import os
+import pathlib
+import platform
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import bundle
+
+LIBRARIES = "zerocount.libs"
+# The newest symbols of libstdc++ on systems with this version of glibc, by PEP 600's profiles as auditwheel has them.
+COMPILER_OF = {(2, 34): (3, 4, 29), (2, 35): (3, 4, 30), (2, 38): (3, 4, 32)}
+
+
+def platform_tag(files):
+    """manylinux_2_N for the oldest glibc whose symbols are enough, as PEP 600 defines it."""
+    glibc = bundle.symbol_versions(files, "GLIBC")
+    compiler = bundle.symbol_versions(files, "GLIBCXX")
+    newest = [max(glibc, known) for known, its in COMPILER_OF.items() if its >= compiler]
+    if not newest:
+        raise SystemExit(f"no known system has libstdc++ with GLIBCXX_{'.'.join(map(str, compiler))}")
+    return "manylinux_{}_{}_{}".format(*min(newest), platform.machine())
+
+
+def main(build):
+    with tempfile.TemporaryDirectory() as temporary:
+        content = pathlib.Path(temporary)
+        extension = next((build / "python").glob("_zerocount.*.so"))
+        without = bundle.OF_C_LIBRARY | bundle.OF_COMPILER | {bundle.NETWORK}  # a system with Python has those of the compiler
+        libraries = bundle.libraries_of([build / "zerocount", extension], without)
+        bundle.place(build / "zerocount", content / "zerocount/bin/zerocount", f"$ORIGIN/../../{LIBRARIES}")
+        bundle.place(extension, content / extension.name, f"$ORIGIN/{LIBRARIES}")
+        bundle.place_libraries(libraries, content / LIBRARIES)
+        shutil.copyfile(bundle.HERE / "_zerocount_program.py", content / "_zerocount_program.py")
+        bundle.place_licences(libraries, content / LIBRARIES / "licences")
+        tag = platform_tag([file for file in content.rglob("*") if file.is_file() and file.read_bytes()[:4] == b"\x7fELF"])
+        environment = {**os.environ, "ZEROCOUNT_BUNDLE": str(content), "ZEROCOUNT_PLATFORM": tag}
+        for stale in build.glob("zerocount-*.whl"):
+            stale.unlink()
+        with tempfile.TemporaryDirectory() as source:
+            copy = pathlib.Path(source, "source")
+            for name in ("pyproject.toml", "setup.py", "CMakeLists.txt", "LICENSE", "runners/python"):
+                (copy / name).parent.mkdir(parents=True, exist_ok=True)
+                whole = bundle.ROOT / name
+                (shutil.copytree if whole.is_dir() else shutil.copyfile)(whole, copy / name)
+            subprocess.run([sys.executable, "-m", "pip", "wheel", "--no-deps", "--no-build-isolation", "-w", build, copy],
+                           check=True, env=environment)
+    made = next(build.glob("zerocount-*.whl"))
+    print(f"{made}: {made.stat().st_size / 1e6:.1f} MB, {len(libraries)} libraries")
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]).resolve())

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """Makes the wheel that has program, extension and libraries, so that pip installs all of it in a bare environment.
 
-usage: wheel.py BUILD
+usage: wheel.py BUILD TARGET
 
-BUILD is a build for any machine of the architecture, such as build/portable, with the Python package. The wheel is put there.
+BUILD is a build for any machine of the architecture, such as build/portable, with the Python package. TARGET is
+the folder for the wheel.
 """
 
 import os
@@ -31,7 +32,7 @@ def platform_tag(files):
     return "manylinux_{}_{}_{}".format(*min(newest), platform.machine())
 
 
-def main(build):
+def main(build, target):
     with tempfile.TemporaryDirectory() as temporary:
         content = pathlib.Path(temporary)
         extension = next((build / "python").glob("_zerocount.*.so"))
@@ -44,7 +45,7 @@ def main(build):
         bundle.place_licences(libraries, content / LIBRARIES / "licences")
         tag = platform_tag([file for file in content.rglob("*") if file.is_file() and file.read_bytes()[:4] == b"\x7fELF"])
         environment = {**os.environ, "ZEROCOUNT_BUNDLE": str(content), "ZEROCOUNT_PLATFORM": tag}
-        for stale in build.glob("zerocount-*.whl"):
+        for stale in target.glob("zerocount-*.whl"):
             stale.unlink()
         with tempfile.TemporaryDirectory() as source:
             copy = pathlib.Path(source, "source")
@@ -52,11 +53,11 @@ def main(build):
                 (copy / name).parent.mkdir(parents=True, exist_ok=True)
                 whole = bundle.ROOT / name
                 (shutil.copytree if whole.is_dir() else shutil.copyfile)(whole, copy / name)
-            subprocess.run([sys.executable, "-m", "pip", "wheel", "--no-deps", "--no-build-isolation", "-w", build, copy],
+            subprocess.run([sys.executable, "-m", "pip", "wheel", "--no-deps", "--no-build-isolation", "-w", target, copy],
                            check=True, env=environment)
-    made = next(build.glob("zerocount-*.whl"))
+    made = next(target.glob("zerocount-*.whl"))
     print(f"{made}: {made.stat().st_size / 1e6:.1f} MB, {len(libraries)} libraries")
 
 
 if __name__ == "__main__":
-    main(pathlib.Path(sys.argv[1]).resolve())
+    main(*(pathlib.Path(word).resolve() for word in sys.argv[1:3]))

@@ -18,8 +18,8 @@ print(r.table)
 print(r.trials(point=3).shape, r.moves().shape, r.rigs().shape, r.jerks().shape, r.dataset.sizes)
 trace = r.trace(point=3, trial=17)
 trace.plot().savefig("trace.png")
-r.plot("settling").matplotlib().savefig("settling.png")
-r.plot("settling").save("settling.html")
+r.plot("settled").matplotlib().savefig("settled.png")
+r.plot("settled").save("settled.html")
 
 
 def law(setup):

@@ -3,7 +3,7 @@
     pip install --no-build-isolation .
 
 needs what `./quickstart` installs to build the program, and pybind11-dev and python3-dev. With ZEROCOUNT_BUNDLE it takes both, and the
-libraries that they need, from a folder in which cmake/bundle/wheel.py has put them, and names the wheel for ZEROCOUNT_PLATFORM.
+libraries that they need, from a folder in which cmake/bundle/make_wheel.py has put them, and names the wheel for ZEROCOUNT_PLATFORM.
 """
 
 import os

@@ -1,6 +1,6 @@
 """The site builds without a warning; its links lead somewhere, nothing is fetched from elsewhere, and three clicks reach every page.
 
-usage: site.py ROOT BUILD PROGRAM
+usage: whole_site.py ROOT BUILD PROGRAM
 """
 
 import html.parser

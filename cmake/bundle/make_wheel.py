@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Makes the wheel that has program, extension and libraries, so that pip installs all of it in a bare environment.
 
-usage: wheel.py BUILD TARGET
+usage: make_wheel.py BUILD TARGET
 
 BUILD is a build for any machine of the architecture, such as build/portable, with the Python package. TARGET is
 the folder for the wheel.

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Makes the archive that runs on any Linux of this architecture: program, libraries, C library, manifests, manual, completions.
 
-usage: archive.py BUILD
+usage: make_archive.py BUILD
 
 BUILD is a build for any machine of the architecture, such as build/portable. The archive is put there.
 """

@@ -1,6 +1,6 @@
 """The wheel asks a system for no more than its name says, and its program runs from a bare environment.
 
-usage: wheel.py SOURCE BUILD
+usage: bare_wheel.py SOURCE BUILD
 """
 
 import pathlib
@@ -65,7 +65,7 @@ def main():
     source, build = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
     with tempfile.TemporaryDirectory(prefix="zerocount-wheel-") as temporary:
         folder = pathlib.Path(temporary).resolve()
-        run(sys.executable, "-B", source / "cmake/bundle/wheel.py", build, folder)
+        run(sys.executable, "-B", source / "cmake/bundle/make_wheel.py", build, folder)
         wheel = next(folder.glob("zerocount-*.whl"))
         zipfile.ZipFile(wheel).extractall(folder / "content")
         own = check_symbols(folder / "content", wheel.stem.split("-")[-1])

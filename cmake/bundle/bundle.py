@@ -80,6 +80,7 @@ def place_licences(libraries, folder):
     packages = {package_of(path) for path in libraries.values()}
     for package in sorted(packages.union(COMPILED_IN)):
         shutil.copyfile(f"/usr/share/doc/{package}/copyright", folder / package)
+    shutil.copytree("/usr/share/common-licenses", folder / "common-licenses", dirs_exist_ok=True)  # which those name
     for licence in sorted((ROOT / "analysis/report/node_modules").glob("*/LICENSE*")):
         shutil.copyfile(licence, folder / f"npm-{licence.parent.name}")
 

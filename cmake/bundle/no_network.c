@@ -1,5 +1,5 @@
 /* Stands for libcurl in what is copied to other systems. Only the driver of HDF5 for files on remote servers calls it, which
- * zerocount never asks for; libcurl would bring 40 libraries. Every function says that it failed. */
+ * zerocount never asks for; libcurl would bring 27 other libraries. Every function says that it failed. */
 #include <stddef.h>
 
 enum { failed_init = 2 };

@@ -275,7 +275,8 @@ def test_a_study_with_a_sweep_and_observations_is_tuned(axis: zc.Study, tmp_path
     label = axis.labels[0]
     study = axis.set({"tune.free": {"controller.ki": {"log": [5e3, 5e4]}}, "tune.margins": {"gain": 1, "phase": 10}})
     study = study.set({"observed": {label: "met"}})
-    assert zc.tune(study, tmp_path / "t.h5", budget=2000).gains.keys() == {"controller.ki"}
+    assert zc.tune(study, tmp_path / "t.h5", budget=2000, watch=tmp_path / "t.html").gains.keys() == {"controller.ki"}
+    assert "Tuning" in (tmp_path / "t.html").read_text()
     with pytest.raises(zc.ManifestError, match="controller.ki"):
         zc.tune(study, tmp_path / "u.h5", free={"controller.ki": [1]})
 

@@ -110,6 +110,12 @@ def test_progress_is_passed_on(axis: zc.Study, tmp_path: pathlib.Path) -> None:
     assert len(lines) >= 2 and all(" of 6000 trials (" in line and line.isprintable() for line in lines)
 
 
+def test_a_watched_run_leaves_its_report(axis: zc.Study, tmp_path: pathlib.Path) -> None:
+    """The page of a watched run ends as its report."""
+    axis.set(trials=20, rigs=20).run(tmp_path / "w.h5", watch=tmp_path / "w.html")
+    assert "Requirements" in (tmp_path / "w.html").read_text()
+
+
 @pytest.mark.parametrize("arguments", [("check", "bad.yaml"), ("run", "bad.yaml", "-o", "x.h5"), ("judge", "missing.h5"), ("runs",)])
 def test_messages_are_those_of_the_program(
     axis: zc.Study, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]

@@ -401,6 +401,7 @@ class Study:
         output: str | os.PathLike[str],
         *,
         threads: int | None = None,
+        watch: str | os.PathLike[str] | None = None,
         force: bool = False,
         progress: bool = True,
     ) -> Results:
@@ -412,6 +413,8 @@ class Study:
             The results file. A file of the same study is completed or extended; a finished one is opened.
         threads : int, optional
             Threads to use; default: all cores.
+        watch : path, optional
+            A page (``*.html``) for a browser that shows how far the run is, and at the end its report.
         force : bool
             Replace the results of another study.
         progress : bool
@@ -434,7 +437,12 @@ class Study:
         >>> r.table.loc[2, "success_rate"]
         0.3755
         """
-        words = options(output=pathlib.Path(output), threads=threads, force=force)
+        words = options(
+            output=pathlib.Path(output),
+            threads=threads,
+            watch=None if watch is None else pathlib.Path(watch),
+            force=force,
+        )
         with progress_bar(self.name, progress) as bar:
             self.command("run", *words, progress=bar)
         return Results(output)

@@ -48,6 +48,7 @@ def tune(
     extras: str | None = None,
     threads: int | None = None,
     report: str | os.PathLike[str] | None = None,
+    watch: str | os.PathLike[str] | None = None,
     force: bool = False,
     progress: bool = True,
 ) -> Tuning:
@@ -80,6 +81,8 @@ def tune(
         Default: all cores.
     report : path, optional
         Write an HTML page there.
+    watch : path, optional
+        The same page from the beginning, for a browser that shows how far the tuning is.
     force : bool
         Replace other outputs.
     progress : bool
@@ -120,6 +123,7 @@ def tune(
             extras=extras,
             threads=threads,
             report=None if report is None else pathlib.Path(report),
+            watch=None if watch is None else pathlib.Path(watch),
             force=force,
         )
     )

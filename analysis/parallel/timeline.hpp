@@ -1,0 +1,80 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace zerocount::parallel {
+
+/// Who can do the work of a span: one thread at a time, or several.
+enum class Work { serial, parallel };
+
+/// What the threads of the program do, and when. Any thread may add spans.
+class Timeline {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// What a thread did from `begin` to `end`.
+  struct Span {
+    std::string_view name;
+    Work work{Work::serial};
+    std::int64_t trials{0};  ///< that were worked on
+    Clock::time_point begin{};
+    Clock::time_point end{};
+    double processor_seconds{0.0};  ///< of the thread, which may have waited
+  };
+  void add(const Span& span);
+
+  /// The spans in the Trace Event Format ("X" events), which Perfetto and
+  /// chrome://tracing show: a row for each thread, times in µs (`tdur`: of the processor), and
+  /// the kind of work as the category.
+  std::string trace_events() const;
+
+ private:
+  struct Event {
+    Span span;
+    int thread;  ///< in order of first appearance
+  };
+
+  mutable std::mutex mutex_;
+  Clock::time_point start_{Clock::now()};
+  std::map<std::thread::id, int> threads_;
+  std::vector<Event> events_;
+};
+
+/// Whether a text begins as that of a timeline does.
+bool is_timeline(std::string_view text);
+
+/// Processor time of the calling thread so far, s.
+double processor_seconds();
+
+/// Adds the time of its life to a timeline.
+class TimeSpan {
+ public:
+  /// @param timeline null: nothing is done @param name stays as long as the timeline
+  TimeSpan(Timeline* timeline, std::string_view name, Work work, std::int64_t trials = 0)
+      : timeline_(timeline), span_{name, work, trials} {
+    if (timeline_ == nullptr) return;
+    span_.processor_seconds = -processor_seconds();
+    span_.begin = Timeline::Clock::now();
+  }
+  TimeSpan(const TimeSpan&) = delete;
+  TimeSpan& operator=(const TimeSpan&) = delete;
+  ~TimeSpan() {
+    if (timeline_ == nullptr) return;
+    span_.end = Timeline::Clock::now();
+    span_.processor_seconds += processor_seconds();
+    timeline_->add(span_);
+  }
+
+ private:
+  Timeline* timeline_;
+  Timeline::Span span_;
+};
+
+}  // namespace zerocount::parallel

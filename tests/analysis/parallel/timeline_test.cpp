@@ -1,0 +1,84 @@
+// A timeline is a text that viewers of the Trace Event Format open.
+#include "analysis/parallel/timeline.hpp"
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/parallel/parallel.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using parallel::Timeline;
+using parallel::TimeSpan;
+using parallel::Work;
+
+void work_in_spans(Timeline* timeline) {
+  parallel::for_each_index(50, [timeline](std::size_t index) {
+    const TimeSpan outer(timeline, "outer", Work::parallel, static_cast<std::int64_t>(index));
+    for (int i = 0; i < 3; ++i) const TimeSpan inner(timeline, "inner", Work::serial);
+  });
+}
+
+/// The spans of a timeline, as a reader of JSON sees them.
+nlohmann::json spans_of(const Timeline& timeline) {
+  nlohmann::json spans = nlohmann::json::array();
+  const nlohmann::json text = nlohmann::json::parse(timeline.trace_events());
+  for (const nlohmann::json& event : text.at("traceEvents"))
+    if (event.at("ph") == "X") spans.push_back(event);
+  return spans;
+}
+
+TEST(Timeline, HasASpanOfAllThatWasDone) {
+  Timeline timeline;
+  work_in_spans(&timeline);
+  std::map<std::string, std::int64_t> counts;
+  std::int64_t trials = 0;
+  for (const nlohmann::json& span : spans_of(timeline)) {
+    ++counts[span.at("name").get<std::string>()];
+    EXPECT_EQ(span.at("cat"), span.at("name") == "outer" ? "parallel" : "serial");
+    EXPECT_GE(span.at("ts").get<std::int64_t>(), 0);
+    EXPECT_GE(span.at("dur").get<std::int64_t>(), 0);
+    trials += span.at("args").at("trials").get<std::int64_t>();
+  }
+  EXPECT_EQ(counts, (std::map<std::string, std::int64_t>{{"inner", 150}, {"outer", 50}}));
+  EXPECT_EQ(trials, 50 * 49 / 2);
+}
+
+// Viewers draw the spans of a thread in one another: two that overlap by a part would be drawn wrong.
+TEST(Timeline, HasSpansOfAThreadThatAreApartOrInOneAnother) {
+  Timeline timeline;
+  work_in_spans(&timeline);
+  std::map<int, std::vector<std::pair<std::int64_t, std::int64_t>>> of_threads;
+  for (const nlohmann::json& span : spans_of(timeline)) {
+    const auto begin = span.at("ts").get<std::int64_t>();
+    of_threads[span.at("tid")].emplace_back(begin, begin + span.at("dur").get<std::int64_t>());
+  }
+  for (const auto& [thread, spans] : of_threads) {
+    for (const auto& one : spans) {
+      for (const auto& other : spans) {
+        const bool overlap_by_a_part =
+            one.first < other.first && other.first < one.second && one.second < other.second;
+        EXPECT_FALSE(overlap_by_a_part) << thread;
+      }
+    }
+  }
+}
+
+TEST(Timeline, IsKnownByItsBeginning) {
+  EXPECT_TRUE(parallel::is_timeline(Timeline().trace_events()));
+  EXPECT_FALSE(parallel::is_timeline("{}"));
+  EXPECT_FALSE(parallel::is_timeline(""));
+}
+
+TEST(TimeSpan, DoesNothingWithoutATimeline) {
+  work_in_spans(nullptr);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "analysis/measures/point_statistics.hpp"
+#include "analysis/parallel/timeline.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
@@ -24,8 +25,10 @@ layout::StoredStatistics stored_statistics(std::span<const measures::PointSummar
 /// Gives those of all points of a file to `take`, in blocks of a chunk of the file: the memory does not grow
 /// with the number of points.
 /// @param file holds all trials of `study`. @param predictions see theory::study_predictions
+/// @param timeline gets spans of the stages; null: none
 void take_stored_statistics(const reading::AllTrialsFile& file, const study::Study& study,
                             std::span<const theory::PointPrediction> predictions,
-                            const std::function<void(const layout::StoredStatistics&)>& take);
+                            const std::function<void(const layout::StoredStatistics&)>& take,
+                            parallel::Timeline* timeline = nullptr);
 
 }  // namespace zerocount::summary

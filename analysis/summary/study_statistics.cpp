@@ -1,10 +1,12 @@
 #include "analysis/summary/study_statistics.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <memory>
-#include <optional>
+#include <mutex>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -80,101 +82,169 @@ std::int64_t jerks_of(std::span<const trial::MoveOutcome> moves) {
   return count;
 }
 
-/// Trials of a file that follow one another, in one chunk.
-struct Block {
-  layout::RowRange rows;
-  std::span<const trial::MoveOutcome> moves;  ///< [trial, move], of the chunk
-  std::vector<trial::Jerk> jerks;
-  std::shared_ptr<const std::vector<trial::MoveOutcome>> chunk;
+/// Trials of a file in one chunk of it, which its blocks share.
+struct Chunk {
+  reading::StoredOutcomes stored;
+  std::once_flag once;
+  reading::OutcomeColumns columns;
 };
 
-/// Divides the trials `rows` of a file into blocks: the chunks of the file, or parts with not too many jerks
-/// and points.
-class BlockReader {
- public:
-  /// @param trials at each point
-  BlockReader(const reading::AllTrialsFile& file, layout::RowRange rows, std::int64_t trials)
-      : file_(file), trials_(trials), rows_(rows), jerks_(file, rows) {}
+/// Trials of a file that follow one another, in one chunk, on their way to their sums.
+struct Block {
+  layout::RowRange rows;
+  std::shared_ptr<Chunk> chunk;
+  std::vector<std::int64_t> jerk_counts;  ///< [trial]
+  std::vector<trial::Jerk> jerks;         ///< until they are summed
+  std::vector<SummedPoint> sums;          ///< [point, from that of the first trial]
+  bool is_summed{false};
+  std::exception_ptr failure;  ///< why there are no sums
+};
 
-  std::optional<Block> next() {
-    if (rows_.count == 0) return std::nullopt;
-    if (unread_.empty()) read_chunk();
-    const auto moves = static_cast<std::size_t>(file_.moves());
-    Block block{{rows_.first, 0}, unread_, {}, chunk_};
-    const std::int64_t end = (rows_.first / trials_ + points_of_block) * trials_;
-    while (!unread_.empty() && block.rows.end() < end && std::ssize(block.jerks) < jerks_at_once) {
-      const auto jerks = jerks_.take(block.rows.end(), jerks_of(unread_.first(moves)));
-      block.jerks.insert(block.jerks.end(), jerks.begin(), jerks.end());
-      unread_ = unread_.subspan(moves);
-      ++block.rows.count;
+/// The sums of the trials `rows` of a file, in blocks that pass through the stages one after the other:
+///
+///     fetch     one block at a time: read the bytes of the chunk that it begins
+///     decode    any thread: decode them, and how many jerks each trial has
+///     add_jerks one block at a time, in order: read its jerks; sum it where they are many
+///     sum       any thread: sum the trials at each point
+///
+/// A block has all trials of a chunk, or those of some points. What fails is kept for who takes the sums in
+/// order, so that it is the failure of the first trial.
+class BlockStages {
+ public:
+  /// @param study, file and wanted stay as long as this
+  BlockStages(const reading::AllTrialsFile& file, const study::Study& study, const Wanted& wanted,
+              layout::RowRange rows)
+      : file_(file), study_(study), wanted_(wanted), rows_(rows), end_(rows.end()), jerks_(file, rows) {}
+
+  /// The next block; null behind the last one, or one that failed.
+  std::shared_ptr<Block> fetch() {
+    if (rows_.count == 0 || has_failed_) return nullptr;
+    if (chunk_rows_.count == 0) {
+      const parallel::TimeSpan span(wanted_.timeline, "fetch", parallel::Work::serial);
+      const std::lock_guard lock(library_);
+      chunk_rows_ = measures::rows_of_first_chunk(file_, rows_);
+      chunk_ = std::make_shared<Chunk>();
+      chunk_->stored = file_.stored_outcomes(chunk_rows_);
     }
-    block.moves = block.moves.first(block.moves.size() - unread_.size());
-    rows_ = {block.rows.end(), rows_.count - block.rows.count};
-    if (rows_.count == 0 && !jerks_.at_end())
-      fail(file_, "jerks are recorded beyond those that the trials counted");
+    const std::int64_t end = (rows_.first / study_.trials + points_of_block) * study_.trials;
+    auto block = std::make_shared<Block>();
+    block->rows = {rows_.first, std::min(chunk_rows_.count, end - rows_.first)};
+    block->chunk = chunk_;
+    rows_ = {block->rows.end(), rows_.count - block->rows.count};
+    chunk_rows_ = {rows_.first, chunk_rows_.count - block->rows.count};
+    if (chunk_rows_.count == 0) chunk_.reset();
     return block;
   }
 
+  void decode(Block& block) const {
+    const parallel::TimeSpan span(wanted_.timeline, "decode", parallel::Work::parallel, block.rows.count);
+    keep_failure(block, [&] {
+      Chunk& chunk = *block.chunk;
+      std::call_once(chunk.once, [&] {
+        chunk.columns = file_.decoded(chunk.stored);
+        chunk.stored = {};
+      });
+      block.jerk_counts = file_.jerk_counts(chunk.columns, block.rows);
+    });
+  }
+
+  void add_jerks(Block& block) {
+    const parallel::TimeSpan span(wanted_.timeline, "jerks", parallel::Work::serial, block.rows.count);
+    if (has_failed_ || block.failure) {
+      has_failed_ = true;
+      return;
+    }
+    keep_failure(block, [&] { take_jerks(block); });
+    if (!block.failure) return;
+    has_failed_ = true;
+    // Impossible outcomes are said before the jerks that they do not have.
+    const std::exception_ptr of_jerks = std::exchange(block.failure, nullptr);
+    keep_failure(block, [&] { file_.outcomes(block.chunk->columns, block.rows); });
+    if (!block.failure) block.failure = of_jerks;
+  }
+
+  void sum(Block& block) const {
+    if (block.failure || block.is_summed) return;
+    const parallel::TimeSpan span(wanted_.timeline, "sum", parallel::Work::parallel, block.rows.count);
+    keep_failure(block, [&] { sum(block, block.rows, block.jerks); });
+    block.jerks = {};
+    block.chunk.reset();
+  }
+
  private:
-  void read_chunk() {
-    chunk_ = std::make_shared<std::vector<trial::MoveOutcome>>(
-        file_.outcomes(measures::rows_of_first_chunk(file_, rows_)));
-    unread_ = *chunk_;
+  template <class Stage>
+  static void keep_failure(Block& block, const Stage& stage) {
+    try {
+      stage();
+    } catch (const Failure&) {
+      block.failure = std::current_exception();
+    }
+  }
+
+  void take_jerks(Block& block) {
+    const std::lock_guard lock(library_);
+    const std::int64_t first = block.rows.first;
+    layout::RowRange rows{first, 0};  // whose jerks are in the block and not summed
+    for (const std::int64_t count : block.jerk_counts) {
+      const auto jerks = jerks_.take(rows.end(), count);
+      block.jerks.insert(block.jerks.end(), jerks.begin(), jerks.end());
+      ++rows.count;
+      block.is_summed = block.is_summed || std::ssize(block.jerks) >= jerks_at_once;
+      const bool sums_now = std::ssize(block.jerks) >= jerks_at_once || rows.end() == block.rows.end();
+      if (!block.is_summed || !sums_now) continue;
+      sum(block, rows, block.jerks);
+      block.jerks.clear();
+      rows = {rows.end(), 0};
+    }
+    if (block.rows.end() == end_ && !jerks_.at_end())
+      fail(file_, "jerks are recorded beyond those that the trials counted");
+  }
+
+  /// Adds some trials of a block to its sums, in pieces whose outcomes stay in the cache.
+  void sum(Block& block, layout::RowRange rows, std::span<const trial::Jerk> jerks) const {
+    constexpr std::int64_t trials_of_piece = 512;
+    for (layout::RowRange piece{rows.first, 0}; piece.first < rows.end(); piece.first = piece.end()) {
+      const std::int64_t of_point = study_.trials - piece.first % study_.trials;
+      const std::int64_t point = piece.first / study_.trials;
+      piece.count = std::min({of_point, trials_of_piece, rows.end() - piece.first});
+      if (block.sums.empty() || block.sums.back().point() != point)
+        block.sums.emplace_back(study_, point, piece.first % study_.trials, file_.header().version,
+                                file_.table());
+      add_piece(block.sums.back(), piece, file_.outcomes(block.chunk->columns, piece), jerks);
+    }
+  }
+
+  /// @param jerks those from the first trial of the piece on; those of its trials are removed
+  void add_piece(SummedPoint& sums, layout::RowRange piece, const std::vector<trial::MoveOutcome>& outcomes,
+                 std::span<const trial::Jerk>& jerks) const {
+    const auto of_trial = static_cast<std::size_t>(file_.moves());
+    std::span<const trial::MoveOutcome> moves(outcomes);
+    for (std::int64_t row = piece.first; row < piece.end(); ++row, moves = moves.subspan(of_trial)) {
+      const auto trial = moves.first(of_trial);
+      const auto count = static_cast<std::size_t>(jerks_of(trial));
+      try {
+        sums.trials().add_counts(trial, jerks.first(count));
+      } catch (const Failure& failure) {
+        fail(file_, fmt::format("trial {}: {}", row, failure.what()));
+      }
+      jerks = jerks.subspan(count);
+    }
+    sums.trials().add_measures(outcomes, of_trial);
+    if (wanted_.undecided) sums.add_undecided(piece, outcomes);
+    if (wanted_.predictions) sums.add(theory::prediction_of(study_, piece));
   }
 
   const reading::AllTrialsFile& file_;
-  std::int64_t trials_;
-  layout::RowRange rows_;  ///< in no block yet
+  const study::Study& study_;
+  const Wanted& wanted_;
+  layout::RowRange rows_;        ///< in no block yet
+  std::int64_t end_;             ///< of all rows
+  layout::RowRange chunk_rows_;  ///< of the chunk, in no block yet
+  std::shared_ptr<Chunk> chunk_;
   JerkStream jerks_;
-  std::shared_ptr<const std::vector<trial::MoveOutcome>> chunk_;
-  std::span<const trial::MoveOutcome> unread_;  ///< of the chunk, in no block yet
+  std::mutex library_;  ///< of the files: two stages call it
+  std::atomic<bool> has_failed_{false};
 };
-
-/// The sums of the trials of a block at one point. @param moves, jerks of the block from there on
-SummedPoint sums_of(const reading::AllTrialsFile& file, const study::Study& study, const Wanted& wanted,
-                    layout::RowRange rows, std::span<const trial::MoveOutcome>& moves,
-                    std::span<const trial::Jerk>& jerks) {
-  const auto of_trial = static_cast<std::size_t>(file.moves());
-  const auto of_rows = moves.first(static_cast<std::size_t>(rows.count) * of_trial);
-  SummedPoint sums(study, rows.first / study.trials, rows.first % study.trials, file.header().version,
-                   file.table());
-  for (std::int64_t row = rows.first; row < rows.end(); ++row, moves = moves.subspan(of_trial)) {
-    const auto trial = moves.first(of_trial);
-    const auto count = static_cast<std::size_t>(jerks_of(trial));
-    try {
-      sums.trials().add_counts(trial, jerks.first(count));
-    } catch (const Failure& failure) {
-      fail(file, fmt::format("trial {}: {}", row, failure.what()));
-    }
-    jerks = jerks.subspan(count);
-  }
-  sums.trials().add_measures(of_rows, of_trial);
-  if (wanted.undecided) sums.add_undecided(rows, of_rows);
-  if (wanted.predictions) sums.add(theory::prediction_of(study, rows));
-  return sums;
-}
-
-/// The sums of a block, [point, from that of the first trial], or why there are none.
-struct BlockSums {
-  std::vector<SummedPoint> points{};
-  std::exception_ptr failure{};
-};
-
-BlockSums sums_of(const reading::AllTrialsFile& file, const study::Study& study, const Wanted& wanted,
-                  const Block& block) {
-  BlockSums sums;
-  std::span<const trial::MoveOutcome> moves = block.moves;
-  std::span<const trial::Jerk> jerks = block.jerks;
-  try {
-    for (layout::RowRange rows{block.rows.first, 0}; rows.first < block.rows.end(); rows.first = rows.end()) {
-      rows.count = std::min(study.trials - rows.first % study.trials, block.rows.end() - rows.first);
-      sums.points.push_back(sums_of(file, study, wanted, rows, moves, jerks));
-    }
-  } catch (const Failure&) {
-    sums.failure = std::current_exception();
-  }
-  return sums;
-}
 
 }  // namespace
 
@@ -186,39 +256,46 @@ StudyAccumulator::StudyAccumulator(const study::Study& study, const Wanted& want
 
 void StudyAccumulator::add(const reading::AllTrialsFile& file, layout::RowRange rows) {
   namespace tbb = oneapi::tbb;
-  BlockReader reader(file, rows, study_.trials);
-  const auto read = [&](tbb::flow_control& control) -> std::shared_ptr<Block> {
-    std::optional<Block> block = reader.next();
-    if (!block) {
-      control.stop();
-      return nullptr;
-    }
-    return std::make_shared<Block>(std::move(*block));
+  using Mode = tbb::filter_mode;
+  using BlockPointer = std::shared_ptr<Block>;
+  BlockStages stages(file, study_, wanted_, rows);
+  const auto fetch = [&](tbb::flow_control& control) {
+    BlockPointer block = stages.fetch();
+    if (!block) control.stop();
+    return block;
   };
-  const auto sum = [&](const std::shared_ptr<Block>& block) {
-    return std::make_shared<BlockSums>(sums_of(file, study_, wanted_, *block));
-  };
-  const auto add_sums = [&](const std::shared_ptr<BlockSums>& sums) {
-    if (sums->failure) std::rethrow_exception(sums->failure);  // here, so that it is that of the first trial
-    for (SummedPoint& next : sums->points) {
-      SummedPoint& all = point(next.point(), file.header().version, file.table());
-      if (all.trials().trials() == 0) {
-        all = std::move(next);
-      } else {
-        all += next;
-      }
-    }
+  const auto stage = [&](Mode mode, auto work) {
+    return tbb::make_filter<BlockPointer, BlockPointer>(mode, [&stages, work](const BlockPointer& block) {
+      std::invoke(work, stages, *block);
+      return block;
+    });
   };
   const auto pipeline = [&] {
     tbb::parallel_pipeline(
-        2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
-        tbb::make_filter<void, std::shared_ptr<Block>>(tbb::filter_mode::serial_in_order, read) &
-            tbb::make_filter<std::shared_ptr<Block>, std::shared_ptr<BlockSums>>(tbb::filter_mode::parallel,
-                                                                                 sum) &
-            tbb::make_filter<std::shared_ptr<BlockSums>, void>(tbb::filter_mode::serial_in_order, add_sums));
+        static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + 2,
+        tbb::make_filter<void, BlockPointer>(Mode::serial_in_order, fetch) &
+            stage(Mode::parallel, &BlockStages::decode) &
+            stage(Mode::serial_in_order, &BlockStages::add_jerks) &
+            stage(Mode::parallel, static_cast<void (BlockStages::*)(Block&) const>(&BlockStages::sum)) &
+            tbb::make_filter<BlockPointer, void>(Mode::serial_in_order, [&](const BlockPointer& block) {
+              if (block->failure) std::rethrow_exception(block->failure);
+              add(std::move(block->sums), file);
+            }));
   };
   // A thread that waits here must not begin another task meanwhile, such as a block of trials.
   tbb::this_task_arena::isolate(pipeline);
+}
+
+void StudyAccumulator::add(std::vector<SummedPoint>&& sums, const reading::AllTrialsFile& file) {
+  const parallel::TimeSpan span(wanted_.timeline, "add sums", parallel::Work::serial);
+  for (SummedPoint& next : sums) {
+    SummedPoint& all = point(next.point(), file.header().version, file.table());
+    if (all.trials().trials() == 0) {
+      all = std::move(next);
+    } else {
+      all += next;
+    }
+  }
 }
 
 void StudyAccumulator::add(const reading::ResultsFile& file, std::int64_t number) {
@@ -241,6 +318,7 @@ SummedPoint& StudyAccumulator::point(std::int64_t number, std::int64_t version,
 
 void StudyAccumulator::finish() {
   if (!point_) return;
+  const parallel::TimeSpan span(wanted_.timeline, "statistics", parallel::Work::serial);
   PointResults results;
   results.prediction = point_->prediction();
   if (wanted_.sums) results.sums = point_->sums();

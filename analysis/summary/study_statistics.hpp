@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/measures/point_statistics.hpp"
+#include "analysis/parallel/timeline.hpp"
 #include "analysis/summary/summed_point.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
@@ -24,7 +25,8 @@ struct Wanted {
   double confidence{statistics::summary_confidence};  ///< of all bounds
   /// Bounds of means by resampling, which takes its time; its random numbers are those of the study's seed.
   bool bootstrap{false};
-  std::int64_t first_point{0};  ///< the first that may have trials
+  std::int64_t first_point{0};            ///< the first that may have trials
+  parallel::Timeline* timeline{nullptr};  ///< gets spans of the stages; null: none
 };
 
 /// A point when all its trials are added.
@@ -37,8 +39,9 @@ struct PointResults {
 /// Computes the statistics of the points of a study. The trials come from one results file or several, in
 /// order of rows: as rows of outcomes, or as the sums of a file that keeps statistics.
 ///
-///     for each file, for each block of its trials, in parallel
-///       read the block, sum its trials at each point, and add the sums to those of the points in order
+///     for each file, for each block of its trials
+///       fetch its bytes; in parallel: decode them and sum its trials at each point
+///       add the sums to those of the points in order
 ///       before the next point begins: take the statistics that follow from the sums of a point
 ///
 /// Files are read once, in blocks. The memory does not grow with the number of trials (see PointAccumulator).
@@ -61,6 +64,8 @@ class StudyAccumulator {
   void finish();
 
  private:
+  /// Adds the sums of a block of a file.
+  void add(std::vector<SummedPoint>&& sums, const reading::AllTrialsFile& file);
   SummedPoint& point(std::int64_t number, std::int64_t version, const layout::MeasureTable& table);
 
   const study::Study& study_;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "results/hdf5/chunk_filters.hpp"
+#include "results/hdf5/encoded_rows.hpp"
 #include "results/hdf5/hdf5_detail.hpp"
 
 namespace zerocount::hdf5 {
@@ -26,20 +28,23 @@ struct ChunkJob {
   ChunkShape shape;
   std::vector<std::byte> stored{};
   bool damaged{false};
-  const ChunkJob* same{nullptr};  ///< an earlier job with the same stored bytes, which has them
-  bool is_shared{false};          ///< with a later job
+  std::size_t digest{0};  ///< of the stored bytes, to copy them
 };
 
-/// The chunks that are exactly the rows [first, first + rows) of a dataset; none if the library must divide
+/// Whether the rows [first, first + rows) of a dataset are whole chunks; otherwise the library must divide
 /// chunks, or apply filters other than ours.
+bool has_whole_chunks(const Dataset& dataset, std::int64_t first, std::int64_t rows) {
+  const std::optional<ChunkShape>& shape = dataset.chunk_shape();
+  return shape && rows > 0 && first % shape->rows == 0 &&
+         (rows % shape->rows == 0 || first + rows == static_cast<std::int64_t>(dataset.extent()[0]));
+}
+
+/// The chunks that are these rows of a dataset; none where they are not whole chunks.
 std::vector<ChunkJob> whole_chunks(const Dataset& dataset, std::size_t request, std::int64_t first,
                                    std::int64_t rows) {
-  const std::optional<ChunkShape> shape = dataset.chunk_shape();
-  const bool whole =
-      shape && rows > 0 && first % shape->rows == 0 &&
-      (rows % shape->rows == 0 || first + rows == static_cast<std::int64_t>(dataset.extent()[0]));
   std::vector<ChunkJob> chunks;
-  if (!whole) return chunks;
+  if (!has_whole_chunks(dataset, first, rows)) return chunks;
+  const std::optional<ChunkShape>& shape = dataset.chunk_shape();
   for (std::int64_t offset = 0; offset < rows; offset += shape->rows)
     chunks.push_back({request, offset, std::min(shape->rows, rows - offset), *shape});
   return chunks;
@@ -90,7 +95,7 @@ void run_jobs(std::vector<ChunkJob>& jobs, const Fetch& fetch, const Work& work,
   const auto third_stage = [&](ChunkJob* job) {
     const std::lock_guard lock(library);
     store(*job);
-    if (!job->is_shared) job->stored = {};
+    job->stored = {};
   };
   const auto pipeline = [&] {
     tbb::parallel_pipeline(
@@ -103,41 +108,14 @@ void run_jobs(std::vector<ChunkJob>& jobs, const Fetch& fetch, const Work& work,
   tbb::this_task_arena::isolate(pipeline);
 }
 
-/// The elements of a job to write.
-std::span<const std::byte> elements_of(const ChunkJob& job, std::span<const RowsToWrite> all) {
-  const auto* const first = static_cast<const std::byte*>(all[job.request].data);
-  return {first + static_cast<std::size_t>(job.offset) * job.shape.row_size, bytes_in(job)};
-}
-
-bool has_one_value(std::span<const std::byte> elements, std::size_t size) {
-  return std::memcmp(elements.data(), elements.data() + size, elements.size() - size) == 0;
-}
-
-/// Lets chunks of the same value in all elements, such as those of measures that no trial has, be encoded
-/// once.
-void share_equal_chunks(std::vector<ChunkJob>& jobs, std::span<const RowsToWrite> all) {
-  std::vector<ChunkJob*> of_one_value;
-  for (ChunkJob& job : jobs) {
-    const std::span<const std::byte> elements = elements_of(job, all);
-    const std::size_t size = job.shape.filters.element_size;
-    if (!has_one_value(elements, size)) continue;
-    const auto is_same = [&](const ChunkJob* other) {
-      return other->shape == job.shape && other->rows == job.rows &&
-             std::memcmp(elements_of(*other, all).data(), elements.data(), size) == 0;
-    };
-    const auto found = std::find_if(of_one_value.begin(), of_one_value.end(), is_same);
-    if (found == of_one_value.end()) {
-      of_one_value.push_back(&job);
-    } else {
-      job.same = *found;
-      (*found)->is_shared = true;
-    }
-  }
-}
-
 }  // namespace
 
-std::optional<ChunkShape> Dataset::chunk_shape() const {
+const std::optional<ChunkShape>& Dataset::chunk_shape() const {
+  if (!chunk_shape_) chunk_shape_ = read_chunk_shape();
+  return *chunk_shape_;
+}
+
+std::optional<ChunkShape> Dataset::read_chunk_shape() const {
   if (element_ == Element::text || std::endian::native != std::endian::little) return std::nullopt;
   const Handle properties = own(H5Dget_create_plist(id()), H5Pclose, "its properties cannot be read");
   const std::vector<Size> size = extent();
@@ -158,18 +136,24 @@ std::optional<ChunkShape> Dataset::chunk_shape() const {
                                      nullptr, &config));
     if (filters.back() == H5Z_FILTER_DEFLATE) level = value;
   }
-  ChunkShape shape{static_cast<std::int64_t>(chunk[0]), row_size(element_, size), {size_of(element_), {}}};
+  ChunkShape shape{
+      static_cast<std::int64_t>(chunk[0]), row_size(element_, size), {size_of(element_), {}}, size.size()};
   if (filters == std::vector{H5Z_FILTER_FLETCHER32}) return shape;
   shape.filters.deflate_level = static_cast<int>(level);
   if (filters == std::vector{H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE, H5Z_FILTER_FLETCHER32}) return shape;
   return std::nullopt;
 }
 
+std::vector<Size> Dataset::place_of(std::int64_t first) const {
+  std::vector<Size> place(chunk_shape() ? chunk_shape()->dimensions : extent().size(), 0);
+  place[0] = static_cast<Size>(first);
+  return place;
+}
+
 /// Empty if the chunk was never written, or a filter was left out because it did not fit: the library must
 /// read it.
 std::vector<std::byte> Dataset::stored_chunk(std::int64_t first) const {
-  std::vector<Size> place(extent().size(), 0);
-  place[0] = static_cast<Size>(first);
+  const std::vector<Size> place = place_of(first);
   Size size = 0;
   require(H5Dget_chunk_storage_size(id(), place.data(), &size), unreadable_values);
   std::vector<std::byte> stored(size);
@@ -181,38 +165,38 @@ std::vector<std::byte> Dataset::stored_chunk(std::int64_t first) const {
   return stored;
 }
 
-void Dataset::store_chunk(std::int64_t first, std::span<const std::byte> stored) {
-  std::vector<Size> place(extent().size(), 0);
-  place[0] = static_cast<Size>(first);
+void Dataset::store_chunk(std::int64_t first, std::span<const std::byte> stored, std::size_t digest) {
+  const std::vector<Size> place = place_of(first);
   require(H5Dwrite_chunk(id(), H5P_DEFAULT, 0, place.data(), stored.size(), stored.data()), "its values");
-  written().chunks.push_back({first, digest_of(stored.data(), stored.size())});
+  written().chunks.push_back({first, digest});
+}
+
+void Dataset::write(std::int64_t first, const EncodedRows& encoded) {
+  require_rows(first, encoded.rows);
+  if (chunk_shape() != encoded.shape || first % encoded.shape.rows != 0)
+    throw std::logic_error("rows are stored in a dataset that they were not encoded for");
+  for (const EncodedChunk& chunk : encoded.chunks) {
+    if (!chunk.stored) fail("its values do not decode to what was encoded");
+    store_chunk(first, *chunk.stored, chunk.digest);
+    first += encoded.shape.rows;
+  }
 }
 
 void write_rows(std::span<const RowsToWrite> all) {
-  std::vector<ChunkJob> jobs;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    all[i].dataset->require_rows(all[i].first, all[i].rows);
-    std::vector<ChunkJob> chunks = whole_chunks(*all[i].dataset, i, all[i].first, all[i].rows);
-    if (chunks.empty()) all[i].dataset->write_by_library(all[i].first, all[i].rows, all[i].data);
-    append(jobs, std::move(chunks));
+  std::vector<RowsToEncode> whole;
+  std::vector<const RowsToWrite*> requests;
+  for (const RowsToWrite& request : all) {
+    request.dataset->require_rows(request.first, request.rows);
+    if (!has_whole_chunks(*request.dataset, request.first, request.rows)) {
+      request.dataset->write_by_library(request.first, request.rows, request.data);
+      continue;
+    }
+    whole.push_back({*request.dataset->chunk_shape(), request.rows, request.data});
+    requests.push_back(&request);
   }
-  share_equal_chunks(jobs, all);
-  const auto encode = [&](ChunkJob& job) {
-    if (job.same != nullptr) return;
-    std::vector<std::byte> elements = chunk_of(job);
-    std::ranges::copy(elements_of(job, all), elements.begin());
-    std::optional<std::vector<std::byte>> stored = encode_chunk(job.shape.filters, elements);
-    job.damaged = !stored;
-    if (stored) job.stored = std::move(*stored);
-  };
-  const auto store = [&](const ChunkJob& job) {
-    const RowsToWrite& request = all[job.request];
-    const ChunkJob& encoded = job.same != nullptr ? *job.same : job;
-    if (encoded.damaged) request.dataset->fail("its values do not decode to what was encoded");
-    request.dataset->store_chunk(request.first + job.offset, encoded.stored);
-  };
-  run_jobs(
-      jobs, [](ChunkJob&) {}, encode, store);
+  const std::vector<EncodedRows> encoded = encode_rows(whole);
+  for (std::size_t i = 0; i < encoded.size(); ++i)
+    requests[i]->dataset->write(requests[i]->first, encoded[i]);
 }
 
 void read_rows(std::span<const RowsToRead> all) {
@@ -252,19 +236,29 @@ bool have_same_chunks(const RowsToCopy& copy) {
 }
 
 void copy_rows(std::span<const RowsToCopy> all) {
-  for (const RowsToCopy& copy : all) {
-    for (const ChunkJob& chunk : whole_chunks(*copy.source, 0, copy.source_first, copy.rows)) {
-      const std::vector<std::byte> stored = copy.source->stored_chunk(copy.source_first + chunk.offset);
-      if (stored.empty()) {
-        std::vector<std::byte> elements = chunk_of(chunk);
-        copy.source->read(copy.source_first + chunk.offset, chunk.rows, elements.data());
-        copy.dataset->write(copy.first + chunk.offset, chunk.rows, elements.data());
-        continue;
-      }
-      if (!has_valid_checksum(stored)) copy.source->fail(unreadable_values);
-      copy.dataset->store_chunk(copy.first + chunk.offset, stored);
+  std::vector<ChunkJob> jobs;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    append(jobs, whole_chunks(*all[i].source, i, all[i].source_first, all[i].rows));
+  const auto fetch = [&](ChunkJob& job) {
+    const RowsToCopy& request = all[job.request];
+    job.stored = request.source->stored_chunk(request.source_first + job.offset);
+  };
+  const auto check = [](ChunkJob& job) {
+    job.damaged = !job.stored.empty() && !has_valid_checksum(job.stored);
+    job.digest = digest_of(job.stored.data(), job.stored.size());
+  };
+  const auto store = [&](const ChunkJob& job) {
+    const RowsToCopy& request = all[job.request];
+    if (job.damaged) request.source->fail(unreadable_values);
+    if (!job.stored.empty()) {
+      request.dataset->store_chunk(request.first + job.offset, job.stored, job.digest);
+      return;
     }
-  }
+    std::vector<std::byte> elements = chunk_of(job);
+    request.source->read(request.source_first + job.offset, job.rows, elements.data());
+    request.dataset->write(request.first + job.offset, job.rows, elements.data());
+  };
+  run_jobs(jobs, fetch, check, store);
 }
 
 }  // namespace zerocount::hdf5

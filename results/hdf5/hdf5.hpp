@@ -120,12 +120,15 @@ struct Storage {
 struct RowsToWrite;
 struct RowsToRead;
 struct RowsToCopy;
+struct EncodedRows;
+struct FetchedRows;
 
 /// Chunks of whole rows.
 struct ChunkShape {
   std::int64_t rows{0};
   std::size_t row_size{0};  ///< bytes of the elements of a row
   ChunkFilters filters;
+  std::size_t dimensions{1};  ///< of the dataset
 
   bool operator==(const ChunkShape&) const = default;
 };
@@ -139,10 +142,14 @@ class Dataset : public Object {
   /// element(). For several datasets at a time: chunk_transfer.hpp.
   void write(std::int64_t first, std::int64_t rows, const void* data);
   void read(std::int64_t first, std::int64_t rows, void* data) const;
+  /// The rows as they are stored, for decode_rows(). The dataset must stay until then.
+  FetchedRows fetch(std::int64_t first, std::int64_t rows) const;
+  /// Stores the chunks of rows that were encoded for such a dataset, from row `first` on.
+  void write(std::int64_t first, const EncodedRows& encoded);
 
   /// None if the dataset has no chunks, a chunk does not span whole rows, it holds texts, its filters are not
   /// those of chunk_filters.hpp, or the machine is not little-endian.
-  std::optional<ChunkShape> chunk_shape() const;
+  const std::optional<ChunkShape>& chunk_shape() const;
 
   void write_texts(std::span<const std::string> texts);
   std::vector<std::string> read_texts() const;
@@ -171,9 +178,13 @@ class Dataset : public Object {
 
   /// Stored bytes of the chunk that begins at this row.
   std::vector<std::byte> stored_chunk(std::int64_t first) const;
-  void store_chunk(std::int64_t first, std::span<const std::byte> stored);
+  /// @param digest of the bytes
+  void store_chunk(std::int64_t first, std::span<const std::byte> stored, std::size_t digest);
+  std::vector<Size> place_of(std::int64_t first) const;  ///< of a row, in all dimensions
+  std::optional<ChunkShape> read_chunk_shape() const;
 
   Element element_;
+  mutable std::optional<std::optional<ChunkShape>> chunk_shape_{};  ///< once it is read
 };
 
 class Group : public Object {

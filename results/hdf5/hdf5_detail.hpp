@@ -51,6 +51,10 @@ struct NumberTypes {
 NumberTypes types_of(Element element);
 Handle text_type();
 
+/// Level of deflate. The inputs of trials are random digits: higher levels take longer and do not compress
+/// them better.
+inline constexpr int deflate_level = 1;
+
 /// Properties of a new file, group or dataset: creation order tracked, no times.
 Handle creation_properties(Id kind);
 

@@ -13,10 +13,6 @@
 namespace zerocount::hdf5 {
 namespace {
 
-/// Level of deflate. The inputs of trials are random digits: higher levels take longer and do not compress
-/// them better.
-constexpr unsigned deflate_level = 1;
-
 /// Turns off the library's messages on stderr and its exit handler, which would repeat failed writes.
 void quieten() {
   static const herr_t no_work_at_exit = H5dont_atexit();

@@ -121,16 +121,17 @@ void scatter(const RecordField<Record>& field, std::span<const std::byte> bytes,
       field.member);
 }
 
-/// The reverse of columns_of().
+/// The reverse of columns_of(). @param skipped records of the columns before the first of `records`
 template <class Record>
 void scatter_all(const std::vector<RecordField<Record>>& fields,
-                 const std::vector<std::vector<std::byte>>& columns, std::span<Record> records) {
+                 const std::vector<std::vector<std::byte>>& columns, std::size_t skipped,
+                 std::span<Record> records) {
   for (std::size_t first = 0; first < records.size(); first += records_at_a_time) {
     const std::span<Record> some =
         records.subspan(first, std::min(records_at_a_time, records.size() - first));
     for (std::size_t i = 0; i < fields.size(); ++i) {
       const std::size_t size = hdf5::size_of(fields[i].column.element);
-      scatter(fields[i], std::span(columns[i]).subspan(first * size, some.size() * size), some);
+      scatter(fields[i], std::span(columns[i]).subspan((skipped + first) * size, some.size() * size), some);
     }
   }
 }

@@ -39,13 +39,26 @@ hdf5::Dataset make_dataset(hdf5::Group& group, const std::string& name, const hd
   return folder.create_dataset(name.substr(slash + 1), storage);
 }
 
+/// @param inner sizes of the dimensions after the rows
+hdf5::Storage storage_of(hdf5::Element element, std::int64_t rows, std::span<const hdf5::Size> inner,
+                         hdf5::Compression compression) {
+  std::int64_t width = 1;
+  for (const hdf5::Size size : inner) width *= static_cast<std::int64_t>(size);
+  const bool empty = rows == 0;
+  const std::int64_t chunk = empty ? chunk_rows(width) : std::min(rows, chunk_rows(width));
+  hdf5::Storage storage{
+      element, {static_cast<hdf5::Size>(rows)}, {static_cast<hdf5::Size>(chunk)}, empty, compression};
+  for (const hdf5::Size size : inner) {
+    storage.extent.push_back(size);
+    storage.chunk.push_back(std::min(size, static_cast<hdf5::Size>(chunk_elements)));
+  }
+  return storage;
+}
+
 /// The scale of a dimension; tables of one group share the scales of equal names.
 hdf5::Dataset make_scale(hdf5::Group& group, const Column& column, std::int64_t size) {
   if (group.contains(column.name)) return group.open_dataset(column.name);
-  const bool empty = size == 0;
-  const auto chunk = static_cast<hdf5::Size>(empty ? chunk_elements : std::min(size, chunk_elements));
-  hdf5::Dataset scale =
-      group.create_dataset(column.name, {column.element, {static_cast<hdf5::Size>(size)}, {chunk}, empty});
+  hdf5::Dataset scale = group.create_dataset(column.name, scale_storage(column, size));
   scale.make_scale(column.name);
   describe(scale, column);
   return scale;
@@ -64,6 +77,18 @@ void write_numbers(hdf5::Dataset& scale, std::int64_t size, std::int64_t first_v
 
 std::int64_t chunk_rows(std::int64_t width) {
   return std::max<std::int64_t>(1, chunk_elements / width);
+}
+
+hdf5::Storage scale_storage(const Column& scale, std::int64_t size) {
+  return storage_of(scale.element, size, {}, hdf5::Compression::deflate);
+}
+
+hdf5::Storage column_storage(const Table& table, const Column& column, std::int64_t rows, std::int64_t second,
+                             hdf5::Compression compression) {
+  std::vector<hdf5::Size> inner;
+  if (table.second) inner.push_back(static_cast<hdf5::Size>(second));
+  if (table.last) inner.push_back(table.last->values.size());
+  return storage_of(column.element, rows, inner, compression);
 }
 
 TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t second,
@@ -138,28 +163,31 @@ void require_flags(const TableIo& io, std::size_t index, std::int64_t first,
                                     std::to_integer<int>(*wrong)));
 }
 
-hdf5::Storage TableIo::storage_of(const Column& column) const {
-  const bool empty = rows_ == 0;
-  hdf5::Storage storage{
-      column.element,
-      {static_cast<hdf5::Size>(rows_)},
-      {static_cast<hdf5::Size>(empty ? chunk_rows(width_) : std::min(rows_, chunk_rows(width_)))},
-      empty,
-      compression_};
-  for (const hdf5::Size size : inner_extent_) {
-    storage.extent.push_back(size);
-    storage.chunk.push_back(std::min(size, static_cast<hdf5::Size>(chunk_elements)));
-  }
-  return storage;
-}
-
 hdf5::Dataset& TableIo::add(const Column& column) {
-  hdf5::Dataset dataset = make_dataset(group_, column.name, storage_of(column));
+  hdf5::Dataset dataset =
+      make_dataset(group_, column.name, storage_of(column.element, rows_, inner_extent_, compression_));
   describe(dataset, column);
   dataset.attach_scale(row_scale_, 0);
   if (second_scale_) dataset.attach_scale(*second_scale_, 1);
   if (last_scale_) dataset.attach_scale(*last_scale_, static_cast<unsigned>(inner_extent_.size()));
   return datasets_.emplace_back(std::move(dataset));
+}
+
+std::vector<hdf5::FetchedRows> fetch_columns(const TableIo& io, std::int64_t first, std::int64_t rows) {
+  std::vector<hdf5::FetchedRows> fetched;
+  for (std::size_t index = 0; index < io.columns(); ++index)
+    fetched.push_back(io.column(index).fetch(first, rows));
+  return fetched;
+}
+
+std::vector<std::vector<std::byte>> decode_columns(const TableIo& io,
+                                                   std::span<const hdf5::FetchedRows> fetched) {
+  std::vector<std::vector<std::byte>> columns = hdf5::decode_rows(fetched);
+  for (std::size_t index = 0; index < io.columns(); ++index) {
+    if (io.column(index).element() == hdf5::Element::flag)
+      require_flags(io, index, fetched[index].first, columns[index]);
+  }
+  return columns;
 }
 
 void TableIo::number_rows(std::int64_t first_value) {

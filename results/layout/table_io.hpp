@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "results/hdf5/chunk_transfer.hpp"
+#include "results/hdf5/fetched_rows.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/fields.hpp"
 #include "results/layout/layout.hpp"
@@ -21,6 +21,12 @@ inline constexpr std::int64_t chunk_elements = 16384;
 
 /// Rows in a chunk of a table with `width` elements a row.
 std::int64_t chunk_rows(std::int64_t width);
+
+/// How the scale of `size` rows is stored.
+hdf5::Storage scale_storage(const Column& scale, std::int64_t size);
+/// How a column of a table is stored. @param second size of the second dimension, 1 if the table has none
+hdf5::Storage column_storage(const Table& table, const Column& column, std::int64_t rows, std::int64_t second,
+                             hdf5::Compression compression);
 
 /// The datasets of a table in an open file.
 class TableIo {
@@ -36,6 +42,7 @@ class TableIo {
 
   std::int64_t rows() const { return rows_; }
   std::int64_t width() const { return width_; }  ///< elements of a row
+  std::size_t columns() const { return datasets_.size(); }
   hdf5::Dataset& row_scale() { return row_scale_; }
   const hdf5::Dataset& row_scale() const { return row_scale_; }
   /// The scale of the second dimension, if there is one. Creation fills it if it counts from 0.
@@ -52,7 +59,6 @@ class TableIo {
   TableIo(hdf5::Group group, hdf5::Dataset row_scale)
       : group_(std::move(group)), row_scale_(std::move(row_scale)) {}
   void add_dimension(std::int64_t size);
-  hdf5::Storage storage_of(const Column& column) const;
 
   std::int64_t rows_{0};
   std::int64_t width_{1};
@@ -73,43 +79,23 @@ std::vector<Value> read_column(const TableIo& io, std::size_t index) {
   return values;
 }
 
-/// Writes records to the rows from `first` on; a row of a table of width w takes w records.
-template <class Record>
-void write_records(TableIo& io, const std::vector<RecordField<Record>>& fields, std::int64_t first,
-                   std::span<const Record* const> records) {
-  const auto chunk = static_cast<std::size_t>(chunk_rows(io.width()) * io.width());
-  for (; !records.empty(); records = records.subspan(std::min(chunk, records.size()))) {
-    const std::span<const Record* const> part = records.first(std::min(chunk, records.size()));
-    const std::int64_t rows = std::ssize(part) / io.width();
-    const std::vector<std::vector<std::byte>> bytes = columns_of(fields, part);
-    std::vector<hdf5::RowsToWrite> columns;
-    for (std::size_t index = 0; index < fields.size(); ++index)
-      columns.push_back({&io.column(index), first, rows, bytes[index].data()});
-    hdf5::write_rows(columns);
-    first += rows;
-  }
-}
-
 /// Throws Failure (bad_data) if an element of the column, read as bytes from row `first` on, is neither 0
 /// nor 1.
 void require_flags(const TableIo& io, std::size_t index, std::int64_t first,
                    std::span<const std::byte> flags);
 
+/// Some rows of a table as they are stored, [column].
+std::vector<hdf5::FetchedRows> fetch_columns(const TableIo& io, std::int64_t first, std::int64_t rows);
+
+/// Their elements, by any thread. @throws Failure (bad_data) if they are damaged
+std::vector<std::vector<std::byte>> decode_columns(const TableIo& io,
+                                                   std::span<const hdf5::FetchedRows> fetched);
+
 template <class Record>
 std::vector<Record> read_records(const TableIo& io, const std::vector<RecordField<Record>>& fields,
                                  std::int64_t first, std::int64_t rows) {
   std::vector<Record> records(static_cast<std::size_t>(rows * io.width()));
-  std::vector<std::vector<std::byte>> bytes;
-  std::vector<hdf5::RowsToRead> columns;
-  for (std::size_t index = 0; index < fields.size(); ++index) {
-    bytes.emplace_back(records.size() * hdf5::size_of(fields[index].column.element));
-    columns.push_back({&io.column(index), first, rows, bytes.back().data()});
-  }
-  hdf5::read_rows(columns);
-  for (std::size_t index = 0; index < fields.size(); ++index) {
-    if (fields[index].column.element == hdf5::Element::flag) require_flags(io, index, first, bytes[index]);
-  }
-  scatter_all(fields, bytes, std::span(records));
+  scatter_all(fields, decode_columns(io, fetch_columns(io, first, rows)), 0, std::span(records));
   return records;
 }
 

@@ -70,6 +70,20 @@ std::vector<trial::MoveOutcome> AllTrialsFile::outcomes(layout::RowRange range) 
   return chosen(range, trials()->outcomes(local(range)), moves());
 }
 
+StoredOutcomes AllTrialsFile::stored_outcomes(layout::RowRange range) const {
+  return trials()->stored_outcomes(local(range));
+}
+
+std::vector<trial::MoveOutcome> AllTrialsFile::outcomes(const OutcomeColumns& columns,
+                                                        layout::RowRange range) const {
+  return chosen(range, trials()->outcomes(columns, local(range)), moves());
+}
+
+std::vector<std::int64_t> AllTrialsFile::jerk_counts(const OutcomeColumns& columns,
+                                                     layout::RowRange range) const {
+  return chosen(range, trials()->jerk_counts(columns, local(range)), 1);
+}
+
 std::vector<double> AllTrialsFile::measure(std::string_view name, layout::RowRange range) const {
   return chosen(range, trials()->measure(name, local(range)), moves());
 }

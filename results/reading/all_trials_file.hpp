@@ -44,6 +44,13 @@ class AllTrialsFile : public ResultsFile {
   std::vector<trial::MoveOutcome> outcomes(layout::RowRange rows) const;
   std::vector<double> measure(std::string_view name, layout::RowRange rows) const;
 
+  /// The steps of outcomes(), of which only the first calls the library: the others are for any thread.
+  StoredOutcomes stored_outcomes(layout::RowRange rows) const;
+  OutcomeColumns decoded(const StoredOutcomes& stored) const { return trials()->decoded(stored); }
+  /// @param rows among those of the columns
+  std::vector<trial::MoveOutcome> outcomes(const OutcomeColumns& columns, layout::RowRange rows) const;
+  std::vector<std::int64_t> jerk_counts(const OutcomeColumns& columns, layout::RowRange rows) const;
+
   void require_valid_values() const { trials()->require_valid_values(); }
 
   std::int64_t jerk_count() const { return trials()->jerk_count(); }  ///< of all conditions

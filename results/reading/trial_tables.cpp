@@ -1,6 +1,7 @@
 #include "results/reading/trial_tables.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
@@ -142,19 +143,79 @@ std::vector<double> TrialTables::input(std::size_t column, layout::RowRange posi
 }
 
 std::vector<trial::MoveOutcome> TrialTables::outcomes(layout::RowRange positions) const {
+  return outcomes(decoded(stored_outcomes(positions)), positions);
+}
+
+StoredOutcomes TrialTables::stored_outcomes(layout::RowRange positions) const {
+  const auto fetched = [&](const layout::TableIo& io) {
+    return layout::fetch_columns(io, positions.first, positions.count);
+  };
+  StoredOutcomes stored{positions, fetched(outcomes_), {}, {}};
+  if (bands_) stored.bands = fetched(*bands_);
+  if (tolerances_) stored.tolerances = fetched(*tolerances_);
+  return stored;
+}
+
+OutcomeColumns TrialTables::decoded(const StoredOutcomes& stored) const {
+  OutcomeColumns columns{stored.positions, layout::decode_columns(outcomes_, stored.moves), {}, {}};
+  if (bands_) columns.bands = layout::decode_columns(*bands_, stored.bands);
+  if (tolerances_) columns.tolerances = layout::decode_columns(*tolerances_, stored.tolerances);
+  return columns;
+}
+
+namespace {
+
+/// The records of the rows at some positions. @param width records of a row
+template <class Record>
+std::vector<Record> records_at(const std::vector<layout::RecordField<Record>>& fields,
+                               const OutcomeColumns::Columns& columns, std::int64_t skipped_rows,
+                               std::int64_t rows, std::int64_t width) {
+  std::vector<Record> records(static_cast<std::size_t>(rows * width));
+  layout::scatter_all(fields, columns, static_cast<std::size_t>(skipped_rows * width), std::span(records));
+  return records;
+}
+
+}  // namespace
+
+std::vector<trial::MoveOutcome> TrialTables::outcomes(const OutcomeColumns& columns,
+                                                      layout::RowRange positions) const {
   std::vector<trial::MoveOutcome> moves =
-      layout::read_records(outcomes_, move_fields_, positions.first, positions.count);
+      records_at(move_fields_, columns.moves, positions.first - columns.positions.first, positions.count,
+                 outcomes_.width());
   validate_outcomes(outcomes_, move_fields_, number_of(positions.first), moves);
   for (std::size_t i = 0; i < moves.size(); ++i)
     moves[i].number = static_cast<std::int64_t>(i) % outcomes_.width();
-  if (bands_) read_bands_of(positions, moves);
-  if (tolerances_) read_tolerances_of(positions, moves);
+  if (bands_) take_bands(columns, positions, moves);
+  if (tolerances_) take_tolerances(columns, positions, moves);
   return moves;
 }
 
-void TrialTables::read_bands_of(layout::RowRange positions, std::span<trial::MoveOutcome> moves) const {
+std::vector<std::int64_t> TrialTables::jerk_counts(const OutcomeColumns& columns,
+                                                   layout::RowRange positions) const {
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(positions.count), 0);
+  const auto column = std::find_if(move_fields_.begin(), move_fields_.end(),
+                                   [](const auto& field) { return field.column.name == "jerk_count"; });
+  if (column == move_fields_.end()) return counts;
+  const std::vector<std::byte>& bytes =
+      columns.moves[static_cast<std::size_t>(column - move_fields_.begin())];
+  const auto moves = static_cast<std::size_t>(outcomes_.width());
+  std::size_t at =
+      static_cast<std::size_t>(positions.first - columns.positions.first) * moves * sizeof(std::int64_t);
+  for (std::int64_t& count : counts) {
+    for (std::size_t move = 0; move < moves; ++move, at += sizeof(std::int64_t)) {
+      std::int64_t of_move = 0;
+      std::memcpy(&of_move, bytes.data() + at, sizeof of_move);
+      count += of_move;
+    }
+  }
+  return counts;
+}
+
+void TrialTables::take_bands(const OutcomeColumns& columns, layout::RowRange positions,
+                             std::span<trial::MoveOutcome> moves) const {
   const std::vector<trial::BandOutcome> bands =
-      layout::read_records(*bands_, layout::band_fields(), positions.first, positions.count);
+      records_at(layout::band_fields(), columns.bands, positions.first - columns.positions.first,
+                 positions.count, bands_->width());
   validate_bands(*bands_, number_of(positions.first), bands);
   auto next = bands.begin();
   for (trial::MoveOutcome& move : moves) {
@@ -163,9 +224,11 @@ void TrialTables::read_bands_of(layout::RowRange positions, std::span<trial::Mov
   }
 }
 
-void TrialTables::read_tolerances_of(layout::RowRange positions, std::span<trial::MoveOutcome> moves) const {
+void TrialTables::take_tolerances(const OutcomeColumns& columns, layout::RowRange positions,
+                                  std::span<trial::MoveOutcome> moves) const {
   const std::vector<layout::ToleranceRecord> records =
-      layout::read_records(*tolerances_, layout::tolerance_fields(), positions.first, positions.count);
+      records_at(layout::tolerance_fields(), columns.tolerances, positions.first - columns.positions.first,
+                 positions.count, tolerances_->width());
   validate_tolerances(*tolerances_, number_of(positions.first), records);
   std::size_t next = 0;
   for (trial::MoveOutcome& move : moves)

@@ -17,6 +17,19 @@
 
 namespace zerocount::reading {
 
+/// The columns of the outcomes of trials as they are stored.
+struct StoredOutcomes {
+  layout::RowRange positions;
+  std::vector<hdf5::FetchedRows> moves, bands, tolerances;
+};
+
+/// The bytes of their elements.
+struct OutcomeColumns {
+  using Columns = std::vector<std::vector<std::byte>>;
+  layout::RowRange positions;
+  Columns moves, bands, tolerances;
+};
+
 /// The trials that a results file keeps: /trial, /outcome, /jerk and /trace. With `keep: failures` they are
 /// the trials that did not succeed, otherwise every trial of the file.
 ///
@@ -44,6 +57,13 @@ class TrialTables {
   /// All measures of the moves, [trial][move], flattened. Those that the file lacks are 0, or false, which is
   /// their true value in such files except for final_error; true_error is NaN.
   std::vector<trial::MoveOutcome> outcomes(layout::RowRange positions) const;
+  /// The steps of outcomes(), of which only the first calls the library: the others are for any thread.
+  StoredOutcomes stored_outcomes(layout::RowRange positions) const;
+  OutcomeColumns decoded(const StoredOutcomes& stored) const;
+  /// @param positions among those of the columns
+  std::vector<trial::MoveOutcome> outcomes(const OutcomeColumns& columns, layout::RowRange positions) const;
+  /// The jerks that each trial counts, [trial]. They may be impossible, as outcomes() would find.
+  std::vector<std::int64_t> jerk_counts(const OutcomeColumns& columns, layout::RowRange positions) const;
   /// One measure of a move by its name, [trial][move], flattened, whatever its type in the file, as doubles.
   /// NaN where it is not known.
   std::vector<double> measure(std::string_view name, layout::RowRange positions) const;
@@ -72,9 +92,11 @@ class TrialTables {
   void require_valid_values() const;
 
  private:
-  /// Reads the measures of the error bands of the trials at these positions into their moves.
-  void read_bands_of(layout::RowRange positions, std::span<trial::MoveOutcome> moves) const;
-  void read_tolerances_of(layout::RowRange positions, std::span<trial::MoveOutcome> moves) const;
+  /// Takes the measures of the error bands of the trials at these positions into their moves.
+  void take_bands(const OutcomeColumns& columns, layout::RowRange positions,
+                  std::span<trial::MoveOutcome> moves) const;
+  void take_tolerances(const OutcomeColumns& columns, layout::RowRange positions,
+                       std::span<trial::MoveOutcome> moves) const;
   /// In messages about values: a global row, or a position where failures are kept.
   std::int64_t number_of(std::int64_t position) const { return first_row_.value_or(0) + position; }
 

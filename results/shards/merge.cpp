@@ -12,6 +12,7 @@
 #include "results/layout/table_io.hpp"
 #include "results/shards/concatenate.hpp"
 #include "results/shards/rig_tables.hpp"
+#include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
 
 namespace zerocount::shards {
@@ -227,9 +228,19 @@ void MergedFile::write_statistics(const layout::StoredStatistics& statistics) {
 }
 
 void MergedFile::finish() {
+  close();
+  require_written();
+  publish();
+}
+
+void MergedFile::close() {
   trials_.reset();
   layout::mark_finished(file_);
-  finish_results(output_, file_.close());
+  written_ = file_.close();
+}
+
+void MergedFile::publish() const {
+  storage::publish_with_checksum(output_);
 }
 
 }  // namespace zerocount::shards

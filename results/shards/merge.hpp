@@ -72,6 +72,9 @@ class MergedFile {
   /// read
   void require_written() const { hdf5::require_written(part_.path(), written_); }
   void finish();
+  /// The steps of finish(): close(), require_written(), publish().
+  void close();
+  void publish() const;
 
  private:
   const study::Study& study_;

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/trial/outcome.hpp"
-#include "core/trial/trial.hpp"
 #include "experiments/study/study.hpp"
 #include "results/hdf5/element.hpp"
 #include "results/hdf5/written_values.hpp"
@@ -17,23 +15,15 @@
 #include "results/layout/point_sums.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/reading/results_file.hpp"
+#include "results/shards/trial_result.hpp"
 
 namespace zerocount::shards {
-
-/// The stored data of one trial.
-struct TrialResult {
-  std::int64_t row{0};                     ///< global row: point·trials + index
-  std::vector<double> inputs;              ///< [input column of the study], in that column's unit
-  trial::TrialOutcome outcome;             ///< one entry per move
-  std::vector<trial::Jerk> jerks;          ///< by move and onset
-  std::vector<trial::SampleRecord> trace;  ///< every sample of a retained trial; otherwise empty
-};
 
 /// Path in `directory` of the shard with these rows.
 std::filesystem::path shard_path(const std::filesystem::path& directory, layout::RowRange rows);
 
-/// Appends the checksum trailer to the closed results file part_of(path), reads the file back from the disk,
-/// and renames it to `path`.
+/// Reads the closed results file part_of(path) back, appends its checksum trailer, brings it to the disk, and
+/// renames it to `path`.
 /// @param written the expected contents
 /// @throws Failure (machine_failed) if the file cannot be flushed or read, or if its contents differ.
 void finish_results(const std::filesystem::path& path, const hdf5::WrittenValues& written);

@@ -77,6 +77,13 @@ void require_valid_checksum(const fs::path& path) {
   }
 }
 
+void publish_with_checksum(const fs::path& path) {
+  const fs::path part = part_of(path);
+  append_checksum(part);
+  if (check_checksum(part) != ChecksumState::valid) fail_read_back(part, "the checksum at its end differs");
+  publish(path);
+}
+
 void renew_checksum(const fs::path& path) {
   const ChecksumState state = check_checksum(path);
   const UnfinishedFile part(path);
@@ -85,10 +92,7 @@ void renew_checksum(const fs::path& path) {
   if (!error && state != ChecksumState::missing)
     fs::resize_file(part.path(), fs::file_size(path) - checksum_trailer_length, error);
   if (error) fail_with(part.path(), "write", error.value());
-  append_checksum(part.path());
-  if (check_checksum(part.path()) != ChecksumState::valid)
-    fail_read_back(part.path(), "the checksum at its end differs");
-  publish(path);
+  publish_with_checksum(path);
 }
 
 std::string recorded_checksum(const fs::path& path) {

@@ -30,6 +30,11 @@ ChecksumState check_checksum(const std::filesystem::path& path);
 /// be read.
 void require_valid_checksum(const std::filesystem::path& path);
 
+/// Appends the checksum trailer to the closed file part_of(path), checks what then comes from the disk, and
+/// renames it to `path`.
+/// @throws Failure (machine_failed) with the path and the reason
+void publish_with_checksum(const std::filesystem::path& path);
+
 /// Gives the file the checksum trailer of its present contents, in a copy that replaces it.
 /// @throws Failure (machine_failed) with the path and the reason
 void renew_checksum(const std::filesystem::path& path);

@@ -7,16 +7,19 @@
 #include <fmt/format.h>
 
 #include "analysis/parallel/parallel.hpp"
+#include "analysis/parallel/timeline.hpp"
 #include "analysis/report/answer_page.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/summary_answer/summary_answer.hpp"
 #include "core/text/number_text.hpp"
 #include "experiments/study/study.hpp"
+#include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
+#include "results/storage/file_contents.hpp"
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
@@ -85,7 +88,8 @@ struct RunRequest {
   int threads{0};
   bool quiet{false};
   bool force{false};
-  std::optional<fs::path> page;  ///< --watch
+  std::optional<fs::path> page;      ///< --watch
+  std::optional<fs::path> timeline;  ///< --timeline
 };
 
 /// The requested engine.
@@ -104,10 +108,27 @@ void require_study_of_option(const command_line::Arguments& arguments, const stu
                   arguments.operands()[0], study.study_sha256, *wanted));
 }
 
+/// @throws Failure (bad_input) if it is another file of the command, or exists and --force is not given
+std::optional<fs::path> timeline_place(const command_line::Arguments& arguments, const RunRequest& request) {
+  std::optional<fs::path> place = command_line::text_place(arguments, "timeline");
+  if (!place) return place;
+  // The same command goes on after an interruption, and writes its timeline anew.
+  if (!yaml::is_standard_stream(*place) && parallel::is_timeline(storage::bytes_at(*place, 0, 64))) {
+    storage::require_replaceable(*place);
+  } else {
+    command_line::require_places(arguments, {arguments.operands()[0]}, {*place});
+  }
+  std::vector<fs::path> others{request.output};
+  if (request.page) others.push_back(*request.page);
+  command_line::require_apart(arguments, *place, others);
+  return place;
+}
+
 RunRequest run_request(const command_line::Arguments& arguments) {
   RunRequest request;
   request.output = command_line::output_place(arguments);
   request.page = commands::watched_page(arguments, {arguments.operands()[0], request.output});
+  request.timeline = timeline_place(arguments, request);
   request.study = commands::load_study(arguments.operands()[0], arguments, {&request.output, 1});
   require_study_of_option(arguments, request.study);
   request.study.engine = engine_of(arguments);
@@ -143,7 +164,8 @@ report::ReportPage page_of(const fs::path& output) {
   return report::answer_page(summary_answer::summary_answer(summary));
 }
 
-void run_to_output(const RunRequest& request, const status::Listener& listener, const std::stop_token& stop) {
+void run_to_output(const RunRequest& request, const status::Listener& listener, parallel::Timeline* timeline,
+                   const std::stop_token& stop) {
   const study_run::ExistingUse existing =
       request.force ? study_run::ExistingUse::none
                     : study_run::use_of_existing(request.output, request.study, request.wanted);
@@ -159,12 +181,27 @@ void run_to_output(const RunRequest& request, const status::Listener& listener, 
   storage::require_replaceable(request.output);
   if (request.study.stop) {
     study_run::run_sequential(request.study, request.output,
-                              {request.threads, request.quiet, foreign_shards(request), listener}, stop);
+                              {request.threads, request.quiet, foreign_shards(request), listener, timeline},
+                              stop);
   } else {
     study_run::run_to_file({request.study, request.output, request.wanted, request.threads, request.quiet,
-                            foreign_shards(request), !request.force, listener},
+                            foreign_shards(request), !request.force, listener, timeline},
                            existing, stop);
   }
+}
+
+/// Runs, and writes the timeline also of a run that fails or is interrupted.
+template <class Work>
+void with_timeline(const std::optional<fs::path>& place, const Work& work) {
+  if (!place) return work(nullptr);
+  parallel::Timeline timeline;
+  try {
+    work(&timeline);
+  } catch (...) {
+    command_line::write_text(*place, timeline.trace_events());
+    throw;
+  }
+  command_line::write_text(*place, timeline.trace_events());
 }
 
 ExitCode run(const command_line::Arguments& arguments) {
@@ -189,7 +226,9 @@ ExitCode run(const command_line::Arguments& arguments) {
                            .kind = "run"},
                           [&] { return sections_so_far(request.output); });
   return live.during([&] {
-    run_to_output(request, live.listener(), interruption.token());
+    with_timeline(request.timeline, [&](parallel::Timeline* timeline) {
+      run_to_output(request, live.listener(), timeline, interruption.token());
+    });
     if (request.page) live.finish(report::html_page(page_of(request.output)));
     return ExitCode::success;
   });
@@ -210,9 +249,11 @@ commands::Command run_command() {
         {"study", "SHA256", "refuse a study with another hash, such as one whose manifest has changed"},
         {"set", "KEY=VALUE",
          "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},
+        {"timeline", "FILE",
+         "write which thread did what, and when, for Perfetto or chrome://tracing (Trace Event Format)"},
         {"quiet,q", "", "print no progress"},
         {"force", "",
-         "replace FILE and PAGE, remove unfinished runs of other studies, skip the check of disk space"}}},
+         "replace all files named, remove unfinished runs of other studies, skip the check of disk space"}}},
       "run a study: manifest in, results file out",
       run_help,
       run};

@@ -1,5 +1,7 @@
 #include "runners/study_run/assembly.hpp"
 
+#include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,12 +36,11 @@ void write_summed(shards::MergedFile& file, const study::Study& study, layout::R
 }
 
 /// Writes the statistics of all trials in the file.
-void write_statistics(shards::MergedFile& file, const study::Study& study,
-                      std::span<const theory::PointPrediction> predictions) {
+void write_statistics(shards::MergedFile& file, const study::Study& study, const AssembleSettings& settings) {
   try {
     summary::take_stored_statistics(
-        file.trials(), study, predictions,
-        [&](const layout::StoredStatistics& block) { file.write_statistics(block); });
+        file.trials(), study, settings.predictions,
+        [&](const layout::StoredStatistics& block) { file.write_statistics(block); }, settings.timeline);
     if (!study.sequence.empty()) iso230::write_repeatability(file.file(), study);
   } catch (const Failure&) {
     file.require_written();
@@ -51,14 +52,23 @@ void write_statistics(shards::MergedFile& file, const study::Study& study,
 
 void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
               const std::filesystem::path& output, layout::RowRange rows, const AssembleSettings& settings) {
-  shards::MergedFile file(shards, study, output, rows,
-                          {.renumber = settings.renumber, .stop = settings.stop});
+  const auto timed = [&](std::string_view name, const auto& work) {
+    const parallel::TimeSpan span(settings.timeline, name, parallel::Work::serial, rows.count);
+    work();
+  };
+  std::optional<shards::MergedFile> file;
+  timed("merge", [&] {
+    file.emplace(shards, study, output, rows,
+                 shards::MergeOptions{.renumber = settings.renumber, .stop = settings.stop});
+  });
   if (layout::has_sums(study.retention)) {
-    write_summed(file, study, rows);
-  } else if (file.is_whole()) {
-    write_statistics(file, study, settings.predictions);
+    timed("statistics", [&] { write_summed(*file, study, rows); });
+  } else if (file->is_whole()) {
+    write_statistics(*file, study, settings);
   }
-  file.finish();
+  timed("store", [&] { file->close(); });
+  timed("read back", [&] { file->require_written(); });
+  timed("publish", [&] { file->publish(); });
 }
 
 }  // namespace zerocount::study_run

@@ -55,6 +55,7 @@ void run_to_file(const FileRun& request, ExistingUse existing, const std::stop_t
   std::int64_t done = kept;
   trials::RunSettings settings;
   settings.threads = request.threads;
+  settings.timeline = request.timeline;
   settings.finished = [&](std::int64_t trials) { progress.update(done += trials); };
   const trials::FinishedTrials finished =
       trials::run_trials(request.study, missing, directory, settings, stop);
@@ -70,7 +71,7 @@ void run_to_file(const FileRun& request, ExistingUse existing, const std::stop_t
   shards.insert(shards.end(), finished.shards.begin(), finished.shards.end());
   shards::sort_by_rows(shards);
   assemble(shards, request.study, request.output, wanted,
-           {.predictions = finished.predictions, .stop = stop});
+           {.predictions = finished.predictions, .stop = stop, .timeline = request.timeline});
   for (const shards::ShardInfo& shard : finished.shards) earlier.all.push_back(shard.path);
   remove_shards(directory, earlier.all);
   if (!request.quiet) status::tell("wrote {}\n", request.output.string());

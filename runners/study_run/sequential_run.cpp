@@ -109,7 +109,7 @@ study::Study decided_study(const study::Study& study, std::int64_t trials) {
 
 /// Joins the shards (rows of `study`) into the results file of the study `decided`.
 void assemble_decided(const std::vector<shards::ShardInfo>& shards, const study::Study& study,
-                      const study::Study& decided, const fs::path& output, const std::stop_token& stop) {
+                      const study::Study& decided, const fs::path& output, const AssembleSettings& common) {
   const auto renumber = [&](std::int64_t row) {
     return row / study.trials * decided.trials + row % study.trials;
   };
@@ -118,7 +118,9 @@ void assemble_decided(const std::vector<shards::ShardInfo>& shards, const study:
   for (const shards::ShardInfo& shard : shards) {
     renumbered.push_back({shard.path, {renumber(shard.rows.first), shard.rows.count}});
   }
-  assemble(renumbered, decided, output, layout::all_rows(decided), {.renumber = renumber, .stop = stop});
+  AssembleSettings with_rows = common;
+  with_rows.renumber = renumber;
+  assemble(renumbered, decided, output, layout::all_rows(decided), with_rows);
 }
 
 }  // namespace
@@ -139,6 +141,7 @@ void run_sequential(const study::Study& study, const fs::path& output, const Seq
                             settings.quiet, settings.listener);
   trials::RunSettings run;
   run.threads = settings.threads;
+  run.timeline = settings.timeline;
   run.finished = [&](std::int64_t trials) { progress.update(done += trials); };
 
   std::int64_t trials = 0;
@@ -162,7 +165,8 @@ void run_sequential(const study::Study& study, const fs::path& output, const Seq
   progress.project(study::point_count(study) * trials);
   progress.finish(done);
 
-  assemble_decided(shards, study, decided_study(study, trials), output, stop);
+  assemble_decided(shards, study, decided_study(study, trials), output,
+                   {.stop = stop, .timeline = settings.timeline});
   for (const shards::ShardInfo& shard : shards) earlier.all.push_back(shard.path);
   remove_shards(directory, earlier.all);
   if (!settings.quiet) {

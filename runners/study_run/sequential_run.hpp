@@ -4,6 +4,7 @@
 #include <stop_token>
 #include <string_view>
 
+#include "analysis/parallel/timeline.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/status/status.hpp"
@@ -16,6 +17,7 @@ struct SequentialRunSettings {
   bool quiet{false};
   ForeignShards foreign{ForeignShards::refuse};
   status::Listener listener{};
+  parallel::Timeline* timeline{nullptr};  ///< gets spans of the stages; null: none
 };
 
 /// Start of the last override in the file of such a study; the final number of trials follows.

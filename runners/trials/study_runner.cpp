@@ -15,8 +15,11 @@
 
 #include "analysis/measures/point_columns.hpp"
 #include "core/trial/trial.hpp"
+#include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
-#include "runners/trials/shard_writer.hpp"
+#include "results/shards/encoded_shard.hpp"
+#include "runners/trials/kept_block.hpp"
+#include "runners/trials/shard_collector.hpp"
 #include "runners/trials/trial_runner.hpp"
 #include "runners/trials/turn_clock.hpp"
 #include "runners/trials/turns.hpp"
@@ -108,43 +111,149 @@ std::int64_t block_size_of(const study::Study& study, std::int64_t rows, int thr
                     std::min(limits.trials, rows_per_block));
 }
 
-/// Runs the blocks of `ranges` in parallel, and gives them to `take` one at a time in this order.
-void run_blocks(const study::Study& study, std::span<const layout::RowRange> ranges, int threads,
-                const std::stop_token& stop, const std::function<void(KeptBlock&&)>& take) {
-  namespace tbb = oneapi::tbb;
-  using Product = std::shared_ptr<KeptBlock>;
-  BlockSource source(study, Turns(ranges, study.trials),
-                     block_size_of(study, layout::total_rows(ranges), threads), threads);
-  const auto next_block = [&](tbb::flow_control& control) -> Block {
-    std::optional<Block> block = stop.stop_requested() ? std::nullopt : source.next();
-    if (!block) {
-      control.stop();
-      return {};
-    }
-    return *block;
-  };
-  tbb::enumerable_thread_specific<TrialRunner> runners([&study] { return TrialRunner(study); });
-  const auto run_block = [&](Block block) -> Product {
+/// A block that has been run, or the end of all.
+struct RunBlock {
+  std::shared_ptr<KeptBlock> kept;  ///< null if it was interrupted, or at the end
+  bool is_end{false};
+};
+
+/// What the writer gets: finished trials, and the shards that end with them.
+template <class Shard>
+struct Delivery {
+  std::int64_t trials{0};
+  std::vector<Shard> shards;
+};
+
+/// The stages through which trials become shards.
+class ShardPipeline {
+ public:
+  ShardPipeline(const study::Study& study, const std::filesystem::path& directory,
+                const RunSettings& settings)
+      : study_(study),
+        directory_(directory),
+        settings_(settings),
+        provenance_(layout::current_provenance()),
+        runners_([this] { return TrialRunner(study_); }),
+        collector_(study) {
+    finished_.predictions.resize(static_cast<std::size_t>(study::point_count(study)));
+  }
+
+  /// See run_trials().
+  FinishedTrials run(std::span<const layout::RowRange> ranges, int threads, const std::stop_token& stop) {
+    BlockSource source(study_, Turns(ranges, study_.trials),
+                       block_size_of(study_, layout::total_rows(ranges), threads), threads);
+    namespace tbb = oneapi::tbb;
+    using Mode = tbb::filter_mode;
+    using Contents = std::shared_ptr<Delivery<ShardContents>>;
+    using Encoded = std::shared_ptr<Delivery<shards::EncodedShard>>;
+    using Stored = std::shared_ptr<std::vector<shards::StoredShard>>;
+    bool has_ended = false;
+    const auto next_block = [&](tbb::flow_control& control) -> std::optional<Block> {
+      if (has_ended) {
+        control.stop();
+        return std::nullopt;
+      }
+      std::optional<Block> block = stop.stop_requested() ? std::nullopt : source.next();
+      has_ended = !block;
+      return block;
+    };
+    const auto pipeline = [&] {
+      tbb::parallel_pipeline(
+          2 * static_cast<std::size_t>(threads) + 2,
+          tbb::make_filter<void, std::optional<Block>>(Mode::serial_in_order, next_block) &
+              tbb::make_filter<std::optional<Block>, RunBlock>(
+                  Mode::parallel, [&](const std::optional<Block>& block) { return run_block(block, stop); }) &
+              tbb::make_filter<RunBlock, Contents>(Mode::serial_in_order,
+                                                   [&](const RunBlock& block) { return collect(block); }) &
+              tbb::make_filter<Contents, Encoded>(
+                  Mode::parallel, [&](const Contents& contents) { return encode(*contents); }) &
+              tbb::make_filter<Encoded, Stored>(Mode::serial_in_order,
+                                                [&](const Encoded& encoded) { return store(*encoded); }) &
+              tbb::make_filter<Stored, void>(Mode::parallel,
+                                             [&](const Stored& stored) { publish(*stored); }));
+    };
+    tbb::task_arena(threads).execute(pipeline);
+    shards::sort_by_rows(finished_.shards);
+    return std::move(finished_);
+  }
+
+ private:
+  /// Any thread. @param block none: the end
+  RunBlock run_block(const std::optional<Block>& block, const std::stop_token& stop) {
+    if (!block) return {nullptr, true};
+    const parallel::TimeSpan span(settings_.timeline, "compute", parallel::Work::parallel, block->rows.count);
     try {
-      auto kept = std::make_shared<KeptBlock>(reduce(study, runners.local().run_block(block.rows, stop)));
-      kept->begins_turn = block.begins_turn;
-      return kept;
+      auto kept = std::make_shared<KeptBlock>(reduce(study_, runners_.local().run_block(block->rows, stop)));
+      kept->begins_turn = block->begins_turn;
+      return {std::move(kept)};
     } catch (const trial::Interrupted&) {
-      return nullptr;  // the trials of the block are run again
+      return {};  // the trials of the block are run again
     }
-  };
-  const auto take_block = [&](const Product& product) {
-    if (product) take(std::move(*product));
-  };
-  const auto pipeline = [&] {
-    tbb::parallel_pipeline(
-        4 * static_cast<std::size_t>(threads),
-        tbb::make_filter<void, Block>(tbb::filter_mode::serial_in_order, next_block) &
-            tbb::make_filter<Block, Product>(tbb::filter_mode::parallel, run_block) &
-            tbb::make_filter<Product, void>(tbb::filter_mode::serial_in_order, take_block));
-  };
-  tbb::task_arena(threads).execute(pipeline);
-}
+  }
+
+  /// One thread at a time, in the order of the turns.
+  std::shared_ptr<Delivery<ShardContents>> collect(const RunBlock& block) {
+    const parallel::TimeSpan span(settings_.timeline, "collect", parallel::Work::serial);
+    auto delivery = std::make_shared<Delivery<ShardContents>>();
+    if (block.kept) {
+      delivery->trials = block.kept->rows.count;
+      const auto first_point = static_cast<std::size_t>(block.kept->rows.first / study_.trials);
+      for (std::size_t i = 0; i < block.kept->predictions.size(); ++i)
+        finished_.predictions[first_point + i] =
+            finished_.predictions[first_point + i] + block.kept->predictions[i];
+      collector_.take(std::move(*block.kept));
+    }
+    if (block.is_end) collector_.flush();
+    delivery->shards = collector_.ended();
+    return delivery;
+  }
+
+  /// Any thread.
+  std::shared_ptr<Delivery<shards::EncodedShard>> encode(Delivery<ShardContents>& contents) const {
+    auto delivery = std::make_shared<Delivery<shards::EncodedShard>>();
+    delivery->trials = contents.trials;
+    for (ShardContents& one : contents.shards) {
+      const parallel::TimeSpan span(settings_.timeline, "encode", parallel::Work::parallel, one.rows.count);
+      delivery->shards.push_back(encoded(study_, provenance_, std::move(one)));
+    }
+    return delivery;
+  }
+
+  /// The writer: one thread at a time, in the order of the turns, the only one that calls the HDF5 library.
+  std::shared_ptr<std::vector<shards::StoredShard>> store(Delivery<shards::EncodedShard>& delivery) {
+    auto stored = std::make_shared<std::vector<shards::StoredShard>>();
+    for (const shards::EncodedShard& shard : delivery.shards) {
+      const std::filesystem::path path = shards::shard_path(directory_, shard.rows);
+      {
+        const parallel::TimeSpan span(settings_.timeline, "store", parallel::Work::serial, shard.rows.count);
+        stored->push_back(shards::store_shard(path, study_, shard));
+      }
+      const parallel::TimeSpan span(settings_.timeline, "read back", parallel::Work::serial,
+                                    shard.rows.count);
+      shards::require_stored(stored->back());
+      finished_.shards.push_back({path, shard.rows});
+    }
+    delivery.shards.clear();
+    if (settings_.finished && delivery.trials > 0) settings_.finished(delivery.trials);
+    return stored;
+  }
+
+  /// Any thread.
+  void publish(const std::vector<shards::StoredShard>& stored) const {
+    for (const shards::StoredShard& shard : stored) {
+      const parallel::TimeSpan span(settings_.timeline, "publish", parallel::Work::parallel);
+      shards::publish_shard(shard);
+    }
+  }
+
+  const study::Study& study_;
+  const std::filesystem::path& directory_;
+  const RunSettings& settings_;
+  layout::Provenance provenance_;
+  oneapi::tbb::enumerable_thread_specific<TrialRunner> runners_;
+  ShardCollector collector_;
+  FinishedTrials finished_;
+};
 
 /// Bytes of the statistics of the points that are written together, when all trials have been run.
 double memory_of_statistics(const study::Study& study) {
@@ -203,20 +312,7 @@ FinishedTrials run_trials(const study::Study& study, std::span<const layout::Row
   const int threads = threads_to_use(settings.threads);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
-  ShardWriter writer(study, directory);
-  std::vector<theory::PointPrediction> predictions(static_cast<std::size_t>(study::point_count(study)));
-  run_blocks(study, ranges, threads, stop, [&](KeptBlock&& block) {
-    const std::int64_t trials = block.rows.count;
-    const auto first_point = static_cast<std::size_t>(block.rows.first / study.trials);
-    for (std::size_t i = 0; i < block.predictions.size(); ++i)
-      predictions[first_point + i] = predictions[first_point + i] + block.predictions[i];
-    writer.take(std::move(block));
-    if (settings.finished) settings.finished(trials);
-  });
-  writer.flush();
-  FinishedTrials finished{writer.written(), std::move(predictions)};
-  shards::sort_by_rows(finished.shards);
-  return finished;
+  return ShardPipeline(study, directory, settings).run(ranges, threads, stop);
 }
 
 }  // namespace zerocount::trials

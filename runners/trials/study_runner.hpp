@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "analysis/parallel/timeline.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
@@ -34,7 +35,8 @@ double peak_memory(const study::Study& study, double bytes_of_trial, double reco
 struct RunSettings {
   int threads{0};  ///< 0: all that the machine has
   std::function<void(std::int64_t trials)>
-      finished{};  ///< called by the writer with every block of finished trials
+      finished{};                         ///< called by the writer with every block of finished trials
+  parallel::Timeline* timeline{nullptr};  ///< gets a span of every stage; null: none
 };
 
 struct FinishedTrials {
@@ -46,9 +48,14 @@ struct FinishedTrials {
 /// Runs the trials of `ranges` and writes them as shards into `directory`.
 ///
 /// The points of a sweep take turns (Turns), so that the trials so far compare all of them. Blocks of trials
-/// run in parallel. The writer collects them one at a time, in the order of the turns. A shard is written at
-/// the end of a turn, or when it is large enough, which bounds the memory and the loss by a crash. If `stop`
-/// is requested, no new block starts, and the finished trials are written.
+/// run in parallel. A shard ends with a turn, or when it is large enough, which bounds the memory and the
+/// loss by a crash. If `stop` is requested, no new block starts, and the finished trials are written.
+///
+///     compute     any thread: run the trials of a block, and put what is kept of them in columns
+///     collect     one thread at a time, in the order of the turns: add the block to the shard that it
+///     belongs to encode      any thread: filter the columns of a shard that has ended store       one thread
+///     at a time, as the library of the files wants it: write the file, read back   and read it publish any
+///     thread: checksum, flush to the disk, name
 FinishedTrials run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,
                           const std::filesystem::path& directory, const RunSettings& settings,
                           const std::stop_token& stop);

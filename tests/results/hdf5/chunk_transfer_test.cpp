@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include "results/hdf5/encoded_rows.hpp"
+#include "results/hdf5/fetched_rows.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/support/draws.hpp"
@@ -156,6 +160,63 @@ TEST(ChunkTransfer, StoresTheSameBytesWithAnyNumberOfThreads) {
   }
 }
 
+/// Writes the sample as rows that were encoded before the dataset existed.
+void write_encoded(const fs::path& path, const Sample& sample, const hdf5::ChunkShape& shape) {
+  const hdf5::RowsToEncode rows{shape, sample.rows(), sample.elements.data()};
+  const std::vector<hdf5::EncodedRows> encoded = hdf5::encode_rows({&rows, 1});
+  hdf5::File file = hdf5::File::create(path);
+  file.create_dataset("value", sample.storage).write(0, encoded.front());
+  hdf5::require_written(path, file.close());
+}
+
+TEST(EncodedRows, AreStoredAsTheDatasetWouldEncodeThem) {
+  const TemporaryFolder folder;
+  Draws draws(20260105);
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    const Sample sample = random_sample(draws);
+    const std::optional<hdf5::ChunkShape> shape = hdf5::chunk_shape_of(sample.storage);
+    write_whole(folder / "whole.h5", sample, 2);
+    ASSERT_EQ(shape, hdf5::File::open_to_read(folder / "whole.h5").open_dataset("value").chunk_shape());
+    if (!shape) continue;  // a chunk has a part of the rows' width
+    write_encoded(folder / "encoded.h5", sample, *shape);
+    EXPECT_EQ(read_bytes(folder / "encoded.h5"), read_bytes(folder / "whole.h5"));
+  }
+}
+
+TEST(EncodedRows, AreRefusedByAnotherDataset) {
+  const TemporaryFolder folder;
+  const hdf5::Storage storage{hdf5::Element::float64, {100}, {50}};
+  const std::vector<double> values(100, 1.5);
+  const hdf5::RowsToEncode rows{*hdf5::chunk_shape_of(storage), 100, values.data()};
+  const hdf5::EncodedRows encoded = hdf5::encode_rows({&rows, 1}).front();
+  hdf5::File file = hdf5::File::create(folder / "file.h5");
+  hdf5::Dataset other = file.create_dataset("other", {hdf5::Element::float64, {100}, {20}});
+  EXPECT_THROW(other.write(0, encoded), std::logic_error);
+  hdf5::Dataset longer = file.create_dataset("longer", {hdf5::Element::float64, {150}, {50}});
+  EXPECT_THROW(longer.write(25, encoded), std::logic_error);
+  longer.write(50, encoded);
+}
+
+TEST(FetchedRows, DecodeToTheRowsThatTheDatasetReads) {
+  const TemporaryFolder folder;
+  Draws draws(20260106);
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    const Sample sample = random_sample(draws);
+    write_whole(folder / "file.h5", sample, 2);
+    const hdf5::File file = hdf5::File::open_to_read(folder / "file.h5");
+    const hdf5::Dataset value = file.open_dataset("value");
+    std::vector<hdf5::FetchedRows> fetched;
+    in_pieces(draws, sample,
+              [&](std::int64_t first, std::int64_t rows) { fetched.push_back(value.fetch(first, rows)); });
+    std::string elements;
+    for (const std::vector<std::byte>& piece : hdf5::decode_rows(fetched))
+      elements.append(reinterpret_cast<const char*>(piece.data()), piece.size());
+    ASSERT_EQ(elements, sample.elements);
+  }
+}
+
 /// Without compression the stored bytes are the elements and their checksum: every implementation must give
 /// the same.
 TEST(ChunkTransfer, HasTheLibrarysChecksum) {
@@ -189,6 +250,12 @@ TEST(ChunkTransfer, RefusesADamagedChunk) {
                    [&] { read(path, sample, 0, sample.rows()); });
     expect_failure(ExitCode::bad_data, "/value: its values cannot be read or their checksum is wrong",
                    [&] { copy(path, folder / "copy.h5", sample); });
+    expect_failure(ExitCode::bad_data, "/value: its values cannot be read or their checksum is wrong", [&] {
+      const hdf5::File file = hdf5::File::open_to_read(path);
+      const hdf5::Dataset value = file.open_dataset("value");
+      const hdf5::FetchedRows fetched = value.fetch(0, sample.rows());
+      hdf5::decode_rows({&fetched, 1});
+    });
   }
 }
 

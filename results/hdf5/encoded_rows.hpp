@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "results/hdf5/hdf5.hpp"
+
+/// Rows of a dataset as its file will store them. They are filtered without the library, so by any thread,
+/// and before there is a dataset; Dataset::write() only stores their bytes.
+namespace zerocount::hdf5 {
+
+/// The chunks of a dataset that is created with this storage, as Dataset::chunk_shape() will say.
+std::optional<ChunkShape> chunk_shape_of(const Storage& storage);
+
+/// Rows from the beginning of a chunk to the end of one, or of the dataset.
+struct RowsToEncode {
+  ChunkShape shape;
+  std::int64_t rows;
+  const void* data;
+};
+
+/// The stored bytes of a chunk.
+struct EncodedChunk {
+  std::shared_ptr<const std::vector<std::byte>> stored;  ///< null if encoding it failed
+  std::size_t digest{0};                                 ///< of the stored bytes
+};
+
+struct EncodedRows {
+  ChunkShape shape;
+  std::int64_t rows{0};
+  std::vector<EncodedChunk> chunks;
+};
+
+/// Encodes several chunks at a time. Chunks of the same value in all elements, such as those of measures that
+/// no trial has, are encoded once.
+std::vector<EncodedRows> encode_rows(std::span<const RowsToEncode> all);
+
+}  // namespace zerocount::hdf5

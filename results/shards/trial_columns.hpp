@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "experiments/study/study.hpp"
+#include "results/layout/layout.hpp"
+#include "results/shards/trial_result.hpp"
+
+namespace zerocount::shards {
+
+/// A table with rows of trials in a shard.
+struct ShardTable {
+  layout::Table table;
+  std::int64_t second{1};  ///< size of the second dimension
+  /// What numbers its rows: the trials, a scale that an earlier table has written, or nothing but their
+  /// order.
+  enum class Rows { trials, shared, counted } rows{Rows::trials};
+};
+
+/// The tables of trials in a shard of the study, in the order of the file.
+std::vector<ShardTable> shard_tables(const study::Study& study, const layout::MeasureTable& measures);
+
+/// Rows of a table, as the bytes of the elements of its columns.
+struct TableColumns {
+  std::int64_t rows{0};
+  std::vector<std::vector<std::byte>> columns;  ///< [column]
+};
+
+/// What a shard stores of trials, in columns: a fifth of the memory of the results.
+struct TrialColumns {
+  std::vector<std::int64_t> rows;    ///< global row of each trial
+  std::vector<TableColumns> tables;  ///< those of shard_tables()
+};
+
+TrialColumns columns_of(const study::Study& study, const layout::MeasureTable& measures,
+                        std::span<const TrialResult> results);
+
+/// Bytes of the columns.
+std::size_t bytes_of(const TrialColumns& columns);
+
+/// The columns of all parts, in their order. Empties the parts.
+TrialColumns joined(std::span<TrialColumns> parts);
+
+}  // namespace zerocount::shards

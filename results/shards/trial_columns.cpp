@@ -87,7 +87,7 @@ std::vector<layout::TraceRecord> trace_records(std::span<const TrialResult> resu
   return records;
 }
 
-/// Calls `use` with every vector of a part's columns and that of the whole.
+/// Moves the bytes of a part behind those of the whole.
 void append(std::vector<std::byte>& whole, std::vector<std::byte>& part) {
   whole.insert(whole.end(), part.begin(), part.end());
   part = {};

@@ -38,12 +38,12 @@ bool are_near(const ResponseSample& a, const ResponseSample& b) {
 }
 
 /// Adds samples between `from` and `to`, and `to`, until each is near the next.
-void add_until(const FrozenLoop& loop, const ResponseSample& from, const ResponseSample& to,
+void add_until(const OpenLoop& loop, const ResponseSample& from, const ResponseSample& to,
                std::vector<ResponseSample>& samples) {
   constexpr double smallest_step = 1e-9;  // of the angle; the phase of an undamped mode jumps
   if (!are_near(from, to) && to.angle - from.angle > smallest_step * to.angle) {
     const double middle = 0.5 * (from.angle + to.angle);
-    const ResponseSample between{middle, open_loop(loop, middle)};
+    const ResponseSample between{middle, loop.at_angle(middle)};
     if (has_phase(between)) {
       add_until(loop, from, between, samples);
       add_until(loop, between, to, samples);
@@ -59,14 +59,15 @@ std::vector<ResponseSample> dense_samples(const FrozenLoop& loop, const std::vec
   angles.insert(angles.end(), also.begin(), also.end());
   std::sort(angles.begin(), angles.end());
   angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
+  const OpenLoop open = open_loop(loop);
   std::vector<ResponseSample> samples;
   for (const double angle : angles) {
-    const ResponseSample sample{angle, open_loop(loop, angle)};
+    const ResponseSample sample{angle, open.at_angle(angle)};
     if (!has_phase(sample)) continue;
     if (samples.empty()) {
       samples.push_back(sample);
     } else {
-      add_until(loop, ResponseSample(samples.back()), sample, samples);
+      add_until(open, ResponseSample(samples.back()), sample, samples);
     }
   }
   return samples;

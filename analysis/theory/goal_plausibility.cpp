@@ -186,10 +186,11 @@ double highest_rate_within_band(double band, double noise, double samples) {
 double motion_by_noise(const FrozenLoop& loop, double noise, double resolution, double bandwidth) {
   constexpr int angles = 4000;
   const double pole = std::exp(-2.0 * std::numbers::pi * bandwidth * loop.sample_time);  // 0: white
+  const OpenLoop open_loop_at = open_loop(loop);
   double mean_square = 0.0;
   for (int i = 0; i < angles; ++i) {
     const double angle = (i + 0.5) * std::numbers::pi / angles;
-    const std::complex<double> open = open_loop(loop, angle);
+    const std::complex<double> open = open_loop_at.at_angle(angle);
     const double spectrum = (1.0 - pole * pole) / std::norm(1.0 - std::polar(pole, -angle));
     mean_square += std::norm(open / (1.0 + open)) * spectrum / angles;
   }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/theory/trial_loops.hpp"
 #include "core/loop/controller/controller.hpp"
 #include "core/theory/gains.hpp"
@@ -88,7 +89,7 @@ void add_loops(std::vector<LoopRanges>& loops, const trial::TrialParameters& p) 
     ranges.stability.insert(stability_of(poles, of_trial.loop.sample_time, p.command.hold));
     const double slowest = slowest_time_constant(poles, of_trial.loop.sample_time);
     if (slowest > p.command.hold && std::isfinite(slowest)) ranges.slow.add(slowest);
-    if (of_trial.slides) ranges.bandwidth.add(gain_crossover(of_trial.loop).frequency);
+    if (of_trial.slides) ranges.bandwidth.add(margins.crossover.frequency);
   }
 }
 
@@ -151,12 +152,11 @@ struct ExaminedPoint {
   }
 };
 
-/// lowest_k1() of a rotor whose k1 is a profile; `known` is that of the same rig in the point before.
-double lowest_k1_of(const friction::FrictionAlongRotor& friction, KnownRotor& known) {
+/// Finds lowest_k1() of a rotor whose k1 is a profile, unless it is known from the point before.
+void know_rotor(const friction::FrictionAlongRotor& friction, KnownRotor& known) {
   const auto k1 = std::ranges::find(friction.profiled, &friction::FrictionParameters::k1,
                                     &friction::ProfiledParameter::parameter);
   if (known.k1 != k1->profile) known = {k1->profile, lowest_k1(friction)};
-  return known.lowest;
 }
 
 /// Examines the lowest k1 of the rotors of all rigs (draw j is of rig j mod rigs). The bound of the sampled
@@ -164,18 +164,23 @@ double lowest_k1_of(const friction::FrictionAlongRotor& friction, KnownRotor& kn
 void examine_rotors(const ExaminedPoint& at, LowestStiffness& lowest, std::vector<KnownRotor>& known) {
   const study::Study& study = at.study;
   lowest.rigs = std::min(study.rigs, max_rigs_examined);
-  known.resize(static_cast<std::size_t>(lowest.rigs));
-  trial::TrialParameters softest;
+  const auto rigs = static_cast<std::size_t>(lowest.rigs);
+  known.resize(rigs);
+  constexpr std::size_t rigs_at_once = 64;
+  parallel::for_each_index((rigs + rigs_at_once - 1) / rigs_at_once, [&](std::size_t block) {
+    for (std::size_t rig = block * rigs_at_once; rig < std::min((block + 1) * rigs_at_once, rigs); ++rig)
+      know_rotor(at.trial(static_cast<std::int64_t>(rig)).friction, known[rig]);
+  });
+  std::int64_t softest = 0;
   Range k1;
   for (std::int64_t rig = 0; rig < lowest.rigs; ++rig) {
-    const trial::TrialParameters p = at.trial(rig);
-    const double k1_of_rig = lowest_k1_of(p.friction, known[static_cast<std::size_t>(rig)]);
-    add_low_end(study, p, k1_of_rig, lowest);
-    if (k1_of_rig < k1.low) softest = p;
+    const double k1_of_rig = known[static_cast<std::size_t>(rig)].lowest;
+    add_low_end(study, at.trial(rig), k1_of_rig, lowest);
+    if (k1_of_rig < k1.low) softest = rig;
     k1.add(k1_of_rig);
   }
   if (lowest.rigs > 0)
-    lowest.sampled_below.add(as_given(study.units, softest, sampled_bound(k1.low, softest)));
+    lowest.sampled_below.add(as_given(study.units, at.trial(softest), sampled_bound(k1.low, at.trial(softest))));
 }
 
 /// Adds what takes longer to compute and the paper does not treat: the sampled loop, its time constants and

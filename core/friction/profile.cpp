@@ -45,32 +45,52 @@ namespace {
 constexpr std::size_t block_size = 16;
 using Block = std::array<double, block_size>;
 
-/// The field at `block_size` positions from `first` on, `spacing` apart: field_at() in vectors, to rounding.
-Block fields_from(const Profile& profile, double first, double spacing) {
+/// The field at θ, π − θ, π + θ and −θ, in parts of a period.
+struct FourFields {
+  Block ahead, mirrored, opposite, behind;
+};
+
+/// The field at four times `block_size` angles, from `first` on, `spacing` apart: field_at() in vectors, to
+/// rounding. cos mθ and sin mθ are the same at all four, but for signs.
+FourFields fields_from(const Profile& profile, double first, double spacing) {
   Block turn_real;
   Block turn_imaginary;
   for (std::size_t i = 0; i < block_size; ++i) {
-    const double position = first + static_cast<double>(i) * spacing;
     const numerics::SineAndCosine turn =
-        numerics::sine_and_cosine(position * (2.0 * std::numbers::pi / profile.period));
+        numerics::sine_and_cosine((first + static_cast<double>(i) * spacing) * (2.0 * std::numbers::pi));
     turn_real[i] = turn.cosine;
     turn_imaginary[i] = turn.sine;
   }
   Block real;
   Block imaginary{};
-  Block field{};
+  std::array<Block, 2> cosines{};  // of even and odd m
+  std::array<Block, 2> sines{};
   real.fill(1.0);
   for (std::size_t m = 0; m < profile.cosine.size(); ++m) {
     const double cosine = profile.cosine[m];
     const double sine = profile.sine[m];
+    Block& of_cosine = cosines[m % 2];
+    Block& of_sine = sines[m % 2];
     for (std::size_t i = 0; i < block_size; ++i) {
-      field[i] += cosine * real[i] + sine * imaginary[i];
+      of_cosine[i] += cosine * real[i];
+      of_sine[i] += sine * imaginary[i];
       const double next = real[i] * turn_real[i] - imaginary[i] * turn_imaginary[i];
       imaginary[i] = real[i] * turn_imaginary[i] + imaginary[i] * turn_real[i];
       real[i] = next;
     }
   }
-  return field;
+  FourFields fields;
+  for (std::size_t i = 0; i < block_size; ++i) {
+    const double even_cosine = cosines[0][i];
+    const double odd_cosine = cosines[1][i];
+    const double even_sine = sines[0][i];
+    const double odd_sine = sines[1][i];
+    fields.ahead[i] = (even_cosine + odd_cosine) + (even_sine + odd_sine);
+    fields.mirrored[i] = (even_cosine - odd_cosine) - (even_sine - odd_sine);
+    fields.opposite[i] = (even_cosine - odd_cosine) + (even_sine - odd_sine);
+    fields.behind[i] = (even_cosine + odd_cosine) - (even_sine + odd_sine);
+  }
+  return fields;
 }
 
 /// Positions of the extreme values among those that are searched.
@@ -82,16 +102,17 @@ struct ExtremePositions {
 
 /// Searches 16 positions per shortest wavelength. The marginal is monotonic: the normal values are compared.
 ExtremePositions find_extremes(const Profile& profile) {
-  const std::size_t points = block_size * std::max<std::size_t>(4, profile.cosine.size());
+  constexpr std::size_t alike = 4;  // angles whose fields are found together
+  const std::size_t blocks = (std::max<std::size_t>(4, profile.cosine.size()) + alike - 1) / alike;
+  const double spacing = 1.0 / static_cast<double>(alike * blocks * block_size);  // of the period
   ExtremePositions found;
-  found.spacing = profile.period / static_cast<double>(points);
+  found.spacing = profile.period * spacing;
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  for (std::size_t block = 0; block < points; block += block_size) {
-    const Block fields = fields_from(profile, static_cast<double>(block) * found.spacing, found.spacing);
+  const auto compare = [&](const Block& fields, double first, double step) {
     for (std::size_t i = 0; i < block_size; ++i) {
       const double value = normal_value(profile, fields[i]);
-      const double position = static_cast<double>(block + i) * found.spacing;
+      const double position = profile.period * (first + static_cast<double>(i) * step);
       if (value < low) {
         low = value;
         found.lowest = position;
@@ -101,6 +122,15 @@ ExtremePositions find_extremes(const Profile& profile) {
         found.highest = position;
       }
     }
+  };
+  // From one end of a quarter of the period to the other, in the middle of each interval.
+  for (std::size_t block = 0; block < blocks; ++block) {
+    const double first = (static_cast<double>(block * block_size) + 0.5) * spacing;
+    const FourFields fields = fields_from(profile, first, spacing);
+    compare(fields.ahead, first, spacing);
+    compare(fields.mirrored, 0.5 - first, -spacing);
+    compare(fields.opposite, 0.5 + first, spacing);
+    compare(fields.behind, 1.0 - first, -spacing);
   }
   return found;
 }

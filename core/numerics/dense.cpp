@@ -38,10 +38,6 @@ Eigen::VectorXd solve_transposed_factor(const Eigen::MatrixXd& factor, const Eig
   return factor.transpose().triangularView<Eigen::Upper>().solve(b);
 }
 
-Eigen::VectorXcd solve(const Eigen::MatrixXcd& a, const Eigen::VectorXcd& b) {
-  return a.fullPivLu().solve(b);
-}
-
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.completeOrthogonalDecomposition().solve(b);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/numerics/bisection.hpp"
 #include "core/numerics/dense.hpp"
@@ -102,12 +103,15 @@ double other_side(const Sought& f, double low, double high, double side) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-std::vector<double> sign_changes(const Sought& f, const std::vector<double>& angles) {
+/// The angles at which f, a function of the response, changes its sign.
+std::vector<double> sign_changes(const SampledResponse& response, double (*of_response)(Complex)) {
   constexpr double near = 0.3;  // |f| below which it may change its sign and back between three angles
+  const Sought f = [&](double angle) { return of_response(response.at(angle)); };
+  const std::vector<double>& angles = response.angles;
   std::vector<double> found;
   std::vector<double> values;
   values.reserve(angles.size());
-  for (const double angle : angles) values.push_back(f(angle));
+  for (const Complex value : response.values) values.push_back(of_response(value));
   for (std::size_t i = 1; i < angles.size(); ++i) {
     if ((values[i] > 0.0) != (values[i - 1] > 0.0)) {
       found.push_back(sign_change(f, angles[i - 1], angles[i], values[i - 1]));
@@ -125,6 +129,14 @@ std::vector<double> sign_changes(const Sought& f, const std::vector<double>& ang
   return found;
 }
 
+std::vector<double> logarithmic_angles() {
+  constexpr int points = 600;
+  std::vector<double> angles;
+  for (int i = 0; i <= points; ++i)
+    angles.push_back(lowest_angle * std::pow(highest_angle / lowest_angle, double(i) / points));
+  return angles;
+}
+
 }  // namespace
 
 void add_angles_around(const Eigen::VectorXcd& roots, std::vector<double>& angles) {
@@ -134,11 +146,9 @@ void add_angles_around(const Eigen::VectorXcd& roots, std::vector<double>& angle
 }
 
 std::vector<double> search_angles(const FrozenLoop& loop) {
-  constexpr int points = 600;
   constexpr double max_turn = 0.3;  // of the phase by the delay, rad
-  std::vector<double> angles;
-  for (int i = 0; i <= points; ++i)
-    angles.push_back(lowest_angle * std::pow(highest_angle / lowest_angle, double(i) / points));
+  static const std::vector<double> of_any_loop = logarithmic_angles();
+  std::vector<double> angles = of_any_loop;
   const double step = max_turn / (loop.plant.delay + 2);
   for (double angle = step; angle < half_turn; angle += step) angles.push_back(angle);
   std::vector<Eigen::VectorXcd> roots{numerics::eigenvalues(loop.plant.A)};
@@ -156,21 +166,25 @@ std::vector<double> search_angles(const FrozenLoop& loop) {
   return angles;
 }
 
-std::vector<double> gain_crossovers(const Response& response, const std::vector<double>& angles) {
-  return sign_changes([&](double angle) { return std::log(std::abs(response(angle))); }, angles);
+SampledResponse sampled(Response response, std::vector<double> angles) {
+  SampledResponse sampled{std::move(response), std::move(angles)};
+  sampled.values.reserve(sampled.angles.size());
+  for (const double angle : sampled.angles) sampled.values.push_back(sampled.at(angle));
+  return sampled;
 }
 
-std::vector<double> phase_crossovers(const Response& response, const std::vector<double>& angles) {
-  const auto sine = [&](double angle) {
-    const Complex value = response(angle);
-    return value.imag() / std::abs(value);
-  };
-  std::vector<double> found = sign_changes(sine, angles);
+std::vector<double> gain_crossovers(const SampledResponse& response) {
+  return sign_changes(response, [](Complex value) { return 0.5 * std::log(std::norm(value)); });
+}
+
+std::vector<double> phase_crossovers(const SampledResponse& response) {
+  std::vector<double> found =
+      sign_changes(response, [](Complex value) { return value.imag() / std::sqrt(std::norm(value)); });
   // Across a pole on the unit circle the response jumps from one side of the real axis to the other.
   std::erase_if(found, [&](double angle) {
     constexpr double apart = 1e-11;
-    const Complex before = response(angle * (1.0 - apart));
-    const Complex after = response(angle * (1.0 + apart));
+    const Complex before = response.at(angle * (1.0 - apart));
+    const Complex after = response.at(angle * (1.0 + apart));
     return !((before * std::conj(after)).real() > 0.0);
   });
   return found;

@@ -22,11 +22,19 @@ std::vector<double> search_angles(const FrozenLoop& loop);
 /// Adds angles around those of these poles or zeros, in increasing order.
 void add_angles_around(const Eigen::VectorXcd& roots, std::vector<double>& angles);
 
-/// The angles, increasing, at which |response| passes 1. Also between angles at which |response| comes near 1
-/// from the same side.
-std::vector<double> gain_crossovers(const Response& response, const std::vector<double>& angles);
+/// A frequency response, and its values at angles that show its shape.
+struct SampledResponse {
+  Response at;
+  std::vector<double> angles;                  ///< increasing
+  std::vector<std::complex<double>> values{};  ///< [angle]
+};
+SampledResponse sampled(Response response, std::vector<double> angles);
+
+/// The angles at which |response| passes 1. Also between angles at which |response| comes near 1 from the
+/// same side.
+std::vector<double> gain_crossovers(const SampledResponse& response);
 
 /// The angles at which the response passes the real axis, other than through infinity.
-std::vector<double> phase_crossovers(const Response& response, const std::vector<double>& angles);
+std::vector<double> phase_crossovers(const SampledResponse& response);
 
 }  // namespace zerocount::theory

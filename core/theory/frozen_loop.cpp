@@ -32,8 +32,8 @@ FrozenLoop frozen_loop(double stiffness, double damping, const motion::PlantPara
           loop::linear_chain(controller, resolution), T};
 }
 
-std::complex<double> open_loop(const FrozenLoop& loop, double angle) {
-  return open_loop(std::polar(1.0, angle), loop.plant, loop.controller);
+OpenLoop open_loop(const FrozenLoop& loop) {
+  return {loop.plant, loop.controller};
 }
 
 Eigen::VectorXcd poles_of(const FrozenLoop& loop) {

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <complex>
-
 #include "core/loop/controller/transfer_function.hpp"
 #include "core/loop/parameters.hpp"
 #include "core/motion/parameters.hpp"
 #include "core/theory/held_plant.hpp"
+#include "core/theory/linear_loop.hpp"
 
 namespace zerocount::theory {
 
@@ -29,8 +28,8 @@ FrozenLoop frozen_loop(double stiffness, double damping, const motion::PlantPara
                        const loop::EncoderParameters& encoder, const loop::ControllerParameters& controller,
                        const LinearDrive& drive = {});
 
-/// L at z = exp(i·angle), angle = ωT.
-std::complex<double> open_loop(const FrozenLoop& loop, double angle);
+/// L of the loop.
+OpenLoop open_loop(const FrozenLoop& loop);
 
 /// The poles z of the closed loop: the eigenvalues of loop_map.
 Eigen::VectorXcd poles_of(const FrozenLoop& loop);

@@ -326,7 +326,7 @@ struct Balance {
   friction::FrictionModel model;
   const friction::FrictionParameters& contact;
   const motion::PlantParameters& plant;
-  loop::LinearChain chain;
+  ControllerResponse controller;
   double resolution;
   double sample_time;
   double delay;
@@ -339,7 +339,7 @@ struct Balance {
     const double corner = 2.0 * std::numbers::pi * drive.bandwidth;
     const Complex lag = corner > 0.0 ? 1.0 / Complex(1.0, frequency / corner) : 1.0;
     const double error_gain = describing_function(deadband, amplitude / resolution);
-    return controller_response(z, chain, error_gain) * std::pow(z, -delay) * hold * lag * drive.gain /
+    return controller.at(z, error_gain) * std::pow(z, -delay) * hold * lag * drive.gain /
            resolution;
   }
   Complex at(double amplitude, double frequency) const {
@@ -392,7 +392,7 @@ std::vector<LimitCycle> harmonic_balance(friction::FrictionModel model,
   const Balance balance{model,
                         contact,
                         plant,
-                        loop::linear_chain(controller, resolution),
+                        ControllerResponse(loop::linear_chain(controller, resolution)),
                         resolution,
                         sample_time(controller),
                         controller.delay,

@@ -12,18 +12,6 @@ namespace {
 using Complex = std::complex<double>;
 using Row = Eigen::RowVectorXd;  ///< a signal as a linear form of the loop's states
 
-/// Paths of a stage with equal poles, which share their states.
-struct PathGroup {
-  std::vector<double> a;
-  std::vector<std::pair<loop::LoopSignal, std::vector<double>>> numerators;
-
-  Eigen::Index order() const {
-    std::size_t coefficients = a.size();
-    for (const auto& [from, b] : numerators) coefficients = std::max(coefficients, b.size());
-    return static_cast<Eigen::Index>(coefficients) - 1;
-  }
-};
-
 std::vector<PathGroup> groups_of(const loop::LinearBlock& stage) {
   std::vector<PathGroup> groups;
   for (const loop::SignalPath& path : stage) {
@@ -35,11 +23,30 @@ std::vector<PathGroup> groups_of(const loop::LinearBlock& stage) {
   return groups;
 }
 
+using Blocks = std::vector<std::vector<PathGroup>>;
+
+Blocks blocks_of(const loop::LinearChain& controller) {
+  Blocks blocks;
+  blocks.reserve(controller.size());
+  for (const loop::LinearBlock& block : controller) blocks.push_back(groups_of(block));
+  return blocks;
+}
+
+bool knows_torque_in_force(const Blocks& blocks) {
+  for (const std::vector<PathGroup>& groups : blocks) {
+    for (const PathGroup& group : groups) {
+      for (const auto& [from, b] : group.numerators) {
+        if (from == loop::LoopSignal::torque_in_force) return true;
+      }
+    }
+  }
+  return false;
+}
+
 /// The wanted torque where the signals are `count` and `in_force`, the torque in force.
 /// @param pass returns the output of a group of paths for its input signals.
 template <class Signal, class Pass>
-Signal wanted_torque(const loop::LinearChain& controller, const Signal& count, const Signal& in_force,
-                     Pass pass) {
+Signal wanted_torque(const Blocks& blocks, const Signal& count, const Signal& in_force, Pass pass) {
   Signal torque = 0.0 * count;
   const auto input = [&](loop::LoopSignal from) -> Signal {
     switch (from) {
@@ -54,9 +61,9 @@ Signal wanted_torque(const loop::LinearChain& controller, const Signal& count, c
     }
     return in_force;
   };
-  for (const loop::LinearBlock& block : controller) {
+  for (const std::vector<PathGroup>& groups : blocks) {
     Signal sum = 0.0 * count;
-    for (const PathGroup& group : groups_of(block)) sum += pass(group, input);
+    for (const PathGroup& group : groups) sum += pass(group, input);
     torque = sum;
   }
   return torque;
@@ -85,39 +92,82 @@ Row realise(const PathGroup& group, const Input& input, Eigen::Index state, Eige
   return output;
 }
 
-/// Σ c[k]·z⁻ᵏ.
-Complex value_at(const std::vector<double>& c, Complex z) {
+/// a/b without the care for extreme exponents that the language takes.
+Complex quotient(Complex a, Complex b) {
+  return a * std::conj(b) * (1.0 / std::norm(b));
+}
+
+/// Σ c[k]·w^k.
+Complex value_at(const std::vector<double>& c, Complex w) {
   Complex value = 0.0;
-  for (auto k = c.rbegin(); k != c.rend(); ++k) value = value / z + *k;
+  for (auto k = c.rbegin(); k != c.rend(); ++k) value = value * w + *k;
   return value;
+}
+
+/// Linear equations of as many unknowns as a plant has states at most: two masses and the amplifier.
+struct Equations {
+  static constexpr int max_size = 5;
+  Eigen::Index size;
+  Complex left[max_size][max_size];
+  Complex right[max_size];
+};
+
+/// Eliminates the other unknowns, the last one first, by the pivot of largest magnitude.
+Complex first_unknown(Equations& equations) {
+  auto& [size, left, right] = equations;
+  for (Eigen::Index k = size - 1; k > 0; --k) {
+    Eigen::Index pivot = k;
+    for (Eigen::Index i = 0; i < k; ++i) {
+      if (std::norm(left[i][k]) > std::norm(left[pivot][k])) pivot = i;
+    }
+    std::swap(left[pivot], left[k]);
+    std::swap(right[pivot], right[k]);
+    const Complex inverse = quotient(1.0, left[k][k]);
+    for (Eigen::Index i = 0; i < k; ++i) {
+      const Complex factor = left[i][k] * inverse;
+      for (Eigen::Index j = 0; j < k; ++j) left[i][j] -= factor * left[k][j];
+      right[i] -= factor * right[k];
+    }
+  }
+  return quotient(right[0], left[0][0]);
+}
+
+Complex power(Complex base, int exponent) {
+  Complex result = 1.0;
+  for (; exponent > 0; exponent /= 2) {
+    if (exponent % 2 == 1) result *= base;
+    base *= base;
+  }
+  return result;
 }
 
 }  // namespace
 
+Eigen::Index PathGroup::order() const {
+  std::size_t coefficients = a.size();
+  for (const auto& [from, b] : numerators) coefficients = std::max(coefficients, b.size());
+  return static_cast<Eigen::Index>(coefficients) - 1;
+}
+
 Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& controller) {
   const Eigen::Index driven = plant.A.rows();
+  const Blocks blocks = blocks_of(controller);
   Eigen::Index of_blocks = 0;
-  bool knows_torque_in_force = false;
-  for (const loop::LinearBlock& block : controller) {
-    for (const PathGroup& group : groups_of(block)) {
-      of_blocks += group.order();
-      for (const auto& [from, b] : group.numerators) {
-        knows_torque_in_force = knows_torque_in_force || from == loop::LoopSignal::torque_in_force;
-      }
-    }
+  for (const std::vector<PathGroup>& groups : blocks) {
+    for (const PathGroup& group : groups) of_blocks += group.order();
   }
   // The torques decided at the last samples, newest first.
   const Eigen::Index pending = driven + of_blocks;
   const bool changes_within = !plant.b_before.isZero(0.0);
   const Eigen::Index states =
-      pending + std::max(plant.delay + (changes_within ? 1 : 0), knows_torque_in_force ? 1 : 0);
+      pending + std::max(plant.delay + (changes_within ? 1 : 0), knows_torque_in_force(blocks) ? 1 : 0);
   const auto state = [&](Eigen::Index i) -> Row { return Row::Unit(states, i); };
 
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(states, states);
   Eigen::Index next = driven;
   const Row in_force = pending < states ? state(pending) : Row::Zero(states);
   const Row decided =
-      wanted_torque<Row>(controller, state(0), in_force, [&](const PathGroup& group, const auto& input) {
+      wanted_torque<Row>(blocks, state(0), in_force, [&](const PathGroup& group, const auto& input) {
         Row output = realise(group, input, next, map);
         next += group.order();
         return output;
@@ -137,47 +187,57 @@ double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controll
   return numerics::spectral_radius(loop_map(plant, controller));
 }
 
-namespace {
+ControllerResponse::ControllerResponse(const loop::LinearChain& controller)
+    : blocks_(blocks_of(controller)), knows_torque_in_force_(knows_torque_in_force(blocks_)) {}
+
+Complex ControllerResponse::at(Complex z, double error_gain) const {
+  const Complex w = quotient(1.0, z);
+  const auto pass = [w, error_gain](const PathGroup& group, const auto& input) {
+    Complex sum = 0.0;
+    for (const auto& [from, b] : group.numerators) {
+      const double gain = from == loop::LoopSignal::error ? error_gain : 1.0;
+      sum += gain * value_at(b, w) * input(from);
+    }
+    return group.a.size() == 1 ? sum / group.a[0] : quotient(sum, value_at(group.a, w));
+  };
+  const Complex from_count = wanted_torque<Complex>(blocks_, 1.0, 0.0, pass);
+  if (!knows_torque_in_force_) return -from_count;
+  // The torque in force is z⁻¹·U, so U = from_count·count + from_itself·z⁻¹·U.
+  const Complex from_itself = wanted_torque<Complex>(blocks_, 0.0, 1.0, pass);
+  return -quotient(from_count, 1.0 - from_itself * w);
+}
+
+OpenLoop::OpenLoop(const HeldPlant& plant, const loop::LinearChain& controller)
+    : plant_(plant), controller_(controller) {}
+
+Complex OpenLoop::at(Complex z) const {
+  const Complex inverse = quotient(1.0, z);
+  return controller_.at(z) * power(inverse, plant_.delay) * plant_at(z, inverse);
+}
 
 /// The first element of (z·I − A)⁻¹·(b + b_before/z): the count per torque decided, but for whole delays.
-Complex plant_response(Complex z, const HeldPlant& plant) {
-  const Eigen::Index states = plant.A.rows();
-  const auto m = [&](Eigen::Index i, Eigen::Index j) { return (i == j ? z : 0.0) - plant.A(i, j); };
-  const auto drive = [&](Eigen::Index i) { return plant.b(i) + plant.b_before(i) / z; };
+Complex OpenLoop::plant_at(Complex z, Complex inverse) const {
+  const Eigen::Index states = plant_.A.rows();
+  const auto m = [&](Eigen::Index i, Eigen::Index j) { return (i == j ? z : 0.0) - plant_.A(i, j); };
+  const auto drive = [&](Eigen::Index i) { return plant_.b(i) + plant_.b_before(i) * inverse; };
   // Of two or three states, as most plants have, Cramer's rule: c are the cofactors of the first column of m.
   if (states == 2) {
     const Complex c[] = {m(1, 1), -m(0, 1)};
-    return (c[0] * drive(0) + c[1] * drive(1)) / (c[0] * m(0, 0) + c[1] * m(1, 0));
+    return quotient(c[0] * drive(0) + c[1] * drive(1), c[0] * m(0, 0) + c[1] * m(1, 0));
   }
   if (states == 3) {
     const Complex c[] = {m(1, 1) * m(2, 2) - m(1, 2) * m(2, 1), m(0, 2) * m(2, 1) - m(0, 1) * m(2, 2),
                          m(0, 1) * m(1, 2) - m(0, 2) * m(1, 1)};
-    return (c[0] * drive(0) + c[1] * drive(1) + c[2] * drive(2)) /
-           (c[0] * m(0, 0) + c[1] * m(1, 0) + c[2] * m(2, 0));
+    return quotient(c[0] * drive(0) + c[1] * drive(1) + c[2] * drive(2),
+                    c[0] * m(0, 0) + c[1] * m(1, 0) + c[2] * m(2, 0));
   }
-  const Eigen::MatrixXcd resolvent = z * Eigen::MatrixXcd::Identity(states, states) - plant.A;
-  return numerics::solve(resolvent, plant.b.cast<Complex>() + plant.b_before.cast<Complex>() / z)(0);
-}
-
-}  // namespace
-
-Complex open_loop(Complex z, const HeldPlant& plant, const loop::LinearChain& controller) {
-  return controller_response(z, controller) * std::pow(z, -plant.delay) * plant_response(z, plant);
-}
-
-Complex controller_response(Complex z, const loop::LinearChain& controller, double error_gain) {
-  const auto pass = [z, error_gain](const PathGroup& group, const auto& input) {
-    Complex sum = 0.0;
-    for (const auto& [from, b] : group.numerators) {
-      const double gain = from == loop::LoopSignal::error ? error_gain : 1.0;
-      sum += gain * value_at(b, z) * input(from);
-    }
-    return sum / value_at(group.a, z);
-  };
-  // The torque in force is z⁻¹·U, so U = from_count·count + from_itself·z⁻¹·U.
-  const Complex from_count = wanted_torque<Complex>(controller, 1.0, 0.0, pass);
-  const Complex from_itself = wanted_torque<Complex>(controller, 0.0, 1.0, pass);
-  return -from_count / (1.0 - from_itself / z);
+  Equations equations;
+  equations.size = states;
+  for (Eigen::Index i = 0; i < states; ++i) {
+    for (Eigen::Index j = 0; j < states; ++j) equations.left[i][j] = m(i, j);
+    equations.right[i] = drive(i);
+  }
+  return first_unknown(equations);
 }
 
 }  // namespace zerocount::theory

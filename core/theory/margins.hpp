@@ -16,25 +16,6 @@ struct Margin {
   double frequency;
 };
 
-/// Where a loop has several crossovers, each margin is that of the one nearest to instability.
-struct StabilityMargins {
-  /// 1/|L| where L is negative: the factor of the gain at which the loop is on the edge of stability, at the
-  /// frequency where |L| is nearest to 1 by ratio. A factor below 1 limits a decrease of the gain, or is the
-  /// decrease that an unstable loop needs.
-  Margin gain;
-  /// 180° + arg L where |L| = 1, in (−180, 180]: the value nearest to 0.
-  Margin phase;
-};
-
-/// Mₛ, the largest |S| over 0 < ω ≤ π/T, and its frequency: the distance of L from −1 is 1/Mₛ. A stable loop
-/// has a gain margin of at least Mₛ/(Mₛ − 1), and a phase margin of at least 2·asin(1/(2·Mₛ)). The peaks are
-/// sought between the search_angles by Brent's method. Source: Åström, Hägglund, "Advanced PID Control", ISA
-/// 2006, section 4.6.
-Margin peak_sensitivity(const FrozenLoop& loop);
-
-/// The crossovers are searched between the search_angles, then bisected to 1e-12.
-StabilityMargins stability_margins(const FrozenLoop& loop);
-
 /// The highest frequency at which the open loop has gain 1. Of interest while the rotor slides: the plant is
 /// 1/(J·s² + cs·s), and the friction torque, constant well above the Stribeck velocity, is a disturbance that
 /// the loop has to reject.
@@ -47,7 +28,27 @@ struct GainCrossover {
   double phase_margin;
 };
 
-/// The gain crossover of a loop, from its exact frequency response L(z), z = exp(iωT), 0 < ω ≤ π/T.
+/// Where a loop has several crossovers, each margin is that of the one nearest to instability.
+struct StabilityMargins {
+  /// 1/|L| where L is negative: the factor of the gain at which the loop is on the edge of stability, at the
+  /// frequency where |L| is nearest to 1 by ratio. A factor below 1 limits a decrease of the gain, or is the
+  /// decrease that an unstable loop needs.
+  Margin gain;
+  /// 180° + arg L where |L| = 1, in (−180, 180]: the value nearest to 0.
+  Margin phase;
+  GainCrossover crossover;
+};
+
+/// Mₛ, the largest |S| over 0 < ω ≤ π/T, and its frequency: the distance of L from −1 is 1/Mₛ. A stable loop
+/// has a gain margin of at least Mₛ/(Mₛ − 1), and a phase margin of at least 2·asin(1/(2·Mₛ)). The peaks are
+/// sought between the search_angles by Brent's method. Source: Åström, Hägglund, "Advanced PID Control", ISA
+/// 2006, section 4.6.
+Margin peak_sensitivity(const FrozenLoop& loop);
+
+/// The crossovers are searched between the search_angles, then bisected to 1e-12.
+StabilityMargins stability_margins(const FrozenLoop& loop);
+
+/// StabilityMargins::crossover alone.
 GainCrossover gain_crossover(const FrozenLoop& loop);
 
 }  // namespace zerocount::theory

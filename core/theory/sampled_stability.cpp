@@ -87,9 +87,11 @@ double sampled_critical_integral_gain(double stiffness, const motion::PlantParam
   if (lowest == 0.0 || spectral_radius(loop.plant, with_gain(lowest).controller) >= 1.0) return 0.0;
   const FrozenLoop with = with_gain(scale);
   const FrozenLoop without = with_gain(0.0);
+  const OpenLoop open_with = open_loop(with);
+  const OpenLoop open_without = open_loop(without);
   const auto gain_on_circle = [&](double angle) {
-    const std::complex<double> rest = open_loop(without, angle);
-    return -scale * (1.0 + rest) / (open_loop(with, angle) - rest);
+    const std::complex<double> rest = open_without.at_angle(angle);
+    return -scale * (1.0 + rest) / (open_with.at_angle(angle) - rest);
   };
   std::vector<double> angles = search_angles(with);
   add_angles_around(poles_of(without), angles);
@@ -98,7 +100,7 @@ double sampled_critical_integral_gain(double stiffness, const motion::PlantParam
     const double gain = gain_on_circle(angle).real();
     if (gain > lowest) bound = std::min(bound, gain);
   };
-  for (const double angle : phase_crossovers(gain_on_circle, angles)) add(angle);
+  for (const double angle : phase_crossovers(sampled(gain_on_circle, angles))) add(angle);
   add(std::numbers::pi);
   return bound;
 }

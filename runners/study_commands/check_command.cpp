@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/goal/goal_text.hpp"
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary/point_names.hpp"
 #include "analysis/theory/point_theory.hpp"
@@ -53,7 +54,7 @@ constexpr std::int64_t points_shown = 20;
 /// A design point under a condition, its theory, and the targets of its trial 0 in counts, if they are in SI
 /// units.
 struct PointReading {
-  std::int64_t point;
+  std::int64_t point{0};
   std::string label;
   std::optional<std::string> name;       ///< a short label; none in a study of one point
   std::optional<std::string> condition;  ///< none without conditions
@@ -351,19 +352,24 @@ void warn_of_short_moves(std::span<const PointReading> points) {
 
 std::vector<PointReading> examined_points(const study::Study& study, std::int64_t count) {
   const std::vector<std::string> names = summary::short_labels(study.points.labels, study.points.axes);
-  std::vector<PointReading> points;
-  std::vector<theory::KnownRotor> rotors;
   const std::int64_t conditions = study::condition_count(study);
-  for (std::int64_t i = 0; i < count * conditions; ++i) {
-    const std::int64_t point = i / conditions;
-    const std::int64_t condition = i % conditions;
+  std::vector<PointReading> points(static_cast<std::size_t>(count * conditions));
+  const auto examine = [&](std::size_t i, std::vector<theory::KnownRotor>& rotors) {
+    const std::int64_t point = static_cast<std::int64_t>(i) / conditions;
+    const std::int64_t condition = static_cast<std::int64_t>(i) % conditions;
     const auto index = static_cast<std::size_t>(point);
-    points.push_back(
-        {point, study.points.labels[index], names.size() == 1 ? std::nullopt : std::optional(names[index]),
-         study.conditions.empty() ? std::nullopt
-                                  : std::optional(study.conditions[static_cast<std::size_t>(condition)]),
-         theory::examine(study, point, condition, rotors), targets_text(study, point, condition)});
-  }
+    points[i] = {
+        point, study.points.labels[index], names.size() == 1 ? std::nullopt : std::optional(names[index]),
+        study.conditions.empty() ? std::nullopt
+                                 : std::optional(study.conditions[static_cast<std::size_t>(condition)]),
+        theory::examine(study, point, condition, rotors), targets_text(study, point, condition)};
+  };
+  std::vector<theory::KnownRotor> of_first;
+  if (!points.empty()) examine(0, of_first);
+  parallel::for_each_index(points.empty() ? 0 : points.size() - 1, [&](std::size_t i) {
+    std::vector<theory::KnownRotor> rotors = of_first;
+    examine(i + 1, rotors);
+  });
   warn_of_short_moves(points);
   return points;
 }

@@ -131,7 +131,8 @@ FigureData margin_data(const std::vector<LoopCurve>& curves) {
                              datum(point.phase), datum(point.phase - phase_margin)}));
   };
   for (const LoopCurve& curve : curves) {
-    const auto& [gain, phase] = curve.margins;
+    const theory::Margin& gain = curve.margins.gain;
+    const theory::Margin& phase = curve.margins.phase;
     if (!std::isnan(gain.value))
       add(curve, "gain margin", value_with_unit(decibels(gain.value), " dB"), 0.0, gain.frequency);
     if (!std::isnan(phase.value))

@@ -31,9 +31,9 @@ struct LoopParts {
   std::complex<double> response(double frequency) const {
     const double T = 1.0 / controller.sample_rate;
     const double resolution = loop::fine_resolution({});
-    return open_loop(std::polar(1.0, 2.0 * pi * frequency * T),
-                     hold_plant(stiffness, damping, plant, resolution, T, drive, controller.delay),
-                     loop::linear_chain(controller, resolution));
+    return OpenLoop(hold_plant(stiffness, damping, plant, resolution, T, drive, controller.delay),
+                    loop::linear_chain(controller, resolution))
+        .at_angle(2.0 * pi * frequency * T);
   }
 };
 

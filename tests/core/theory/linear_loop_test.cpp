@@ -57,7 +57,7 @@ void expect_growth(const loop::ControllerParameters& parameters) {
     // Every mode of the loop is a root of 1 + L(z).
     for (const std::complex<double> z : loop_map(plant, chain.linear()).eigenvalues()) {
       if (std::abs(z) < 0.1) continue;
-      EXPECT_LT(std::abs(1.0 + open_loop(z, plant, chain.linear())), 1e-7) << z;
+      EXPECT_LT(std::abs(1.0 + OpenLoop(plant, chain.linear()).at(z)), 1e-7) << z;
     }
   }
 }

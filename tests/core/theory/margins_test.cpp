@@ -73,7 +73,7 @@ StabilityMargins scanned_margins(const FrozenLoop& loop) {
   std::complex<double> last;
   for (int i = 0; i <= points; ++i) {
     const double angle = lowest + (std::numbers::pi - lowest) * i / points;
-    const std::complex<double> now = open_loop(loop, angle);
+    const std::complex<double> now = open_loop(loop).at_angle(angle);
     const bool jumps = i == 0 || std::abs(now / last - 1.0) > 0.5;  // across a resonance without damping
     if (!jumps && (std::abs(now) > 1.0) != (std::abs(last) > 1.0))
       margins.phase.value =
@@ -117,7 +117,7 @@ TEST(Margins, PhaseMarginIsADelayToTheEdgeOfStability) {
     ++found;
     const double angle = 2.0 * std::numbers::pi * phase.frequency * loop.sample_time;
     const double delay = phase.value / 180.0 * std::numbers::pi / angle;  // samples
-    const std::complex<double> value = open_loop(loop, angle) * std::polar(1.0, -angle * delay);
+    const std::complex<double> value = open_loop(loop).at_angle(angle) * std::polar(1.0, -angle * delay);
     EXPECT_LT(std::abs(value + 1.0), 1e-6) << i;
   }
   EXPECT_GT(found, 40);
@@ -133,10 +133,10 @@ TEST(Margins, PeakOfTheSensitivityBoundsTheOtherMargins) {
     const Margin peak = peak_sensitivity(loop);
     double scanned = 0.0;
     for (int k = 1; k <= 2000; ++k)
-      scanned = std::max(scanned, 1.0 / std::abs(1.0 + open_loop(loop, std::numbers::pi * k / 2000.5)));
+      scanned = std::max(scanned, 1.0 / std::abs(1.0 + open_loop(loop).at_angle(std::numbers::pi * k / 2000.5)));
     EXPECT_GE(peak.value, scanned * (1.0 - 1e-9)) << i;
     const double angle = 2.0 * std::numbers::pi * peak.frequency * loop.sample_time;
-    EXPECT_NEAR(1.0 / std::abs(1.0 + open_loop(loop, angle)), peak.value, 1e-9 * peak.value) << i;
+    EXPECT_NEAR(1.0 / std::abs(1.0 + open_loop(loop).at_angle(angle)), peak.value, 1e-9 * peak.value) << i;
     if (stability_of(loop, 1e3) != LoopStability::stable) continue;
     ++stable;
     const StabilityMargins margins = stability_margins(loop);

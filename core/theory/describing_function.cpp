@@ -1,6 +1,8 @@
 #include "core/theory/describing_function.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 #include "core/friction/bristles/bristle.hpp"
@@ -13,18 +15,35 @@ using Complex = std::complex<double>;
 constexpr int steps = 200;  // of half a period
 constexpr double step = std::numbers::pi / steps;
 
-/// Phase of Ωt in the middle of step i, from −π/2, where θ = −A, to π/2.
-double phase_of(int i) {
-  return (i + 0.5) * step - 0.5 * std::numbers::pi;
+/// Sines and cosines of Ωt, which the steps of all amplitudes and frequencies share.
+struct HalfPeriod {
+  std::array<double, steps> sine, cosine;  ///< in the middle of each step, from −π/2, where θ = −A, to π/2
+  std::array<double, steps + 1> ends;      ///< sine at the ends of the steps
+};
+
+HalfPeriod new_half_period() {
+  HalfPeriod half;
+  for (int i = 0; i <= steps; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    half.ends[index] = std::sin(i * step - 0.5 * std::numbers::pi);
+    if (i == steps) break;
+    const double phase = (i + 0.5) * step - 0.5 * std::numbers::pi;
+    half.sine[index] = std::sin(phase);
+    half.cosine[index] = std::cos(phase);
+  }
+  return half;
+}
+
+const HalfPeriod& half_period() {
+  static const HalfPeriod half = new_half_period();
+  return half;
 }
 
 /// The part of a relay with the level g(ω), in phase with ω.
 double relay_damping(const friction::StribeckCurve& curve, double amplitude, double frequency) {
   double sum = 0.0;
-  for (int i = 0; i < steps; ++i) {
-    const double cosine = std::cos(phase_of(i));
+  for (const double cosine : half_period().cosine)
     sum += friction::level_at(curve, amplitude * frequency * cosine) * cosine;
-  }
   return 2.0 / std::numbers::pi * sum * step / amplitude;
 }
 
@@ -45,25 +64,21 @@ BristleStep bristle_step(const friction::StribeckCurve& curve, double stiffness,
 /// back.
 Complex bristle_ratio(const friction::StribeckCurve& curve, double stiffness, double amplitude,
                       double frequency) {
-  const auto step_at = [&](int i) {
-    const double from = std::sin(i * step - 0.5 * std::numbers::pi);
-    const double to = std::sin((i + 1) * step - 0.5 * std::numbers::pi);
-    return bristle_step(curve, stiffness, amplitude * (to - from),
-                        amplitude * frequency * std::cos(phase_of(i)));
-  };
+  const HalfPeriod& half = half_period();
+  std::array<BristleStep, steps> path;
   double keep = 1.0;
   double gain = 0.0;
-  for (int i = 0; i < steps; ++i) {
-    const BristleStep one = step_at(i);
-    keep *= one.keep;
-    gain = one.keep * gain + one.gain;
+  for (std::size_t i = 0; i < steps; ++i) {
+    path[i] = bristle_step(curve, stiffness, amplitude * (half.ends[i + 1] - half.ends[i]),
+                           amplitude * frequency * half.cosine[i]);
+    keep *= path[i].keep;
+    gain = path[i].keep * gain + path[i].gain;
   }
   double z = -gain / (1.0 + keep);
   Complex sum = 0.0;
-  for (int i = 0; i < steps; ++i) {
-    const BristleStep one = step_at(i);
-    const double next = one.keep * z + one.gain;
-    sum += 0.5 * (z + next) * Complex(std::sin(phase_of(i)), std::cos(phase_of(i)));
+  for (std::size_t i = 0; i < steps; ++i) {
+    const double next = path[i].keep * z + path[i].gain;
+    sum += 0.5 * (z + next) * Complex(half.sine[i], half.cosine[i]);
     z = next;
   }
   return 2.0 / std::numbers::pi * sum * step / amplitude;

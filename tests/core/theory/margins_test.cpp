@@ -69,7 +69,7 @@ FrozenLoop random_loop(testing::RandomBlocks& draw, int i) {
 StabilityMargins scanned_margins(const FrozenLoop& loop) {
   constexpr int points = 20'000;
   constexpr double lowest = 1e-4;
-  StabilityMargins margins{{1e9, 0.0}, {1e9, 0.0}};
+  StabilityMargins margins{{1e9, 0.0}, {1e9, 0.0}, {}};
   std::complex<double> last;
   for (int i = 0; i <= points; ++i) {
     const double angle = lowest + (std::numbers::pi - lowest) * i / points;

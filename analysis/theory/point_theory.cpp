@@ -180,7 +180,8 @@ void examine_rotors(const ExaminedPoint& at, LowestStiffness& lowest, std::vecto
     k1.add(k1_of_rig);
   }
   if (lowest.rigs > 0)
-    lowest.sampled_below.add(as_given(study.units, at.trial(softest), sampled_bound(k1.low, at.trial(softest))));
+    lowest.sampled_below.add(
+        as_given(study.units, at.trial(softest), sampled_bound(k1.low, at.trial(softest))));
 }
 
 /// Adds what takes longer to compute and the paper does not treat: the sampled loop, its time constants and

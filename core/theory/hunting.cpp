@@ -339,8 +339,7 @@ struct Balance {
     const double corner = 2.0 * std::numbers::pi * drive.bandwidth;
     const Complex lag = corner > 0.0 ? 1.0 / Complex(1.0, frequency / corner) : 1.0;
     const double error_gain = describing_function(deadband, amplitude / resolution);
-    return controller.at(z, error_gain) * std::pow(z, -delay) * hold * lag * drive.gain /
-           resolution;
+    return controller.at(z, error_gain) * std::pow(z, -delay) * hold * lag * drive.gain / resolution;
   }
   Complex at(double amplitude, double frequency) const {
     return -plant.inertia * frequency * frequency +

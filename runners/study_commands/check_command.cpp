@@ -358,11 +358,14 @@ std::vector<PointReading> examined_points(const study::Study& study, std::int64_
     const std::int64_t point = static_cast<std::int64_t>(i) / conditions;
     const std::int64_t condition = static_cast<std::int64_t>(i) % conditions;
     const auto index = static_cast<std::size_t>(point);
-    points[i] = {
-        point, study.points.labels[index], names.size() == 1 ? std::nullopt : std::optional(names[index]),
-        study.conditions.empty() ? std::nullopt
-                                 : std::optional(study.conditions[static_cast<std::size_t>(condition)]),
-        theory::examine(study, point, condition, rotors), targets_text(study, point, condition)};
+    points[i] = {point,
+                 study.points.labels[index],
+                 names.size() == 1 ? std::nullopt : std::optional(names[index]),
+                 study.conditions.empty()
+                     ? std::nullopt
+                     : std::optional(study.conditions[static_cast<std::size_t>(condition)]),
+                 theory::examine(study, point, condition, rotors),
+                 targets_text(study, point, condition)};
   };
   std::vector<theory::KnownRotor> of_first;
   if (!points.empty()) examine(0, of_first);

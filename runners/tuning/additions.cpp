@@ -83,12 +83,10 @@ class ModeSearch {
 
   Limit lowest() const {
     const double highest = 0.5 * first_.controller.sample_rate;
-    const ChangedPoint at_highest = run(highest, units_);
+    const ChangedPoint at_highest = run(highest, few_units_);
     if (!at_highest.refusal.empty()) return limit_of(runs_, at_highest);
-    if (!is_borne(at_highest, units_)) {
-      const ChangedPoint all = complete(highest);
-      return row(all, "costs more than 1 %; modes above half the sample rate are not tried");
-    }
+    if (!is_borne(at_highest, few_units_) && !is_borne(run(highest, units_), units_))
+      return beyond_rate(highest);
     double borne = highest;
     double missed = rounded(0.5 * borne);
     while (borne >= lowest_frequency && is_borne(run(missed, few_units_), few_units_)) {
@@ -110,6 +108,7 @@ class ModeSearch {
       }
     } else {
       for (; !is_borne(found, units_); found = run(borne, units_)) {
+        if (borne >= highest) return beyond_rate(highest);
         missed = borne;
         borne = std::min(rounded(precision * borne), highest);
       }
@@ -141,10 +140,11 @@ class ModeSearch {
     return point;
   }
 
-  ChangedPoint complete(double frequency) const {
-    ChangedPoint point = with_mode(frequency);
+  /// The row where not even the highest mode that is tried is borne.
+  Limit beyond_rate(double highest) const {
+    ChangedPoint point = with_mode(highest);
     runs_.run({&point, 1}, units_);
-    return point;
+    return row(point, "costs more than 1 %; modes above half the sample rate are not tried");
   }
 
   /// Whether no goal is missed under any condition by more of the first units than is allowed; units that

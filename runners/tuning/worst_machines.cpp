@@ -139,8 +139,8 @@ class MachineSearch {
     }
   }
 
-  /// @param likely_met proportion of the moves that the worst likely machine of other conditions meets: one
-  /// of this condition is sought only if a machine of the box meets less, since no likely one is worse
+  /// @param likely_met proportion of the moves that the worst likely machine of other conditions meets, or 1:
+  /// one of this condition is sought only if a machine of the box meets less, since no likely one is worse
   WorstMachines run(double likely_met) {
     const std::vector<UnitResult> results = results_of(given_, units_, units_.count, nullptr, effort_);
     const std::vector<std::int64_t> order = worst_units(results);
@@ -196,7 +196,9 @@ class MachineSearch {
   }
 
   BoxPoint worst_in(MachineRegion region, const std::vector<std::int64_t>& order) {
-    std::vector<BoxPoint> population = first_points(region, order);
+    std::vector<BoxPoint> population = worst_of_study(region, order);
+    race(population);
+    std::ranges::move(first_points(region, order), std::back_inserter(population));
     race(population);
     double step = 0.25;
     for (int generation = 0; generation < generations; ++generation) {
@@ -208,6 +210,7 @@ class MachineSearch {
     return population.front();
   }
 
+  /// Corners of the box, and points that fill it.
   std::vector<BoxPoint> first_points(MachineRegion region, const std::vector<std::int64_t>& order) {
     const std::size_t best = std::min(order.size(), worst_rigs);
     const std::size_t size = inputs_.size();
@@ -227,6 +230,11 @@ class MachineSearch {
     }
     const std::vector<double> start(size, 0.5);
     for (std::size_t i = 0; i < filling_points; ++i) add(spread_place(start, static_cast<std::int64_t>(i)));
+    return points;
+  }
+
+  std::vector<BoxPoint> worst_of_study(MachineRegion region, const std::vector<std::int64_t>& order) const {
+    std::vector<BoxPoint> points;
     for (std::size_t i = 0; i < std::min(order.size(), survivors); ++i)
       points.push_back(inside(machine_of(order[i]), region));
     return points;
@@ -308,7 +316,8 @@ class MachineSearch {
   }
 
   /// Keeps the worst of the points, the worst first. After each stage a part of those that have not run all
-  /// trials goes on, by the trials that all of them have run.
+  /// trials goes on, by the trials that all of them have run: of it those that do worse there than the
+  /// mildest point that is kept so far, which they would replace.
   void race(std::vector<BoxPoint>& points) const {
     const auto newcomers = std::stable_partition(
         points.begin(), points.end(), [](const BoxPoint& point) { return point.results.size() == stages; });
@@ -318,7 +327,12 @@ class MachineSearch {
       simulate(running, stage);
       sort_by(running, stage);
       const std::size_t on = std::max((running.size() + race_part - 1) / race_part, survivors / 2);
-      if (stage + 1 < stages && running.size() > on) running.resize(on);
+      if (stage + 1 == stages) break;
+      if (running.size() > on) running.resize(on);
+      if (points.empty()) continue;
+      std::erase_if(running, [&](const BoxPoint& point) {
+        return !is_worse(point.results[stage], points.back().results[stage], late_);
+      });
     }
     std::ranges::move(running, std::back_inserter(points));
     sort_by(points, stages - 1);
@@ -558,7 +572,7 @@ WorstMachines worst_machines(const study::Study& study, const trials::Replicates
                              const std::optional<std::filesystem::path>& folder,
                              const trials::Effort& effort) {
   std::vector<WorstMachines> under;  // [condition]
-  double likely_met = std::numeric_limits<double>::infinity();
+  double likely_met = 1.0;
   trials::Replicates alone = units;
   alone.trials_each /= study::condition_count(study);
   for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {

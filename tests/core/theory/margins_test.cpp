@@ -133,7 +133,8 @@ TEST(Margins, PeakOfTheSensitivityBoundsTheOtherMargins) {
     const Margin peak = peak_sensitivity(loop);
     double scanned = 0.0;
     for (int k = 1; k <= 2000; ++k)
-      scanned = std::max(scanned, 1.0 / std::abs(1.0 + open_loop(loop).at_angle(std::numbers::pi * k / 2000.5)));
+      scanned =
+          std::max(scanned, 1.0 / std::abs(1.0 + open_loop(loop).at_angle(std::numbers::pi * k / 2000.5)));
     EXPECT_GE(peak.value, scanned * (1.0 - 1e-9)) << i;
     const double angle = 2.0 * std::numbers::pi * peak.frequency * loop.sample_time;
     EXPECT_NEAR(1.0 / std::abs(1.0 + open_loop(loop).at_angle(angle)), peak.value, 1e-9 * peak.value) << i;

@@ -7,10 +7,6 @@ namespace zerocount::numerics {
 /// @throws std::exception (of Boost.Math) for another p, and for arguments that are not finite.
 double normal_quantile(double p, double mean = 0.0, double standard_deviation = 1.0);
 
-/// normal_quantile(p) of the standard normal distribution for 2⁻⁵³ ≤ p ≤ 1 − 2⁻⁵³, unchecked: the same bits,
-/// in less time. By the approximations of Boost.Math (erf_inv), where |2p − 1| ≤ ½ or −ln(1 − |2p − 1|) < 9.
-double standard_normal_quantile(double p);
-
 /// P(Z ≤ z) for a standard normal Z.
 double normal_probability(double z);
 

@@ -9,7 +9,7 @@
 
 namespace zerocount::random {
 double standard_normal(std::uint64_t bits) {
-  return numerics::standard_normal_quantile(open_uniform(bits));
+  return numerics::normal_quantile(open_uniform(bits));
 }
 
 std::int64_t binomial_number(std::int64_t n, double probability, std::uint64_t bits) {

@@ -196,9 +196,7 @@ class MachineSearch {
   }
 
   BoxPoint worst_in(MachineRegion region, const std::vector<std::int64_t>& order) {
-    std::vector<BoxPoint> population = worst_of_study(region, order);
-    race(population);
-    std::ranges::move(first_points(region, order), std::back_inserter(population));
+    std::vector<BoxPoint> population = first_points(region, order);
     race(population);
     double step = 0.25;
     for (int generation = 0; generation < generations; ++generation) {
@@ -210,7 +208,6 @@ class MachineSearch {
     return population.front();
   }
 
-  /// Corners of the box, and points that fill it.
   std::vector<BoxPoint> first_points(MachineRegion region, const std::vector<std::int64_t>& order) {
     const std::size_t best = std::min(order.size(), worst_rigs);
     const std::size_t size = inputs_.size();
@@ -230,11 +227,6 @@ class MachineSearch {
     }
     const std::vector<double> start(size, 0.5);
     for (std::size_t i = 0; i < filling_points; ++i) add(spread_place(start, static_cast<std::int64_t>(i)));
-    return points;
-  }
-
-  std::vector<BoxPoint> worst_of_study(MachineRegion region, const std::vector<std::int64_t>& order) const {
-    std::vector<BoxPoint> points;
     for (std::size_t i = 0; i < std::min(order.size(), survivors); ++i)
       points.push_back(inside(machine_of(order[i]), region));
     return points;
@@ -329,7 +321,7 @@ class MachineSearch {
       const std::size_t on = std::max((running.size() + race_part - 1) / race_part, survivors / 2);
       if (stage + 1 == stages) break;
       if (running.size() > on) running.resize(on);
-      if (points.empty()) continue;
+      if (points.size() < survivors) continue;
       std::erase_if(running, [&](const BoxPoint& point) {
         return !is_worse(point.results[stage], points.back().results[stage], late_);
       });

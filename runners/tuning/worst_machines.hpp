@@ -70,7 +70,8 @@ struct WorstMachines {
 ///     race of some machines, on the same random numbers: 4 trials each; a quarter goes on to 16, of it a
 ///       quarter to 64 trials; the 8 worst are kept
 ///     population = race of the first machines
-///     8 times: population = race of it and of 32 children, each near a machine of the population; a child goes
+///     8 times: population = race of it and of 32 children, each near a machine of the population; a child
+///     goes
 ///       on only while it does worse than one of the population on the same trials
 ///     likely machines: only where a machine of the box misses a move
 ///     the worst is judged by 256 trials of its own

@@ -7,6 +7,7 @@ from typing import Any
 
 _DEBIAN = {
     "IPython": "python3-ipython",
+    "distributed": "python3-distributed",
     "h5py": "python3-h5py",
     "matplotlib": "python3-matplotlib",
     "openturns": "python3-openturns",

@@ -21,6 +21,7 @@ from .options import options
 from .progress import progress_bar
 from .results import Results
 from .wording import counted
+from .workers import run_on_workers
 
 
 def study(manifest: str | os.PathLike[str] | Mapping[str, Any] | Study) -> Study:
@@ -137,6 +138,11 @@ class Study:
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in vars(self).items() if name != "checked"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        vars(self).update(state)
+        if not self._folder.is_dir():  # it comes from another machine
+            self._folder = pathlib.Path.cwd()
 
     def set(self, values: Mapping[str, Any] | None = None, /, **others: Any) -> Study:
         """This study with other values.
@@ -404,21 +410,29 @@ class Study:
         watch: str | os.PathLike[str] | None = None,
         force: bool = False,
         progress: bool = True,
+        client: Any = None,
+        parts: int | None = None,
     ) -> Results:
-        """Run the trials on all cores, or continue an earlier run.
+        """Run the trials on all cores, or on the workers of a Dask cluster, or continue an earlier run.
 
         Parameters
         ----------
         output : path
             The results file. A file of the same study is completed or extended; a finished one is opened.
         threads : int, optional
-            Threads to use; default: all cores.
+            Threads to use; default: all cores. On workers those of each part; default: 1.
         watch : path, optional
-            A page (``*.html``) for a browser that shows how far the run is, and at the end its report.
+            A page (``*.html``) for a browser that shows how far the run is, and at the end its report. Of a run on
+            this machine.
         force : bool
             Replace the results of another study.
         progress : bool
             Show a bar in a terminal or a notebook.
+        client : distributed.Client, optional
+            Of a Dask cluster, whose workers run the study in parts. Without it, or where the output exists, this
+            machine runs the trials.
+        parts : int, optional
+            Number of parts on workers; default: 4 for each of their threads.
 
         Returns
         -------
@@ -427,24 +441,38 @@ class Study:
         Raises
         ------
         ManifestError
-            If the file holds the results of another study.
+            If the file holds the results of another study, or an option is of the other kind of run.
+        MachineError
+            If the machine failed, or every worker that tried a part.
         KeyboardInterrupt
-            If it is interrupted. The finished trials are kept: the same call goes on with the others.
+            If it is interrupted. The finished trials are kept, on workers the finished parts: the same call goes on
+            with the others.
 
         Examples
         --------
         >>> r = zc.study("my-axis.yaml").run("my-axis.h5")
         >>> r.table.loc[2, "success_rate"]
         0.3755
+
+        On a cluster, here of this process:
+
+        >>> import distributed
+        >>> with distributed.Client(processes=False, dashboard_address=None) as client:
+        ...     r = zc.study("my-axis.yaml").run("on-workers.h5", client=client, parts=8)
+        >>> r.table.loc[2, "success_rate"]
+        0.3755
         """
-        words = options(
-            output=pathlib.Path(output),
-            threads=threads,
-            watch=None if watch is None else pathlib.Path(watch),
-            force=force,
-        )
+        if client is None and parts is not None:
+            raise ManifestError("parts: a run on this machine has none; expected a client beside it", 2)
+        if client is not None and watch is not None:
+            raise ManifestError("watch: a run on workers has no page; expected either a client or a page", 2)
+        place = pathlib.Path(output).absolute()
+        page = None if watch is None else pathlib.Path(watch)
         with progress_bar(self.name, progress) as bar:
-            self.command("run", *words, progress=bar)
+            if client is None or (place.exists() and not force):
+                self.command("run", *options(output=place, threads=threads, watch=page, force=force), progress=bar)
+            else:
+                run_on_workers(self, place, client, parts=parts, threads=threads, force=force, progress=bar)
         return Results(output)
 
 

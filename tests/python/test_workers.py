@@ -1,0 +1,186 @@
+"""Studies in parts on the workers of a Dask cluster of this machine."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import pathlib
+import re
+import signal
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+import zerocount as zc
+import zerocount.studies
+from zerocount import workers
+
+distributed = pytest.importorskip("distributed")
+
+SEAL = 87
+CREATED = re.compile(rb"20\d\d-\d\d-\d\dT\d\d:\d\d:\d\dZ")
+
+
+def undated(path: pathlib.Path) -> bytes:
+    """The bytes of a results file without the date, and without the checksum, which depends on it."""
+    whole, dates = CREATED.subn(b"", path.read_bytes()[:-SEAL])
+    assert dates == 1
+    return whole
+
+
+@pytest.fixture(scope="module")
+def client() -> Iterator[Any]:
+    """Of two workers, each a process with one thread, whose folder of this session's studies is hidden from no one."""
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as its,
+    ):
+        yield its
+
+
+@pytest.fixture(scope="module")
+def long(axis: zc.Study) -> zc.Study:
+    """The first study with as many trials as take some seconds."""
+    return axis.set(rigs=10000, trials=20000).sweep("controller.ki", [5e3, 1.2e4])
+
+
+@pytest.fixture(scope="module")
+def alone(long: zc.Study, folder: pathlib.Path) -> pathlib.Path:
+    """The results of it by one machine."""
+    return long.run(folder / "long-alone.h5").path
+
+
+def shown_by(monkeypatch: pytest.MonkeyPatch, show: Callable[[str], None]) -> None:
+    monkeypatch.setattr(zerocount.studies, "progress_bar", lambda name, wanted: contextlib.nullcontext(show))
+
+
+def test_the_bytes_are_those_of_one_machine(
+    axis: zc.Study, first: zc.Results, client: Any, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A run on workers gives the file of a run without them, tells its progress, and leaves nothing else."""
+    lines: list[str] = []
+    shown_by(monkeypatch, lines.append)
+    r = axis.run(tmp_path / "r.h5", client=client)
+    assert undated(r.path) == undated(first.path)
+    assert [path.name for path in tmp_path.iterdir()] == ["r.h5"]
+    assert lines[0] == "1 of 8 parts (12.5 %)" and lines[-1] == "8 of 8 parts (100.0 %)" and len(lines) == 8
+    before = r.path.stat()
+    assert axis.run(r.path, client=client).path.stat() == before
+
+
+def test_a_killed_worker_costs_only_its_parts(
+    long: zc.Study, alone: pathlib.Path, client: Any, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A worker that is killed with SIGKILL while it runs a part: the others and its successor run what it had."""
+    killed: list[int] = []
+    before = set(client.scheduler_info()["workers"])
+
+    def kill(line: str) -> None:
+        busy = [worker for worker, calls in client.processing().items() if calls]
+        if not killed and busy:
+            killed.append(client.run(os.getpid, workers=busy[:1])[busy[0]])
+            os.kill(killed[0], signal.SIGKILL)
+
+    shown_by(monkeypatch, kill)
+    r = long.run(tmp_path / "r.h5", client=client, parts=12)
+    assert len(killed) == 1 and undated(r.path) == undated(alone)
+    client.wait_for_workers(2)
+    assert set(client.scheduler_info()["workers"]) != before
+
+
+def test_an_interrupted_call_goes_on_with_the_parts_that_are_missing(
+    long: zc.Study, alone: pathlib.Path, client: Any, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """After Ctrl-C the finished parts are there; the same call runs the others, in the same division without being told."""
+
+    def interrupt(line: str) -> None:
+        raise KeyboardInterrupt
+
+    shown_by(monkeypatch, interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        long.run(tmp_path / "r.h5", client=client, parts=6)
+    kept = {path.name: path.stat() for path in (tmp_path / "r.h5.parts").iterdir()}
+    assert len(kept) == 1 and not (tmp_path / "r.h5").exists()
+    with pytest.raises(zc.ManifestError, match="a division by 6; expected parts=6"):
+        long.run(tmp_path / "r.h5", client=client, parts=7)
+    with pytest.raises(zc.ManifestError, match="another study: seed is 1 there and 2 here"):
+        long.set(seed=2).run(tmp_path / "r.h5", client=client)
+    assert {path.name: path.stat() for path in (tmp_path / "r.h5.parts").iterdir()} == kept
+    lines: list[str] = []
+    shown_by(monkeypatch, lines.append)
+    assert undated(long.run(tmp_path / "r.h5", client=client).path) == undated(alone)
+    assert lines[0].startswith("2 of 6 parts")
+
+
+def test_force_discards_what_is_there(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
+    """Parts, shards and results of another study are replaced only with force."""
+    few = axis.set(rigs=2, trials=4)
+    (tmp_path / "r.h5.shards").mkdir()
+    with pytest.raises(zc.ManifestError, match=r"continue it without a client"):
+        few.run(tmp_path / "r.h5", client=client)
+    few.run(tmp_path / "r.h5", client=client, parts=2, force=True)
+    with pytest.raises(zc.ManifestError, match="seed is 1 there and 2 here"):
+        few.set(seed=2).run(tmp_path / "r.h5", client=client)
+    assert few.set(seed=2).run(tmp_path / "r.h5", client=client, parts=3, force=True).checked.seed == 2
+    assert [path.name for path in tmp_path.iterdir()] == ["r.h5"]
+
+
+@pytest.mark.parametrize("parts", [0, 33])
+def test_a_study_cannot_have_more_parts_than_trials(axis: zc.Study, client: Any, tmp_path: pathlib.Path, parts: int) -> None:
+    """The number of parts is from 1 to that of the trials; the default is at most the latter."""
+    few = axis.set(rigs=2, trials=4)
+    with pytest.raises(zc.ManifestError, match=rf"parts={parts}: expected a number from 1 to 32"):
+        few.run(tmp_path / "r.h5", client=client, parts=parts)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_study_that_cannot_be_divided_is_refused_at_once(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
+    """What is wrong with the study has the error of the program, and no other worker tries it."""
+    stop = {"success_rate_halfwidth": 0.1, "max_trials": 1000}
+    study = axis.without("goal", "rigs").sweep("controller.ki", [5e3]).set(trials=100, stop=stop)
+    with pytest.raises(zc.ManifestError, match="a study with `stop` cannot be divided"):
+        study.run(tmp_path / "r.h5", client=client)
+
+
+def test_workers_need_no_folder_of_the_client(axis: zc.Study, first: zc.Results, client: Any, tmp_path: pathlib.Path) -> None:
+    """A study whose folder a worker does not have runs there."""
+    study = zc.studies.Study(axis.text, "elsewhere.yaml", tmp_path / "only-here")
+    (tmp_path / "only-here").mkdir()
+    sent = client.submit(workers.run_part, study, 1, 2, 1).result()
+    (tmp_path / "only-here").rmdir()
+    again = client.submit(workers.run_part, study, 1, 2, 1, pure=False).result()
+    assert isinstance(sent, bytes) and sent[:1000] == again[:1000] and len(sent) == len(again)
+
+
+def test_a_failure_of_the_workers_is_one_of_the_machine(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
+    """A part that fails on every worker ends the run with what Dask says, and the finished parts are kept."""
+
+    def without_program() -> None:
+        from zerocount import program
+
+        os.environ["KEPT_PROGRAM"] = os.environ["ZEROCOUNT_PROGRAM"]
+        os.environ["ZEROCOUNT_PROGRAM"] = "/nowhere/zerocount"
+        program.path.cache_clear()
+
+    def with_program() -> None:
+        from zerocount import program
+
+        os.environ["ZEROCOUNT_PROGRAM"] = os.environ.pop("KEPT_PROGRAM")
+        program.path.cache_clear()
+
+    client.run(without_program)
+    try:
+        with pytest.raises(zc.MachineError, match="/nowhere/zerocount is not a program that runs here"):
+            axis.run(tmp_path / "r.h5", client=client, parts=2)
+    finally:
+        client.run(with_program)
+
+
+def test_a_cluster_without_workers_is_told(axis: zc.Study, tmp_path: pathlib.Path) -> None:
+    """Without workers the default number of parts is not known."""
+    with (
+        distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+        pytest.raises(zc.MachineError, match="no workers yet"),
+    ):
+        axis.run(tmp_path / "r.h5", client=client)

@@ -20,5 +20,5 @@ math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "zerocount (= ${PROJECT_VERSION}), python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next_minor}), python3-numpy, python3-h5py")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-matplotlib, python3-xarray")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "jupyter, nodejs, python3-openturns, python3-scipy, python3-sklearn")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "jupyter, nodejs, python3-distributed, python3-openturns, python3-scipy, python3-sklearn")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "the Python package: studies, their results as tables and figures, trials in process")

@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 import zerocount as zc
 import zerocount.studies
+from support import program
 from zerocount import workers
 
 distributed = pytest.importorskip("distributed")
@@ -30,7 +31,7 @@ def undated(path: pathlib.Path) -> bytes:
 
 @pytest.fixture(scope="module")
 def client() -> Iterator[Any]:
-    """Of two workers, each a process with one thread, whose folder of this session's studies is hidden from no one."""
+    """Of two workers, each a process with one thread."""
     with (
         distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster,
         distributed.Client(cluster) as its,
@@ -40,8 +41,8 @@ def client() -> Iterator[Any]:
 
 @pytest.fixture(scope="module")
 def long(axis: zc.Study) -> zc.Study:
-    """The first study with as many trials as take some seconds."""
-    return axis.set(rigs=10000, trials=20000).sweep("controller.ki", [5e3, 1.2e4])
+    """The first study at three gains, which takes a second or two."""
+    return axis.set(rigs=200, trials=400).sweep("controller.ki", [5e3, 1.2e4, 4e4])
 
 
 @pytest.fixture(scope="module")
@@ -55,17 +56,17 @@ def shown_by(monkeypatch: pytest.MonkeyPatch, show: Callable[[str], None]) -> No
 
 
 def test_the_bytes_are_those_of_one_machine(
-    axis: zc.Study, first: zc.Results, client: Any, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
+    long: zc.Study, alone: pathlib.Path, client: Any, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A run on workers gives the file of a run without them, tells its progress, and leaves nothing else."""
     lines: list[str] = []
     shown_by(monkeypatch, lines.append)
-    r = axis.run(tmp_path / "r.h5", client=client)
-    assert undated(r.path) == undated(first.path)
+    r = long.run(tmp_path / "r.h5", client=client)
+    assert undated(r.path) == undated(alone)
     assert [path.name for path in tmp_path.iterdir()] == ["r.h5"]
     assert lines[0] == "1 of 8 parts (12.5 %)" and lines[-1] == "8 of 8 parts (100.0 %)" and len(lines) == 8
     before = r.path.stat()
-    assert axis.run(r.path, client=client).path.stat() == before
+    assert long.run(r.path, client=client).path.stat() == before
 
 
 def test_a_killed_worker_costs_only_its_parts(
@@ -142,13 +143,14 @@ def test_a_study_that_cannot_be_divided_is_refused_at_once(axis: zc.Study, clien
         study.run(tmp_path / "r.h5", client=client)
 
 
-def test_workers_need_no_folder_of_the_client(axis: zc.Study, first: zc.Results, client: Any, tmp_path: pathlib.Path) -> None:
+def test_workers_need_no_folder_of_the_client(long: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
     """A study whose folder a worker does not have runs there."""
-    study = zc.studies.Study(axis.text, "elsewhere.yaml", tmp_path / "only-here")
+    study = zc.studies.Study(long.text, "elsewhere.yaml", tmp_path / "only-here", ["trials=4", "rigs=2"])
     (tmp_path / "only-here").mkdir()
-    sent = client.submit(workers.run_part, study, 1, 2, 1).result()
+    build = program("--version").stdout.strip()
+    sent = client.submit(workers.run_part, study, 1, 2, 1, build).result()
     (tmp_path / "only-here").rmdir()
-    again = client.submit(workers.run_part, study, 1, 2, 1, pure=False).result()
+    again = client.submit(workers.run_part, study, 1, 2, 1, build, pure=False).result()
     assert isinstance(sent, bytes) and sent[:1000] == again[:1000] and len(sent) == len(again)
 
 
@@ -171,9 +173,15 @@ def test_a_failure_of_the_workers_is_one_of_the_machine(axis: zc.Study, client: 
     client.run(without_program)
     try:
         with pytest.raises(zc.MachineError, match="/nowhere/zerocount is not a program that runs here"):
-            axis.run(tmp_path / "r.h5", client=client, parts=2)
+            axis.set(rigs=2, trials=4).run(tmp_path / "r.h5", client=client, parts=2)
     finally:
         client.run(with_program)
+
+
+def test_another_build_is_refused_before_it_runs(axis: zc.Study, client: Any) -> None:
+    """A worker with a program of another build says so, rather than that the merge refuses its trials."""
+    with pytest.raises(zc.MachineError, match=r"is zerocount .*; expected zerocount 0\.0"):
+        client.submit(workers.run_part, axis, 1, 2, 1, "zerocount 0.0").result()
 
 
 def test_a_cluster_without_workers_is_told(axis: zc.Study, tmp_path: pathlib.Path) -> None:

@@ -90,7 +90,7 @@ def run_on_workers(
     shutil.rmtree(folder, ignore_errors=True)
 
 
-def run_part(study: Study, number: int, count: int, threads: int) -> bytes | Error:
+def run_part(study: Study, number: int, count: int, threads: int, build: str) -> bytes | Error:
     """Run a part of a study on a worker.
 
     Parameters
@@ -101,6 +101,8 @@ def run_part(study: Study, number: int, count: int, threads: int) -> bytes | Err
         Part `number`, from 1, of `count`.
     threads : int
         Threads to use.
+    build : str
+        What the client's program says of its version: trials of different builds are not mixed.
 
     Returns
     -------
@@ -112,6 +114,9 @@ def run_part(study: Study, number: int, count: int, threads: int) -> bytes | Err
     MachineError
         If this machine failed. Another one may not.
     """
+    its = program.run(["--version"])[1].strip()
+    if its != build:
+        raise MachineError(f"{program.path()} is {its}; expected {build}, as where the run was started", 5)
     # Dask removes the folder of a worker that was killed.
     scratch = required("distributed", "a run on workers").get_worker().local_directory
     with tempfile.TemporaryDirectory(prefix="zerocount-", dir=scratch) as folder:
@@ -160,9 +165,10 @@ def _collect(
     study: Study, client: Any, places: list[pathlib.Path], missing: list[int], threads: int, progress: Callable[[str], None] | None
 ) -> None:
     """Has the missing parts run, and writes each to its place when it is finished."""
-    count = len(places)
+    count, build = len(places), program.run(["--version"])[1].strip()
     futures = {
-        client.submit(run_part, study, number, count, threads, retries=RETRIES, pure=False): number for number in missing
+        client.submit(run_part, study, number, count, threads, build, retries=RETRIES, pure=False): number
+        for number in missing
     }
     done = count - len(missing)
     try:

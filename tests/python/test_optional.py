@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import zerocount as zc
 
-BLOCKED = ["pandas", "xarray", "matplotlib", "openturns", "IPython"]
+BLOCKED = ["pandas", "xarray", "matplotlib", "openturns", "IPython", "distributed"]
 
 WITHOUT = """
 import json, sys
@@ -59,6 +59,7 @@ for name, ask in {{
     "distribution": lambda: f.distribution,
     "function": lambda: f.function,
     "html": r._repr_html_,
+    "workers": lambda: s.run("workers.h5", client=object()),
 }}.items():
     try:
         refused[name] = f"no error: {{ask()!r}}"
@@ -67,7 +68,8 @@ for name, ask in {{
 print(json.dumps({{"answers": answers, "refused": refused, "loaded": sorted(set(sys.modules) & set({blocked!r}))}}))
 """
 
-NEEDED = {"dataset": "xarray", "matplotlib": "matplotlib", "plot": "matplotlib", "distribution": "openturns", "function": "openturns"}
+NEEDED = {"dataset": "xarray", "matplotlib": "matplotlib", "plot": "matplotlib", "distribution": "openturns", "function": "openturns",
+          "workers": "distributed"}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -112,7 +114,7 @@ def test_everything_else_works_without_them(axis: zc.Study, folder: pathlib.Path
 
 def test_an_error_says_what_to_install(without: dict[str, dict[str, object]]) -> None:
     """What needs a package raises ImportError with its name and how to install it."""
-    assert len(without["refused"]) == 16
+    assert len(without["refused"]) == 17
     for name, message in without["refused"].items():
         package = NEEDED.get(name, "pandas")
         assert str(message).startswith("ImportError: "), (name, message)

@@ -458,9 +458,9 @@ class Study:
 
         >>> import distributed
         >>> with distributed.Client(processes=False, dashboard_address=None) as client:
-        ...     r = zc.study("my-axis.yaml").run("on-workers.h5", client=client, parts=8)
-        >>> r.table.loc[2, "success_rate"]
-        0.3755
+        ...     r = zc.study("my-axis.yaml").set(rigs=100, trials=200).run("on-workers.h5", client=client)
+        >>> len(r.trials(2))
+        200
         """
         if client is None and parts is not None:
             raise ManifestError("parts: a run on this machine has none; expected a client beside it", 2)

@@ -143,10 +143,10 @@ def _number_of_parts(study: Study, folder: pathlib.Path, client: Any, parts: int
             "force=True to discard them",
             2,
         )
-    workers = sum(client.nthreads().values())
-    if workers == 0 and parts is None:
-        raise MachineError("the cluster has no workers yet; wait for them (client.wait_for_workers), or say parts=…", 5)
-    count = PARTS_PER_THREAD * workers if parts is None else parts
+    available: int = sum(client.nthreads().values())
+    if available == 0 and parts is None:
+        raise MachineError("the cluster has no workers yet; wait for them (client.wait_for_workers), or give parts=…", 5)
+    count = PARTS_PER_THREAD * available if parts is None else parts
     trials = study.trials * len(study.labels)
     if parts is not None and not 1 <= count <= trials:
         raise ManifestError(f"parts={parts}: expected a number from 1 to {trials}, which is that of the trials", 2)

@@ -14,6 +14,7 @@ import pathlib
 import re
 import shutil
 import tempfile
+import warnings
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -85,6 +86,8 @@ def run_on_workers(
     places = [folder / f"part-{number:0{len(str(count))}}-of-{count}.h5" for number in range(1, count + 1)]
     missing = [number for number, place in enumerate(places, 1) if not _is_complete(study, place, number, count)]
     _make(folder)
+    for warning in study.warnings:  # the workers tell them to their logs
+        warnings.warn(warning, stacklevel=3)
     _collect(study, client, places, missing, threads or 1, progress)
     program.run(["merge", folder, *options(output=output, force=force)])
     shutil.rmtree(folder, ignore_errors=True)

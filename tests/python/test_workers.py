@@ -97,8 +97,8 @@ def test_an_interrupted_call_goes_on_with_the_parts_that_are_missing(
     def interrupt(line: str) -> None:
         raise KeyboardInterrupt
 
-    shown_by(monkeypatch, interrupt)
-    with pytest.raises(KeyboardInterrupt):
+    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+        shown_by(patch, interrupt)
         long.run(tmp_path / "r.h5", client=client, parts=6)
     kept = {path.name: path.stat() for path in (tmp_path / "r.h5.parts").iterdir()}
     assert len(kept) == 1 and not (tmp_path / "r.h5").exists()
@@ -154,28 +154,52 @@ def test_workers_need_no_folder_of_the_client(long: zc.Study, client: Any, tmp_p
     assert isinstance(sent, bytes) and sent[:1000] == again[:1000] and len(sent) == len(again)
 
 
-def test_a_failure_of_the_workers_is_one_of_the_machine(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
-    """A part that fails on every worker ends the run with what Dask says, and the finished parts are kept."""
+def use_program(path: str) -> None:
+    """Runs on a worker: takes another program from now on."""
+    from zerocount import program
 
-    def without_program() -> None:
-        from zerocount import program
+    os.environ["ZEROCOUNT_PROGRAM"] = path
+    program.path.cache_clear()
 
-        os.environ["KEPT_PROGRAM"] = os.environ["ZEROCOUNT_PROGRAM"]
-        os.environ["ZEROCOUNT_PROGRAM"] = "/nowhere/zerocount"
-        program.path.cache_clear()
 
-    def with_program() -> None:
-        from zerocount import program
-
-        os.environ["ZEROCOUNT_PROGRAM"] = os.environ.pop("KEPT_PROGRAM")
-        program.path.cache_clear()
-
-    client.run(without_program)
+@contextlib.contextmanager
+def program_of_workers(client: Any, path: str) -> Iterator[None]:
+    """The workers have another program meanwhile."""
+    client.run(use_program, path)
     try:
-        with pytest.raises(zc.MachineError, match="/nowhere/zerocount is not a program that runs here"):
-            axis.set(rigs=2, trials=4).run(tmp_path / "r.h5", client=client, parts=2)
+        yield
     finally:
-        client.run(with_program)
+        client.run(use_program, os.environ["ZEROCOUNT_PROGRAM"])
+
+
+def test_a_failure_of_the_workers_is_one_of_the_machine(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
+    """A part that fails on every worker ends the run with what the package says there."""
+    few = axis.set(rigs=2, trials=4)
+    with program_of_workers(client, "/nowhere/zerocount"):
+        with pytest.raises(zc.MachineError, match="/nowhere/zerocount is not a program that runs here"):
+            few.run(tmp_path / "r.h5", client=client, parts=2)
+    assert few.run(tmp_path / "r.h5", client=client).trials(0).shape[0] == 4
+
+
+FAILS_ONCE = """#!/bin/sh
+if [ "$1" = run ] && mkdir {folder}/failed 2>/dev/null; then
+  echo "part.h5: cannot be written: No space left on device" >&2
+  exit 5
+fi
+exec {program} "$@"
+"""
+
+
+def test_a_part_whose_machine_fails_runs_again(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
+    """After exit code 5 on a worker the part is tried again."""
+    script = tmp_path / "fails-once"
+    script.write_text(FAILS_ONCE.format(folder=tmp_path, program=os.environ["ZEROCOUNT_PROGRAM"]), encoding="utf-8")
+    script.chmod(0o700)
+    few = axis.set(rigs=2, trials=4)
+    with program_of_workers(client, str(script)):
+        r = few.run(tmp_path / "r.h5", client=client, parts=2)
+    assert (tmp_path / "failed").is_dir()
+    assert undated(r.path) == undated(few.run(tmp_path / "alone.h5").path)
 
 
 def test_another_build_is_refused_before_it_runs(axis: zc.Study, client: Any) -> None:

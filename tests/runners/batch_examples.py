@@ -146,6 +146,29 @@ class Contract(Batch):
         self.ended(*merge, "--force")
         self.require_alone()
 
+    def test_a_damaged_part(self):
+        """It is refused by merge (4) and by its own command (2), which makes it again with --force."""
+        for number in (1, 2):
+            self.ended(*self.part(number, 2, f"{number}.h5"))
+        whole = (self.folder / "2.h5").read_bytes()
+        (self.folder / "2.h5").write_bytes(whole[:len(whole) // 2])
+        self.assertIn("2.h5", self.ended("zerocount", "merge", "1.h5", "2.h5", "-o", "study.h5", code=4))
+        self.ended(*self.part(2, 2, "2.h5"), code=2)
+        self.ended(*self.part(2, 2, "2.h5", "--force"))
+        self.ended("zerocount", "merge", "1.h5", "2.h5", "-o", "study.h5")
+        self.require_alone()
+
+    def test_a_killed_merge_begins_again(self):
+        """After SIGKILL there is no output, and the same command makes it."""
+        for number in (1, 2):
+            self.ended(*self.part(number, 2, f"{number}.h5"))
+        merge = ("zerocount", "merge", "1.h5", "2.h5", "-o", "study.h5", "--force")
+        self.killed(lambda: any(self.folder.glob("study.h5*.part")), *merge)
+        self.assertFalse((self.folder / "study.h5").exists())
+        self.ended(*merge)
+        self.require_alone()
+        self.assertEqual(self.names(), ["1.h5", "2.h5", "study.h5", "study.yaml"])
+
     def test_a_merge_of_different_divisions(self):
         """Halves and quarters together have the bytes of one machine."""
         for number, parts in ((1, 2), (3, 4), (4, 4)):

@@ -19,7 +19,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from . import program
-from .errors import DataError, Error, MachineError, ManifestError
+from .errors import Error, MachineError, ManifestError
 from .optional import required
 from .options import options
 
@@ -189,15 +189,13 @@ def _collect(
 def _part_of(future: Any, number: int, count: int) -> bytes:
     """The part that a worker has run, or an error of this package."""
     try:
-        part = future.result()
+        part: bytes | Error = future.result()
     except Error:
         raise
     except Exception as error:  # of Dask: the workers died, or lack the package
         raise MachineError(f"part {number} of {count} failed on the workers: {error}", 5) from error
     if isinstance(part, Error):
         raise part
-    if not isinstance(part, bytes):
-        raise DataError(f"part {number} of {count}: a worker returned {type(part).__name__}; expected bytes", 4)
     return part
 
 

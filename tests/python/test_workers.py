@@ -69,6 +69,14 @@ def test_the_bytes_are_those_of_one_machine(
     assert long.run(r.path, client=client).path.stat() == before
 
 
+def test_options_of_the_other_kind_of_run_are_refused(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
+    """No option is ignored."""
+    with pytest.raises(zc.ManifestError, match="parts: a run on this machine"):
+        axis.run(tmp_path / "r.h5", parts=2)
+    with pytest.raises(zc.ManifestError, match="watch: a run on workers"):
+        axis.run(tmp_path / "r.h5", client=client, watch=tmp_path / "r.html")
+
+
 def test_a_killed_worker_costs_only_its_parts(
     long: zc.Study, alone: pathlib.Path, client: Any, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

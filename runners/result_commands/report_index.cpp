@@ -47,8 +47,7 @@ std::vector<fs::path> results_in_folder(const fs::path& folder) {
     throw Failure(ExitCode::bad_input, fmt::format("{}: {}; expected a folder that can be read",
                                                    folder.string(), error.message()));
   std::ranges::sort(files);
-  const auto repeated = std::ranges::unique(files);
-  files.erase(repeated.begin(), repeated.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
   return files;
 }
 

@@ -95,7 +95,7 @@ class Contract(Batch):
         """After SIGKILL the part is absent, its shards are whole, and the same command runs only what is missing, also where the folder
         of shards has been moved to."""
         self.assertEqual(self.killed(self.has_shard("1.h5"), *self.part(1, 2, "1.h5")), -signal.SIGKILL)
-        self.assertEqual(set(self.names()) - {"1.h5.lock"}, {"1.h5.shards", "study.yaml"})
+        self.assertEqual(set(self.names()) - {"1.h5.lock", "1.h5.part"}, {"1.h5.shards", "study.yaml"})
         self.assertEqual(self.killed(self.has_shard("2.h5"), *self.part(2, 2, "2.h5"), kind=signal.SIGTERM), 130)
         self.assertNotIn("2.h5.lock", self.names())
         elsewhere = self.folder / "elsewhere"

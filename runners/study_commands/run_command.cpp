@@ -198,7 +198,11 @@ void with_timeline(const std::optional<fs::path>& place, const Work& work) {
   try {
     work(&timeline);
   } catch (...) {
-    command_line::write_text(*place, timeline.trace_events());
+    try {
+      command_line::write_text(*place, timeline.trace_events());
+    } catch (const Failure& failure) {  // what the run failed of is to be told, too
+      status::tell("{}\n", failure.what());
+    }
     throw;
   }
   command_line::write_text(*place, timeline.trace_events());

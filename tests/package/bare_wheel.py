@@ -5,27 +5,16 @@ usage: bare_wheel.py SOURCE BUILD
 
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 import venv
 import zipfile
 
+from installed_prefix import require, run
+
 # What PEP 600 lets a wheel expect of a system, of what we use.
 OF_SYSTEM = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1", "ld-linux-x86-64.so.2", "libstdc++.so.6", "libgcc_s.so.1"}
 NETWORK = {"libssl", "libgnutls", "libldap", "libkrb5", "libssh2", "libnghttp2", "librtmp"}
-
-
-def run(*words, **options):
-    ended = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False, **options)
-    if ended.returncode != 0:
-        raise SystemExit(f"{' '.join(map(str, words))}: exit code {ended.returncode}\n{ended.stdout[-3000:]}{ended.stderr[-3000:]}")
-    return ended.stdout
-
-
-def require(holds, what):
-    if not holds:
-        raise SystemExit(f"not so: {what}")
 
 
 def check_symbols(root, tag):

@@ -12,8 +12,8 @@ import sys
 import tempfile
 
 
-def run(*words, cwd=None):
-    ended = subprocess.run([str(word) for word in words], cwd=cwd, capture_output=True, text=True, check=False)
+def run(*words, **options):
+    ended = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False, **options)
     if ended.returncode != 0:
         raise SystemExit(f"{' '.join(map(str, words))}: exit code {ended.returncode}\n{ended.stdout[-3000:]}{ended.stderr[-3000:]}")
     return ended.stdout

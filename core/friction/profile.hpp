@@ -35,8 +35,9 @@ struct ValueRange {
   double high{0.0};
 };
 
-/// The extreme values of a profile over a revolution, to 1e-6 relative: searched at 16 points per shortest
-/// wavelength, and the extremes then refined.
+/// The extreme values of a profile over a revolution: searched at 16 points per shortest wavelength, and the
+/// extremes found then refined to 1e-6 relative. Of extremes that are nearly equal another one may be
+/// refined, which is less extreme by some thousandths of the range.
 ValueRange range_over_revolution(const Profile& profile);
 /// The low end of range_over_revolution(), in half the time.
 double lowest_over_revolution(const Profile& profile);

@@ -3,13 +3,13 @@
 
     tunings.py PROGRAM [--budget TRIALS] [--jobs N]
 
-- Twenty tunings with goals that the best gains just meet or just miss. The truth is the rate on 20 000 machines that neither the search
+- Twenty tunings with goals that the best gains just meet or just miss. The truth is the rate on 100 000 machines that neither the search
   nor the proof has seen. A claim is false where the proof's lower bound, or a goal that is called met, is above it: with 95 % each, three
   of twenty are with a probability of 8 %.
 - The criterion of three tunings against the best of a grid of 1573 points on three axes, each on 500 machines, which is a little better
   than it is because it is the best of many. No tuning may be more than a tenth later.
 
-Takes about 15 minutes of one core.
+Takes about 20 minutes of one core.
 """
 import argparse
 import concurrent.futures
@@ -70,7 +70,7 @@ def claim(program, budget, seed):
     with tempfile.TemporaryDirectory() as folder:
         (pathlib.Path(folder) / "axis.yaml").write_text(AXIS.format(seed=seed, goal=goal) + f"tune: {{{FREE}}}\n", encoding="utf-8")
         answer = tuned(program, folder, "axis.yaml", budget)
-        point = summary_of(program, folder, "tuned.yaml", {"seed": 1000 + seed, "trials": 20_000, "rigs": 20_000})[0]
+        point = summary_of(program, folder, "tuned.yaml", {"seed": 1000 + seed, "trials": 100_000, "rigs": 100_000})[0]
         return seed, wanted, answer["status"], answer["proof"]["rate_low"], point["goal"]["rate"]
 
 

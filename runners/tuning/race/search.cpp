@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <map>
 #include <set>
@@ -20,7 +21,8 @@ constexpr double step_ratio = 0.8;          // from generation to generation
 constexpr int patience = 4;                 // generations without improvement
 constexpr double part_on_faces = 0.2;       // of later generations
 constexpr double min_improvement = 0.005;   // of the criterion
-constexpr double min_approach = 0.1;        // of the distance left to the goal, in `patience` generations
+constexpr double min_approach = 0.2;        // of the distance left to the goal, in a third of the candidates
+constexpr double final_part = 0.1;          // of the time, for the race of the finalists
 constexpr double examining = 0.3;           // of the time left, at most, to find candidates of a generation
 
 // Of differential evolution.
@@ -31,13 +33,26 @@ constexpr int tries_before_walking = 8;  // of a later generation, if they find 
 constexpr double walked_part = 0.6;      // of the difference of two others
 constexpr double crossover = 0.9;        // probability that a coordinate moves
 
+/// The effort without that which the race of the finalists, and of an earlier leader, takes at most.
+trials::Effort before_final_race(const SearchProblem& problem, const trials::Effort& whole) {
+  const SearchSize& size = problem.size;
+  const std::int64_t final_trials =
+      (size.max_units - size.climbing_units) * (size.elites + 1) * problem.trials_of_unit;
+  const std::int64_t least = std::min(size.max_units * problem.trials_of_unit, whole.trials_left());
+  const double seconds = whole.seconds_left();
+  return whole.share(std::max(whole.trials_left() - final_trials, least),
+                     std::isinf(seconds) ? std::nullopt : std::optional((1.0 - final_part) * seconds));
+}
+
 class Search {
  public:
   Search(const SearchProblem& problem, const SearchSettings& settings)
       : problem_(problem),
         settings_(settings),
         numbers_{designs::random_key(settings.seed, "tuning"), 0},
-        step_(first_step) {}
+        step_(first_step),
+        effort_(before_final_race(problem, settings.effort)),
+        most_units_(problem.size.climbing_units) {}
 
   SearchResult run() {
     race_starts();
@@ -45,7 +60,7 @@ class Search {
     int without = 0;
     while (!population_.empty()) {
       ++result_.generations;
-      margins_.push_back(best_estimate().margin);
+      remember_leader();
       tell();
       result_.converged = without >= patience;
       if (!goes_on() || (result_.converged && !settings_.begins_anew)) break;
@@ -67,6 +82,12 @@ class Search {
   }
 
  private:
+  /// The best candidate after a generation.
+  struct Leader {
+    std::int64_t points;  ///< tried until then
+    Candidate candidate;
+  };
+
   std::size_t index_below(std::size_t size) {
     return std::min(static_cast<std::size_t>(numbers_.uniform() * static_cast<double>(size)), size - 1);
   }
@@ -98,9 +119,9 @@ class Search {
 
   /// Calls `add` until it has found a generation, or some candidates in a part of the time.
   void find(std::vector<Candidate>& candidates, const std::function<bool()>& add) {
-    const double end = (1.0 - examining) * settings_.effort.seconds_left();
-    const bool ended = trials::within(settings_.effort, [&] {
-      while (add() && (candidates.empty() || !(settings_.effort.seconds_left() < end))) {
+    const double end = (1.0 - examining) * effort_.seconds_left();
+    const bool ended = trials::within(effort_, [&] {
+      while (add() && (candidates.empty() || !(effort_.seconds_left() < end))) {
       }
     });
     result_.cut = result_.cut || !ended;
@@ -242,7 +263,8 @@ class Search {
   /// that start around the elites go farther along a thin region.
   void next_generation() {
     std::vector<Candidate> candidates;
-    const auto wanted = static_cast<std::size_t>(problem_.size.candidates);
+    const auto wanted =
+        static_cast<std::size_t>(problem_.size.candidates * problem_.size.max_units / most_units_);
     int tries = 0;
     find(candidates, [&] {
       std::vector<UnitCubePoint> places;
@@ -263,8 +285,8 @@ class Search {
     result_.points += std::ssize(candidates);
     for (Candidate& one : population_) candidates.push_back(std::move(one));
     population_.clear();
-    std::int64_t units = std::min(problem_.size.first_units, problem_.size.max_units);
-    const bool ended = trials::within(settings_.effort, [&] {
+    std::int64_t units = std::min(problem_.size.first_units, most_units_);
+    const bool ended = trials::within(effort_, [&] {
       while (!candidates.empty()) {
         run_units(candidates, units);
         keep_admissible(candidates);
@@ -273,8 +295,8 @@ class Search {
         if (candidates.empty()) return;
         drop(candidates, units);
         const bool tells_them_apart = estimate_of(problem_.aim, candidates.front(), units).rate > 0.0;
-        if (units == problem_.size.max_units || !tells_them_apart) return;
-        units = std::min(2 * units, problem_.size.max_units);
+        if (!tells_them_apart || (units == most_units_ && !takes_more_units(candidates.front()))) return;
+        units = std::min(2 * units, most_units_);
       }
     });
     if (!ended) {
@@ -286,6 +308,17 @@ class Search {
     population_ = std::move(candidates);
   }
 
+  /// While the best candidate seems to miss the goal, many candidates with few units find the way sooner than
+  /// few with many; what meets it needs more units to tell.
+  bool takes_more_units(const Candidate& best) {
+    const std::int64_t max_units = problem_.size.max_units;
+    if (most_units_ == max_units || !seems_to_meet(estimate_of(problem_.aim, best, most_units_)))
+      return false;
+    most_units_ = std::min(2 * most_units_, max_units);
+    if (most_units_ == max_units) effort_ = settings_.effort;
+    return true;
+  }
+
   /// Runs the candidates that are behind, in their order, and drops those for which no trials are left.
   /// @throws trials::Spent if none are left for the first of them
   void run_units(std::vector<Candidate>& candidates, std::int64_t units) {
@@ -294,14 +327,14 @@ class Search {
     for (Candidate& one : candidates) {
       const std::int64_t missing = (units - std::ssize(one.units)) * problem_.trials_of_unit;
       if (missing <= 0) continue;
-      if (trials + missing > settings_.effort.trials_left()) {
+      if (trials + missing > effort_.trials_left()) {
         if (behind.empty()) throw trials::Spent{};
         break;
       }
       behind.push_back(&one);
       trials += missing;
     }
-    settings_.effort.spend(trials);
+    effort_.spend(trials);
     result_.trials += trials;
     problem_.evaluate(behind, units);
     std::erase_if(candidates, [units](const Candidate& one) { return std::ssize(one.units) < units; });
@@ -388,9 +421,7 @@ class Search {
     candidates = std::move(left);
   }
 
-  Estimate best_estimate() const {
-    return estimate_of(problem_.aim, population_.front(), problem_.size.max_units);
-  }
+  Estimate best_estimate() const { return estimate_of(problem_.aim, population_.front(), most_units_); }
 
   bool improves(const Estimate& before, const Estimate& now) const {
     if (before.missing != now.missing) return now.missing < before.missing;
@@ -399,14 +430,20 @@ class Search {
     return now.rate > before.rate + 0.001;
   }
 
-  /// Whether some times as many generations as the last ones would reach the goal, if each came as much
-  /// nearer to it.
-  bool approaches_goal() const {
-    if (population_.empty() || result_.converged || reaches(problem_.aim, best_estimate())) return false;
-    const std::size_t back = std::min<std::size_t>(margins_.size(), patience + 1);
-    const double before = margins_[margins_.size() - back];
+  void remember_leader() {
+    leaders_.push_back({result_.points, population_.front()});
+    while (leaders_.size() > 1 && 3 * leaders_[1].points <= 2 * result_.points) leaders_.pop_front();
+  }
+
+  /// Whether some times as many candidates as the last ones would reach the goal, if they came as much nearer
+  /// to it. The leader before them runs as many units as the finalists: it led by luck too.
+  bool approaches_goal() {
+    if (population_.empty() || reaches(problem_.aim, best_estimate())) return false;
+    std::vector<Candidate> before{leaders_.front().candidate};
+    trials::within(effort_, [&] { run_units(before, most_units_); });
+    if (before.empty()) return false;
     const double now = best_estimate().margin;
-    return now - before > min_approach * std::abs(now);
+    return now - estimate_of(problem_.aim, before.front(), most_units_).margin > min_approach * std::abs(now);
   }
 
   void tell() const {
@@ -417,19 +454,26 @@ class Search {
 
   /// A generation of which no candidate can end its race is not begun.
   bool goes_on() const {
-    return (result_.generations < settings_.generations || settings_.begins_anew) &&
-           !settings_.effort.is_spent() &&
-           settings_.effort.trials_left() >= problem_.size.max_units * problem_.trials_of_unit;
+    return (result_.generations < settings_.generations || settings_.begins_anew) && !effort_.is_spent() &&
+           effort_.trials_left() >= most_units_ * problem_.trials_of_unit;
+  }
+
+  void race_finalists() {
+    if (most_units_ == problem_.size.max_units) return;
+    effort_ = settings_.effort;
+    most_units_ = problem_.size.max_units;
+    race({});
   }
 
   SearchResult finish() {
+    race_finalists();
     result_.approaching = approaches_goal();
     // Every finalist is to be fit for the proof.
     for (Candidate& one : population_) {
       if (problem_.verified(one)) result_.finalists.push_back(std::move(one));
     }
     for (const Candidate& one : result_.finalists)
-      result_.estimates.push_back(estimate_of(problem_.aim, one, problem_.size.max_units));
+      result_.estimates.push_back(estimate_of(problem_.aim, one, most_units_));
     result_.tried.reserve(estimates_.size());
     for (const auto& [values, estimate] : estimates_) result_.tried.push_back({values, estimate});
     return std::move(result_);
@@ -439,10 +483,12 @@ class Search {
   const SearchSettings& settings_;
   random::NumberSource numbers_;
   double step_;
+  trials::Effort effort_;    ///< of the race that goes on
+  std::int64_t most_units_;  ///< likewise
   std::set<Values> tried_;
   std::map<Values, Estimate> estimates_;  ///< of all that were simulated
   std::vector<Candidate> population_;     ///< the best first
-  std::vector<double> margins_;           ///< Estimate::margin of the best after each generation
+  std::deque<Leader> leaders_;            ///< since two thirds of the candidates
   SearchResult result_;
 };
 

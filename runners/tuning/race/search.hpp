@@ -75,17 +75,21 @@ struct SearchResult {
 
 /// Seeks the best values within the effort.
 ///
+///     most_units = climbing_units
 ///     population = the best of `starts`, by a race
 ///     candidates = points that fill the ranges and the faces                     // first generation
 ///     if too few of them are admissible: those that differential evolution of `shortfall` finds
 ///     repeat until generations improve nothing, or the effort is spent:
-///       for units = first_units, 2·first_units, … max_units, while any move meets the goal:   // race
+///       for units = first_units, 2·first_units, … most_units, while any move meets the goal:   // race
 ///         evaluate all candidates up to `units`
 ///         drop those not admissible, significantly worse than the best, or beyond max_after(units), but
 ///         none that have more units already
+///         where the best seems to meet the goal at most_units: double them, up to max_units
 ///       population = the best `elites`
-///       candidates = points near them, or on a face near them; or, where no move of theirs meets the goal,
-///       and where the search begins anew, points that fill the ranges and the faces
+///       candidates = points near them, or on a face near them, the more the smaller most_units is; or, where
+///       no move of theirs meets the goal, and where the search begins anew, points that fill the ranges and
+///       the faces
+///     race of the population up to max_units
 ///
 /// Where the effort ends within a race, the candidates with the most units stay. Differential evolution is
 /// that of Storn and Price (Journal of Global Optimization 11, 1997), rand/1/bin: once its walkers are in an

@@ -9,6 +9,7 @@ namespace {
 constexpr int smallest = 10;  // number of the last size
 constexpr std::int64_t candidates_each = 48;
 constexpr std::int64_t units_of_world = 4;
+constexpr std::int64_t climbing_part = 8;  // of the units
 
 /// Size number `step`: each has 0.75 of the candidates of the one before, every second one half of the units.
 SearchSize size_at(const SearchScope& scope, int step) {
@@ -25,9 +26,11 @@ SearchSize size_at(const SearchScope& scope, int step) {
   size.elites = part(largest.elites, 3);
   const int halvings = step / 2;
   const std::int64_t worlds = std::max<std::int64_t>(scope.worlds, 1);
-  const std::int64_t units = std::max(scope.max_units >> halvings, units_of_world * scope.worlds);
+  const std::int64_t least = units_of_world * scope.worlds;
+  const std::int64_t units = std::max(scope.max_units >> halvings, least);
   size.max_units = (units + worlds - 1) / worlds * worlds;
   size.first_units = std::min(std::max<std::int64_t>(largest.first_units >> halvings, 8), size.max_units);
+  size.climbing_units = std::max({size.max_units / climbing_part, size.first_units, least});
   return size;
 }
 

@@ -10,10 +10,11 @@ namespace zerocount::tuning {
 struct SearchSize {
   std::int64_t first_candidates{96};  ///< of the first generation, which fills the ranges
   std::int64_t face_candidates{0};    ///< of it, for each face (SearchProblem::faces)
-  std::int64_t candidates{32};        ///< of each later generation
-  std::int64_t elites{8};             ///< that a generation leaves to the next
+  std::int64_t candidates{32};  ///< of each later generation that runs max_units; the more the fewer it runs
+  std::int64_t elites{8};       ///< that a generation leaves to the next
   std::int64_t first_units{64};
-  std::int64_t max_units{2048};
+  std::int64_t climbing_units{256};  ///< at most, while the best candidate seems to miss the goal
+  std::int64_t max_units{2048};      ///< of a candidate
 };
 
 /// Candidates at most that stay in a race after `units` units.

@@ -19,6 +19,7 @@ struct MadeUpProblem {
   double fall{0.4};  ///< of the rate per squared distance
   Values reliable{0.3, 0.6};
   Values fast{0.7, 0.4};
+  Values widths;  ///< of the peak of the rate, which has long slopes, where `fall` is not to be used
   study::Goal goal{.within = 1.0, .moves = 0.95};
 
   static double squared_distance(const Values& a, const Values& b) {
@@ -26,7 +27,12 @@ struct MadeUpProblem {
     for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
     return sum;
   }
-  double rate(const Values& at) const { return highest_rate - fall * squared_distance(at, reliable); }
+  double rate(const Values& at) const {
+    if (widths.empty()) return highest_rate - fall * squared_distance(at, reliable);
+    Values distance, centre(at.size(), 0.0);
+    for (std::size_t i = 0; i < at.size(); ++i) distance.push_back((at[i] - reliable[i]) / widths[i]);
+    return highest_rate / (1.0 + squared_distance(distance, centre));
+  }
   double typical_time(const Values& at) const { return 0.01 + squared_distance(at, fast); }
 
   double uniform(std::uint64_t stream, std::uint64_t unit, const Values& at) const {
@@ -54,7 +60,7 @@ struct MadeUpProblem {
   SearchProblem problem(std::int64_t units) const {
     SearchProblem problem;
     for (std::size_t i = 0; i < fast.size(); ++i)
-      problem.free.push_back({.name = std::string(1, "xyzw"[i]), .low = 0.0, .high = 1.0});
+      problem.free.push_back({.name = std::string(1, "xyzwv"[i]), .low = 0.0, .high = 1.0});
     problem.aim = {.claims = {{.moves = goal.moves}}, .quantile = 0.95};
     problem.size = search_size({.free = problem.free.size(), .max_units = units}, std::int64_t{1} << 40);
     problem.evaluate = [this](std::span<Candidate* const> candidates, std::int64_t to) {

@@ -92,6 +92,40 @@ TEST(Search, IsNotWorseThanItsStarts) {
   }
 }
 
+/// A peak in five parameters, narrow in some of them, that is below or above the goal.
+MadeUpProblem narrow_peak(std::uint64_t seed) {
+  MadeUpProblem truth{.seed = seed};
+  const auto uniform = [&](std::uint64_t number) { return truth.uniform(200 + number, 0, {}); };
+  truth.highest_rate = 0.5 + 0.49 * uniform(0);
+  truth.goal.moves = truth.highest_rate + (uniform(1) < 0.5 ? 0.01 : -0.05);
+  truth.reliable = truth.fast = truth.widths = Values(5);
+  for (std::size_t i = 0; i < 5; ++i) {
+    truth.reliable[i] = truth.fast[i] = uniform(10 + i);
+    truth.widths[i] = 0.03 * std::pow(30.0, uniform(20 + i));
+  }
+  return truth;
+}
+
+// Where no candidate meets the goal yet, many candidates with few units come nearer than few with many.
+TEST(Search, ClimbsToNarrowPeaksWithFewUnits) {
+  double with_few = 0.0;
+  double with_many = 0.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const MadeUpProblem truth = narrow_peak(seed);
+    const auto part_reached = [&](bool climbs) {
+      SearchProblem problem = truth.problem(512);
+      problem.size = search_size({.free = 5, .max_units = 512}, 15'000);
+      if (!climbs) problem.size.climbing_units = problem.size.max_units;
+      const SearchResult result =
+          search(problem, {.seed = seed, .begins_anew = true, .effort = effort_of(30'000)});
+      return truth.rate(result.finalists.front().values) / truth.highest_rate;
+    };
+    with_few += part_reached(true) / 20.0;
+    with_many += part_reached(false) / 20.0;
+  }
+  EXPECT_GE(with_few, with_many + 0.05);
+}
+
 // A candidate that ran all units is not dropped because it looks worse on the first few.
 TEST(Search, KeepsTheBestThatItHasSeen) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {

@@ -92,7 +92,7 @@ layout::StoredStatistics stored_statistics(std::span<const measures::PointSummar
 void take_stored_statistics(const reading::AllTrialsFile& file, const study::Study& study,
                             std::span<const theory::PointPrediction> known,
                             const std::function<void(const layout::StoredStatistics&)>& take,
-                            parallel::Timeline* timeline) {
+                            timeline::Timeline* timeline) {
   const std::vector<theory::PointPrediction> predictions = theory::study_predictions(study, known);
   std::vector<measures::PointSummary> points;
   std::optional<layout::StoredStatistics> block;
@@ -118,7 +118,7 @@ void take_stored_statistics(const reading::AllTrialsFile& file, const study::Stu
   for (std::int64_t first = 0; first < study::point_count(study); first += layout::chunk_elements) {
     const std::int64_t count = std::min(layout::chunk_elements, study::point_count(study) - first);
     accumulator.add(file, {first * study.trials, count * study.trials});
-    const parallel::TimeSpan span(timeline, "write statistics", parallel::Work::serial);
+    const timeline::TimeSpan span(timeline, "write statistics", timeline::Work::serial);
     accumulator.finish();
     add_to_block();
     take(*std::exchange(block, std::nullopt));

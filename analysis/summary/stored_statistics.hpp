@@ -5,7 +5,7 @@
 #include <span>
 
 #include "analysis/measures/point_statistics.hpp"
-#include "analysis/parallel/timeline.hpp"
+#include "results/timeline/timeline.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
@@ -29,6 +29,6 @@ layout::StoredStatistics stored_statistics(std::span<const measures::PointSummar
 void take_stored_statistics(const reading::AllTrialsFile& file, const study::Study& study,
                             std::span<const theory::PointPrediction> predictions,
                             const std::function<void(const layout::StoredStatistics&)>& take,
-                            parallel::Timeline* timeline = nullptr);
+                            timeline::Timeline* timeline = nullptr);
 
 }  // namespace zerocount::summary

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -106,6 +107,8 @@ struct Block {
 ///     decode    any thread: decode them, and how many jerks each trial has
 ///     add_jerks one block at a time, in order: read its jerks; sum it where they are many
 ///     sum       any thread: sum the trials at each point
+///     gather    one block at a time, in order: the sums of several blocks
+///     add       any thread: add them; one thread: add them to those of all trials
 ///
 /// A block has all trials of a chunk, or those of some points. What fails is kept for who takes the sums in
 /// order, so that it is the failure of the first trial.
@@ -120,7 +123,7 @@ class BlockStages {
   std::shared_ptr<Block> fetch() {
     if (rows_.count == 0 || has_failed_) return nullptr;
     if (chunk_rows_.count == 0) {
-      const parallel::TimeSpan span(wanted_.timeline, "fetch", parallel::Work::serial);
+      const timeline::TimeSpan span(wanted_.timeline, "fetch", timeline::Work::serial);
       const std::lock_guard lock(library_);
       chunk_rows_ = measures::rows_of_first_chunk(file_, rows_);
       chunk_ = std::make_shared<Chunk>();
@@ -137,7 +140,7 @@ class BlockStages {
   }
 
   void decode(Block& block) const {
-    const parallel::TimeSpan span(wanted_.timeline, "decode", parallel::Work::parallel, block.rows.count);
+    const timeline::TimeSpan span(wanted_.timeline, "decode", timeline::Work::parallel, block.rows.count);
     keep_failure(block, [&] {
       Chunk& chunk = *block.chunk;
       std::call_once(chunk.once, [&] {
@@ -149,7 +152,7 @@ class BlockStages {
   }
 
   void add_jerks(Block& block) {
-    const parallel::TimeSpan span(wanted_.timeline, "jerks", parallel::Work::serial, block.rows.count);
+    const timeline::TimeSpan span(wanted_.timeline, "jerks", timeline::Work::serial, block.rows.count);
     if (has_failed_ || block.failure) {
       has_failed_ = true;
       return;
@@ -165,7 +168,7 @@ class BlockStages {
 
   void sum(Block& block) const {
     if (block.failure || block.is_summed) return;
-    const parallel::TimeSpan span(wanted_.timeline, "sum", parallel::Work::parallel, block.rows.count);
+    const timeline::TimeSpan span(wanted_.timeline, "sum", timeline::Work::parallel, block.rows.count);
     keep_failure(block, [&] { sum(block, block.rows, block.jerks); });
     block.jerks = {};
     block.chunk.reset();
@@ -246,6 +249,23 @@ class BlockStages {
   std::atomic<bool> has_failed_{false};
 };
 
+/// Sums of consecutive trials.
+using Sums = std::vector<SummedPoint>;
+constexpr std::size_t sums_added_at_once = 8;
+
+/// Adds those of the same point.
+Sums added(Sums&& sums) {
+  Sums all;
+  for (SummedPoint& next : sums) {
+    if (!all.empty() && next.point() == all.back().point()) {
+      all.back() += next;
+    } else {
+      all.push_back(std::move(next));
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 StudyAccumulator::StudyAccumulator(const study::Study& study, const Wanted& wanted,
@@ -270,6 +290,19 @@ void StudyAccumulator::add(const reading::AllTrialsFile& file, layout::RowRange 
       return block;
     });
   };
+  using SumsPointer = std::shared_ptr<Sums>;
+  Sums waiting;
+  const auto gather = [&](const BlockPointer& block) {
+    if (block->failure) std::rethrow_exception(block->failure);
+    waiting.insert(waiting.end(), std::make_move_iterator(block->sums.begin()),
+                   std::make_move_iterator(block->sums.end()));
+    return std::make_shared<Sums>(waiting.size() < sums_added_at_once ? Sums() : std::exchange(waiting, {}));
+  };
+  const auto add_gathered = [&](const SumsPointer& sums) {
+    const timeline::TimeSpan span(wanted_.timeline, "add blocks", timeline::Work::parallel);
+    *sums = added(std::move(*sums));
+    return sums;
+  };
   const auto pipeline = [&] {
     tbb::parallel_pipeline(
         static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + 2,
@@ -277,17 +310,18 @@ void StudyAccumulator::add(const reading::AllTrialsFile& file, layout::RowRange 
             stage(Mode::parallel, &BlockStages::decode) &
             stage(Mode::serial_in_order, &BlockStages::add_jerks) &
             stage(Mode::parallel, static_cast<void (BlockStages::*)(Block&) const>(&BlockStages::sum)) &
-            tbb::make_filter<BlockPointer, void>(Mode::serial_in_order, [&](const BlockPointer& block) {
-              if (block->failure) std::rethrow_exception(block->failure);
-              add(std::move(block->sums), file);
-            }));
+            tbb::make_filter<BlockPointer, SumsPointer>(Mode::serial_in_order, gather) &
+            tbb::make_filter<SumsPointer, SumsPointer>(Mode::parallel, add_gathered) &
+            tbb::make_filter<SumsPointer, void>(
+                Mode::serial_in_order, [&](const SumsPointer& sums) { add(std::move(*sums), file); }));
   };
   // A thread that waits here must not begin another task meanwhile, such as a block of trials.
   tbb::this_task_arena::isolate(pipeline);
+  add(added(std::move(waiting)), file);
 }
 
 void StudyAccumulator::add(std::vector<SummedPoint>&& sums, const reading::AllTrialsFile& file) {
-  const parallel::TimeSpan span(wanted_.timeline, "add sums", parallel::Work::serial);
+  const timeline::TimeSpan span(wanted_.timeline, "add sums", timeline::Work::serial);
   for (SummedPoint& next : sums) {
     SummedPoint& all = point(next.point(), file.header().version, file.table());
     if (all.trials().trials() == 0) {
@@ -318,7 +352,7 @@ SummedPoint& StudyAccumulator::point(std::int64_t number, std::int64_t version,
 
 void StudyAccumulator::finish() {
   if (!point_) return;
-  const parallel::TimeSpan span(wanted_.timeline, "statistics", parallel::Work::serial);
+  const timeline::TimeSpan span(wanted_.timeline, "statistics", timeline::Work::serial);
   PointResults results;
   results.prediction = point_->prediction();
   if (wanted_.sums) results.sums = point_->sums();

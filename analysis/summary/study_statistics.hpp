@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/measures/point_statistics.hpp"
-#include "analysis/parallel/timeline.hpp"
+#include "results/timeline/timeline.hpp"
 #include "analysis/summary/summed_point.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
@@ -26,7 +26,7 @@ struct Wanted {
   /// Bounds of means by resampling, which takes its time; its random numbers are those of the study's seed.
   bool bootstrap{false};
   std::int64_t first_point{0};            ///< the first that may have trials
-  parallel::Timeline* timeline{nullptr};  ///< gets spans of the stages; null: none
+  timeline::Timeline* timeline{nullptr};  ///< gets spans of the stages; null: none
 };
 
 /// A point when all its trials are added.

@@ -16,6 +16,8 @@
 #include "results/hdf5/chunk_filters.hpp"
 #include "results/hdf5/encoded_rows.hpp"
 #include "results/hdf5/hdf5_detail.hpp"
+#include "results/storage/durable_file.hpp"
+#include "results/timeline/timeline.hpp"
 
 namespace zerocount::hdf5 {
 namespace {
@@ -26,7 +28,8 @@ struct ChunkJob {
   std::int64_t offset;  ///< first row, from the first row of the request
   std::int64_t rows;
   ChunkShape shape;
-  std::vector<std::byte> stored{};
+  StoredChunk found{};
+  std::vector<std::byte> stored{};  ///< bytes of the chunk
   bool damaged{false};
   std::size_t digest{0};  ///< of the stored bytes, to copy them
 };
@@ -150,19 +153,31 @@ std::vector<Size> Dataset::place_of(std::int64_t first) const {
   return place;
 }
 
-/// Empty if the chunk was never written, or a filter was left out because it did not fit: the library must
-/// read it.
-std::vector<std::byte> Dataset::stored_chunk(std::int64_t first) const {
+StoredChunk Dataset::find_chunk(std::int64_t first) const {
   const std::vector<Size> place = place_of(first);
+  unsigned skipped_filters = 0;
+  haddr_t address = 0;
   Size size = 0;
-  require(H5Dget_chunk_storage_size(id(), place.data(), &size), unreadable_values);
-  std::vector<std::byte> stored(size);
-  std::uint32_t skipped_filters = 0;
-  if (size > 0)
-    require(H5Dread_chunk(id(), H5P_DEFAULT, place.data(), &skipped_filters, stored.data()),
-            unreadable_values);
-  if (skipped_filters != 0) stored.clear();
-  return stored;
+  require(H5Dget_chunk_info_by_coord(id(), place.data(), &skipped_filters, &address, &size),
+          unreadable_values);
+  if (size == 0 || skipped_filters != 0) return {};
+  const storage::ByteFile& bytes = *origin()->bytes;
+  if (address > bytes.size() || size > bytes.size() - address) fail(unreadable_values);
+  StoredChunk chunk{address, size};
+  if (!bytes.writable()) return chunk;
+  // The library may not have written everything to the file yet.
+  chunk.bytes.resize(size);
+  require(H5Dread_chunk(id(), H5P_DEFAULT, place.data(), &skipped_filters, chunk.bytes.data()),
+          unreadable_values);
+  return chunk;
+}
+
+std::vector<std::byte> Dataset::bytes_of(StoredChunk&& chunk) const {
+  if (!chunk.bytes.empty()) return std::move(chunk.bytes);
+  std::vector<std::byte> bytes(chunk.size);
+  if (const auto failure = origin()->bytes->read_unrecorded(chunk.address, bytes))
+    storage::fail_with(file_name(), failure->action, failure->error);
+  return bytes;
 }
 
 void Dataset::store_chunk(std::int64_t first, std::span<const std::byte> stored, std::size_t digest) {
@@ -182,7 +197,7 @@ void Dataset::write(std::int64_t first, const EncodedRows& encoded) {
   }
 }
 
-void write_rows(std::span<const RowsToWrite> all) {
+void write_rows(std::span<const RowsToWrite> all, timeline::Timeline* timeline) {
   std::vector<RowsToEncode> whole;
   std::vector<const RowsToWrite*> requests;
   for (const RowsToWrite& request : all) {
@@ -194,12 +209,12 @@ void write_rows(std::span<const RowsToWrite> all) {
     whole.push_back({*request.dataset->chunk_shape(), request.rows, request.data});
     requests.push_back(&request);
   }
-  const std::vector<EncodedRows> encoded = encode_rows(whole);
+  const std::vector<EncodedRows> encoded = encode_rows(whole, timeline);
   for (std::size_t i = 0; i < encoded.size(); ++i)
     requests[i]->dataset->write(requests[i]->first, encoded[i]);
 }
 
-void read_rows(std::span<const RowsToRead> all) {
+void read_rows(std::span<const RowsToRead> all, timeline::Timeline* timeline) {
   std::vector<ChunkJob> jobs;
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i].dataset->require_rows(all[i].first, all[i].rows);
@@ -213,14 +228,16 @@ void read_rows(std::span<const RowsToRead> all) {
   };
   const auto fetch = [&](ChunkJob& job) {
     const RowsToRead& request = all[job.request];
-    job.stored = request.dataset->stored_chunk(request.first + job.offset);
-    if (job.stored.empty())
+    job.found = request.dataset->find_chunk(request.first + job.offset);
+    if (job.found.size == 0)
       request.dataset->read_by_library(request.first + job.offset, job.rows, target_of(job));
   };
   const auto decode = [&](ChunkJob& job) {
-    if (job.stored.empty()) return;
+    if (job.found.size == 0) return;
+    const timeline::TimeSpan span(timeline, "decode", timeline::Work::parallel);
     std::vector<std::byte> elements = chunk_of(job);
-    job.damaged = !decode_chunk(job.shape.filters, job.stored, elements);
+    job.damaged = !decode_chunk(job.shape.filters, all[job.request].dataset->bytes_of(std::move(job.found)),
+                                elements);
     std::copy_n(elements.begin(), bytes_in(job), target_of(job));
   };
   const auto check = [&](const ChunkJob& job) {
@@ -235,16 +252,19 @@ bool have_same_chunks(const RowsToCopy& copy) {
   return !target.empty() && !source.empty() && target.front().shape == source.front().shape;
 }
 
-void copy_rows(std::span<const RowsToCopy> all) {
+void copy_rows(std::span<const RowsToCopy> all, timeline::Timeline* timeline) {
   std::vector<ChunkJob> jobs;
   for (std::size_t i = 0; i < all.size(); ++i)
     append(jobs, whole_chunks(*all[i].source, i, all[i].source_first, all[i].rows));
   const auto fetch = [&](ChunkJob& job) {
     const RowsToCopy& request = all[job.request];
-    job.stored = request.source->stored_chunk(request.source_first + job.offset);
+    job.found = request.source->find_chunk(request.source_first + job.offset);
   };
-  const auto check = [](ChunkJob& job) {
-    job.damaged = !job.stored.empty() && !has_valid_checksum(job.stored);
+  const auto check = [&](ChunkJob& job) {
+    if (job.found.size == 0) return;
+    const timeline::TimeSpan span(timeline, "copy", timeline::Work::parallel);
+    job.stored = all[job.request].source->bytes_of(std::move(job.found));
+    job.damaged = !has_valid_checksum(job.stored);
     job.digest = digest_of(job.stored.data(), job.stored.size());
   };
   const auto store = [&](const ChunkJob& job) {

@@ -5,11 +5,13 @@
 #include <cstring>
 #include <utility>
 
+#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include "results/hdf5/chunk_filters.hpp"
 #include "results/hdf5/hdf5_detail.hpp"
+#include "results/timeline/timeline.hpp"
 
 namespace zerocount::hdf5 {
 namespace {
@@ -92,16 +94,26 @@ std::optional<ChunkShape> chunk_shape_of(const Storage& storage) {
   return shape;
 }
 
-std::vector<EncodedRows> encode_rows(std::span<const RowsToEncode> all) {
+void for_each_job(std::size_t count, timeline::Timeline* timeline, std::string_view name,
+                  const std::function<void(std::size_t)>& work) {
   namespace tbb = oneapi::tbb;
+  const auto work_on = [&](const tbb::blocked_range<std::size_t>& range) {
+    const timeline::TimeSpan span(timeline, name, timeline::Work::parallel);
+    for (std::size_t index = range.begin(); index != range.end(); ++index) work(index);
+  };
+  // A thread that waits here must not begin another task meanwhile, such as a block of trials.
+  tbb::this_task_arena::isolate(
+      [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), work_on); });
+}
+
+std::vector<EncodedRows> encode_rows(std::span<const RowsToEncode> all, timeline::Timeline* timeline) {
   std::vector<EncodeJob> jobs = encode_jobs(all);
   share_equal_chunks(jobs);
   std::vector<EncodedChunk> chunks(jobs.size());
   const auto encode = [&](std::size_t index) {
     if (jobs[index].source == index) chunks[index] = encoded(jobs[index]);
   };
-  // A thread that waits here must not begin another task meanwhile, such as a block of trials.
-  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, jobs.size(), encode); });
+  for_each_job(jobs.size(), timeline, "encode", encode);
 
   std::vector<EncodedRows> rows;
   auto job = jobs.begin();

@@ -37,6 +37,7 @@ struct EncodedRows {
 
 /// Encodes several chunks at a time. Chunks of the same value in all elements, such as those of measures that
 /// no trial has, are encoded once.
-std::vector<EncodedRows> encode_rows(std::span<const RowsToEncode> all);
+/// @param timeline gets the spans; null: none
+std::vector<EncodedRows> encode_rows(std::span<const RowsToEncode> all, timeline::Timeline* timeline = nullptr);
 
 }  // namespace zerocount::hdf5

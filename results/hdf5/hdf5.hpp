@@ -13,6 +13,11 @@
 #include "results/hdf5/chunk_filters.hpp"
 #include "results/hdf5/element.hpp"
 #include "results/hdf5/written_values.hpp"
+#include "results/storage/flush.hpp"
+
+namespace zerocount::timeline {
+class Timeline;
+}
 
 /// A thin layer over the HDF5 C library: handles that close themselves, and errors as Failure.
 ///
@@ -133,6 +138,13 @@ struct ChunkShape {
   bool operator==(const ChunkShape&) const = default;
 };
 
+/// A chunk as the file stores it.
+struct StoredChunk {
+  std::uint64_t address{0};        ///< in the file
+  std::size_t size{0};             ///< bytes; 0: the library must read it
+  std::vector<std::byte> bytes{};  ///< if the library has read them
+};
+
 class Dataset : public Object {
  public:
   Element element() const { return element_; }
@@ -142,7 +154,7 @@ class Dataset : public Object {
   /// element(). For several datasets at a time: chunk_transfer.hpp.
   void write(std::int64_t first, std::int64_t rows, const void* data);
   void read(std::int64_t first, std::int64_t rows, void* data) const;
-  /// The rows as they are stored, for decode_rows(). The dataset must stay until then.
+  /// Where the rows are stored, for decode_rows(). The dataset must stay until then.
   FetchedRows fetch(std::int64_t first, std::int64_t rows) const;
   /// Stores the chunks of rows that were encoded for such a dataset, from row `first` on.
   void write(std::int64_t first, const EncodedRows& encoded);
@@ -161,10 +173,11 @@ class Dataset : public Object {
 
  private:
   friend class Group;
-  friend void write_rows(std::span<const RowsToWrite> all);
-  friend void read_rows(std::span<const RowsToRead> all);
-  friend void copy_rows(std::span<const RowsToCopy> all);
-  friend void compare_chunks(const Dataset& dataset, std::span<const WrittenChunk> written);
+  friend void write_rows(std::span<const RowsToWrite> all, timeline::Timeline* timeline);
+  friend void read_rows(std::span<const RowsToRead> all, timeline::Timeline* timeline);
+  friend void copy_rows(std::span<const RowsToCopy> all, timeline::Timeline* timeline);
+  friend class ChunkComparison;
+  friend struct DecodeJob;
   Dataset(Handle handle, std::shared_ptr<Origin> origin, std::string path);
   Element stored_element() const;
   struct Selection {
@@ -176,8 +189,11 @@ class Dataset : public Object {
   void write_by_library(std::int64_t first, std::int64_t rows, const void* data);
   void read_by_library(std::int64_t first, std::int64_t rows, void* data) const;
 
-  /// Stored bytes of the chunk that begins at this row.
-  std::vector<std::byte> stored_chunk(std::int64_t first) const;
+  /// Finds the chunk that begins at this row. Its size is 0 if it was never written, or a filter was left out
+  /// because it did not fit.
+  StoredChunk find_chunk(std::int64_t first) const;
+  /// The stored bytes. Any thread may read them: it does not call the library, while the file stays open.
+  std::vector<std::byte> bytes_of(StoredChunk&& chunk) const;
   /// @param digest of the bytes
   void store_chunk(std::int64_t first, std::span<const std::byte> stored, std::size_t digest);
   std::vector<Size> place_of(std::int64_t first) const;  ///< of a row, in all dimensions
@@ -220,12 +236,14 @@ class File : public Group {
   /// @param so_far values written to the file earlier; close() returns them with the new ones
   static File open_to_change(const std::filesystem::path& path, WrittenValues so_far = {});
 
-  /// Flushes the file to the disk and closes it. All other objects of the file must be destroyed.
+  /// Closes the file, and flushes it to the disk unless that is left to the caller. All other objects of the
+  /// file must be destroyed.
   /// @return all written values, for require_written
-  WrittenValues close();
+  WrittenValues close(storage::Flush flush = storage::Flush::now);
 
  private:
-  friend void require_written(const std::filesystem::path& path, const WrittenValues& written);
+  friend void require_written(const std::filesystem::path& path, const WrittenValues& written,
+                              timeline::Timeline* timeline);
   File(Handle file, Handle root, std::shared_ptr<Origin> origin)
       : Group(std::move(root), std::move(origin), "/"), file_(std::move(file)) {}
   static File open(std::shared_ptr<Origin> origin, bool create);
@@ -235,6 +253,8 @@ class File : public Group {
 
 /// Reads the file and compares every value, text, attribute and axis with the written ones.
 /// @throws Failure (machine_failed) if anything is missing, differs or cannot be read.
-void require_written(const std::filesystem::path& path, const WrittenValues& written);
+/// @param timeline gets the spans of the comparison of chunks, which any thread does; null: none
+void require_written(const std::filesystem::path& path, const WrittenValues& written,
+                     timeline::Timeline* timeline = nullptr);
 
 }  // namespace zerocount::hdf5

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -62,6 +63,10 @@ inline constexpr std::string_view unreadable_values = "its values cannot be read
 
 /// Bytes of a row of a dataset with this extent: its first dimension counts the rows.
 std::size_t row_size(Element element, std::span<const Size> extent);
+
+/// Calls `work` for each index below `count`, several at a time; `timeline` gets their spans as `name`.
+void for_each_job(std::size_t count, timeline::Timeline* timeline, std::string_view name,
+                  const std::function<void(std::size_t)>& work);
 
 /// Hash of some bytes, to detect differences.
 std::size_t digest_of(const void* data, std::size_t size);

@@ -174,12 +174,12 @@ File::~File() {
   }
 }
 
-WrittenValues File::close() {
+WrittenValues File::close(storage::Flush flush) {
   if (origin().use_count() > 1) throw std::logic_error("a file is closed before the objects in it");
   Origin& closing = *origin();
   release();
   if (!closing.broken() && !file_.close()) closing.incomplete = true;
-  if (closing.purpose == Purpose::write) closing.bytes->close();
+  if (closing.purpose == Purpose::write) closing.bytes->close(flush);
   if (closing.broken()) fail("the rest of its contents");
   return std::move(closing.written);
 }

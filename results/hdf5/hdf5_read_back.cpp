@@ -1,5 +1,6 @@
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -36,18 +37,6 @@ void compare_rows(const Dataset& dataset, const std::vector<WrittenRows>& writte
   }
 }
 
-}  // namespace
-
-void compare_chunks(const Dataset& dataset, std::span<const WrittenChunk> written) {
-  for (const WrittenChunk& chunk : written) {
-    const std::vector<std::byte> stored = dataset.stored_chunk(chunk.first);
-    if (digest_of(stored.data(), stored.size()) != chunk.digest)
-      dataset.fail(fmt::format("the rows from {} on differ", chunk.first));
-  }
-}
-
-namespace {
-
 void compare_scales(const Group& root, const Dataset& dataset, const WrittenObject& written) {
   if (written.is_scale && !dataset.is_scale()) dataset.fail("it is not an axis any more");
   for (const auto& [dimension, path] : written.scales) {
@@ -60,27 +49,64 @@ void compare_scales(const Group& root, const Dataset& dataset, const WrittenObje
 void compare_dataset(const Group& root, const Dataset& dataset, const WrittenObject& written) {
   compare_attributes(dataset, written);
   compare_rows(dataset, written.rows);
-  compare_chunks(dataset, written.chunks);
   if (!written.texts.empty() && dataset.read_texts() != written.texts) dataset.fail("its texts differ");
   compare_scales(root, dataset, written);
 }
 
 }  // namespace
 
-void require_written(const std::filesystem::path& path, const WrittenValues& written) {
+/// The chunks that were written, in all datasets. The library only finds them.
+class ChunkComparison {
+ public:
+  void add(Dataset&& dataset, std::span<const WrittenChunk> written) {
+    for (const WrittenChunk& chunk : written)
+      jobs_.push_back({datasets_.size(), dataset.find_chunk(chunk.first), chunk, {}});
+    datasets_.push_back(std::move(dataset));
+  }
+
+  void require_equal(timeline::Timeline* timeline) {
+    for_each_job(jobs_.size(), timeline, "compare", [&](std::size_t index) {
+      Job& job = jobs_[index];
+      const std::vector<std::byte> stored = datasets_[job.dataset].bytes_of(std::move(job.found));
+      job.digest = digest_of(stored.data(), stored.size());
+    });
+    for (const Job& job : jobs_) {
+      if (job.digest != job.written.digest)
+        datasets_[job.dataset].fail(fmt::format("the rows from {} on differ", job.written.first));
+    }
+  }
+
+ private:
+  struct Job {
+    std::size_t dataset;  ///< index
+    StoredChunk found;
+    WrittenChunk written;
+    std::size_t digest;
+  };
+
+  std::vector<Dataset> datasets_;
+  std::vector<Job> jobs_;
+};
+
+void require_written(const std::filesystem::path& path, const WrittenValues& written,
+                     timeline::Timeline* timeline) {
   auto origin = std::make_shared<Origin>();
   origin->purpose = Purpose::read_back;
   origin->bytes = std::make_shared<storage::ByteFile>(path, storage::ByteFile::Mode::read);
   const File file = File::open(std::move(origin), false);
+  ChunkComparison chunks;
   for (const auto& [name, object] : written) {
     if (name == "/") {
       compare_attributes(file, object);
     } else if (file.is_group(name.substr(1))) {
       compare_attributes(file.open_group(name.substr(1)), object);
     } else {
-      compare_dataset(file, file.open_dataset(name.substr(1)), object);
+      Dataset dataset = file.open_dataset(name.substr(1));
+      compare_dataset(file, dataset, object);
+      chunks.add(std::move(dataset), object.chunks);
     }
   }
+  chunks.require_equal(timeline);
 }
 
 }  // namespace zerocount::hdf5

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "results/hdf5/chunk_transfer.hpp"
+
 namespace zerocount::layout {
 namespace {
 
@@ -64,12 +66,15 @@ hdf5::Dataset make_scale(hdf5::Group& group, const Column& column, std::int64_t 
   return scale;
 }
 
-void write_numbers(hdf5::Dataset& scale, std::int64_t size, std::int64_t first_value) {
+void write_numbers(hdf5::Dataset& scale, std::int64_t size, std::int64_t first_value,
+                   timeline::Timeline* timeline = nullptr) {
+  constexpr std::int64_t numbers_at_once = 32 * chunk_elements;  // chunks that several threads encode
   std::vector<std::int64_t> numbers;
-  for (std::int64_t first = 0; first < size; first += chunk_elements) {
-    numbers.resize(static_cast<std::size_t>(std::min(chunk_elements, size - first)));
+  for (std::int64_t first = 0; first < size; first += numbers_at_once) {
+    const std::int64_t count = std::min(numbers_at_once, size - first);
+    numbers.resize(static_cast<std::size_t>(count));
     std::iota(numbers.begin(), numbers.end(), first_value + first);
-    scale.write(first, static_cast<std::int64_t>(numbers.size()), numbers.data());
+    hdf5::write_rows({{hdf5::RowsToWrite{&scale, first, count, numbers.data()}}}, timeline);
   }
 }
 
@@ -118,13 +123,13 @@ TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows
   return io;
 }
 
-TableIo TableIo::open(const hdf5::Group& root, const Table& table) {
+TableIo TableIo::open_axes(const hdf5::Group& root, const Table& table) {
   hdf5::Group group = root.open_group(table.group);
   hdf5::Dataset scale = group.open_dataset(table.rows.name);
   TableIo io(std::move(group), std::move(scale));
-  std::vector<hdf5::Size> expected = io.row_scale_.extent();
-  if (expected.size() != 1) io.row_scale_.fail("it should have one dimension");
-  io.rows_ = static_cast<std::int64_t>(expected[0]);
+  const std::vector<hdf5::Size> rows = io.row_scale_.extent();
+  if (rows.size() != 1) io.row_scale_.fail("it should have one dimension");
+  io.rows_ = static_cast<std::int64_t>(rows[0]);
   const auto size_of_scale = [](const hdf5::Dataset& inner) {
     const std::vector<hdf5::Size> extent = inner.extent();
     if (extent.size() != 1 || extent[0] == 0) inner.fail("it should have one dimension, not empty");
@@ -138,6 +143,12 @@ TableIo TableIo::open(const hdf5::Group& root, const Table& table) {
     io.last_scale_ = root.open_dataset(table.last->scale.name);
     io.add_dimension(size_of_scale(*io.last_scale_));
   }
+  return io;
+}
+
+TableIo TableIo::open(const hdf5::Group& root, const Table& table) {
+  TableIo io = open_axes(root, table);
+  std::vector<hdf5::Size> expected{static_cast<hdf5::Size>(io.rows_)};
   expected.insert(expected.end(), io.inner_extent_.begin(), io.inner_extent_.end());
   for (const Column& column : table.columns) {
     hdf5::Dataset dataset = io.group_.open_dataset(column.name);
@@ -190,8 +201,8 @@ std::vector<std::vector<std::byte>> decode_columns(const TableIo& io,
   return columns;
 }
 
-void TableIo::number_rows(std::int64_t first_value) {
-  write_numbers(row_scale_, rows_, first_value);
+void TableIo::number_rows(std::int64_t first_value, timeline::Timeline* timeline) {
+  write_numbers(row_scale_, rows_, first_value, timeline);
 }
 
 }  // namespace zerocount::layout

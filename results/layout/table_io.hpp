@@ -37,7 +37,9 @@ class TableIo {
   /// the netCDF library knows a length of zero only of an unlimited dimension.
   static TableIo create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t second,
                         hdf5::Compression compression = hdf5::Compression::deflate);
-  /// Opens the columns of `table`, and checks that they have its element types and equal sizes.
+  /// Opens the axes of `table`: it has rows() and width(), and no columns.
+  static TableIo open_axes(const hdf5::Group& root, const Table& table);
+  /// Opens also its columns, and checks that they have its element types and equal sizes.
   static TableIo open(const hdf5::Group& root, const Table& table);
 
   std::int64_t rows() const { return rows_; }
@@ -51,7 +53,8 @@ class TableIo {
   const hdf5::Dataset& column(std::size_t index) const { return datasets_[index]; }
 
   /// Writes first_value, first_value + 1, … to the scale of the rows.
-  void number_rows(std::int64_t first_value);
+  /// @param timeline gets the spans of what any thread does; null: none
+  void number_rows(std::int64_t first_value, timeline::Timeline* timeline = nullptr);
   /// Creates one more column.
   hdf5::Dataset& add(const Column& column);
 

@@ -34,7 +34,7 @@ std::vector<Source> find_sources(const layout::Table& table, std::span<const Sha
   std::int64_t next = 0;
   for (const ShardInfo& shard : shards) {
     const hdf5::File file = hdf5::File::open_to_read(shard.path);
-    const layout::TableIo io = layout::TableIo::open(file, table);
+    const layout::TableIo io = layout::TableIo::open_axes(file, table);
     if (io.width() != elements_of_row(table, width))
       io.row_scale().fail("its trials have another number of moves than the study");
     sources.push_back({shard.path, {next, io.rows()}});
@@ -49,17 +49,18 @@ using Block = std::vector<std::vector<std::byte>>;
 /// The tables of the shards. The last one read stays open, because the next rows are mostly in it, too.
 class Sources {
  public:
-  Sources(const layout::Table& table, std::vector<Source> sources)
-      : table_(table), sources_(std::move(sources)) {}
+  /// @param chunk rows in a chunk of the table written
+  Sources(const layout::Table& table, std::vector<Source> sources, std::int64_t chunk)
+      : table_(table), sources_(std::move(sources)), chunk_(chunk) {}
 
   std::int64_t rows() const { return sources_.empty() ? 0 : sources_.back().rows.end(); }
 
   /// Copies the rows `wanted` of these columns to `out` as they are stored. False if that is not possible,
   /// because they are not whole chunks of one shard.
-  bool copy_chunks(layout::RowRange wanted, layout::TableIo& out) {
+  bool copy_chunks(layout::RowRange wanted, layout::TableIo& out, timeline::Timeline* timeline) {
     const std::size_t index = index_of(wanted.first);
     const Source& source = sources_[index];
-    if (wanted.end() > source.rows.end()) return false;
+    if (!may_be_chunks_of(source, wanted)) return false;
     const layout::TableIo& io = open(index);
     std::vector<hdf5::RowsToCopy> columns;
     for (std::size_t column = 0; column < table_.columns.size(); ++column) {
@@ -67,11 +68,18 @@ class Sources {
                          wanted.first - source.rows.first});
     }
     if (!std::all_of(columns.begin(), columns.end(), hdf5::have_same_chunks)) return false;
-    hdf5::copy_rows(columns);
+    hdf5::copy_rows(columns, timeline);
     return true;
   }
 
-  void read(layout::RowRange wanted, std::int64_t width, Block& block) {
+  /// Whether copy_chunks() might copy these rows, which are not before those of earlier calls.
+  bool may_copy(layout::RowRange wanted) const {
+    std::size_t index = next_;
+    while (sources_[index].rows.end() <= wanted.first) ++index;
+    return may_be_chunks_of(sources_[index], wanted);
+  }
+
+  void read(layout::RowRange wanted, std::int64_t width, Block& block, timeline::Timeline* timeline) {
     for (std::size_t index = index_of(wanted.first);
          index < sources_.size() && sources_[index].rows.first < wanted.end(); ++index) {
       const Source& source = sources_[index];
@@ -86,11 +94,15 @@ class Sources {
         columns.push_back(
             {&io.column(column), first - source.rows.first, count, block[column].data() + offset});
       }
-      hdf5::read_rows(columns);
+      hdf5::read_rows(columns, timeline);
     }
   }
 
  private:
+  bool may_be_chunks_of(const Source& source, layout::RowRange wanted) const {
+    return wanted.end() <= source.rows.end() && (wanted.first - source.rows.first) % chunk_ == 0;
+  }
+
   /// Index of the source that holds this row.
   std::size_t index_of(std::int64_t row) {
     while (sources_[next_].rows.end() <= row) ++next_;
@@ -110,6 +122,7 @@ class Sources {
 
   const layout::Table& table_;
   std::vector<Source> sources_;
+  std::int64_t chunk_;
   std::size_t next_{0};  ///< index of the first source whose rows are needed
   std::optional<std::size_t> open_;
   std::optional<hdf5::File> file_;
@@ -128,32 +141,60 @@ void renumber_trials(const layout::Table& table, const Renumbering& renumber, Bl
   }
 }
 
+/// The next rows that are written at a time: a chunk, or a few that cannot be copied.
+layout::RowRange next_rows(const Sources& sources, std::int64_t first, std::int64_t chunk, bool copies) {
+  constexpr std::int64_t max_chunks = 8;
+  const auto chunk_from = [&](std::int64_t row) {
+    return layout::RowRange{row, std::min(chunk, sources.rows() - row)};
+  };
+  layout::RowRange rows = chunk_from(first);
+  if (copies && sources.may_copy(rows)) return rows;
+  while (rows.count < max_chunks * chunk && rows.end() < sources.rows()) {
+    const layout::RowRange next = chunk_from(rows.end());
+    if (copies && sources.may_copy(next)) break;
+    rows.count += next.count;
+  }
+  return rows;
+}
+
+/// Writes rows of all columns, a chunk of each column after the other.
+void write_block(layout::TableIo& out, layout::RowRange rows, const Block& block,
+                 timeline::Timeline* timeline) {
+  const std::int64_t chunk = layout::chunk_rows(out.width());
+  std::vector<hdf5::RowsToWrite> all;
+  for (std::int64_t first = 0; first < rows.count; first += chunk) {
+    for (std::size_t index = 0; index < block.size(); ++index) {
+      const auto row_size = block[index].size() / static_cast<std::size_t>(rows.count);
+      all.push_back({&out.column(index), rows.first + first, std::min(chunk, rows.count - first),
+                     block[index].data() + static_cast<std::size_t>(first) * row_size});
+    }
+  }
+  hdf5::write_rows(all, timeline);
+}
+
 }  // namespace
 
 void concatenate(hdf5::File& file, const layout::Table& table, std::span<const ShardInfo> shards,
                  std::int64_t width, std::optional<std::int64_t> first_number, const JoinOptions& options) {
   const Renumbering& renumber = options.renumber;
-  Sources sources(table, find_sources(table, shards, width));
-  const std::int64_t rows = sources.rows();
-  layout::TableIo out = layout::TableIo::create(file, table, rows, width);
-  const std::int64_t elements = out.width();
-  if (first_number) out.number_rows(*first_number);
+  const std::int64_t elements = elements_of_row(table, width);
+  const std::int64_t chunk = layout::chunk_rows(elements);
+  Sources sources(table, find_sources(table, shards, width), chunk);
+  layout::TableIo out = layout::TableIo::create(file, table, sources.rows(), width);
+  if (first_number) out.number_rows(*first_number, options.timeline);
   Block block(table.columns.size());
-  for (layout::RowRange wanted; wanted.first < rows; wanted.first = wanted.end()) {
+  for (layout::RowRange wanted; wanted.first < sources.rows(); wanted.first = wanted.end()) {
     if (options.stop.stop_requested())
       throw Failure(ExitCode::interrupted, "interrupted while the shards were joined; they are kept");
-    wanted.count = std::min(layout::chunk_rows(elements), rows - wanted.first);
-    if (!renumber && sources.copy_chunks(wanted, out)) continue;
+    wanted = next_rows(sources, wanted.first, chunk, !renumber);
+    if (!renumber && wanted.count <= chunk && sources.copy_chunks(wanted, out, options.timeline)) continue;
     for (std::size_t index = 0; index < block.size(); ++index) {
       block[index].resize(static_cast<std::size_t>(wanted.count * elements) *
                           hdf5::size_of(table.columns[index].element));
     }
-    sources.read(wanted, elements, block);
+    sources.read(wanted, elements, block, options.timeline);
     if (renumber) renumber_trials(table, renumber, block);
-    std::vector<hdf5::RowsToWrite> columns;
-    for (std::size_t index = 0; index < block.size(); ++index)
-      columns.push_back({&out.column(index), wanted.first, wanted.count, block[index].data()});
-    hdf5::write_rows(columns);
+    write_block(out, wanted, block, options.timeline);
   }
 }
 

@@ -18,13 +18,14 @@ using Renumbering = std::function<std::int64_t(std::int64_t row)>;
 struct JoinOptions {
   Renumbering renumber{};  ///< applied to the column `trial` of a table that has one
   std::stop_token stop{};
+  timeline::Timeline* timeline{nullptr};  ///< gets the spans of what any thread does; null: none
 };
 
 /// Creates `table` in `file` and fills it with the rows of that table in the shards, in their order.
 ///
-/// Copies chunks as they are stored where a shard has the same chunks. Otherwise copies blocks of one chunk
-/// per column, so that memory is bounded and the order of writing does not depend
-/// on how the rows are divided among the shards.
+/// Copies chunks as they are stored where a shard has the same chunks. Otherwise decodes and encodes blocks of
+/// a few chunks per column, so that memory is bounded. The order of writing, a chunk of each column after the
+/// other, does not depend on how the rows are divided among the shards.
 /// @param width        size of the second dimension, 1 if the table has none
 /// @param first_number first value of the scale of the rows; none: the caller writes the scale
 /// @throws Failure (interrupted) if a stop is requested before the last block

@@ -125,16 +125,20 @@ StoredShard store_shard(const std::filesystem::path& path, const study::Study& s
   if (layout::has_sums(study.retention))
     layout::write_sums(file, shard.rows.first / study.trials, shard.sums);
   layout::mark_finished(file);
-  stored.written = file.close();
+  stored.written = file.close(storage::Flush::later);
   return stored;
 }
 
-void require_stored(const StoredShard& shard) {
-  hdf5::require_written(shard.part->path(), shard.written);
+void flush_shard(const StoredShard& shard) {
+  storage::synchronise(shard.part->path());
+}
+
+void require_stored(const StoredShard& shard, timeline::Timeline* timeline) {
+  hdf5::require_written(shard.part->path(), shard.written, timeline);
 }
 
 void publish_shard(const StoredShard& shard) {
-  storage::publish_with_checksum(shard.path);
+  storage::publish_compared(shard.path);
 }
 
 }  // namespace zerocount::shards

@@ -20,8 +20,9 @@
 ///
 ///     encoded = encode_shard(…)      filters the columns
 ///     stored = store_shard(…)        writes the file (library)
-///     require_stored(stored)         reads it back (library)
-///     publish_shard(stored)          brings it to the disk, with its checksum, and gives it its name
+///     flush_shard(stored)            brings it to the disk
+///     require_stored(stored)         reads it from there (library)
+///     publish_shard(stored)          appends its checksum, and gives it its name
 namespace zerocount::shards {
 
 struct EncodedTable {
@@ -55,8 +56,12 @@ struct StoredShard {
 StoredShard store_shard(const std::filesystem::path& path, const study::Study& study,
                         const EncodedShard& shard);
 
+/// @throws Failure (machine_failed) with the path and the reason
+void flush_shard(const StoredShard& shard);
+
+/// @param timeline gets the spans of what any thread does; null: none
 /// @throws Failure (machine_failed) if anything that was written is missing, differs or cannot be read
-void require_stored(const StoredShard& shard);
+void require_stored(const StoredShard& shard, timeline::Timeline* timeline = nullptr);
 
 /// @throws Failure (machine_failed) with the path and the reason
 void publish_shard(const StoredShard& shard);

@@ -131,7 +131,7 @@ hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const stu
   hdf5::File file = begin_file(study, part, rows, merged_provenance(shards, options.provenance));
   const auto join = [&](const layout::Table& table, std::int64_t width,
                         std::optional<std::int64_t> first_number, const Renumbering& renumber = {}) {
-    concatenate(file, table, shards, width, first_number, {renumber, options.stop});
+    concatenate(file, table, shards, width, first_number, {renumber, options.stop, options.timeline});
   };
   const bool sparse = layout::has_sums(study.retention);
   if (layout::has_trials(study.retention)) {
@@ -156,7 +156,7 @@ hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const stu
   if (!study.conditions.empty()) write_conditions(file, study);
   if (!study.retained_trials.empty())
     join(layout::on_axis(layout::trace_table(study.features), study.units.axis), 1, 0, options.renumber);
-  return file.close();
+  return file.close(storage::Flush::later);
 }
 
 void write_point_statistics(hdf5::File& file, const study::Study& study,
@@ -196,6 +196,7 @@ MergedFile::MergedFile(std::span<const ShardInfo> shards, const study::Study& st
       output_(std::move(output)),
       rows_(rows),
       measures_(options.measures),
+      timeline_(options.timeline),
       shards_(in_order(shards, rows, output_)),
       part_(output_),
       written_(write_trials_of(shards_, study, part_.path(), rows, options)),
@@ -240,7 +241,7 @@ void MergedFile::close() {
 }
 
 void MergedFile::publish() const {
-  storage::publish_with_checksum(output_);
+  storage::publish_compared(output_, timeline_);
 }
 
 }  // namespace zerocount::shards

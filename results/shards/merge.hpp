@@ -27,6 +27,7 @@ struct MergeOptions {
   Renumbering renumber{};
   const layout::MeasureTable* measures{nullptr};  ///< null: those of this program, with the study's bands
   std::stop_token stop{};                         ///< interrupts the merge
+  timeline::Timeline* timeline{nullptr};          ///< gets the spans of what any thread does; null: none
 };
 
 /// The files of `inputs`, sorted by rows; a directory stands for its shard_files(). Each file must be a
@@ -70,7 +71,7 @@ class MergedFile {
 
   /// @throws Failure (machine_failed) if what was written is not in the file: the reason why it cannot be
   /// read
-  void require_written() const { hdf5::require_written(part_.path(), written_); }
+  void require_written() const { hdf5::require_written(part_.path(), written_, timeline_); }
   void finish();
   /// The steps of finish(): close(), require_written(), publish().
   void close();
@@ -81,6 +82,7 @@ class MergedFile {
   std::filesystem::path output_;
   layout::RowRange rows_;
   const layout::MeasureTable* measures_;
+  timeline::Timeline* timeline_;
   std::vector<ShardInfo> shards_;
   storage::UnfinishedFile part_;
   hdf5::WrittenValues written_;

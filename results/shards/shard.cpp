@@ -57,13 +57,14 @@ void write_shard(const fs::path& path, const study::Study& study, layout::RowRan
   const StoredShard stored = store_shard(
       path, study,
       encode_shard(study, rows, columns_of(study, measures, trials), {sums.begin(), sums.end()}, options));
+  flush_shard(stored);
   require_stored(stored);
   publish_shard(stored);
 }
 
 void finish_results(const fs::path& path, const hdf5::WrittenValues& written) {
   hdf5::require_written(storage::part_of(path), written);
-  storage::publish_with_checksum(path);
+  storage::publish_compared(path);
 }
 
 layout::FileHeader inspect_header(const fs::path& path, layout::Checksum checksum) {

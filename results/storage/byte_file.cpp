@@ -51,20 +51,25 @@ ByteFile::ByteFile(std::filesystem::path path, Mode mode)
   size_ = static_cast<std::uint64_t>(status.st_size);
 }
 
-bool ByteFile::read(std::uint64_t offset, std::span<std::byte> bytes) {
+std::optional<IoFailure> ByteFile::read_unrecorded(std::uint64_t offset, std::span<std::byte> bytes) const {
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t size =
         ::pread(file_.get(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
     if (size < 0 && errno == EINTR) continue;
-    if (size < 0) {
-      note({"read", errno});
-      return false;
-    }
+    if (size < 0) return IoFailure{"read", errno};
     if (size == 0) break;
     done += static_cast<std::size_t>(size);
   }
   std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(done), bytes.end(), std::byte{0});
+  return std::nullopt;
+}
+
+bool ByteFile::read(std::uint64_t offset, std::span<std::byte> bytes) {
+  if (const std::optional<IoFailure> failed = read_unrecorded(offset, bytes)) {
+    note(*failed);
+    return false;
+  }
   for (const Unwritten& kept : unwritten_) copy_overlap(kept.offset, kept.bytes, offset, bytes);
   return true;
 }
@@ -94,8 +99,11 @@ void ByteFile::resize(std::uint64_t size) {
   if (result != 0) note({"write", errno});
 }
 
-void ByteFile::close() {
-  if (writable() && !failure_ && ::fsync(file_.get()) != 0) note({"bring to the disk", errno});
+void ByteFile::close(Flush flush) {
+  if (flush == Flush::now && writable() && !failure_) {
+    if (::fsync(file_.get()) != 0) note({"bring to the disk", errno});
+    ::posix_fadvise(file_.get(), 0, 0, POSIX_FADV_DONTNEED);  // only a hint, as in synchronise()
+  }
   if (!file_.close()) note({"close", errno});
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "results/storage/file_descriptor.hpp"
+#include "results/storage/flush.hpp"
 
 namespace zerocount::storage {
 
@@ -42,8 +43,11 @@ class ByteFile {
   bool read(std::uint64_t offset, std::span<std::byte> bytes);
   void write(std::uint64_t offset, std::span<const std::byte> bytes);
   void resize(std::uint64_t size);
-  /// Flushes the file to the disk (fsync) and closes it.
-  void close();
+  /// Reads without a record of the failure, so that several threads can read at a time. Nothing may have been
+  /// written. @return the failure
+  std::optional<IoFailure> read_unrecorded(std::uint64_t offset, std::span<std::byte> bytes) const;
+  /// Closes the file, after flushing it to the disk and dropping it from the page cache.
+  void close(Flush flush = Flush::now);
 
   /// Records a failure that occurred elsewhere, unless there was one before.
   void note(const IoFailure& failure);

@@ -26,9 +26,19 @@ constexpr std::string_view cure =
     "the "
     "checksum again";
 
-/// The checksum trailer of the next `length` bytes of the file. The file position is behind them afterwards.
-std::string trailer_of(const fs::path& path, const FileDescriptor& file, std::size_t length) {
-  return fmt::format("{}{}\n", trailer_start, hash::hexadecimal(sha256_of(path, file, length)));
+std::string trailer_of(const hash::Sha256& checksum) {
+  return fmt::format("{}{}\n", trailer_start, hash::hexadecimal(checksum));
+}
+
+/// The last bytes of the file, as many as a trailer has.
+std::string read_trailer(const fs::path& path, const FileDescriptor& file) {
+  std::string found(checksum_trailer_length, '\0');
+  const std::size_t size = size_of_file(path, file);
+  if (size <= checksum_trailer_length) return found;
+  if (::lseek(file.get(), static_cast<off_t>(size - checksum_trailer_length), SEEK_SET) < 0)
+    fail_with(path, "read", errno);
+  read_some(path, file, std::as_writable_bytes(std::span(found)));
+  return found;
 }
 
 [[noreturn]] void fail_missing(const fs::path& path) {
@@ -43,7 +53,7 @@ std::string trailer_of(const fs::path& path, const FileDescriptor& file, std::si
 void append_checksum(const fs::path& path) {
   const FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
   if (!file.valid()) fail_with(path, "open for writing", errno);
-  const std::string text = trailer_of(path, file, size_of_file(path, file));
+  const std::string text = trailer_of(sha256_of(path, file, size_of_file(path, file)));
   write_all(path, file, text);
   synchronise(path, file);
 }
@@ -52,12 +62,10 @@ ChecksumState check_checksum(const fs::path& path) {
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file.valid()) fail_with(path, "read", errno);
   const std::size_t size = size_of_file(path, file);
-  std::string found(checksum_trailer_length, '\0');
   std::string expected;
-  if (size > checksum_trailer_length) {
-    expected = trailer_of(path, file, size - checksum_trailer_length);
-    read_some(path, file, std::as_writable_bytes(std::span(found)));
-  }
+  if (size > checksum_trailer_length)
+    expected = trailer_of(sha256_of(path, file, size - checksum_trailer_length));
+  const std::string found = read_trailer(path, file);
   if (!found.starts_with(trailer_start)) return ChecksumState::missing;
   return found == expected ? ChecksumState::valid : ChecksumState::wrong;
 }
@@ -84,6 +92,21 @@ void publish_with_checksum(const fs::path& path) {
   publish(path);
 }
 
+void publish_compared(const fs::path& path, timeline::Timeline* timeline) {
+  const fs::path part = part_of(path);
+  {
+    const FileDescriptor file(::open(part.c_str(), O_RDWR | O_CLOEXEC));
+    if (!file.valid()) fail_with(part, "open for writing", errno);
+    const std::size_t size = size_of_file(part, file);
+    const std::string text = trailer_of(sha256_read_ahead(part, file, size, timeline));
+    if (::lseek(file.get(), static_cast<off_t>(size), SEEK_SET) < 0) fail_with(part, "write", errno);
+    write_all(part, file, text);
+    synchronise(part, file);
+    if (read_trailer(part, file) != text) fail_read_back(part, "the checksum at its end differs");
+  }
+  publish(path);
+}
+
 void renew_checksum(const fs::path& path) {
   const ChecksumState state = check_checksum(path);
   const UnfinishedFile part(path);
@@ -98,13 +121,7 @@ void renew_checksum(const fs::path& path) {
 std::string recorded_checksum(const fs::path& path) {
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file.valid()) fail_with(path, "read", errno);
-  std::string found(checksum_trailer_length, '\0');
-  const std::size_t size = size_of_file(path, file);
-  if (size > checksum_trailer_length) {
-    if (::lseek(file.get(), static_cast<off_t>(size - checksum_trailer_length), SEEK_SET) < 0)
-      fail_with(path, "read", errno);
-    read_some(path, file, std::as_writable_bytes(std::span(found)));
-  }
+  const std::string found = read_trailer(path, file);
   if (!found.starts_with(trailer_start)) fail_missing(path);
   return found.substr(trailer_start.size(), 64);
 }

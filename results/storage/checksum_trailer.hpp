@@ -4,6 +4,10 @@
 #include <filesystem>
 #include <string>
 
+namespace zerocount::timeline {
+class Timeline;
+}
+
 namespace zerocount::storage {
 
 /// Length of the checksum trailer in bytes: the text "zerocount-seal sha256 ", 64 hexadecimal digits and a
@@ -34,6 +38,11 @@ void require_valid_checksum(const std::filesystem::path& path);
 /// renames it to `path`.
 /// @throws Failure (machine_failed) with the path and the reason
 void publish_with_checksum(const std::filesystem::path& path);
+
+/// The same of a file that was brought to the disk, and whose contents came from there and were as they should
+/// be: the bytes that the trailer is for, so only the trailer is read again.
+/// @param timeline gets the spans of reading the file, which any thread does; null: none
+void publish_compared(const std::filesystem::path& path, timeline::Timeline* timeline = nullptr);
 
 /// Gives the file the checksum trailer of its present contents, in a copy that replaces it.
 /// @throws Failure (machine_failed) with the path and the reason

@@ -8,6 +8,10 @@
 #include "core/hash/sha256.hpp"
 #include "results/storage/file_descriptor.hpp"
 
+namespace zerocount::timeline {
+class Timeline;
+}
+
 /// Functions that read a file. Those that read an open one throw Failure (machine_failed) with the path and
 /// the system's reason.
 namespace zerocount::storage {
@@ -24,5 +28,10 @@ std::size_t read_some(const std::filesystem::path& path, const FileDescriptor& f
 
 /// SHA-256 of the next `length` bytes of the file. The file position is behind them afterwards.
 hash::Sha256 sha256_of(const std::filesystem::path& path, const FileDescriptor& file, std::size_t length);
+
+/// SHA-256 of the first `length` bytes of the file, which several threads read ahead of the one that adds them.
+/// @param timeline gets the spans of reading; null: none
+hash::Sha256 sha256_read_ahead(const std::filesystem::path& path, const FileDescriptor& file,
+                               std::size_t length, timeline::Timeline* timeline);
 
 }  // namespace zerocount::storage

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "analysis/parallel/parallel.hpp"
-#include "analysis/parallel/timeline.hpp"
+#include "results/timeline/timeline.hpp"
 #include "analysis/report/answer_page.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/summary/summary.hpp"
@@ -113,7 +113,7 @@ std::optional<fs::path> timeline_place(const command_line::Arguments& arguments,
   std::optional<fs::path> place = command_line::text_place(arguments, "timeline");
   if (!place) return place;
   // The same command goes on after an interruption, and writes its timeline anew.
-  if (!yaml::is_standard_stream(*place) && parallel::is_timeline(storage::bytes_at(*place, 0, 64))) {
+  if (!yaml::is_standard_stream(*place) && timeline::is_timeline(storage::bytes_at(*place, 0, 64))) {
     storage::require_replaceable(*place);
   } else {
     command_line::require_places(arguments, {arguments.operands()[0]}, {*place});
@@ -164,7 +164,7 @@ report::ReportPage page_of(const fs::path& output) {
   return report::answer_page(summary_answer::summary_answer(summary));
 }
 
-void run_to_output(const RunRequest& request, const status::Listener& listener, parallel::Timeline* timeline,
+void run_to_output(const RunRequest& request, const status::Listener& listener, timeline::Timeline* timeline,
                    const std::stop_token& stop) {
   const study_run::ExistingUse existing =
       request.force ? study_run::ExistingUse::none
@@ -194,7 +194,7 @@ void run_to_output(const RunRequest& request, const status::Listener& listener, 
 template <class Work>
 void with_timeline(const std::optional<fs::path>& place, const Work& work) {
   if (!place) return work(nullptr);
-  parallel::Timeline timeline;
+  timeline::Timeline timeline;
   try {
     work(&timeline);
   } catch (...) {
@@ -230,7 +230,7 @@ ExitCode run(const command_line::Arguments& arguments) {
                            .kind = "run"},
                           [&] { return sections_so_far(request.output); });
   return live.during([&] {
-    with_timeline(request.timeline, [&](parallel::Timeline* timeline) {
+    with_timeline(request.timeline, [&](timeline::Timeline* timeline) {
       run_to_output(request, live.listener(), timeline, interruption.token());
     });
     if (request.page) live.finish(report::html_page(page_of(request.output)));

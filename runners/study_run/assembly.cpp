@@ -53,13 +53,13 @@ void write_statistics(shards::MergedFile& file, const study::Study& study, const
 void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
               const std::filesystem::path& output, layout::RowRange rows, const AssembleSettings& settings) {
   const auto timed = [&](std::string_view name, const auto& work) {
-    const parallel::TimeSpan span(settings.timeline, name, parallel::Work::serial, rows.count);
+    const timeline::TimeSpan span(settings.timeline, name, timeline::Work::serial, rows.count);
     work();
   };
   std::optional<shards::MergedFile> file;
   timed("merge", [&] {
     file.emplace(shards, study, output, rows,
-                 shards::MergeOptions{.renumber = settings.renumber, .stop = settings.stop});
+                 shards::MergeOptions{.renumber = settings.renumber, .stop = settings.stop, .timeline = settings.timeline});
   });
   if (layout::has_sums(study.retention)) {
     timed("statistics", [&] { write_summed(*file, study, rows); });

@@ -4,7 +4,7 @@
 #include <span>
 #include <stop_token>
 
-#include "analysis/parallel/timeline.hpp"
+#include "results/timeline/timeline.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
@@ -17,7 +17,7 @@ struct AssembleSettings {
   std::span<const theory::PointPrediction> predictions{};  ///< see theory::study_predictions
   shards::Renumbering renumber{};                          ///< see shards::MergeOptions
   std::stop_token stop{};
-  parallel::Timeline* timeline{nullptr};  ///< gets spans of the stages; null: none
+  timeline::Timeline* timeline{nullptr};  ///< gets spans of the stages; null: none
 };
 
 /// Joins shards into the results file `output`. A file with the whole study gets the statistics of all design

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <stop_token>
 
-#include "analysis/parallel/timeline.hpp"
+#include "results/timeline/timeline.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
 #include "runners/status/status.hpp"
@@ -22,7 +22,7 @@ struct FileRun {
   ForeignShards foreign{ForeignShards::refuse};
   bool check_room{true};  ///< refuse a run for which the disk has no room
   status::Listener listener{};
-  parallel::Timeline* timeline{nullptr};  ///< gets spans of the stages; null: none
+  timeline::Timeline* timeline{nullptr};  ///< gets spans of the stages; null: none
 };
 
 /// Runs the trials that are missing, by way of shards, and writes the results file.

@@ -4,7 +4,7 @@
 #include <stop_token>
 #include <string_view>
 
-#include "analysis/parallel/timeline.hpp"
+#include "results/timeline/timeline.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/status/status.hpp"
@@ -17,7 +17,7 @@ struct SequentialRunSettings {
   bool quiet{false};
   ForeignShards foreign{ForeignShards::refuse};
   status::Listener listener{};
-  parallel::Timeline* timeline{nullptr};  ///< gets spans of the stages; null: none
+  timeline::Timeline* timeline{nullptr};  ///< gets spans of the stages; null: none
 };
 
 /// Start of the last override in the file of such a study; the final number of trials follows.

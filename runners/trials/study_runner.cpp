@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -169,6 +170,10 @@ class ShardPipeline {
                   Mode::parallel, [&](const Contents& contents) { return encode(*contents); }) &
               tbb::make_filter<Encoded, Stored>(Mode::serial_in_order,
                                                 [&](const Encoded& encoded) { return store(*encoded); }) &
+              tbb::make_filter<Stored, Stored>(Mode::parallel,
+                                               [&](const Stored& stored) { return flush(stored); }) &
+              tbb::make_filter<Stored, Stored>(Mode::serial_in_order,
+                                               [&](const Stored& stored) { return read_back(stored); }) &
               tbb::make_filter<Stored, void>(Mode::parallel,
                                              [&](const Stored& stored) { publish(*stored); }));
     };
@@ -181,7 +186,7 @@ class ShardPipeline {
   /// Any thread. @param block none: the end
   RunBlock run_block(const std::optional<Block>& block, const std::stop_token& stop) {
     if (!block) return {nullptr, true};
-    const parallel::TimeSpan span(settings_.timeline, "compute", parallel::Work::parallel, block->rows.count);
+    const timeline::TimeSpan span(settings_.timeline, "compute", timeline::Work::parallel, block->rows.count);
     try {
       auto kept = std::make_shared<KeptBlock>(reduce(study_, runners_.local().run_block(block->rows, stop)));
       kept->begins_turn = block->begins_turn;
@@ -193,7 +198,7 @@ class ShardPipeline {
 
   /// One thread at a time, in the order of the turns.
   std::shared_ptr<Delivery<ShardContents>> collect(const RunBlock& block) {
-    const parallel::TimeSpan span(settings_.timeline, "collect", parallel::Work::serial);
+    const timeline::TimeSpan span(settings_.timeline, "collect", timeline::Work::serial);
     auto delivery = std::make_shared<Delivery<ShardContents>>();
     if (block.kept) {
       delivery->trials = block.kept->rows.count;
@@ -213,24 +218,20 @@ class ShardPipeline {
     auto delivery = std::make_shared<Delivery<shards::EncodedShard>>();
     delivery->trials = contents.trials;
     for (ShardContents& one : contents.shards) {
-      const parallel::TimeSpan span(settings_.timeline, "encode", parallel::Work::parallel, one.rows.count);
+      const timeline::TimeSpan span(settings_.timeline, "encode", timeline::Work::parallel, one.rows.count);
       delivery->shards.push_back(encoded(study_, provenance_, std::move(one)));
     }
     return delivery;
   }
 
-  /// The writer: one thread at a time, in the order of the turns, the only one that calls the HDF5 library.
+  /// The writer: one thread at a time, in the order of the turns.
   std::shared_ptr<std::vector<shards::StoredShard>> store(Delivery<shards::EncodedShard>& delivery) {
     auto stored = std::make_shared<std::vector<shards::StoredShard>>();
     for (const shards::EncodedShard& shard : delivery.shards) {
       const std::filesystem::path path = shards::shard_path(directory_, shard.rows);
-      {
-        const parallel::TimeSpan span(settings_.timeline, "store", parallel::Work::serial, shard.rows.count);
-        stored->push_back(shards::store_shard(path, study_, shard));
-      }
-      const parallel::TimeSpan span(settings_.timeline, "read back", parallel::Work::serial,
-                                    shard.rows.count);
-      shards::require_stored(stored->back());
+      const timeline::TimeSpan span(settings_.timeline, "store", timeline::Work::serial, shard.rows.count);
+      const std::lock_guard lock(library_);
+      stored->push_back(shards::store_shard(path, study_, shard));
       finished_.shards.push_back({path, shard.rows});
     }
     delivery.shards.clear();
@@ -239,9 +240,30 @@ class ShardPipeline {
   }
 
   /// Any thread.
+  std::shared_ptr<std::vector<shards::StoredShard>> flush(
+      const std::shared_ptr<std::vector<shards::StoredShard>>& stored) const {
+    for (const shards::StoredShard& shard : *stored) {
+      const timeline::TimeSpan span(settings_.timeline, "flush", timeline::Work::parallel);
+      shards::flush_shard(shard);
+    }
+    return stored;
+  }
+
+  /// One thread at a time.
+  std::shared_ptr<std::vector<shards::StoredShard>> read_back(
+      const std::shared_ptr<std::vector<shards::StoredShard>>& stored) {
+    for (const shards::StoredShard& shard : *stored) {
+      const timeline::TimeSpan span(settings_.timeline, "read back", timeline::Work::serial);
+      const std::lock_guard lock(library_);
+      shards::require_stored(shard, settings_.timeline);
+    }
+    return stored;
+  }
+
+  /// Any thread.
   void publish(const std::vector<shards::StoredShard>& stored) const {
     for (const shards::StoredShard& shard : stored) {
-      const parallel::TimeSpan span(settings_.timeline, "publish", parallel::Work::parallel);
+      const timeline::TimeSpan span(settings_.timeline, "publish", timeline::Work::parallel);
       shards::publish_shard(shard);
     }
   }
@@ -252,6 +274,7 @@ class ShardPipeline {
   layout::Provenance provenance_;
   oneapi::tbb::enumerable_thread_specific<TrialRunner> runners_;
   ShardCollector collector_;
+  std::mutex library_;  ///< of the files: two stages call it
   FinishedTrials finished_;
 };
 

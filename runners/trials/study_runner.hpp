@@ -7,7 +7,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "analysis/parallel/timeline.hpp"
+#include "results/timeline/timeline.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
@@ -36,7 +36,7 @@ struct RunSettings {
   int threads{0};  ///< 0: all that the machine has
   std::function<void(std::int64_t trials)>
       finished{};                         ///< called by the writer with every block of finished trials
-  parallel::Timeline* timeline{nullptr};  ///< gets a span of every stage; null: none
+  timeline::Timeline* timeline{nullptr};  ///< gets a span of every stage; null: none
 };
 
 struct FinishedTrials {
@@ -51,11 +51,13 @@ struct FinishedTrials {
 /// run in parallel. A shard ends with a turn, or when it is large enough, which bounds the memory and the
 /// loss by a crash. If `stop` is requested, no new block starts, and the finished trials are written.
 ///
-///     compute     any thread: run the trials of a block, and put what is kept of them in columns
-///     collect     one thread at a time, in the order of the turns: add the block to the shard that it
-///     belongs to encode      any thread: filter the columns of a shard that has ended store       one thread
-///     at a time, as the library of the files wants it: write the file, read back   and read it publish any
-///     thread: checksum, flush to the disk, name
+///     compute    any thread: run the trials of a block, and put what is kept of them in columns
+///     collect    one thread at a time, in the order of the turns: add the block to its shard
+///     encode     any thread: filter the columns of a shard that has ended
+///     store      one thread at a time, as the library of the files wants it: write the file
+///     flush      any thread: bring it to the disk
+///     read back  one thread at a time: find what is in the file; any thread: compare its chunks
+///     publish    any thread: checksum, name
 FinishedTrials run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,
                           const std::filesystem::path& directory, const RunSettings& settings,
                           const std::stop_token& stop);

@@ -1,10 +1,10 @@
-#include "analysis/parallel/timeline.hpp"
+#include "results/timeline/timeline.hpp"
 
 #include <ctime>
 
 #include <fmt/format.h>
 
-namespace zerocount::parallel {
+namespace zerocount::timeline {
 namespace {
 
 constexpr std::string_view text_start = R"({"displayTimeUnit": "ms", "traceEvents": [)";
@@ -55,4 +55,4 @@ bool is_timeline(std::string_view text) {
   return text.starts_with(text_start);
 }
 
-}  // namespace zerocount::parallel
+}  // namespace zerocount::timeline

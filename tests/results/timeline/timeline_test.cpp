@@ -1,5 +1,5 @@
 // A timeline is a text that viewers of the Trace Event Format open.
-#include "analysis/parallel/timeline.hpp"
+#include "results/timeline/timeline.hpp"
 
 #include <map>
 #include <string>
@@ -8,18 +8,17 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-
-#include "analysis/parallel/parallel.hpp"
+#include <oneapi/tbb/parallel_for.h>
 
 namespace zerocount::testing {
 namespace {
 
-using parallel::Timeline;
-using parallel::TimeSpan;
-using parallel::Work;
+using timeline::Timeline;
+using timeline::TimeSpan;
+using timeline::Work;
 
 void work_in_spans(Timeline* timeline) {
-  parallel::for_each_index(50, [timeline](std::size_t index) {
+  oneapi::tbb::parallel_for(std::size_t{0}, std::size_t{50}, [timeline](std::size_t index) {
     const TimeSpan outer(timeline, "outer", Work::parallel, static_cast<std::int64_t>(index));
     for (int i = 0; i < 3; ++i) const TimeSpan inner(timeline, "inner", Work::serial);
   });
@@ -71,9 +70,9 @@ TEST(Timeline, HasSpansOfAThreadThatAreApartOrInOneAnother) {
 }
 
 TEST(Timeline, IsKnownByItsBeginning) {
-  EXPECT_TRUE(parallel::is_timeline(Timeline().trace_events()));
-  EXPECT_FALSE(parallel::is_timeline("{}"));
-  EXPECT_FALSE(parallel::is_timeline(""));
+  EXPECT_TRUE(timeline::is_timeline(Timeline().trace_events()));
+  EXPECT_FALSE(timeline::is_timeline("{}"));
+  EXPECT_FALSE(timeline::is_timeline(""));
 }
 
 TEST(TimeSpan, DoesNothingWithoutATimeline) {

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace zerocount::parallel {
+namespace zerocount::timeline {
 
 /// Who can do the work of a span: one thread at a time, or several.
 enum class Work { serial, parallel };
@@ -77,4 +77,4 @@ class TimeSpan {
   Timeline::Span span_;
 };
 
-}  // namespace zerocount::parallel
+}  // namespace zerocount::timeline

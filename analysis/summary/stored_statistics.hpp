@@ -5,11 +5,11 @@
 #include <span>
 
 #include "analysis/measures/point_statistics.hpp"
-#include "results/timeline/timeline.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
 #include "results/reading/all_trials_file.hpp"
+#include "results/timeline/timeline.hpp"
 
 /// The statistics that a results file stores.
 namespace zerocount::summary {

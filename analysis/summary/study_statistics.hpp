@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "analysis/measures/point_statistics.hpp"
-#include "results/timeline/timeline.hpp"
 #include "analysis/summary/summed_point.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/point_sums.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/reading/results_file.hpp"
+#include "results/timeline/timeline.hpp"
 
 namespace zerocount::summary {
 

@@ -15,6 +15,7 @@
 
 #include "results/hdf5/chunk_filters.hpp"
 #include "results/hdf5/encoded_rows.hpp"
+#include "results/hdf5/file_driver.hpp"
 #include "results/hdf5/hdf5_detail.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/timeline/timeline.hpp"
@@ -119,6 +120,7 @@ const std::optional<ChunkShape>& Dataset::chunk_shape() const {
 }
 
 std::optional<ChunkShape> Dataset::read_chunk_shape() const {
+  const LibraryUse use;
   if (element_ == Element::text || std::endian::native != std::endian::little) return std::nullopt;
   const Handle properties = own(H5Dget_create_plist(id()), H5Pclose, "its properties cannot be read");
   const std::vector<Size> size = extent();
@@ -154,22 +156,30 @@ std::vector<Size> Dataset::place_of(std::int64_t first) const {
 }
 
 StoredChunk Dataset::find_chunk(std::int64_t first) const {
+  const LibraryUse use;
   const std::vector<Size> place = place_of(first);
-  unsigned skipped_filters = 0;
-  haddr_t address = 0;
   Size size = 0;
-  require(H5Dget_chunk_info_by_coord(id(), place.data(), &skipped_filters, &address, &size),
-          unreadable_values);
-  if (size == 0 || skipped_filters != 0) return {};
-  const storage::ByteFile& bytes = *origin()->bytes;
-  if (address > bytes.size() || size > bytes.size() - address) fail(unreadable_values);
-  StoredChunk chunk{address, size};
-  if (!bytes.writable()) return chunk;
-  // The library may not have written everything to the file yet.
-  chunk.bytes.resize(size);
-  require(H5Dread_chunk(id(), H5P_DEFAULT, place.data(), &skipped_filters, chunk.bytes.data()),
-          unreadable_values);
-  return chunk;
+  require(H5Dget_chunk_storage_size(id(), place.data(), &size), unreadable_values);
+  if (size == 0) return {};
+  StoredChunk chunk{0, size};
+  std::uint32_t skipped_filters = 0;
+  const auto read = [&](void* bytes) {
+    require(H5Dread_chunk(id(), H5P_DEFAULT, place.data(), &skipped_filters, bytes), unreadable_values);
+  };
+  const storage::ByteFile& file = *origin()->bytes;
+  if (file.writable()) {  // the library may not have written everything yet
+    chunk.bytes.resize(size);
+    read(chunk.bytes.data());
+  } else {
+    // H5Dget_chunk_info_by_coord() would say where the chunk is, but goes through all of them.
+    const ReadNote note;
+    std::byte unread{};
+    read(&unread);
+    if (note.size() != size || note.address() > file.size() || size > file.size() - note.address())
+      fail(unreadable_values);
+    chunk.address = note.address();
+  }
+  return skipped_filters == 0 ? std::move(chunk) : StoredChunk();
 }
 
 std::vector<std::byte> Dataset::bytes_of(StoredChunk&& chunk) const {
@@ -181,6 +191,7 @@ std::vector<std::byte> Dataset::bytes_of(StoredChunk&& chunk) const {
 }
 
 void Dataset::store_chunk(std::int64_t first, std::span<const std::byte> stored, std::size_t digest) {
+  const LibraryUse use;
   const std::vector<Size> place = place_of(first);
   require(H5Dwrite_chunk(id(), H5P_DEFAULT, 0, place.data(), stored.size(), stored.data()), "its values");
   written().chunks.push_back({first, digest});
@@ -236,8 +247,8 @@ void read_rows(std::span<const RowsToRead> all, timeline::Timeline* timeline) {
     if (job.found.size == 0) return;
     const timeline::TimeSpan span(timeline, "decode", timeline::Work::parallel);
     std::vector<std::byte> elements = chunk_of(job);
-    job.damaged = !decode_chunk(job.shape.filters, all[job.request].dataset->bytes_of(std::move(job.found)),
-                                elements);
+    job.damaged =
+        !decode_chunk(job.shape.filters, all[job.request].dataset->bytes_of(std::move(job.found)), elements);
     std::copy_n(elements.begin(), bytes_in(job), target_of(job));
   };
   const auto check = [&](const ChunkJob& job) {

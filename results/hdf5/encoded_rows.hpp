@@ -38,6 +38,7 @@ struct EncodedRows {
 /// Encodes several chunks at a time. Chunks of the same value in all elements, such as those of measures that
 /// no trial has, are encoded once.
 /// @param timeline gets the spans; null: none
-std::vector<EncodedRows> encode_rows(std::span<const RowsToEncode> all, timeline::Timeline* timeline = nullptr);
+std::vector<EncodedRows> encode_rows(std::span<const RowsToEncode> all,
+                                     timeline::Timeline* timeline = nullptr);
 
 }  // namespace zerocount::hdf5

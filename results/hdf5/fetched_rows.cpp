@@ -19,7 +19,8 @@ struct DecodeJob {
 
 void DecodeJob::decode() {
   std::vector<std::byte> decoded(static_cast<std::size_t>(rows->shape.rows) * rows->row_size);
-  damaged = !decode_chunk(rows->shape.filters, rows->dataset->bytes_of(StoredChunk(rows->chunks[chunk])), decoded);
+  damaged =
+      !decode_chunk(rows->shape.filters, rows->dataset->bytes_of(StoredChunk(rows->chunks[chunk])), decoded);
   const std::int64_t begins =
       (rows->first / rows->shape.rows + static_cast<std::int64_t>(chunk)) * rows->shape.rows;
   const std::int64_t first = std::max(begins, rows->first);

@@ -16,8 +16,8 @@ struct FetchedRows {
   const Dataset* dataset{nullptr};  ///< for messages
   std::int64_t first{0};
   std::int64_t rows{0};
-  std::size_t row_size{0};                     ///< bytes
-  ChunkShape shape{};                          ///< if there are chunks
+  std::size_t row_size{0};          ///< bytes
+  ChunkShape shape{};               ///< if there are chunks
   std::vector<StoredChunk> chunks;  ///< those that hold the rows
   std::vector<std::byte> elements;  ///< of the rows, where the library had to decode them
 };

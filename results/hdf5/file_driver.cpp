@@ -83,7 +83,13 @@ haddr_t file_end(const H5FD_t* file, H5FD_mem_t) {
   std::_Exit(static_cast<int>(ExitCode::machine_failed));
 }
 
-herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, void* buffer) {
+thread_local ReadNote* note_of_reads = nullptr;
+
+herr_t read(H5FD_t* file, H5FD_mem_t kind, hid_t, haddr_t address, std::size_t size, void* buffer) {
+  if (note_of_reads != nullptr && kind == H5FD_MEM_DRAW) {
+    note_of_reads->set(address, size);
+    return success;
+  }
   storage::ByteFile& bytes = *own_file(file).bytes;
   if (!bytes.read(address, {static_cast<std::byte*>(buffer), size})) end_after_failed_read(bytes);
   return success;
@@ -132,6 +138,14 @@ Id driver() {
 }
 
 }  // namespace
+
+ReadNote::ReadNote() {
+  note_of_reads = this;
+}
+
+ReadNote::~ReadNote() {
+  note_of_reads = nullptr;
+}
 
 Handle access_properties(const std::shared_ptr<storage::ByteFile>& bytes) {
   Handle properties = made(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 
 #include "results/hdf5/hdf5.hpp"
@@ -27,5 +29,26 @@ namespace zerocount::hdf5 {
 /// systems.
 /// @param bytes must stay valid until the file is open; the library holds a shared pointer from then on
 Handle access_properties(const std::shared_ptr<storage::ByteFile>& bytes);
+
+/// While it lives, this thread's reads of raw data are noted instead of done: the library says where the
+/// bytes of a chunk are by asking for them, and leaves its buffer as it is.
+class ReadNote {
+ public:
+  ReadNote();
+  ReadNote(const ReadNote&) = delete;
+  ReadNote& operator=(const ReadNote&) = delete;
+  ~ReadNote();
+
+  std::uint64_t address() const { return address_; }  ///< of the last read
+  std::size_t size() const { return size_; }          ///< 0: there was none
+  void set(std::uint64_t address, std::size_t size) {
+    address_ = address;
+    size_ = size;
+  }
+
+ private:
+  std::uint64_t address_{0};
+  std::size_t size_{0};
+};
 
 }  // namespace zerocount::hdf5

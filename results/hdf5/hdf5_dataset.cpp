@@ -56,6 +56,7 @@ Element Dataset::stored_element() const {
 }
 
 std::vector<Size> Dataset::extent() const {
+  const LibraryUse use;
   const Handle space = own(H5Dget_space(id()), H5Sclose, "its size cannot be read");
   const int rank = H5Sget_simple_extent_ndims(space.get());
   require(rank, "its number of dimensions cannot be read");
@@ -96,6 +97,7 @@ void Dataset::read(std::int64_t first, std::int64_t rows, void* data) const {
 }
 
 void Dataset::write_by_library(std::int64_t first, std::int64_t rows, const void* data) {
+  const LibraryUse use;
   const Selection selection = select(first, rows);
   require(H5Dwrite(id(), types_of(element_).memory, selection.memory.get(), selection.file.get(), H5P_DEFAULT,
                    data),
@@ -105,6 +107,7 @@ void Dataset::write_by_library(std::int64_t first, std::int64_t rows, const void
 }
 
 void Dataset::read_by_library(std::int64_t first, std::int64_t rows, void* data) const {
+  const LibraryUse use;
   const Selection selection = select(first, rows);
   require(H5Dread(id(), types_of(element_).memory, selection.memory.get(), selection.file.get(), H5P_DEFAULT,
                   data),
@@ -112,6 +115,7 @@ void Dataset::read_by_library(std::int64_t first, std::int64_t rows, void* data)
 }
 
 void Dataset::write_texts(std::span<const std::string> texts) {
+  const LibraryUse use;
   if (texts.empty()) return;
   std::vector<const char*> data(texts.size());
   std::transform(texts.begin(), texts.end(), data.begin(),
@@ -121,6 +125,7 @@ void Dataset::write_texts(std::span<const std::string> texts) {
 }
 
 std::vector<std::string> Dataset::read_texts() const {
+  const LibraryUse use;
   if (element_ != Element::text) fail("its elements are not texts");
   const Handle space = own(H5Dget_space(id()), H5Sclose, "its size cannot be read");
   const hssize_t size = H5Sget_simple_extent_npoints(space.get());
@@ -138,22 +143,26 @@ std::vector<std::string> Dataset::read_texts() const {
 }
 
 void Dataset::make_scale(const std::string& name) {
+  const LibraryUse use;
   require(H5DSset_scale(id(), name.c_str()), "its name as an axis");
   written().is_scale = true;
 }
 
 void Dataset::attach_scale(const Dataset& scale, unsigned dimension) {
+  const LibraryUse use;
   require(H5DSattach_scale(id(), scale.id(), dimension), "its axis");
   written().scales.emplace_back(dimension, scale.path());
 }
 
 bool Dataset::is_scale() const {
+  const LibraryUse use;
   const htri_t answer = H5DSis_scale(id());
   require(answer, "whether it is an axis cannot be read");
   return answer > 0;
 }
 
 bool Dataset::has_scale(const Dataset& scale, unsigned dimension) const {
+  const LibraryUse use;
   constexpr const char* problem = "its axes cannot be read";
   hobj_ref_t own_reference{};
   hobj_ref_t scale_reference{};
@@ -162,8 +171,8 @@ bool Dataset::has_scale(const Dataset& scale, unsigned dimension) const {
   const int listed = H5DSiterate_scales(id(), dimension, nullptr, is_scale_of_reference, &scale_reference);
   require(listed, problem);
   const std::vector<ScaleUse> uses = uses_of_scale(scale.id());
-  return listed > 0 && std::any_of(uses.begin(), uses.end(), [&](const ScaleUse& use) {
-           return use.dataset == own_reference && use.dimension == static_cast<int>(dimension);
+  return listed > 0 && std::any_of(uses.begin(), uses.end(), [&](const ScaleUse& listed_use) {
+           return listed_use.dataset == own_reference && listed_use.dimension == static_cast<int>(dimension);
          });
 }
 

@@ -13,6 +13,7 @@
 
 #include "results/hdf5/element.hpp"
 #include "results/hdf5/hdf5.hpp"
+#include "results/hdf5/library_use.hpp"
 #include "results/storage/byte_file.hpp"
 
 /// Internal declarations of the HDF5 layer; not for its users.

@@ -51,6 +51,7 @@ std::string Group::path_to(const std::string& name) const {
 }
 
 Group Group::create_group(const std::string& name) {
+  const LibraryUse use;
   const Handle properties = creation_properties(H5P_GROUP_CREATE);
   Group group(own(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Gclose,
                   fmt::format("the group '{}'", name)),
@@ -60,12 +61,14 @@ Group Group::create_group(const std::string& name) {
 }
 
 Group Group::open_group(const std::string& name) const {
+  const LibraryUse use;
   return Group(own(H5Gopen2(id(), name.c_str(), H5P_DEFAULT), H5Gclose,
                    fmt::format("the group '{}' is missing", name)),
                origin(), path_to(name));
 }
 
 Dataset Group::create_dataset(const std::string& name, const Storage& storage) {
+  const LibraryUse use;
   const std::string problem = fmt::format("the dataset '{}'", name);
   const Handle properties = creation_properties(H5P_DATASET_CREATE);
   Handle space;
@@ -96,6 +99,7 @@ Dataset Group::create_dataset(const std::string& name, const Storage& storage) {
 }
 
 Dataset Group::open_dataset(const std::string& name) const {
+  const LibraryUse use;
   Dataset dataset(own(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose,
                       fmt::format("the dataset '{}' is missing", name)),
                   origin(), path_to(name));
@@ -105,6 +109,7 @@ Dataset Group::open_dataset(const std::string& name) const {
 }
 
 bool Group::contains(const std::string& name) const {
+  const LibraryUse use;
   if (name.empty() || name == "." || name.find('/') != std::string::npos) return false;  // paths, not names
   const htri_t answer = H5Lexists(id(), name.c_str(), H5P_DEFAULT);
   require(answer, "its list of members");
@@ -112,12 +117,14 @@ bool Group::contains(const std::string& name) const {
 }
 
 bool Group::is_group(const std::string& name) const {
+  const LibraryUse use;
   H5O_info_t info;
   require(H5Oget_info_by_name2(id(), name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT), "a member of it");
   return info.type == H5O_TYPE_GROUP;
 }
 
 std::vector<std::string> Group::children() const {
+  const LibraryUse use;
   std::vector<std::string> names;
   const auto visit = [](Id, const char* name, const H5L_info_t*, void* found) -> herr_t {
     static_cast<std::vector<std::string>*>(found)->emplace_back(name);
@@ -137,6 +144,7 @@ bool is_hdf5(const std::filesystem::path& path) {
 }
 
 File File::open(std::shared_ptr<Origin> origin, bool create) {
+  const LibraryUse use;
   quieten();
   const std::string path = origin->bytes->path().string();
   const Handle creation = creation_properties(H5P_FILE_CREATE);
@@ -175,6 +183,7 @@ File::~File() {
 }
 
 WrittenValues File::close(storage::Flush flush) {
+  const LibraryUse use;
   if (origin().use_count() > 1) throw std::logic_error("a file is closed before the objects in it");
   Origin& closing = *origin();
   release();

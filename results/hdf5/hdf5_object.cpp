@@ -158,12 +158,14 @@ void Object::require(int status, std::string_view problem) const {
 }
 
 bool Object::has_attribute(const std::string& name) const {
+  const LibraryUse use;
   const htri_t answer = H5Aexists(id(), name.c_str());
   require(answer, "its list of attributes cannot be read");
   return answer > 0;
 }
 
 void Object::write_attribute(const std::string& name, Id type, Id from, Id space, const void* data) {
+  const LibraryUse use;
   const std::string problem = fmt::format("attribute '{}'", name);
   Handle attribute =
       own(H5Acreate2(id(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, problem);
@@ -172,11 +174,13 @@ void Object::write_attribute(const std::string& name, Id type, Id from, Id space
 }
 
 void Object::write_single(const std::string& name, Id file_type, Id memory_type, const void* data) {
+  const LibraryUse use;
   const Handle space = made(H5Screate(H5S_SCALAR), H5Sclose);
   write_attribute(name, file_type, memory_type, space.get(), data);
 }
 
 void Object::set_text(const std::string& name, const std::string& value) {
+  const LibraryUse use;
   const Handle type = text_type();
   const char* data = value.c_str();
   write_single(name, type.get(), type.get(), &data);
@@ -194,6 +198,7 @@ void Object::set_unsigned(const std::string& name, std::uint64_t value) {
 }
 
 void Object::set_integers(const std::string& name, Element element, std::span<const std::int64_t> values) {
+  const LibraryUse use;
   const Size size = values.size();
   const Handle space = made(H5Screate_simple(1, &size, nullptr), H5Sclose);
   write_attribute(name, types_of(element).file, H5T_NATIVE_INT64, space.get(), values.data());
@@ -206,6 +211,7 @@ Handle Object::open_attribute(const std::string& name) const {
 }
 
 void Object::read_single(const std::string& name, Id memory_type, void* data, std::string_view kind) const {
+  const LibraryUse use;
   const Handle attribute = open_attribute(name);
   if (attribute_size(attribute) != 1) fail(fmt::format("the attribute '{}' is not a single value", name));
   require(H5Aread(attribute.get(), memory_type, data),
@@ -213,6 +219,7 @@ void Object::read_single(const std::string& name, Id memory_type, void* data, st
 }
 
 std::string Object::text(const std::string& name) const {
+  const LibraryUse use;
   const Handle type = text_type();
   char* data = nullptr;
   read_single(name, type.get(), &data, "readable text");
@@ -222,6 +229,7 @@ std::string Object::text(const std::string& name) const {
 }
 
 std::vector<std::int64_t> Object::integers(const std::string& name) const {
+  const LibraryUse use;
   const Handle attribute = open_attribute(name);
   std::vector<std::int64_t> values(attribute_size(attribute));
   require(H5Aread(attribute.get(), H5T_NATIVE_INT64, values.data()),

@@ -23,9 +23,9 @@ struct JoinOptions {
 
 /// Creates `table` in `file` and fills it with the rows of that table in the shards, in their order.
 ///
-/// Copies chunks as they are stored where a shard has the same chunks. Otherwise decodes and encodes blocks of
-/// a few chunks per column, so that memory is bounded. The order of writing, a chunk of each column after the
-/// other, does not depend on how the rows are divided among the shards.
+/// Copies chunks as they are stored where a shard has the same chunks. Otherwise decodes and encodes blocks
+/// of a few chunks per column, so that memory is bounded. The order of writing, a chunk of each column after
+/// the other, does not depend on how the rows are divided among the shards.
 /// @param width        size of the second dimension, 1 if the table has none
 /// @param first_number first value of the scale of the rows; none: the caller writes the scale
 /// @throws Failure (interrupted) if a stop is requested before the last block

@@ -39,8 +39,8 @@ void require_valid_checksum(const std::filesystem::path& path);
 /// @throws Failure (machine_failed) with the path and the reason
 void publish_with_checksum(const std::filesystem::path& path);
 
-/// The same of a file that was brought to the disk, and whose contents came from there and were as they should
-/// be: the bytes that the trailer is for, so only the trailer is read again.
+/// The same of a file that was brought to the disk, and whose contents came from there and were as they
+/// should be: the bytes that the trailer is for, so only the trailer is read again.
 /// @param timeline gets the spans of reading the file, which any thread does; null: none
 void publish_compared(const std::filesystem::path& path, timeline::Timeline* timeline = nullptr);
 

@@ -29,7 +29,8 @@ std::size_t read_some(const std::filesystem::path& path, const FileDescriptor& f
 /// SHA-256 of the next `length` bytes of the file. The file position is behind them afterwards.
 hash::Sha256 sha256_of(const std::filesystem::path& path, const FileDescriptor& file, std::size_t length);
 
-/// SHA-256 of the first `length` bytes of the file, which several threads read ahead of the one that adds them.
+/// SHA-256 of the first `length` bytes of the file, which several threads read ahead of the one that adds
+/// them.
 /// @param timeline gets the spans of reading; null: none
 hash::Sha256 sha256_read_ahead(const std::filesystem::path& path, const FileDescriptor& file,
                                std::size_t length, timeline::Timeline* timeline);

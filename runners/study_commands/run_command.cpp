@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "analysis/parallel/parallel.hpp"
-#include "results/timeline/timeline.hpp"
 #include "analysis/report/answer_page.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/summary/summary.hpp"
@@ -21,6 +20,7 @@
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_contents.hpp"
 #include "results/storage/output_lock.hpp"
+#include "results/timeline/timeline.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/live_page.hpp"

@@ -59,7 +59,8 @@ void assemble(std::span<const shards::ShardInfo> shards, const study::Study& stu
   std::optional<shards::MergedFile> file;
   timed("merge", [&] {
     file.emplace(shards, study, output, rows,
-                 shards::MergeOptions{.renumber = settings.renumber, .stop = settings.stop, .timeline = settings.timeline});
+                 shards::MergeOptions{
+                     .renumber = settings.renumber, .stop = settings.stop, .timeline = settings.timeline});
   });
   if (layout::has_sums(study.retention)) {
     timed("statistics", [&] { write_summed(*file, study, rows); });

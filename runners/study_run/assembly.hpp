@@ -4,12 +4,12 @@
 #include <span>
 #include <stop_token>
 
-#include "results/timeline/timeline.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/shards/concatenate.hpp"
 #include "results/shards/shard.hpp"
+#include "results/timeline/timeline.hpp"
 
 namespace zerocount::study_run {
 

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <stop_token>
 
-#include "results/timeline/timeline.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
+#include "results/timeline/timeline.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_run/earlier_shards.hpp"
 #include "runners/study_run/existing_output.hpp"

@@ -4,9 +4,9 @@
 #include <stop_token>
 #include <string_view>
 
-#include "results/timeline/timeline.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/study/study.hpp"
+#include "results/timeline/timeline.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_run/earlier_shards.hpp"
 

@@ -7,11 +7,11 @@
 #include <stop_token>
 #include <vector>
 
-#include "results/timeline/timeline.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/shards/shard.hpp"
+#include "results/timeline/timeline.hpp"
 
 namespace zerocount::trials {
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/failure/failure.hpp"
@@ -169,14 +170,18 @@ class Dataset : public Object {
   void make_scale(const std::string& name);
   void attach_scale(const Dataset& scale, unsigned dimension);
   bool is_scale() const;
-  bool has_scale(const Dataset& scale, unsigned dimension) const;
+  /// Places in which the dataset is an axis: the datasets' addresses in the file, and their dimensions.
+  using ScaleUses = std::vector<std::pair<std::uint64_t, int>>;
+  ScaleUses uses_as_scale() const;
+  /// @param uses of the scale
+  bool has_scale(const Dataset& scale, const ScaleUses& uses, unsigned dimension) const;
 
  private:
   friend class Group;
   friend void write_rows(std::span<const RowsToWrite> all, timeline::Timeline* timeline);
   friend void read_rows(std::span<const RowsToRead> all, timeline::Timeline* timeline);
   friend void copy_rows(std::span<const RowsToCopy> all, timeline::Timeline* timeline);
-  friend class ChunkComparison;
+  friend class ReadBack;
   friend struct DecodeJob;
   Dataset(Handle handle, std::shared_ptr<Origin> origin, std::string path);
   Element stored_element() const;

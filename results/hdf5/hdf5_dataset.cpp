@@ -161,7 +161,14 @@ bool Dataset::is_scale() const {
   return answer > 0;
 }
 
-bool Dataset::has_scale(const Dataset& scale, unsigned dimension) const {
+Dataset::ScaleUses Dataset::uses_as_scale() const {
+  const LibraryUse use;
+  ScaleUses uses;
+  for (const ScaleUse& one : uses_of_scale(id())) uses.emplace_back(one.dataset, one.dimension);
+  return uses;
+}
+
+bool Dataset::has_scale(const Dataset& scale, const ScaleUses& uses, unsigned dimension) const {
   const LibraryUse use;
   constexpr const char* problem = "its axes cannot be read";
   hobj_ref_t own_reference{};
@@ -170,10 +177,8 @@ bool Dataset::has_scale(const Dataset& scale, unsigned dimension) const {
   require(H5Rcreate(&scale_reference, scale.id(), ".", H5R_OBJECT, -1), problem);
   const int listed = H5DSiterate_scales(id(), dimension, nullptr, is_scale_of_reference, &scale_reference);
   require(listed, problem);
-  const std::vector<ScaleUse> uses = uses_of_scale(scale.id());
-  return listed > 0 && std::any_of(uses.begin(), uses.end(), [&](const ScaleUse& listed_use) {
-           return listed_use.dataset == own_reference && listed_use.dimension == static_cast<int>(dimension);
-         });
+  const ScaleUses::value_type own_use(own_reference, static_cast<int>(dimension));
+  return listed > 0 && std::find(uses.begin(), uses.end(), own_use) != uses.end();
 }
 
 }  // namespace zerocount::hdf5

@@ -1,5 +1,7 @@
 #include <cstddef>
-#include <span>
+#include <map>
+#include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -37,54 +39,82 @@ void compare_rows(const Dataset& dataset, const std::vector<WrittenRows>& writte
   }
 }
 
-void compare_scales(const Group& root, const Dataset& dataset, const WrittenObject& written) {
-  if (written.is_scale && !dataset.is_scale()) dataset.fail("it is not an axis any more");
-  for (const auto& [dimension, path] : written.scales) {
-    if (!dataset.has_scale(root.open_dataset(path.substr(1)), dimension)) {
-      dataset.fail(fmt::format("its axis {} is missing", path));
-    }
-  }
-}
-
-void compare_dataset(const Group& root, const Dataset& dataset, const WrittenObject& written) {
-  compare_attributes(dataset, written);
-  compare_rows(dataset, written.rows);
-  if (!written.texts.empty() && dataset.read_texts() != written.texts) dataset.fail("its texts differ");
-  compare_scales(root, dataset, written);
+bool is_dataset(const WrittenObject& written) {
+  return written.is_scale || !written.scales.empty() || !written.rows.empty() || !written.chunks.empty() ||
+         !written.texts.empty();
 }
 
 }  // namespace
 
-/// The chunks that were written, in all datasets. The library only finds them.
-class ChunkComparison {
+/// A file that is compared with what was written to it. The library only finds the chunks; all of them are
+/// read at the end.
+class ReadBack {
  public:
-  void add(Dataset&& dataset, std::span<const WrittenChunk> written) {
-    for (const WrittenChunk& chunk : written)
-      jobs_.push_back({datasets_.size(), dataset.find_chunk(chunk.first), chunk, {}});
-    datasets_.push_back(std::move(dataset));
+  explicit ReadBack(File&& file) : file_(std::move(file)) {}
+
+  void compare(const std::string& path, const WrittenObject& written) {
+    if (path == "/") {
+      compare_attributes(file_, written);
+    } else if (!is_dataset(written) && file_.is_group(path.substr(1))) {
+      compare_attributes(file_.open_group(path.substr(1)), written);
+    } else {
+      compare_dataset(path, written);
+    }
   }
 
-  void require_equal(timeline::Timeline* timeline) {
+  void compare_chunks(timeline::Timeline* timeline) {
     for_each_job(jobs_.size(), timeline, "compare", [&](std::size_t index) {
       Job& job = jobs_[index];
-      const std::vector<std::byte> stored = datasets_[job.dataset].bytes_of(std::move(job.found));
+      const std::vector<std::byte> stored = job.dataset->bytes_of(std::move(job.found));
       job.digest = digest_of(stored.data(), stored.size());
     });
     for (const Job& job : jobs_) {
       if (job.digest != job.written.digest)
-        datasets_[job.dataset].fail(fmt::format("the rows from {} on differ", job.written.first));
+        job.dataset->fail(fmt::format("the rows from {} on differ", job.written.first));
     }
   }
 
  private:
+  struct Opened {
+    Dataset dataset;
+    std::optional<Dataset::ScaleUses> uses{};  ///< of a scale, once they are read
+  };
+  /// A chunk to compare.
   struct Job {
-    std::size_t dataset;  ///< index
+    const Dataset* dataset;
     StoredChunk found;
     WrittenChunk written;
     std::size_t digest;
   };
 
-  std::vector<Dataset> datasets_;
+  Opened& open(const std::string& path) {
+    const auto found = opened_.find(path);
+    if (found != opened_.end()) return found->second;
+    return opened_.emplace(path, Opened{file_.open_dataset(path.substr(1))}).first->second;
+  }
+
+  void compare_dataset(const std::string& path, const WrittenObject& written) {
+    const Dataset& dataset = open(path).dataset;
+    compare_attributes(dataset, written);
+    compare_rows(dataset, written.rows);
+    if (!written.texts.empty() && dataset.read_texts() != written.texts) dataset.fail("its texts differ");
+    compare_scales(dataset, written);
+    for (const WrittenChunk& chunk : written.chunks)
+      jobs_.push_back({&dataset, dataset.find_chunk(chunk.first), chunk, {}});
+  }
+
+  void compare_scales(const Dataset& dataset, const WrittenObject& written) {
+    if (written.is_scale && !dataset.is_scale()) dataset.fail("it is not an axis any more");
+    for (const auto& [dimension, path] : written.scales) {
+      Opened& scale = open(path);
+      if (!scale.uses) scale.uses = scale.dataset.uses_as_scale();
+      if (!dataset.has_scale(scale.dataset, *scale.uses, dimension))
+        dataset.fail(fmt::format("its axis {} is missing", path));
+    }
+  }
+
+  File file_;
+  std::map<std::string, Opened> opened_;  ///< by path
   std::vector<Job> jobs_;
 };
 
@@ -93,20 +123,9 @@ void require_written(const std::filesystem::path& path, const WrittenValues& wri
   auto origin = std::make_shared<Origin>();
   origin->purpose = Purpose::read_back;
   origin->bytes = std::make_shared<storage::ByteFile>(path, storage::ByteFile::Mode::read);
-  const File file = File::open(std::move(origin), false);
-  ChunkComparison chunks;
-  for (const auto& [name, object] : written) {
-    if (name == "/") {
-      compare_attributes(file, object);
-    } else if (file.is_group(name.substr(1))) {
-      compare_attributes(file.open_group(name.substr(1)), object);
-    } else {
-      Dataset dataset = file.open_dataset(name.substr(1));
-      compare_dataset(file, dataset, object);
-      chunks.add(std::move(dataset), object.chunks);
-    }
-  }
-  chunks.require_equal(timeline);
+  ReadBack file(File::open(std::move(origin), false));
+  for (const auto& [name, object] : written) file.compare(name, object);
+  file.compare_chunks(timeline);
 }
 
 }  // namespace zerocount::hdf5

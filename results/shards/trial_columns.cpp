@@ -87,7 +87,7 @@ std::vector<layout::TraceRecord> trace_records(std::span<const TrialResult> resu
   return records;
 }
 
-/// Moves the bytes of a part behind those of the whole.
+/// Moves the bytes of a part behind those of the whole, and frees them there.
 void append(std::vector<std::byte>& whole, std::vector<std::byte>& part) {
   whole.insert(whole.end(), part.begin(), part.end());
   part = {};
@@ -145,12 +145,17 @@ std::size_t bytes_of(const TrialColumns& columns) {
 TrialColumns joined(std::span<TrialColumns> parts) {
   if (parts.empty()) return {};
   TrialColumns all = std::move(parts.front());
-  for (TrialColumns& part : parts.subspan(1)) {
-    all.rows.insert(all.rows.end(), part.rows.begin(), part.rows.end());
-    for (std::size_t i = 0; i < all.tables.size(); ++i) {
-      all.tables[i].rows += part.tables[i].rows;
-      for (std::size_t column = 0; column < all.tables[i].columns.size(); ++column)
-        append(all.tables[i].columns[column], part.tables[i].columns[column]);
+  const std::span<TrialColumns> others = parts.subspan(1);
+  for (const TrialColumns& part : others) all.rows.insert(all.rows.end(), part.rows.begin(), part.rows.end());
+  for (std::size_t i = 0; i < all.tables.size(); ++i) {
+    for (const TrialColumns& part : others) all.tables[i].rows += part.tables[i].rows;
+    // Column by column: only one of them is in memory twice.
+    for (std::size_t column = 0; column < all.tables[i].columns.size(); ++column) {
+      std::vector<std::byte>& whole = all.tables[i].columns[column];
+      std::size_t size = whole.size();
+      for (const TrialColumns& part : others) size += part.tables[i].columns[column].size();
+      whole.reserve(size);
+      for (TrialColumns& part : others) append(whole, part.tables[i].columns[column]);
     }
   }
   return all;

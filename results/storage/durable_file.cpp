@@ -137,6 +137,7 @@ void synchronise(const fs::path& path) {
   const FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
   if (!file.valid()) fail_with(path, "open for writing", errno);
   synchronise(path, file);
+  ::posix_fadvise(file.get(), 0, 0, POSIX_FADV_WILLNEED);  // in large pieces, before it is read in small ones
 }
 
 void write_all(const fs::path& path, const FileDescriptor& file, std::string_view text) {

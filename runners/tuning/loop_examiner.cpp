@@ -253,8 +253,7 @@ SmallestMargins margins_of_machine(const trial::TrialParameters& p, const Machin
     include(smallest.gain, smallest.gain_loop, decibels(margins.gain.value), critical(each));
     include(smallest.phase, smallest.phase_loop, degrees(margins.phase.value), critical(each));
     include_sensitivity(smallest, theory::peak_sensitivity(each.loop).value, critical(each));
-    const double crossover = theory::gain_crossover(each.loop).frequency;
-    if (crossover > smallest.crossover) smallest.crossover = crossover;
+    if (margins.crossover.frequency > smallest.crossover) smallest.crossover = margins.crossover.frequency;
   }
   return smallest;
 }

@@ -117,7 +117,7 @@ EncodedShard encode_shard(const study::Study& study, layout::RowRange rows, Tria
 
 StoredShard store_shard(const std::filesystem::path& path, const study::Study& study,
                         const EncodedShard& shard) {
-  StoredShard stored{path, std::make_unique<storage::UnfinishedFile>(path), {}};
+  StoredShard stored{path, shard.rows, std::make_unique<storage::UnfinishedFile>(path), {}};
   hdf5::File file = hdf5::File::create(stored.part->path());
   layout::write_header(
       file, layout::make_header(study, layout::FileKind::shard, shard.rows, shard.options.provenance));

@@ -48,6 +48,7 @@ EncodedShard encode_shard(const study::Study& study, layout::RowRange rows, Tria
 /// A shard without its checksum and its name.
 struct StoredShard {
   std::filesystem::path path;
+  layout::RowRange rows;
   std::unique_ptr<storage::UnfinishedFile> part;
   hdf5::WrittenValues written;
 };

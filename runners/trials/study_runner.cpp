@@ -243,7 +243,7 @@ class ShardPipeline {
   std::shared_ptr<std::vector<shards::StoredShard>> flush(
       const std::shared_ptr<std::vector<shards::StoredShard>>& stored) const {
     for (const shards::StoredShard& shard : *stored) {
-      const timeline::TimeSpan span(settings_.timeline, "flush", timeline::Work::parallel);
+      const timeline::TimeSpan span(settings_.timeline, "flush", timeline::Work::parallel, shard.rows.count);
       shards::flush_shard(shard);
     }
     return stored;
@@ -253,7 +253,8 @@ class ShardPipeline {
   std::shared_ptr<std::vector<shards::StoredShard>> read_back(
       const std::shared_ptr<std::vector<shards::StoredShard>>& stored) {
     for (const shards::StoredShard& shard : *stored) {
-      const timeline::TimeSpan span(settings_.timeline, "read back", timeline::Work::serial);
+      const timeline::TimeSpan span(settings_.timeline, "read back", timeline::Work::serial,
+                                    shard.rows.count);
       const std::lock_guard lock(library_);
       shards::require_stored(shard, settings_.timeline);
     }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/hash/sha256.hpp"
+#include "results/timeline/timeline.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -23,6 +24,23 @@ TEST(ChecksumTrailer, IsTheChecksumOfEverythingBeforeIt) {
     EXPECT_EQ(text.size(), storage::checksum_trailer_length);
     EXPECT_TRUE(folder.read("file") == bytes + text) << size;
     if (size > 0) storage::require_valid_checksum(path);
+  }
+}
+
+TEST(ChecksumTrailer, OfAPublishedFileIsThatOfItsBytes) {
+  const TemporaryFolder folder;
+  std::mt19937 random(23);
+  for (const std::size_t size : {1U, 100U, (1U << 18) - 1, 1U << 18, (5U << 18) + 7}) {
+    std::string bytes(size, '\0');
+    for (char& byte : bytes) byte = static_cast<char>(random());
+    folder.write("file.part", bytes);
+    timeline::Timeline timeline;
+    storage::publish_compared(folder / "file", &timeline);
+    EXPECT_TRUE(folder.read("file") == bytes + "zerocount-seal sha256 " + hash::sha256_hex(bytes) + "\n")
+        << size;
+    EXPECT_FALSE(std::filesystem::exists(folder / "file.part"));
+    EXPECT_NE(timeline.trace_events().find("\"read\""), std::string::npos);
+    storage::require_valid_checksum(folder / "file");
   }
 }
 

@@ -4,8 +4,6 @@
 #include <chrono>
 #include <vector>
 
-#include <oneapi/tbb/info.h>
-
 #include "core/batch/batch.hpp"
 #include "core/trial/trial.hpp"
 #include "runners/trials/study_runner.hpp"
@@ -79,7 +77,7 @@ StudyCost measure_cost(const study::Study& study) {
   StudyCost cost;
   const double per_trial = trials::samples_per_trial(study);
   cost.samples = per_trial * static_cast<double>(study::trial_count(study));
-  cost.cores = oneapi::tbb::info::default_concurrency();
+  cost.cores = trials::threads_to_use(0);
   const std::int64_t rows = study::trial_count(study);
   const std::int64_t max_trials = std::min<std::int64_t>(rows, 4096);
   const BlockSize size = affordable_block(study, per_trial);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/info.h>
 
 #include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"

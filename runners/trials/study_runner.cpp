@@ -235,7 +235,11 @@ class ShardPipeline {
       finished_.shards.push_back({path, shard.rows});
     }
     delivery.shards.clear();
-    if (settings_.finished && delivery.trials > 0) settings_.finished(delivery.trials);
+    if (settings_.finished && delivery.trials > 0) {
+      const std::lock_guard lock(library_);  // a page that shows the run reads its shards
+      // A thread that waits there must not begin another task meanwhile, such as one that needs the lock.
+      oneapi::tbb::this_task_arena::isolate([&] { settings_.finished(delivery.trials); });
+    }
     return stored;
   }
 

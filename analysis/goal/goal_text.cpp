@@ -176,7 +176,7 @@ std::string goals_text(const Question& question, const measures::PointSummary& p
     const measures::MoveCounts& counts = point.goals[part.number];
     return (question.conditions.empty()
                 ? ""
-                : fmt::format("  under condition {}, the worst:\n", question.conditions[of_goal.condition])) +
+                : fmt::format(" {}, the worst:\n", under_text(question, of_goal.condition))) +
            readings_text(*part.claim, under_condition(counts, of_goal.condition), of_goal);
   };
   if (!has_several(question))

@@ -96,9 +96,21 @@ struct CountedClaims {
 
 }  // namespace
 
+std::string under_text(const Question& question, std::size_t condition) {
+  if (question.conditions.empty()) return "";
+  return (question.ages.at.empty() ? " under condition " : " at ") + question.conditions[condition];
+}
+
+std::size_t age_of(const Question& question, std::size_t condition) {
+  return condition / (question.conditions.size() / question.ages.at.size());
+}
+
 Question question_of(const study::Study& study) {
-  Question question{
-      .parts = {}, .worlds = study.worlds, .stopped = study.stop.has_value(), .conditions = study.conditions};
+  Question question{.parts = {},
+                    .worlds = study.worlds,
+                    .stopped = study.stop.has_value(),
+                    .conditions = study.conditions,
+                    .ages = study.ages};
   const std::vector<measures::CountedGoal> counted = measures::asked_of_moves(study);
   for (std::size_t i = 0; i < counted.size(); ++i) {
     question.parts.push_back({.number = i, .counted = counted[i]});

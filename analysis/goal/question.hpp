@@ -32,7 +32,9 @@ struct Question {
   std::vector<JudgedPart> parts{JudgedPart{}};
   std::int64_t worlds{0};                 ///< in each of which it is asked; 0: the study has no worlds
   bool stopped{false};                    ///< the outcomes decided the number of trials (`stop`)
-  std::vector<std::string> conditions{};  ///< names of those under each of which it is asked
+  /// Names of those under each of which it is asked; with ages each condition at each age (Study::conditions).
+  std::vector<std::string> conditions{};
+  study::Ages ages{};
 
   /// The claim that is judged, the first of several; nothing where success is not claimed.
   const std::optional<study::Goal>& claim() const { return parts.front().claim; }
@@ -40,6 +42,11 @@ struct Question {
 };
 
 Question question_of(const study::Study& study);
+/// " under condition loaded", " at loaded, 1e+05 cycles"; empty without conditions.
+std::string under_text(const Question& question, std::size_t condition);
+/// The number of the age at which that condition is.
+std::size_t age_of(const Question& question, std::size_t condition);
+
 /// Whether the study has several goals.
 inline bool has_several(const Question& question) {
   return question.parts.size() > 1;

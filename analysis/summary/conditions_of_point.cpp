@@ -122,10 +122,13 @@ std::string conditions_sentence(const StudySummary& summary,
   if (conditions.empty()) return {};
   const ConditionOfPoint& worst = conditions[worst_condition(conditions)];
   std::string lowest =
-      fmt::format("lowest under condition {}: {} of {}", worst.name, text::percent_near(worst.rate.value),
-                  goal::judged_meeting(summary.question));
+      fmt::format("lowest{}: {} of {}", under_text(summary.question, worst_condition(conditions)),
+                  text::percent_near(worst.rate.value), goal::judged_meeting(summary.question));
   if (!summary.question.claim()) return lowest;
   const bool one_kind = !has_several(summary.question);
+  const bool ages = !summary.question.ages.at.empty();  // whose names have commas
+  const std::string_view under = ages ? "at" : "under";
+  const std::string_view between = ages ? "; " : ", ";
   std::string text;
   for (const goal::Status status : {goal::Status::missed, goal::Status::undecided, goal::Status::met}) {
     std::vector<std::string> names;
@@ -133,8 +136,8 @@ std::string conditions_sentence(const StudySummary& summary,
       if (one.status == status) names.push_back(one.name);
     }
     if (names.empty()) continue;
-    text += fmt::format("{}{} under {}", text.empty() ? "the goal is " : ", ", goal::text_of(status),
-                        fmt::join(names, ", "));
+    text += fmt::format("{}{} {} {}", text.empty() ? "the goal is " : ", ", goal::text_of(status), under,
+                        fmt::join(names, between));
   }
   return one_kind ? text + "; " + lowest : text;  // rates of several goals are not alike
 }
@@ -143,8 +146,11 @@ std::string averaged_over(const StudySummary& summary) {
   const bool worlds = summary.question.worlds > 0;
   const bool conditions = !summary.conditions.empty();
   if (!worlds && !conditions) return "";
-  return fmt::format("on average over the {}{}{}: ", worlds ? "worlds" : "",
-                     worlds && conditions ? " and " : "", conditions ? "conditions" : "");
+  std::vector<std::string_view> over;
+  if (worlds) over.emplace_back("worlds");
+  if (conditions && !summary.question.ages.at.empty()) over.emplace_back("ages");
+  if (summary.conditions.size() > summary.question.ages.at.size()) over.emplace_back("conditions");
+  return fmt::format("on average over the {}: ", fmt::join(over, " and "));
 }
 
 }  // namespace zerocount::summary

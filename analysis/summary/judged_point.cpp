@@ -48,10 +48,7 @@ JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen) 
 std::string judgement_headline(const StudySummary& summary, const JudgedPoint& judged) {
   const goal::Question& question = summary.question;
   const std::string name = name_of_chosen(summary, judged.chosen);
-  const std::string under =
-      question.conditions.empty()
-          ? ""
-          : fmt::format(" under condition {}", question.conditions[judged.verdict.condition]);
+  const std::string under = under_text(question, judged.verdict.condition);
   const std::string worst =
       has_several(question) ? fmt::format(" '{}'", worst_goal(summary, judged.verdict).name) : "";
   switch (judged.verdict.status) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/goal/lives.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/summary/observed_comparison.hpp"
 #include "analysis/summary/study_statistics.hpp"
@@ -42,6 +43,47 @@ layout::GroupCounts group_counts(
   return counts;
 }
 
+/// The sums of the groups with the same `sum_of`, [point][sum].
+layout::GroupCounts sums_of(const layout::GroupCounts& groups, std::int64_t sums,
+                            const std::function<std::size_t(std::size_t group)>& sum_of) {
+  using Counts = std::vector<std::vector<std::int64_t>>;
+  const auto sum = [&](const Counts& counts) {
+    Counts found;
+    for (const std::vector<std::int64_t>& of_point : counts) {
+      std::vector<std::int64_t>& row = found.emplace_back(static_cast<std::size_t>(sums));
+      for (std::size_t group = 0; group < of_point.size(); ++group) row[sum_of(group)] += of_point[group];
+    }
+    return found;
+  };
+  return {sum(groups.trials), sum(groups.success), sum(groups.goal_met)};
+}
+
+/// What is stored of the ages. @param turns the trials under each condition at each age
+layout::AgeCounts age_counts(std::span<const measures::PointSummary> points, const study::Study& study,
+                             const layout::GroupCounts& turns) {
+  const auto of_age = static_cast<std::size_t>(study::conditions_of_age(study));
+  const std::size_t ages = study.ages.at.size();
+  layout::AgeCounts counts{.trials = sums_of(turns, std::ssize(study.ages.at),
+                                             [of_age](std::size_t turn) { return turn / of_age; })};
+  if (study.goals.empty()) return counts;
+  const goal::Question question = goal::question_of(study);
+  for (const measures::PointSummary& point : points) {
+    counts.machines.emplace_back(ages, statistics::unknown);
+    counts.machines_low.push_back(counts.machines.back());
+    counts.machines_high.push_back(counts.machines.back());
+    counts.lives.emplace_back(static_cast<std::size_t>(study.rigs), statistics::unknown);
+    if (point.judged == 0) continue;
+    const std::vector<goal::BoundedProportion> machines = goal::machines_at_ages(question, point.goals);
+    for (std::size_t age = 0; age < ages; ++age) {
+      counts.machines.back()[age] = machines[age].value;
+      counts.machines_low.back()[age] = machines[age].low;
+      counts.machines_high.back()[age] = machines[age].high;
+    }
+    counts.lives.back() = goal::lives_of_rigs(question, point.goals);
+  }
+  return counts;
+}
+
 /// Appends the statistics of the points that follow.
 void append(layout::StoredStatistics& stored, layout::StoredStatistics&& next) {
   const auto append_to = [](auto& values, auto& more) {
@@ -54,12 +96,19 @@ void append(layout::StoredStatistics& stored, layout::StoredStatistics&& next) {
       append_to(stored.tables[i].columns[column].values, next.tables[i].columns[column].values);
   }
   append_to(stored.rig_successes, next.rig_successes);
+  const auto append_counts = [&](layout::GroupCounts& counts, layout::GroupCounts& more) {
+    append_to(counts.trials, more.trials);
+    append_to(counts.success, more.success);
+    append_to(counts.goal_met, more.goal_met);
+  };
   for (auto groups : {&layout::StoredStatistics::worlds, &layout::StoredStatistics::conditions}) {
-    if (!(stored.*groups)) continue;
-    append_to((stored.*groups)->trials, (next.*groups)->trials);
-    append_to((stored.*groups)->success, (next.*groups)->success);
-    append_to((stored.*groups)->goal_met, (next.*groups)->goal_met);
+    if (stored.*groups) append_counts(*(stored.*groups), *(next.*groups));
   }
+  if (!stored.ages) return;
+  append_counts(stored.ages->trials, next.ages->trials);
+  for (auto values : {&layout::AgeCounts::machines, &layout::AgeCounts::machines_low,
+                      &layout::AgeCounts::machines_high, &layout::AgeCounts::lives})
+    append_to((*stored.ages).*values, (*next.ages).*values);
 }
 
 }  // namespace
@@ -83,9 +132,14 @@ layout::StoredStatistics stored_statistics(std::span<const measures::PointSummar
   if (study.worlds > 0)
     stored.worlds =
         group_counts(points, study.worlds, !study.goals.empty(), &PointSummary::worlds, measures::in_worlds);
-  if (!study.conditions.empty())
-    stored.conditions = group_counts(points, std::ssize(study.conditions), !study.goals.empty(),
-                                     &PointSummary::conditions, measures::in_conditions);
+  if (study.conditions.empty()) return stored;
+  const layout::GroupCounts turns = group_counts(points, std::ssize(study.conditions), !study.goals.empty(),
+                                                 &PointSummary::conditions, measures::in_conditions);
+  const std::size_t names = study.condition_names.size();
+  if (names > 0)
+    stored.conditions =
+        sums_of(turns, std::ssize(study.condition_names), [names](std::size_t turn) { return turn % names; });
+  if (!study.ages.at.empty()) stored.ages = age_counts(points, study, turns);
   return stored;
 }
 

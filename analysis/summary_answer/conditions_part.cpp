@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "analysis/summary/ages_of_point.hpp"
 #include "analysis/summary/claims_of_point.hpp"
 #include "analysis/summary/conditions_of_point.hpp"
 #include "analysis/summary_answer/parts.hpp"
@@ -31,6 +32,37 @@ std::vector<PointCondition> conditions_of_points(const SummaryReading& s) {
 
 bool has_several_claims(const summary::StudySummary& summary) {
   return summary.question.claim() && (has_several(summary.question) || has_conditions(summary));
+}
+
+bool has_ages(const summary::StudySummary& summary) {
+  return !summary.question.ages.at.empty() && !summary.features.open_loop;
+}
+
+/// An age of a point, for people.
+struct PointAge {
+  std::optional<std::string> point;  ///< its label; none in a study of one point
+  summary::AgeOfPoint age;
+};
+
+std::vector<PointAge> ages_of_points(const SummaryReading& s) {
+  std::vector<PointAge> rows;
+  for (Point p : s.points) {
+    for (const summary::AgeOfPoint& one : summary::ages_of_point(p.summary, p.point))
+      rows.push_back({s.points.size() > 1 ? std::optional(p.label()) : std::nullopt, one});
+  }
+  return rows;
+}
+
+std::string note_on_ages(const SummaryReading& s) {
+  std::string text;
+  for (Point p : s.points) {
+    const std::string sentence =
+        summary::ages_sentence(s.summary.question, summary::ages_of_point(p.summary, p.point));
+    if (!sentence.empty())
+      text += s.points.size() > 1 ? fmt::format("{}: {}\n", p.label(), sentence) : sentence + '\n';
+  }
+  if (!text.empty()) text.pop_back();
+  return text;
 }
 
 std::string note_on_conditions(const SummaryReading& s) {
@@ -65,6 +97,23 @@ void add_conditions(SummaryDescription& answer, const summary::StudySummary& sum
                      .include(summary::condition_description(summary.question), &PointCondition::condition),
                  conditions_of_points);
   answer.sentence(note_on_conditions);
+}
+
+void add_ages(PointDescription& point, const summary::StudySummary& summary) {
+  if (!has_ages(summary)) return;
+  point.table({.key = "ages", .meaning = "the point at each age", .shown = Shown::in_json},
+              summary::age_description(summary.question),
+              [](Point p) { return summary::ages_of_point(p.summary, p.point); });
+}
+
+void add_ages(SummaryDescription& answer, const summary::StudySummary& summary) {
+  if (!has_ages(summary)) return;
+  answer.table({.heading = "by age", .shown = Shown::to_people},
+               document::Description<PointAge>()
+                   .value({.heading = "point"}, &PointAge::point)
+                   .include(summary::age_description(summary.question), &PointAge::age),
+               ages_of_points);
+  answer.sentence(note_on_ages);
 }
 
 void add_claims(PointDescription& point, const summary::StudySummary& summary) {

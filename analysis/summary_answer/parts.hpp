@@ -88,6 +88,10 @@ void add_claims(SummaryDescription& answer, const summary::StudySummary& summary
 void add_conditions(PointDescription& point, const summary::StudySummary& summary);
 void add_conditions(SummaryDescription& answer, const summary::StudySummary& summary);
 
+/// What the trials and machines show at each age, and up to which the goal is met.
+void add_ages(PointDescription& point, const summary::StudySummary& summary);
+void add_ages(SummaryDescription& answer, const summary::StudySummary& summary);
+
 /// The bounds of the success rate that hold although the study looked after every block and decided itself
 /// how many trials it took (`stop`).
 ///

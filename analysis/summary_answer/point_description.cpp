@@ -153,6 +153,7 @@ document::Description<PointReading> point_description(const summary::StudySummar
   add_worlds(point, summary);
   add_claims(point, summary);
   add_conditions(point, summary);
+  add_ages(point, summary);
   add_assurance(point, summary);
   return point;
 }

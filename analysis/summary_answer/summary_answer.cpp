@@ -335,6 +335,7 @@ SummaryDescription question_tables(const StudySummary& summary) {
   add_worlds(tables, summary);
   add_claims(tables, summary);
   add_conditions(tables, summary);
+  add_ages(tables, summary);
   return tables;
 }
 

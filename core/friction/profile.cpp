@@ -35,6 +35,16 @@ double normal_value(const Profile& profile, double field) {
 
 }  // namespace
 
+Profile scaled(Profile profile, double factor) {
+  if (profile.marginal == Marginal::lognormal) {
+    profile.location += numerics::log_of_draws(factor);
+  } else {
+    profile.location *= factor;
+    profile.scale *= factor;
+  }
+  return profile;
+}
+
 double value_at(const Profile& profile, double position) {
   const double value = normal_value(profile, field_at(profile, position));
   return profile.marginal == Marginal::lognormal ? numerics::exp_of_draws(value) : value;

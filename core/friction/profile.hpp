@@ -29,6 +29,9 @@ double field_at(const Profile& profile, double position);
 /// The parameter's value at `position` (rad or m, in any period), in the parameter's unit.
 double value_at(const Profile& profile, double position);
 
+/// The profile whose value is `factor` (> 0) times as large everywhere.
+Profile scaled(Profile profile, double factor);
+
 /// Lowest and highest value, in the parameter's unit.
 struct ValueRange {
   double low{0.0};

@@ -24,6 +24,7 @@ inline constexpr std::array<std::string_view, 2> draw_level_labels_of_profiles{"
 struct TrialGroups {
   bool rigs{false};
   bool worlds{false};
+  bool ages{false};
 };
 
 /// Kind of draw: a single value, or a profile along the rotor.

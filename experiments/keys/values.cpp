@@ -9,6 +9,7 @@
 #include "core/friction/profile.hpp"
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/distributions/random_field.hpp"
+#include "experiments/keys/aging.hpp"
 #include "experiments/keys/draw_level.hpp"
 #include "experiments/keys/expected_value.hpp"
 
@@ -112,22 +113,37 @@ study::Value read_profile_value(const yaml::Field& field, std::size_t slot, stud
           .level = level};
 }
 
-// The only entry of the map besides `per`, or null.
+// The only entry of the map besides `per` and `aging`, or null.
 const yaml::YamlEntry* form_entry(const yaml::YamlNode& map) {
-  const auto is_form = [](const yaml::YamlEntry& entry) { return entry.key != per_key; };
+  const auto is_form = [](const yaml::YamlEntry& entry) {
+    return entry.key != per_key && entry.key != aging_key;
+  };
   if (std::count_if(map.entries.begin(), map.entries.end(), is_form) != 1) return nullptr;
   return &*std::find_if(map.entries.begin(), map.entries.end(), is_form);
 }
 
-study::Value read_map(const yaml::Field& field, std::size_t slot, Reading& reading) {
+// A number with `aging` beside it.
+study::Value read_constant(const yaml::Field& field, const parameters::Parameter& parameter,
+                           Reading& reading) {
+  if (const auto per = yaml::find_field(field, per_key))
+    return refuse(reading, *per, "a number is not drawn", "a distribution, or the key left out");
+  if (!yaml::find_field(field, aging_key))
+    return refuse(reading, field, fmt::format("{} is for a number that changes with age", value_key),
+                  fmt::format("the number alone, or {} beside it", aging_key));
+  return read_number(yaml::find_field(field, value_key).value(), parameter, reading);
+}
+
+study::Value read_form(const yaml::Field& field, std::size_t slot, Reading& reading) {
   const parameters::Parameter& parameter = reading.plan.table.rows[slot];
-  const std::string expected = fmt::format("a map with one of {}, {}; {} may stand beside it",
-                                           distributions::distribution_names(), profile_name, per_key);
+  const std::string expected =
+      fmt::format("a map with one of {}, {}; {} and {} may stand beside it",
+                  distributions::distribution_names(), profile_name, per_key, aging_key);
   const yaml::YamlEntry* entry = form_entry(*field.node);
   if (entry == nullptr) {
     return refuse(reading, field, fmt::format("found a map with {} keys", field.node->entries.size()),
                   expected);
   }
+  if (entry->key == value_key) return read_constant(field, parameter, reading);
   const Drawn drawn = entry->key == profile_name                   ? Drawn::profile
                       : entry->key == distributions::interval_name ? Drawn::interval
                                                                    : Drawn::value;
@@ -152,6 +168,12 @@ study::Value read_map(const yaml::Field& field, std::size_t slot, Reading& readi
   if (form == nullptr) return unreadable_value();
   study::Value value = read_drawn(*form, yaml::entry_of(field, *entry), parameter, reading);
   value.level = level;
+  return value;
+}
+
+study::Value read_map(const yaml::Field& field, std::size_t slot, Reading& reading) {
+  study::Value value = read_form(field, slot, reading);
+  if (const auto aging = yaml::find_field(field, aging_key)) read_aging(*aging, slot, value, reading);
   return value;
 }
 
@@ -205,6 +227,7 @@ study::Value unreadable_value() {
 
 study::Value read_value(const yaml::Field& field, std::size_t slot, Reading& reading) {
   const parameters::Parameter& parameter = reading.plan.table.rows[slot];
+  reading.rate.reset();
   if (!check_exists(field, parameter, reading)) return unreadable_value();
   if (parameter.kind == parameters::ParameterKind::boolean) return read_bool_value(field, reading.problems);
   if (parameter.kind == parameters::ParameterKind::enumeration)

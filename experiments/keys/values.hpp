@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct Reading {
   bool plugin_failed{false};               ///< the user's controller could not be loaded
   std::vector<ProfileRequest> profiles{};  ///< [index of a value of kind profile]
   std::vector<std::string> warnings{};     ///< allowed but possibly unintended
+  /// The value of the slot of its rate, if the value read last changes with age. Whoever takes that value takes
+  /// the rate as well, and resets it.
+  std::optional<study::Assignment> rate{};
 };
 
 /// Places of a plan's values in the manifest.
@@ -47,7 +51,7 @@ void check_profiles(const Reading& reading);
 study::Value unreadable_value();
 
 /// The value of the parameter of the slot: a number, a label, a distribution or a profile, checked against
-/// the parameter's range. Reports errors and returns unreadable_value() then.
+/// the parameter's range. Reports errors and returns unreadable_value() then. Sets or resets Reading::rate.
 study::Value read_value(const yaml::Field& field, std::size_t slot, Reading& reading);
 
 /// `number` as a value of the parameter, checked as read_value() does; `field` is its source.

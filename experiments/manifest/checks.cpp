@@ -1,6 +1,7 @@
 #include "experiments/manifest/checks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <string>
@@ -185,7 +186,53 @@ std::vector<std::size_t> with_sources(const study::StudyPlan& plan, std::span<co
   return all;
 }
 
+/// The lowest and the highest value of the slot at a point of the plan. Of a profile, at age 0 bounds for all
+/// random numbers, unless those leave the range at this age: then of the rotors that there are.
+std::pair<double, double> aged_extremes(const study::StudyPlan& plan, std::size_t slot, std::size_t point) {
+  const study::Value& value = *study::value_at_point(plan, slot, point);
+  if (value.kind != study::Value::Kind::profile) return study::extremes_of(plan, slot, point);
+  const study::ValueLimits factors = study::age_factors(plan, slot, point);
+  const study::Rotors& rotors = *plan.profiles[value.index];
+  const auto at_age = [&](const numerics::Interval& values) {
+    return std::minmax({values.low * factors.low, values.low * factors.high, values.high * factors.low,
+                        values.high * factors.high});
+  };
+  const auto bounds = at_age(rotors.bounds());
+  return numerics::contains(plan.table.rows[slot].range, numerics::closed(bounds.first, bounds.second))
+             ? bounds
+             : at_age(rotors.all_limits());
+}
+
+void check_range_at_ages(const Checking& c, std::size_t slot) {
+  const study::StudyPlan& plan = c.plan();
+  const parameters::Parameter& parameter = plan.table.rows[slot];
+  const numerics::Interval range = parameters::range_of(parameter, plan.units);
+  study::visit_points(plan, {&slot, 1}, [&](std::size_t point) {
+    const study::Value& value = *study::value_at_point(plan, slot, point);
+    if (!value.aging || std::isnan(value.number)) return true;
+    const auto [low, high] = aged_extremes(plan, slot, point);
+    if (std::isnan(low) || (numerics::contains(range, low) && numerics::contains(range, high))) return true;
+    c.reading.problems.add(
+        place_of_fault(c.places, plan, {&slot, 1}, point).place, parameter.name,
+        fmt::format("its values at {}, {:.6g} to {:.6g}, leave the allowed range {}",
+                    study::age_text(c.reading.study.ages, study::age_at(plan, point)), low, high,
+                    numerics::notation(range)),
+        fmt::format("a rate of aging with which all values are {}", numerics::range_text(range)));
+    return false;
+  });
+}
+
 }  // namespace
+
+void check_ages(const keys::PlanPlaces& places, keys::Reading& reading) {
+  const study::StudyPlan& plan = reading.plan;
+  if (plan.ages.empty()) return;
+  const Checking checking{places, reading};
+  for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
+    if (plan.base[slot].kind != study::Value::Kind::following && study::changes_with_age(plan, slot))
+      check_range_at_ages(checking, slot);
+  }
+}
 
 bool is_given_everywhere(const keys::PlanPlaces& places, const study::StudyPlan& plan, std::size_t slot) {
   if (places.written[slot]) return true;

@@ -17,6 +17,9 @@ namespace zerocount::manifest {
 /// place of a swept value, if one is involved.
 void check_points(const keys::PlanPlaces& places, keys::Reading& reading);
 
+/// Reports values that can leave their range at some age, by the ends of what is drawn.
+void check_ages(const keys::PlanPlaces& places, keys::Reading& reading);
+
 /// Whether the manifest gives the slot a value at every point.
 bool is_given_everywhere(const keys::PlanPlaces& places, const study::StudyPlan& plan, std::size_t slot);
 

@@ -11,6 +11,7 @@
 
 #include "core/trial/named_measures.hpp"
 #include "experiments/distributions/distribution_forms.hpp"
+#include "experiments/keys/aging.hpp"
 #include "experiments/keys/draw_level.hpp"
 #include "experiments/keys/key_reading.hpp"
 #include "experiments/parameters/element_lists.hpp"
@@ -89,6 +90,23 @@ Json per_schema(std::span<const std::string_view> labels) {
   return {{"enum", labels}, {"description", "how often it is drawn"}};
 }
 
+Json reference(std::string_view name) {
+  return {{"$ref", "#/$defs/" + std::string(name)}};
+}
+
+// A law with its rate, and the scale of ages.
+Json aging_schema() {
+  Json rates = Json::array({number_in(numerics::all_numbers())});
+  for (const distributions::DistributionForm& form : distributions::distribution_forms())
+    rates.push_back(reference(form.name));
+  Json laws = Json::array();
+  for (const std::string_view law : study::aging_law_labels) {
+    laws.push_back(object_of({{std::string(law), {{"anyOf", rates}}}, {"scale", number_in(numerics::above(0))}},
+                             {law, "scale"}));
+  }
+  return {{"oneOf", std::move(laws)}, {"description", "how the value changes with age"}};
+}
+
 // One definition for each distribution: {"uniform": [low, high]}, with or without `per` beside it.
 Json definitions() {
   const std::string per(keys::per_key);
@@ -99,16 +117,17 @@ Json definitions() {
     all[name]["properties"][per] = form.name == distributions::interval_name
                                        ? per_schema(std::span(&keys::draw_level_labels[1], 1))
                                        : per_schema(keys::draw_level_labels);
+    all[name]["properties"][std::string(keys::aging_key)] = reference(keys::aging_key);
     all[name]["description"] = form.meaning;
   }
   all["profile"] = object_of(
-      {{"profile", profile_schema()}, {per, per_schema(keys::draw_level_labels_of_profiles)}}, {"profile"});
+      {{"profile", profile_schema()},
+       {per, per_schema(keys::draw_level_labels_of_profiles)},
+       {std::string(keys::aging_key), reference(keys::aging_key)}},
+      {"profile"});
   all["profile"]["description"] = "friction along the rotor: a periodic random field";
+  all[std::string(keys::aging_key)] = aging_schema();
   return all;
-}
-
-Json reference(std::string_view name) {
-  return {{"$ref", "#/$defs/" + std::string(name)}};
 }
 
 // Schema of one value of the parameter.
@@ -119,7 +138,11 @@ Json value_schema(const parameters::Parameter& parameter) {
   Json number{{"type", whole ? "integer" : "number"}};
   // The schema does not know controller.units, so a gain may be as large as in SI units.
   limit(number, parameters::range_of(parameter, {.gains = parameters::GainUnits::si}), whole);
-  Json forms = Json::array({std::move(number)});
+  Json forms = Json::array({number});
+  if (!whole)
+    forms.push_back(object_of({{std::string(keys::value_key), std::move(number)},
+                               {std::string(keys::aging_key), reference(keys::aging_key)}},
+                              {keys::value_key, keys::aging_key}));
   if (parameter.none) forms.push_back({{"const", "none"}});
   for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
     if (!whole || form.whole_numbers || form.keys.empty()) forms.push_back(reference(form.name));
@@ -337,6 +360,10 @@ Json own_schemas() {
                 {"successes", "of"})}}}}}},
       {"conditions",
        {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", assignments_schema()}}},
+      {"ages",
+       object_of({{"at", list_of(number_in(numerics::at_least(0)), 1)},
+                  {"unit", {{"type", "string"}, {"pattern", "^\\S+$"}, {"default", study::Ages{}.unit}}}},
+                 {"at"})},
       {"sweep", sweep_schema()},
       {"controller.plugin", {{"type", "string"}, {"minLength", 1}}},
       {"controller.parameters",

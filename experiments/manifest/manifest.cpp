@@ -14,6 +14,7 @@
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/randomness/factors.hpp"
 #include "experiments/rules/premises.hpp"
+#include "experiments/sections/ages.hpp"
 #include "experiments/sections/conditions.hpp"
 #include "experiments/sections/goal.hpp"
 #include "experiments/sections/observations.hpp"
@@ -71,7 +72,8 @@ void read_values(Manifest& m) {
       keys::read_keys(m.root, {&key, 1}, m.reading);
   }
   m.reading.groups = {.rigs = yaml::find_field(m.root, "rigs").has_value(),
-                      .worlds = yaml::find_field(m.root, "worlds").has_value()};
+                      .worlds = yaml::find_field(m.root, "worlds").has_value(),
+                      .ages = yaml::find_field(m.root, "ages").has_value()};
 }
 
 // Reads `travel`, `controller.units` and `command.units`. Must come first, because all other values depend on
@@ -123,13 +125,17 @@ void read_axes(Manifest& m) {
 
 void read_conditions(Manifest& m) {
   const auto field = yaml::find_field(m.root, "conditions");
-  if (!field) return;
-  m.conditions = sections::read_conditions(*field, m.axes, m.reading);
-  if (m.conditions.labels.empty()) return;
-  m.plan().axes.push_back(m.conditions.axis);
-  m.plan().condition_axis = m.plan().axes.size() - 1;
-  m.plan().conditions = std::ssize(m.conditions.labels);
-  m.places.axes.push_back(m.conditions.places);
+  if (field) m.conditions = sections::read_conditions(*field, m.axes, m.reading);
+  const sections::SweptAxis turns = sections::conditions_at_ages(m.conditions, m.reading);
+  if (!turns.labels.empty()) {
+    m.plan().axes.push_back(turns.axis);
+    m.plan().condition_axis = m.plan().axes.size() - 1;
+    m.plan().conditions = std::ssize(turns.labels);
+    m.places.axes.push_back(turns.places);
+  }
+  for (study::PlanAxis& axis : m.plan().axes) sections::inherit_aging(axis, m.plan());
+  m.places.base.resize(m.plan().base.size(), m.root.node->place);  // for rates that only axes have
+  m.places.written.resize(m.plan().base.size(), false);
 }
 
 void check_trial_count(Manifest& m) {
@@ -169,14 +175,17 @@ void check_rows(Manifest& m) {
       fmt::format("a multiple of {}, such as {}", row, nearest_multiples(m.study().trials, row)));
 }
 
-// "7 rigs", "7 rigs under each of 3 conditions".
+// "7 rigs", "7 rigs under each of 3 conditions at each of 2 ages".
 std::string turns_text(const study::Study& study) {
-  const std::int64_t conditions = std::ssize(study.conditions);
-  std::string under =
-      conditions == 0 ? "" : fmt::format("{} condition{}", conditions, conditions == 1 ? "" : "s");
-  if (study.rigs == 0) return under;
-  return under.empty() ? fmt::format("{} rigs", study.rigs)
-                       : fmt::format("{} rigs under each of {}", study.rigs, under);
+  const auto counted = [](std::int64_t count, std::string_view noun) {
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+  };
+  const std::int64_t conditions = std::ssize(study.condition_names);
+  if (study.rigs == 0) return counted(conditions, "condition");
+  std::string text = fmt::format("{} rigs", study.rigs);
+  if (conditions > 0) text += " under each of " + counted(conditions, "condition");
+  if (!study.ages.at.empty()) text += " at each of " + counted(std::ssize(study.ages.at), "age");
+  return text;
 }
 
 void require_equal_turns(Manifest& m, const yaml::Field& field, std::int64_t trials) {
@@ -206,24 +215,25 @@ void check_turns(Manifest& m) {
   }
 }
 
-// Refuses what does not tell conditions apart.
+// Refuses what does not tell conditions, and ages, apart.
 void check_conditions(Manifest& m) {
   if (!m.plan().has_conditions()) return;
+  const std::string_view turns = m.study().ages.at.empty() ? "conditions" : "ages";
   if (m.study().design == study::Design::saltelli) {
     m.problems().add(
         yaml::find_field(m.root, "design").value(),
-        "this design changes one factor at a time, but the trials of all conditions share factors",
-        "monte_carlo, latin_hypercube or sobol with conditions");
+        fmt::format("this design changes one factor at a time, but the trials of all {} share factors", turns),
+        fmt::format("monte_carlo, latin_hypercube or sobol with {}", turns));
   }
   if (m.study().stop) {
     m.problems().add(yaml::find_field(m.root, "stop").value(),
-                     "sequential stopping does not tell conditions apart",
-                     "a fixed number of trials, or a study without conditions");
+                     fmt::format("sequential stopping does not tell {} apart", turns),
+                     fmt::format("a fixed number of trials, or a study without {}", turns));
   }
   if (m.plan().sequence) {
     m.problems().add(yaml::find_field(yaml::find_field(m.root, "command").value(), "sequence").value(),
-                     "the values of ISO 230-2 do not tell conditions apart",
-                     "command.targets, or a study without conditions");
+                     fmt::format("the values of ISO 230-2 do not tell {} apart", turns),
+                     fmt::format("command.targets, or a study without {}", turns));
   }
 }
 
@@ -260,6 +270,14 @@ void warn_of_equal_worlds(Manifest& m) {
   const yaml::Field field = yaml::find_field(m.root, "worlds").value();
   m.reading.warnings.push_back(yaml::at_place(field.node->place, field.path,
                                               "the worlds are all alike: no value is drawn `per: world`"));
+}
+
+// Warns if all ages are alike.
+void warn_of_equal_ages(Manifest& m) {
+  const auto field = yaml::find_field(m.root, "ages");
+  if (field && m.plan().agings.empty())
+    m.reading.warnings.push_back(yaml::at_place(
+        field->node->place, field->path, "the ages are all alike: no value has `aging` beside it"));
 }
 
 void read_retained(Manifest& m) {
@@ -316,6 +334,7 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version,
   parameters::check_keys(m.root, keys::keys_below(""), problems);
   read_values(m);
   read_study_units(m.root, m.reading);
+  sections::read_ages(m.root, m.reading);
   sections::read_plugin(m.root, companions.plugin, m.reading);
   sections::read_sections(m.root, m.reading, m.places);
   read_axes(m);
@@ -338,11 +357,13 @@ study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version,
   keys::check_profiles(m.reading);
   check_what_follows(m.places, m.reading);
   check_points(m.places, m.reading);
+  check_ages(m.places, m.reading);
   check_travel(m.root, m.reading);
   if (problems.empty()) check_rows(m);
   if (problems.empty()) check_retention(m);
   if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, study);
   if (problems.empty()) warn_of_equal_worlds(m);
+  warn_of_equal_ages(m);
   study.plugin = plan->plugin;
   study.plan = plan;
   if (problems.empty()) check_measured_machines(study, m.places, m.reading);

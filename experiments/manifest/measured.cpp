@@ -115,7 +115,7 @@ class MeasuredDraws {
   /// Whether no draw of a design point can be that of no machine.
   bool are_safe(std::size_t point) const {
     return !study::fault_of_machine(plan_, point, measured_, [&](std::uint32_t slot) {
-      return free_ends(slot).value_or(study::extremes_of(plan_, *study::value_at_point(plan_, slot, point)));
+      return free_ends(slot).value_or(study::extremes_of(plan_, slot, point));
     });
   }
 
@@ -199,10 +199,7 @@ bool check_draws(const MeasuredDraws& draws, std::size_t point, const study::Stu
                              ? ""
                              : fmt::format(" at point {} ({})", design, study.points.labels[design]);
   const std::string under =
-      study.conditions.empty()
-          ? ""
-          : fmt::format(" under condition {}",
-                        study.conditions[static_cast<std::size_t>(study::condition_at(*study.plan, point))]);
+      study::condition_text(study, study::condition_at(*study.plan, point));
   const std::vector<std::size_t> slots(first->slots.begin(), first->slots.end());
   const FaultPlace place = place_of_fault(places, *study.plan, slots, point);
   reading.problems.add(place.place, study.plan->table.rows[place.slot].name,

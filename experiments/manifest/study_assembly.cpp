@@ -24,7 +24,7 @@ std::string profile_mean_name(std::string_view parameter) {
 // [slot] whether an axis assigns the slot, or one that it follows.
 struct AssignedSlots {
   std::vector<bool> swept;       // by an axis of the sweep
-  std::vector<bool> overridden;  // by the axis of the conditions
+  std::vector<bool> overridden;  // by the axis of the conditions, or changed by ages
 
   bool differs(std::size_t slot) const { return swept[slot] || overridden[slot]; }
 };
@@ -37,6 +37,7 @@ AssignedSlots assigned_slots(const study::StudyPlan& plan) {
       (of_conditions ? slots.overridden : slots.swept)[assignment.slot] = true;
   }
   for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
+    if (study::changes_with_age(plan, slot)) slots.overridden[slot] = true;
     if (plan.base[slot].kind != study::Value::Kind::following) continue;
     for (const std::uint32_t source : plan.following[plan.base[slot].index].from) {
       slots.swept[slot] = slots.swept[slot] || slots.swept[source];
@@ -67,7 +68,10 @@ void derive_randomness(const study::Study& study, study::StudyPlan& plan) {
     const std::uint32_t slot = plan.input_slots[i];
     const std::string name(plan.table.rows[slot].name);
     study::SlotRandomness& randomness = plan.randomness[slot];
-    randomness = {designs::random_key(study.seed, name), directions[i]};
+    const bool is_rate = name.ends_with(study::suffix_of_rate);
+    randomness = {.key = designs::random_key(study.seed, name),
+                  .directions = directions[i],
+                  .no_directions = is_rate && study.design == study::Design::sobol};
     if (differs_between_contacts(plan, slot)) {
       randomness.contacts = designs::random_key(study.seed, name + "/contacts");
     }

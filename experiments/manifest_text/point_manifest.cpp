@@ -77,6 +77,33 @@ YamlPointer without(const YamlPointer& root, std::string_view path) {
   return copy;
 }
 
+/// The node at the path of keys; null if there is none.
+const YamlNode* node_at(const YamlNode& root, std::string_view path) {
+  const YamlNode* node = &root;
+  while (node != nullptr) {
+    const auto dot = path.find('.');
+    node = node->kind == YamlNode::Kind::map ? child(*node, path.substr(0, dot)) : nullptr;
+    if (dot == std::string_view::npos) break;
+    path.remove_prefix(dot + 1);
+  }
+  return node;
+}
+
+/// The value, which changes with age as `before` does unless it says how itself.
+YamlPointer aging_like(const YamlNode* before, const YamlPointer& value) {
+  const bool is_map = value->kind == YamlNode::Kind::map;
+  const yaml::YamlEntry* const aging =
+      before != nullptr && before->kind == YamlNode::Kind::map ? yaml::find_entry(*before, "aging") : nullptr;
+  if (aging == nullptr || (is_map && child(*value, "aging") != nullptr)) return value;
+  auto map = is_map ? std::make_shared<YamlNode>(*value) : std::make_shared<YamlNode>();
+  if (!is_map) {
+    map->kind = YamlNode::Kind::map;
+    map->entries.push_back({"value", value->place, value});
+  }
+  map->entries.push_back(*aging);
+  return map;
+}
+
 /// A manifest that is changed, key by key.
 class ManifestTree {
  public:
@@ -96,14 +123,15 @@ class ManifestTree {
     std::size_t axis = 0;
     if (const YamlNode* cases = child(*sweep, "cases"); cases != nullptr) {
       const YamlPointer& one = cases->entries[study::option_at(plan, axis++, point)].value;
-      for (const yaml::YamlEntry& entry : one->entries) put(entry.key, entry.value);
+      for (const yaml::YamlEntry& entry : one->entries) settle_value(entry.key, entry.value);
     }
     const YamlNode* grid = child(*sweep, "grid");
     for (std::size_t i = 0; grid != nullptr && i < grid->entries.size(); ++i, ++axis) {
       const yaml::YamlEntry& swept = grid->entries[i];
       const std::size_t option = study::option_at(plan, axis, point);
       const study::PlanAxis& values = plan.axes[axis];
-      put(swept.key, swept.value->kind == YamlNode::Kind::list
+      settle_value(
+          swept.key, swept.value->kind == YamlNode::Kind::list
                          ? swept.value->items[option]
                          : number_node(values.assignments[values.first[option]].value.number));
     }
@@ -113,8 +141,12 @@ class ManifestTree {
   void settle_condition(std::string_view condition) {
     const YamlPointer kept = root_;
     const YamlNode& overrides = *child(*child(*root_, "conditions"), condition);
-    for (const yaml::YamlEntry& entry : overrides.entries) put(entry.key, entry.value);
+    for (const yaml::YamlEntry& entry : overrides.entries) settle_value(entry.key, entry.value);
     remove("conditions");
+  }
+
+  void settle_value(std::string_view path, const YamlPointer& value) {
+    put(path, aging_like(node_at(*root_, path), value));
   }
 
   void remove(std::string_view path) { root_ = without(root_, path); }

@@ -89,10 +89,21 @@ std::string_view noun_of(const study::SlotRange& list, const study::StudyTable& 
   return "values";
 }
 
+namespace {
+
+/// Adds the value of `field`, and the rate at which it changes with age before it.
+void assign_read(SweptAxis& axis, std::size_t slot, const yaml::Field& field, keys::Reading& reading) {
+  const study::Value value = keys::read_value(field, slot, reading);
+  if (reading.rate) assign(axis, reading.rate->slot, reading.rate->value, field.node->place);
+  assign(axis, slot, value, field.node->place);
+}
+
+}  // namespace
+
 void read_assignments(const yaml::Field& field, const study::SlotRange& slots, SweptAxis& axis,
                       keys::Reading& reading) {
   if (!slots.list) {
-    assign(axis, slots.first, keys::read_value(field, slots.first, reading), field.node->place);
+    assign_read(axis, slots.first, field, reading);
     return;
   }
   const std::string_view noun = noun_of(slots, reading.plan.table);
@@ -105,7 +116,13 @@ void read_assignments(const yaml::Field& field, const study::SlotRange& slots, S
   }
   for (std::size_t i = 0; i < count; ++i) {
     const yaml::Field item = yaml::item_of(field, i);
-    assign(axis, slots.first + i, keys::read_value(item, slots.first + i, reading), item.node->place);
+    assign_read(axis, slots.first + i, item, reading);
+  }
+}
+
+void inherit_aging(study::PlanAxis& axis, const study::StudyPlan& plan) {
+  for (study::Assignment& one : axis.assignments) {
+    if (!one.value.aging) one.value.aging = plan.base[one.slot].aging;
   }
 }
 

@@ -36,6 +36,9 @@ void read_assignments(const yaml::Field& field, const study::SlotRange& slots, S
                       keys::Reading& reading);
 void finish_option(SweptAxis& axis, std::string label);
 
+/// Lets the values that say nothing of it change with age as those of the sections do.
+void inherit_aging(study::PlanAxis& axis, const study::StudyPlan& plan);
+
 /// Noun for the values of a list.
 std::string_view noun_of(const study::SlotRange& list, const study::StudyTable& table);
 

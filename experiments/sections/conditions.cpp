@@ -117,7 +117,7 @@ SweptAxis read_conditions(const yaml::Field& field, const std::vector<SweptAxis>
     }
   }
   check_not_swept(axis, swept, reading);
-  reading.study.conditions = axis.labels;
+  reading.study.condition_names = axis.labels;
   return axis;
 }
 

@@ -8,7 +8,7 @@ namespace zerocount::sections {
 
 /// Reads `conditions: {NAME: {PATH: value}}` as the last axis of the plan: an override is another value of
 /// its slot, drawn as often as the parameter and with the same random number. Reports an override of a
-/// parameter that is swept. Names of conditions go to the study.
+/// parameter that is swept. Their names go to the study.
 /// @param swept axes of the sweep. All parameters must be read already
 /// @return an axis without options, after a report, if there are none
 SweptAxis read_conditions(const yaml::Field& field, const std::vector<SweptAxis>& swept,

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "experiments/distributions/distribution_forms.hpp"
+#include "experiments/keys/aging.hpp"
 #include "experiments/keys/key_reading.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/parameters/unknown_key.hpp"
@@ -34,9 +35,15 @@ void add_slots(SectionReading& s) {
 }
 
 void read_slot(SectionReading& s, const yaml::Field& field, std::size_t slot) {
-  s.plan().base[slot] = keys::read_value(field, slot, s.reading);
-  s.places.base[slot] = field.node->place;
-  s.places.written[slot] = true;
+  const auto take = [&](std::size_t taken, const study::Value& value) {
+    s.plan().base[taken] = value;
+    s.places.base[taken] = field.node->place;
+    s.places.written[taken] = true;
+  };
+  take(slot, keys::read_value(field, slot, s.reading));
+  if (!s.reading.rate) return;
+  add_slots(s);
+  take(s.reading.rate->slot, s.reading.rate->value);
 }
 
 void read_list(SectionReading& s, const yaml::Field& field, std::size_t row) {
@@ -214,7 +221,7 @@ bool is_short_form(const yaml::Field& field) {
   return std::any_of(field.node->entries.begin(), field.node->entries.end(),
                      [](const yaml::YamlEntry& entry) {
                        const auto forms = distributions::distribution_forms();
-                       return std::any_of(forms.begin(), forms.end(),
+                       return entry.key == keys::aging_key || std::any_of(forms.begin(), forms.end(),
                                           [&](const auto& form) { return form.name == entry.key; });
                      });
 }

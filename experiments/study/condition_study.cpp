@@ -24,7 +24,7 @@ PlanAxis only_option(const PlanAxis& axis, std::size_t option) {
 }
 
 /// Leaves what the rigs, or worlds, have under the condition.
-void keep_condition(std::int64_t condition, std::size_t suffix, std::vector<InputColumn>& columns,
+void keep_condition(std::int64_t condition, std::vector<InputColumn>& columns,
                     std::vector<InputSource>& sources) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -32,7 +32,7 @@ void keep_condition(std::int64_t condition, std::size_t suffix, std::vector<Inpu
     if (overridden && sources[i].condition != condition) continue;
     columns[kept] = columns[i];
     sources[kept] = {sources[i].slot, sources[i].profile_mean};
-    if (overridden) columns[kept].name.resize(columns[kept].name.size() - suffix);
+    if (overridden) columns[kept].name.resize(columns[kept].name.find(under_suffix("")));
     ++kept;
   }
   columns.resize(kept);
@@ -47,13 +47,15 @@ Study under_condition(const Study& study, std::int64_t condition) {
   auto plan = std::make_shared<StudyPlan>(*study.plan);
   PlanAxis& conditions = plan->axes[plan->condition_axis];
   conditions = only_option(conditions, static_cast<std::size_t>(condition));
+  if (!plan->ages.empty()) plan->ages = {age_at(*plan, plan_point(*plan, 0, condition))};
   plan->conditions = 0;
-  const std::size_t suffix = under_suffix(study.conditions[static_cast<std::size_t>(condition)]).size();
-  keep_condition(condition, suffix, one.columns.rigs, plan->rig_inputs);
-  keep_condition(condition, suffix, one.columns.worlds, plan->world_inputs);
+  keep_condition(condition, one.columns.rigs, plan->rig_inputs);
+  keep_condition(condition, one.columns.worlds, plan->world_inputs);
   one.plan = std::move(plan);
   one.trials = draw_count(study);
   one.conditions.clear();
+  one.condition_names.clear();
+  one.ages.at.clear();
   const TrialTurns turns = turns_of(study);
   one.retained_trials.clear();
   for (const std::int64_t trial : study.retained_trials) {
@@ -76,6 +78,24 @@ std::string under_suffix(std::string_view place) {
 
 std::string label_under(std::string_view label, std::string_view condition) {
   return condition.empty() ? std::string(label) : fmt::format("{}, {}", label, condition);
+}
+
+std::int64_t turn_named(const Study& study, const std::optional<std::string>& condition,
+                        const std::optional<double>& age) {
+  const auto place_in = [&study](const auto& all, const auto& wanted, std::string_view noun,
+                                 std::string_view option) -> std::int64_t {
+    if (all.empty() && wanted)
+      throw Failure(ExitCode::bad_input,
+                    fmt::format("{}: it has no {}s; expected no {}", study.name, noun, option));
+    if (all.size() < 2 && !wanted) return 0;
+    const auto found = wanted ? std::ranges::find(all, *wanted) : all.end();
+    if (found != all.end()) return found - all.begin();
+    throw Failure(ExitCode::bad_input, fmt::format("{}: every machine is asked at each of its {} {}s; expected {} "
+                                                   "with one of {}",
+                                                   study.name, all.size(), noun, option, fmt::join(all, ", ")));
+  };
+  return place_in(study.condition_names, condition, "condition", "--condition") +
+         conditions_of_age(study) * place_in(study.ages.at, age, "age", "--age");
 }
 
 std::int64_t condition_named(const Study& study, std::string_view name) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,12 @@ std::string under_suffix(std::string_view place);
 
 /// "kp=400, loaded": a design point under a condition, in answers; the label alone without a condition.
 std::string label_under(std::string_view label, std::string_view condition);
+
+/// The number of the condition of this name at this age, each of which may be left out where the study has
+/// only one.
+/// @throws Failure (bad_input) with those that there are
+std::int64_t turn_named(const Study& study, const std::optional<std::string>& condition,
+                        const std::optional<double>& age);
 
 /// The number of the condition of this name.
 /// @throws Failure (bad_input) with the names that there are

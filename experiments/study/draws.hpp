@@ -13,6 +13,7 @@ struct SlotRandomness {
   random::RandomKey key{};
   designs::SobolDirections directions{};  ///< used by the design `sobol`
   random::RandomKey contacts{};           ///< for contacts after the first, if values are drawn per contact
+  bool no_directions{false};  ///< a Latin hypercube in place of the design `sobol`: rates of aging
 
   bool operator==(const SlotRandomness&) const = default;
 };

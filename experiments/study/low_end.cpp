@@ -30,13 +30,25 @@ LowEnd low_end_of(const distributions::Distribution& distribution) {
   return {LowEnd::Kind::support, distributions::support(distribution).low};
 }
 
+LowEnd low_end_of_slot(const StudyPlan& plan, std::size_t point, std::size_t slot);
+
+/// That of a value at age 0, as it is at the point's age: with the low end of the rate.
+LowEnd at_age(const StudyPlan& plan, std::size_t point, const Value& value, LowEnd end) {
+  if (!value.aging) return end;
+  const Aging& aging = plan.agings[*value.aging];
+  const LowEnd rate = low_end_of_slot(plan, point, aging.rate);
+  end.value *= factor_at_age(aging, rate.value, age_at(plan, point));
+  if (end.kind == LowEnd::Kind::number) end.kind = rate.kind;
+  return end;
+}
+
 LowEnd low_end_of_slot(const StudyPlan& plan, std::size_t point, std::size_t slot) {
   const Value& value = *value_at_point(plan, slot, point);
   switch (value.kind) {
     case Value::Kind::number:
-      return {LowEnd::Kind::number, value.number};
+      return at_age(plan, point, value, {LowEnd::Kind::number, value.number});
     case Value::Kind::distribution:
-      return low_end_of(plan.distributions[value.index]);
+      return at_age(plan, point, value, low_end_of(plan.distributions[value.index]));
     case Value::Kind::following:
       if (const FollowingValue& following = plan.following[value.index]; following.value == nullptr)
         return low_end_of_slot(plan, point, following.from.front());

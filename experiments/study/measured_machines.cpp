@@ -85,7 +85,7 @@ std::optional<MeasuredFault> fault_of_machine(const StudyPlan& plan, std::size_t
     auto fault = fault_within(plan, measured, [&](std::uint32_t slot) {
       const Value& value = *value_at_point(plan, slot, point);
       if (!is_of_contact(slot)) return ends(slot);
-      if (!is_sampled(slot)) return extremes_of(plan, value);
+      if (!is_sampled(slot)) return extremes_of(plan, slot, point);
       const double number = distributions::quantile(
           plan.distributions[value.index], (static_cast<double>(row) + 0.5) / static_cast<double>(rows));
       return std::pair(number, number);

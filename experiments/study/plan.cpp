@@ -1,5 +1,6 @@
 #include "experiments/study/plan.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,9 +10,9 @@
 namespace zerocount::study {
 
 std::string condition_text(const Study& study, std::int64_t condition) {
-  return study.conditions.empty()
-             ? ""
-             : " under condition " + study.conditions[static_cast<std::size_t>(condition)];
+  if (study.conditions.empty()) return "";
+  return (study.ages.at.empty() ? " under condition " : " at ") +
+         study.conditions[static_cast<std::size_t>(condition)];
 }
 
 void refuse_conditions(const Study& study, std::string_view verb) {
@@ -21,6 +22,20 @@ void refuse_conditions(const Study& study, std::string_view verb) {
       fmt::format("{}: it has {} conditions, which are not told apart by '{}'; expected a study without "
                   "conditions: the overrides of one of them can stand in its sections, or be given by --set",
                   study.name, study.conditions.size(), verb));
+}
+
+bool changes_with_age(const StudyPlan& plan, std::size_t slot) {
+  if (plan.agings.empty()) return false;
+  const Value& base = plan.base[slot];
+  if (base.kind == Value::Kind::following) {
+    return std::ranges::any_of(plan.following[base.index].from,
+                               [&](std::uint32_t source) { return changes_with_age(plan, source); });
+  }
+  return base.aging || std::ranges::any_of(plan.axes, [slot](const PlanAxis& axis) {
+           return std::ranges::any_of(axis.assignments, [slot](const Assignment& one) {
+             return one.slot == slot && one.value.aging;
+           });
+         });
 }
 
 std::size_t option_at(const StudyPlan& plan, std::size_t axis, std::size_t point) {

@@ -13,6 +13,7 @@
 #include "experiments/distributions/distribution.hpp"
 #include "experiments/parameters/measured_parameters.hpp"
 #include "experiments/parameters/study_units.hpp"
+#include "experiments/study/aging.hpp"
 #include "experiments/study/copula.hpp"
 #include "experiments/study/draws.hpp"
 #include "experiments/study/rotors.hpp"
@@ -34,6 +35,7 @@ struct Value {
   std::uint32_t index{0};             ///< into the plan's distributions, profiles or following values
   DrawLevel level{DrawLevel::trial};  ///< how often it is drawn; for a profile study or rig
   double number{0.0};                 ///< if kind is number
+  std::optional<std::uint32_t> aging{};  ///< into the plan's laws of aging; none: it does not change with age
 };
 
 inline bool is_drawn_per_contact(const Value& value) {
@@ -74,8 +76,8 @@ inline std::size_t option_count(const PlanAxis& axis) {
 struct InputSource {
   std::uint32_t slot{0};
   bool profile_mean{false};
-  std::optional<std::int64_t>
-      condition{};  ///< of a rig or world: under this one, where conditions override it
+  /// Of a rig or world: where conditions override it or ages change it, the turn (TrialTurns) of which it is.
+  std::optional<std::int64_t> condition{};
 };
 
 /// The quantities drawn anew in each trial. Factor f below slots.size() is the value of slot slots[f]. The
@@ -91,13 +93,13 @@ inline std::size_t factor_count(const TrialFactors& factors) {
 
 /// The compiled form of a manifest: the value or distribution of every parameter at every design point under
 /// every condition, and the random numbers that each of them draws. A *slot* stands for one number of a
-/// trial: a row of `table`. A *point of the plan* is a design point under a condition (plan_point). A trial
-/// is made from it in three steps:
+/// trial: a row of `table`. A *point of the plan* is a design point under a condition at an age (plan_point).
+/// A trial is made from it in four steps:
 ///
 ///     value(slot) = assignment of the last axis that has the slot at this point, otherwise base[slot]
 ///     number(slot) = its number, the quantile of its distribution at the slot's uniform number, or what
-///     follows parameters = common, with number(slot) set for the slots in input_slots and those that axes
-///     assign
+///     follows; times factor_at_age() if the value changes with age
+///     parameters = common, with number(slot) set for the slots in input_slots and those that axes assign
 ///
 /// study_trial() (study.hpp) does this, point_limits.hpp has the limits of a slot over all trials.
 struct StudyPlan {
@@ -112,10 +114,12 @@ struct StudyPlan {
   std::vector<Value> base;                                 ///< [slot], used unless an axis assigns a value
   std::vector<bool> given;     ///< [slot] whether the manifest, an axis or a table of samples has its value
   std::vector<PlanAxis> axes;  ///< the last axis changes fastest, and takes precedence over the others
-  /// Number of conditions that every machine bears; 0: none. Where there are any, an axis has their
-  /// overrides: the last one of the manifest.
+  /// Number of conditions that every machine bears, each at every age (Study::conditions); 0: none. Where
+  /// there are any, an axis has their overrides: the last one of the manifest.
   std::int64_t conditions{0};
   std::size_t condition_axis{0};
+  std::vector<double> ages;    ///< rising; empty: nothing changes with age
+  std::vector<Aging> agings;   ///< of the values that change with age
   std::vector<distributions::Distribution> distributions;
   std::vector<std::shared_ptr<const Rotors>> profiles;
   std::vector<FollowingValue> following;
@@ -148,6 +152,16 @@ inline std::int64_t design_point(const StudyPlan& plan, std::size_t point) {
 inline std::int64_t condition_at(const StudyPlan& plan, std::size_t point) {
   return static_cast<std::int64_t>(point) % std::max<std::int64_t>(plan.conditions, 1);
 }
+
+/// The age at the point of the plan; 0 without ages.
+inline double age_at(const StudyPlan& plan, std::size_t point) {
+  if (plan.ages.empty()) return 0.0;
+  const std::int64_t of_age = std::max<std::int64_t>(plan.conditions, 1) / std::ssize(plan.ages);
+  return plan.ages[static_cast<std::size_t>(condition_at(plan, point) / of_age)];
+}
+
+/// Whether the value of the slot, or one that it follows, changes with age at some point of the plan.
+bool changes_with_age(const StudyPlan& plan, std::size_t slot);
 
 /// The option of `axis` at the point of the plan.
 std::size_t option_at(const StudyPlan& plan, std::size_t axis, std::size_t point);

@@ -31,7 +31,7 @@ std::vector<std::size_t> PointEdit::points() const {
 
 ValueLimits PointEdit::limits(std::string_view parameter, std::int64_t condition) const {
   const std::size_t point = point_ + static_cast<std::size_t>(condition);
-  return limits_of(*plan_, *value_at_point(*plan_, slot_named(*plan_, parameter), point));
+  return limits_of_slot(*plan_, slot_named(*plan_, parameter), point);
 }
 
 void PointEdit::set(std::size_t slot, double number) {
@@ -47,7 +47,8 @@ void PointEdit::scale(std::size_t slot, double factor) {
   const std::optional<double> none = plan_->table.rows[slot].none;
   switch (value.kind) {
     case Value::Kind::number:
-      if (value.number != none && !std::isnan(value.number)) set(slot, factor * value.number);
+      if (value.number != none && !std::isnan(value.number))
+        assign(slot, {.kind = value.kind, .number = factor * value.number, .aging = value.aging});
       return;
     case Value::Kind::distribution: {
       const distributions::Distribution& before = plan_->distributions[value.index];

@@ -35,8 +35,7 @@ std::vector<double> numbers_at_corners(const StudyPlan& plan, const FollowingVal
     std::size_t sides = corner;
     add_number(following_value(following,
                                [&](std::uint32_t slot) {
-                                 const auto [low, high] =
-                                     extremes_of(plan, *value_at_point(plan, slot, point));
+                                 const auto [low, high] = extremes_of(plan, slot, point);
                                  const bool is_high = sides % 2 == 1;
                                  sides /= 2;
                                  return is_high ? high : low;
@@ -63,10 +62,12 @@ std::vector<double> numbers_inside(const StudyPlan& plan, const FollowingValue& 
                                      std::sqrt(primes.at(of_row ? 0 : source % primes.size()));
                                  ++source;
                                  const Value& value = *value_at_point(plan, slot, point);
-                                 return value.kind == Value::Kind::number
-                                            ? value.number
-                                            : distributions::quantile(plan.distributions[value.index],
-                                                                      std::fmod(0.5 + i * step, 1.0));
+                                 const double number =
+                                     value.kind == Value::Kind::number
+                                         ? value.number
+                                         : distributions::quantile(plan.distributions[value.index],
+                                                                   std::fmod(0.5 + i * step, 1.0));
+                                 return number * age_factors(plan, slot, point).typical;
                                }),
                numbers);
   }
@@ -77,10 +78,10 @@ std::vector<double> numbers_inside(const StudyPlan& plan, const FollowingValue& 
 /// well.
 ValueLimits limits_of_following(const StudyPlan& plan, const FollowingValue& following, std::size_t point) {
   if (following.value == nullptr)
-    return limits_of(plan, *value_at_point(plan, following.from.front(), point));
+    return limits_of_slot(plan, following.from.front(), point);
   std::vector<double> numbers = numbers_at_corners(plan, following, point);
   double typical = following_value(following, [&](std::uint32_t slot) {
-    return limits_of(plan, *value_at_point(plan, slot, point)).typical;
+    return limits_of_slot(plan, slot, point).typical;
   });
   if (numbers.size() < (std::size_t{1} << following.from.size())) {
     const std::vector<double> inside = numbers_inside(plan, following, point);
@@ -97,13 +98,38 @@ bool assigns_any(const PlanAxis& axis, const std::vector<bool>& wanted) {
                      [&](const Assignment& assignment) { return wanted[assignment.slot]; });
 }
 
-}  // namespace
-
-std::pair<double, double> extremes_of(const StudyPlan& plan, const Value& value) {
+/// The lowest and the highest number that are drawn, at age 0.
+std::pair<double, double> drawn_extremes(const StudyPlan& plan, const Value& value) {
   if (value.kind == Value::Kind::number) return {value.number, value.number};
   const distributions::Distribution& distribution = plan.distributions[value.index];
   return {distributions::quantile(distribution, 0x1p-53),
           distributions::quantile(distribution, 1.0 - 0x1p-53)};
+}
+
+/// The ends of all products of a number between `low` and `high`, which may be infinite, with a factor.
+std::pair<double, double> times(double low, double high, const ValueLimits& factors) {
+  const auto product = [](double x, double factor) { return x == 0.0 || factor == 0.0 ? 0.0 : x * factor; };
+  return std::minmax({product(low, factors.low), product(low, factors.high), product(high, factors.low),
+                      product(high, factors.high)});
+}
+
+}  // namespace
+
+std::pair<double, double> extremes_of(const StudyPlan& plan, std::size_t slot, std::size_t point) {
+  const Value& value = *value_at_point(plan, slot, point);
+  const auto [low, high] = drawn_extremes(plan, value);
+  return value.aging ? times(low, high, age_factors(plan, slot, point)) : std::pair(low, high);
+}
+
+ValueLimits age_factors(const StudyPlan& plan, std::size_t slot, std::size_t point) {
+  const Value& value = *value_at_point(plan, slot, point);
+  if (!value.aging) return {1.0, 1.0, false, 1.0};
+  const Aging& aging = plan.agings[*value.aging];
+  const Value& rate = *value_at_point(plan, aging.rate, point);
+  const auto factor = [&](double of_rate) { return factor_at_age(aging, of_rate, age_at(plan, point)); };
+  const auto [low, high] = drawn_extremes(plan, rate);  // the laws rise with the rate
+  return {factor(low), factor(high), factor(low) <= 0.0 && factor(high) >= 0.0,
+          factor(limits_of(plan, rate).typical)};
 }
 
 ValueLimits limits_of(const StudyPlan& plan, const Value& value) {
@@ -121,8 +147,13 @@ ValueLimits limits_of(const StudyPlan& plan, const Value& value) {
 
 ValueLimits limits_of_slot(const StudyPlan& plan, std::size_t slot, std::size_t point) {
   const Value& value = *value_at_point(plan, slot, point);
-  return value.kind == Value::Kind::following ? limits_of_following(plan, plan.following[value.index], point)
-                                              : limits_of(plan, value);
+  if (value.kind == Value::Kind::following)
+    return limits_of_following(plan, plan.following[value.index], point);
+  const ValueLimits limits = limits_of(plan, value);
+  if (!value.aging || std::isnan(limits.low)) return limits;
+  const ValueLimits factors = age_factors(plan, slot, point);
+  const auto [low, high] = times(limits.low, limits.high, factors);
+  return {low, high, limits.can_be_zero || factors.can_be_zero, limits.typical * factors.typical};
 }
 
 bool can_have_coarse_phase(const ValueLimits& coarse_beyond) {
@@ -159,9 +190,12 @@ void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
   }
   std::vector<Turning> turning;  // the relevant axes, fastest first
   std::size_t stride = 1;
+  const bool aging = std::ranges::any_of(
+      slots, [&](std::size_t slot) { return changes_with_age(plan, slot); });
   for (std::size_t a = plan.axes.size(); a-- > 0;) {
     const std::size_t options = option_count(plan.axes[a]);
-    if (assigns_any(plan.axes[a], wanted)) turning.push_back({options, stride, 0});
+    const bool of_ages = aging && a == plan.condition_axis;
+    if (of_ages || assigns_any(plan.axes[a], wanted)) turning.push_back({options, stride, 0});
     stride *= options;
   }
   for (std::size_t point = 0; visit(point);) {

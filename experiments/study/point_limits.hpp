@@ -20,14 +20,18 @@ struct ValueLimits {
   double typical{0.0};  ///< the number, the median of the distribution, or the mean of the profile
 };
 
-/// The lowest and the highest number that are drawn, which unlike the ends of a support are finite. For a
-/// number or a distribution.
-std::pair<double, double> extremes_of(const StudyPlan& plan, const Value& value);
+/// The lowest and the highest number of the slot at a point of the plan, at its age, which unlike the ends of a
+/// support are finite. For a number or a distribution.
+std::pair<double, double> extremes_of(const StudyPlan& plan, std::size_t slot, std::size_t point);
 
-/// The limits of a value that does not follow from others.
+/// The limits of a value that does not follow from others, at age 0.
 ValueLimits limits_of(const StudyPlan& plan, const Value& value);
 
-/// The limits of the slot at a design point.
+/// The limits of factor_at_age() for the value of a slot at a point of the plan; {1, 1, false, 1} if it does
+/// not change with age.
+ValueLimits age_factors(const StudyPlan& plan, std::size_t slot, std::size_t point);
+
+/// The limits of the slot at a point of the plan, at its age.
 ValueLimits limits_of_slot(const StudyPlan& plan, std::size_t slot, std::size_t point);
 
 /// Whether the control has a coarse phase in some trial, from the limits of controller.coarse.coarse_beyond.

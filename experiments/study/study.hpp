@@ -16,6 +16,7 @@
 #include "core/plugin/controller_plugin.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/parameters/study_units.hpp"
+#include "experiments/study/aging.hpp"
 #include "experiments/study/tuning.hpp"
 
 namespace zerocount::study {
@@ -231,7 +232,11 @@ struct Study {
   std::int64_t trials{0};  ///< per design point; the maximum with `stop`
   std::int64_t rigs{0};    ///< number of rigs; 0: no trials share a rig
   std::int64_t worlds{0};  ///< number of worlds, which divides `rigs`; 0: nothing is drawn for each
-  std::vector<std::string> conditions{};  ///< names of what every machine bears in turn; empty: one condition
+  /// What every machine bears in turn, by names; empty: one condition. With ages each condition at each age,
+  /// "loaded, 1e+05 cycles", those of an age together.
+  std::vector<std::string> conditions{};
+  std::vector<std::string> condition_names{};  ///< of the manifest; empty: it has no conditions
+  Ages ages{};
   Design design{Design::monte_carlo};
   bool independent_points{false};
   std::vector<Correlation> correlations;  ///< of drawn parameters; all others are independent
@@ -294,10 +299,11 @@ inline std::int64_t trial_count(const Study& study) {
 }
 
 /// How the trials of a point take turns: trial i runs on rig i mod R, under condition ⌊i/R⌋ mod C, and has
-/// the random numbers of j = i mod R + R·⌊i/(R·C)⌋. So each rig bears every condition on the same draws.
+/// the random numbers of j = i mod R + R·⌊i/(R·C)⌋. So each rig bears every condition on the same draws. With
+/// ages these are the conditions at each age: number c + (conditions)·a is condition c at age a.
 struct TrialTurns {
   std::int64_t rigs{1};        ///< R; 1 where no trials share a rig
-  std::int64_t conditions{1};  ///< C; 1 without conditions
+  std::int64_t conditions{1};  ///< C; 1 without conditions and ages
 
   std::int64_t condition_of(std::int64_t trial) const { return trial / rigs % conditions; }
   /// j, of which there are trials/C.
@@ -314,6 +320,11 @@ struct TrialTurns {
 inline std::int64_t condition_count(const Study& study) {
   return std::max<std::int64_t>(std::ssize(study.conditions), 1);
 }
+/// Number of conditions at one age: 1 without conditions.
+inline std::int64_t conditions_of_age(const Study& study) {
+  return std::max<std::int64_t>(std::ssize(study.condition_names), 1);
+}
+
 /// " under condition loaded"; empty without conditions.
 std::string condition_text(const Study& study, std::int64_t condition);
 /// For what does not tell conditions apart. @param verb of the program

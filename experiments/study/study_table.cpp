@@ -83,6 +83,24 @@ RowGroup add_plugin(StudyTable& table, const plugin::PluginDescription& plugin) 
   return group;
 }
 
+std::size_t rate_row(StudyTable& table, std::size_t row) {
+  const std::string name = fmt::format("{}{}", table.rows[row].name, suffix_of_rate);
+  const auto known = std::ranges::find(table.rows, std::string_view(name), &parameters::Parameter::name);
+  if (known != table.rows.end()) return static_cast<std::size_t>(known - table.rows.begin());
+  table.groups.push_back({row, table.rows.size(), 1});
+  const std::string& kept = table.names->emplace_back(name);
+  const std::string& meaning =
+      table.names->emplace_back(fmt::format("rate at which {} changes with age", table.rows[row].name));
+  parameters::Parameter rate;
+  rate.name = kept;
+  rate.unit = "1";
+  rate.meaning = meaning;
+  rate.range = numerics::all_numbers();
+  rate.of_machine = true;
+  table.rows.push_back(rate);
+  return table.groups.back().first;
+}
+
 std::optional<RowGroup> find_list(const StudyTable& table, std::size_t row) {
   const auto found = std::find_if(table.groups.begin(), table.groups.end(),
                                   [row](const RowGroup& group) { return group.row == row; });

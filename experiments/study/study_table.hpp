@@ -46,6 +46,13 @@ RowGroup add_element(StudyTable& table, const parameters::ElementList& list, std
 /// Adds the rows of the parameters of the user's controller, which must outlive the table.
 RowGroup add_plugin(StudyTable& table, const plugin::PluginDescription& plugin);
 
+/// Ends the name of the rate at which a value changes with age: "friction.k1.aging".
+inline constexpr std::string_view suffix_of_rate = ".aging";
+
+/// The row of the rate at which the value of a row changes with age, "friction.k1.aging", which is added if
+/// there is none yet.
+std::size_t rate_row(StudyTable& table, std::size_t row);
+
 /// The values of a list that the study has. @param row of the list
 std::optional<RowGroup> find_list(const StudyTable& table, std::size_t row);
 

@@ -59,14 +59,15 @@ std::uint64_t source_trial(const TrialDraws& draws, std::uint32_t slot) {
 double drawn_uniform(const TrialDraws& draws, std::uint32_t slot, DrawLevel level) {
   const Study& study = draws.study;
   const SlotRandomness& randomness = draws.plan().randomness[slot];
+  const Design design = randomness.no_directions ? Design::latin_hypercube : study.design;
   switch (level) {
     case DrawLevel::study:
-      return design_uniform(study.design, randomness, 0, 0, 1);
+      return design_uniform(design, randomness, 0, 0, 1);
     case DrawLevel::world:
       return design_uniform(Design::latin_hypercube, randomness, 0, draws.world,
                             static_cast<std::uint64_t>(study.worlds));
     case DrawLevel::rig:
-      return design_uniform(study.design, randomness, 0, draws.rig, static_cast<std::uint64_t>(study.rigs));
+      return design_uniform(design, randomness, 0, draws.rig, static_cast<std::uint64_t>(study.rigs));
     case DrawLevel::trial:
     case DrawLevel::contact:
       break;
@@ -87,16 +88,43 @@ double uniform_of(const TrialDraws& draws, std::uint32_t slot, DrawLevel level) 
                         [&](std::size_t j) { return drawn_uniform(draws, copula->slots[j], copula->level); });
 }
 
+/// By which the value of a slot at a point of the plan is multiplied at the point's age.
+double age_factor_of(const TrialDraws& draws, const Value& value, std::size_t point) {
+  if (!value.aging) return 1.0;
+  const StudyPlan& plan = draws.plan();
+  const Aging& aging = plan.agings[*value.aging];
+  const Value& rate = *value_at_point(plan, aging.rate, point);
+  return factor_at_age(aging,
+                       rate.kind == Value::Kind::number
+                           ? rate.number
+                           : distributions::quantile(plan.distributions[rate.index],
+                                                     uniform_of(draws, aging.rate, rate.level)),
+                       age_at(plan, point));
+}
+
+/// The number at the age of the point. Refuses one that has left its range: a draw that no check has seen.
+double at_age(const TrialDraws& draws, std::uint32_t slot, std::size_t point, double number, double factor) {
+  const StudyPlan& plan = draws.plan();
+  const parameters::Parameter& parameter = plan.table.rows[slot];
+  const numerics::Interval range = parameters::range_of(parameter, plan.units);
+  if (numerics::contains(range, number * factor)) return number * factor;
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}: {:.6g} at age 0 is {:.6g} at {}; expected {}", parameter.name, number,
+                            number * factor, age_text(draws.study.ages, age_at(plan, point)),
+                            numerics::range_text(range)));
+}
+
 /// The value of a slot that is drawn at each contact, by the contact's number.
 std::function<double(std::uint64_t contact)> value_per_contact(const TrialDraws& draws, std::uint32_t slot,
-                                                               const Value& value) {
+                                                               const Value& value, std::size_t point) {
   const std::uint64_t trial =
       draws.study.design == Design::saltelli && !draws.given.number ? source_trial(draws, slot) : draws.index;
   const random::RandomStream stream{.key = draws.plan().randomness[slot].contacts, .stream = draws.stream};
   const std::shared_ptr<const StudyPlan> plan = draws.study.plan;  // the trial may outlive the study
-  return [plan, stream, trial, index = value.index](std::uint64_t contact) {
-    return distributions::quantile(plan->distributions[index],
-                                   friction::contact_uniform(stream, trial, contact));
+  return [plan, stream, trial, index = value.index,
+          factor = age_factor_of(draws, value, point)](std::uint64_t contact) {
+    return factor * distributions::quantile(plan->distributions[index],
+                                            friction::contact_uniform(stream, trial, contact));
   };
 }
 
@@ -110,14 +138,16 @@ const GivenProfile* given_profile(const TrialDraws& draws, std::uint32_t slot) {
   return given == draws.given.profiles.end() ? nullptr : &given->second;
 }
 
-double profile_mean(const TrialDraws& draws, std::uint32_t slot, const Value& value) {
+double profile_mean(const TrialDraws& draws, std::uint32_t slot, std::size_t point) {
+  const Value& value = *value_at_point(draws.plan(), slot, point);
   if (value.kind != Value::Kind::profile) return std::numeric_limits<double>::quiet_NaN();
   const GivenProfile* const given = given_profile(draws, slot);
   const Rotors& rotors = *draws.plan().profiles[value.index];
-  return given != nullptr && given->mean ? rotors.mean_at(*given->mean) : rotors.mean(rotor_of(draws, value));
+  return age_factor_of(draws, value, point) *
+         (given != nullptr && given->mean ? rotors.mean_at(*given->mean) : rotors.mean(rotor_of(draws, value)));
 }
 
-/// The profile of a trial that begins at this position.
+/// The profile of a trial that begins at this position, at age 0.
 std::shared_ptr<const friction::Profile> profile_of(const TrialDraws& draws, std::uint32_t slot,
                                                     const Value& value, double start) {
   const Rotors& rotors = *draws.plan().profiles[value.index];
@@ -125,6 +155,23 @@ std::shared_ptr<const friction::Profile> profile_of(const TrialDraws& draws, std
   if (given == nullptr) return rotors.rotor(rotor_of(draws, value));
   return std::make_shared<const friction::Profile>(
       rotors.rotor_with(rotor_of(draws, value), given->mean, given->field, given->position.value_or(start)));
+}
+
+/// The profile at the age of the point: the law multiplies all of it.
+std::shared_ptr<const friction::Profile> profile_at_age(const TrialDraws& draws, std::uint32_t slot,
+                                                        std::size_t point, double start) {
+  const Value& value = *value_at_point(draws.plan(), slot, point);
+  std::shared_ptr<const friction::Profile> profile = profile_of(draws, slot, value, start);
+  const double factor = age_factor_of(draws, value, point);
+  if (factor == 1.0) return profile;
+  auto aged = std::make_shared<const friction::Profile>(friction::scaled(*profile, factor));
+  const parameters::Parameter& parameter = draws.plan().table.rows[slot];
+  if (factor > 0.0 && numerics::contains(parameter.range, distributions::limits(*aged)))
+    return aged;  // a fast sufficient test
+  const friction::ValueRange values = friction::range_over_revolution(*profile);
+  at_age(draws, slot, point, values.low, factor);
+  at_age(draws, slot, point, values.high, factor);
+  return aged;
 }
 
 // The trial from which it takes the random numbers used while it runs.
@@ -183,12 +230,13 @@ void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
   }
 }
 
-/// A number, or that of a distribution.
-double drawn_number(const TrialDraws& draws, std::uint32_t slot, const Value& value) {
-  return value.kind == Value::Kind::distribution
-             ? distributions::quantile(draws.plan().distributions[value.index],
-                                       uniform_of(draws, slot, value.level))
-             : value.number;
+/// A number, or that of a distribution, at the age of the point.
+double drawn_number(const TrialDraws& draws, std::uint32_t slot, const Value& value, std::size_t point) {
+  const double number = value.kind == Value::Kind::distribution
+                            ? distributions::quantile(draws.plan().distributions[value.index],
+                                                      uniform_of(draws, slot, value.level))
+                            : value.number;
+  return value.aging ? at_age(draws, slot, point, number, age_factor_of(draws, value, point)) : number;
 }
 
 /// The value of the slot at a point of the plan, which is not a profile.
@@ -197,7 +245,7 @@ double number_at(const TrialDraws& draws, std::uint32_t slot, std::size_t point)
   return value.kind == Value::Kind::following
              ? following_value(draws.plan().following[value.index],
                                [&](std::uint32_t source) { return number_at(draws, source, point); })
-             : drawn_number(draws, slot, value);
+             : drawn_number(draws, slot, value, point);
 }
 
 /// The inputs that all trials of one rig (or world) share, of its first trial, which has its index.
@@ -215,7 +263,7 @@ std::vector<double> inputs_of(const Study& study, std::string_view unit, std::in
   for (const InputSource& source : sources) {
     const std::size_t place = plan_point(plan, 0, source.condition.value_or(0));
     inputs.push_back(source.profile_mean
-                         ? profile_mean(draws, source.slot, *value_at_point(plan, source.slot, place))
+                         ? profile_mean(draws, source.slot, place)
                          : number_at(draws, source.slot, place));
   }
   return inputs;
@@ -253,7 +301,8 @@ void set_following(const TrialDraws& draws, std::size_t point, std::uint32_t slo
   std::map<std::uint32_t, std::function<double(std::uint64_t)>> per_contact;  // by source
   for (const std::uint32_t source : following.from) {
     const Value& value = *value_at_point(t.plan, source, point);
-    if (is_drawn_per_contact(value)) per_contact.emplace(source, value_per_contact(draws, source, value));
+    if (is_drawn_per_contact(value)) 
+      per_contact.emplace(source, value_per_contact(draws, source, value, point));
   }
   if (per_contact.empty()) return;
   t.trial.parameters.friction.per_contact.push_back(
@@ -287,15 +336,11 @@ TrialInProgress begin_trial(const TrialDraws& draws, std::size_t point) {
   t.trial.parameters.randomness.stream = draws.stream;
   for (const std::uint32_t slot : plan.input_slots) {
     const Value& value = *value_at_point(plan, slot, point);
-    if (value.kind == Value::Kind::number) {
-      t.set(slot, value.number);
-    } else if (value.kind == Value::Kind::distribution) {
-      t.set(slot,
-            distributions::quantile(plan.distributions[value.index], uniform_of(draws, slot, value.level)));
-      if (value.level == DrawLevel::contact && plan.table.rows[slot].profiled != nullptr)
-        t.trial.parameters.friction.per_contact.push_back(
-            {plan.table.rows[slot].profiled, value_per_contact(draws, slot, value)});
-    }
+    if (value.kind != Value::Kind::number && value.kind != Value::Kind::distribution) continue;
+    t.set(slot, drawn_number(draws, slot, value, point));
+    if (is_drawn_per_contact(value) && plan.table.rows[slot].profiled != nullptr)
+      t.trial.parameters.friction.per_contact.push_back(
+          {plan.table.rows[slot].profiled, value_per_contact(draws, slot, value, point)});
   }
   for (const std::uint32_t slot : plan.input_slots) {
     if (value_at_point(plan, slot, point)->kind == Value::Kind::following)
@@ -319,7 +364,7 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
     const Value& value = *value_at_point(plan, slot, place.point);
     if (value.kind != Value::Kind::profile) continue;
     const std::shared_ptr<const friction::Profile> profile =
-        profile_of(draws, slot, value, trial.parameters.initial.position);
+        profile_at_age(draws, slot, place.point, trial.parameters.initial.position);
     t.set(slot, friction::value_at(*profile, trial.parameters.initial.position));
     trial.parameters.friction.profiled.push_back({plan.table.rows[slot].profiled, profile});
   }
@@ -327,8 +372,7 @@ StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int
   set_resolution(t.numbers, trial.parameters.dac);
   trial.inputs.reserve(plan.inputs.size());
   for (const InputSource& source : plan.inputs) {
-    trial.inputs.push_back(source.profile_mean ? profile_mean(draws, source.slot,
-                                                              *value_at_point(plan, source.slot, place.point))
+    trial.inputs.push_back(source.profile_mean ? profile_mean(draws, source.slot, place.point)
                                                : t.numbers[source.slot]);
   }
   return std::move(trial);
@@ -363,7 +407,8 @@ std::vector<double> drawn_numbers(const Study& study, std::int64_t point, std::i
   std::vector<double> numbers;
   numbers.reserve(slots.size());
   for (const std::uint32_t slot : slots)
-    numbers.push_back(drawn_number(draws, slot, *value_at_point(draws.plan(), slot, place.point)));
+    numbers.push_back(
+        drawn_number(draws, slot, *value_at_point(draws.plan(), slot, place.point), place.point));
   return numbers;
 }
 

@@ -165,6 +165,15 @@ struct GroupCounts {
   std::vector<std::vector<std::int64_t>> goal_met;  ///< all of whose moves meet the goal; empty without one
 };
 
+/// Trials and machines at the ages at the design points, [point][age].
+struct AgeCounts {
+  GroupCounts trials;
+  /// Proportion of the machines that meet the goal under every condition, and its bounds; empty without a goal.
+  std::vector<std::vector<double>> machines{}, machines_low{}, machines_high{};
+  /// [point][rig] last age up to and including which the rig meets the goal; NaN: none. Empty without a goal.
+  std::vector<std::vector<double>> lives{};
+};
+
 /// Everything that is stored of the statistics of consecutive design points of a study: of all of them, or of
 /// the first ones.
 struct StoredStatistics {
@@ -174,6 +183,7 @@ struct StoredStatistics {
   std::vector<std::vector<std::int64_t>> rig_successes{};
   std::optional<GroupCounts> worlds{};
   std::optional<GroupCounts> conditions{};
+  std::optional<AgeCounts> ages{};
 };
 
 /// Number of angles at which a profile is tabulated, over one revolution, where all trials are on one rotor.
@@ -222,6 +232,14 @@ Table world_count_table(bool has_goal);
 Table condition_table();
 /// Trials under the conditions at the design points: [point, condition], in the group of condition_table.
 Table condition_count_table(bool has_goal);
+
+/// The ages: [age].
+Table age_table(const std::string& unit);
+/// Trials and machines at the ages at the design points: [point, age], in the group of age_table.
+Table age_count_table(const std::string& unit, bool has_goal);
+/// The lives of the rigs at the design points: [point, rig]. It shares the group and the dimension scales of
+/// rig_count_table.
+Table life_table(const std::string& unit);
 
 /// How many of the whole and real numbers in /sums belong to each design point: [point].
 Table sums_table();

@@ -26,6 +26,10 @@ Column condition_scale() {
   return whole_numbers("condition", "index of the condition");
 }
 
+Column age_scale(const std::string& unit) {
+  return {"age", unit, "age of the machines", hdf5::Element::float64};
+}
+
 /// Counts of trials in groups, [point, group]. @param where "in the world"
 Table group_count_table(std::string name, Column scale, std::string_view where, bool has_goal) {
   const auto counts = [&](std::string_view column, std::string_view which) {
@@ -234,6 +238,32 @@ Table condition_table() {
 
 Table condition_count_table(bool has_goal) {
   return group_count_table("condition", condition_scale(), "under the condition", has_goal);
+}
+
+Table age_table(const std::string& unit) {
+  return {"age", age_scale(unit), {}, {}};
+}
+
+Table age_count_table(const std::string& unit, bool has_goal) {
+  Table table = group_count_table("age", age_scale(unit), "at the age", has_goal);
+  const auto proportion = [&](std::string_view name, std::string_view meaning) {
+    table.columns.push_back({std::string(name), "1", std::string(meaning), hdf5::Element::float64});
+  };
+  if (!has_goal) return table;
+  proportion("machines", "proportion of machines that meet the goal at the age under every condition");
+  proportion("machines_low", "lower bound of the proportion of machines, one-sided");
+  proportion("machines_high", "upper bound of the proportion of machines, one-sided");
+  return table;
+}
+
+Table life_table(const std::string& unit) {
+  return {"rig",
+          whole_numbers("point", "index of the design point"),
+          rig_scale(),
+          {{"life", unit,
+            "last age up to and including which the rig meets the goal under every condition, NaN if it does "
+            "not at the first",
+            hdf5::Element::float64}}};
 }
 
 Table sums_table() {

@@ -185,6 +185,39 @@ void add_groups(std::vector<ExportedTable>& tables, const std::string& name,
                     }});
 }
 
+void export_ages(const StoredAges& ages, CsvFile& csv) {
+  const bool has_goal = !ages.machines.empty();
+  csv.add("point", head_with_unit("age", ages.unit), "success", "trials");
+  if (has_goal) csv.add("goal_met", "machines", "machines_low", "machines_high");
+  csv.end_row();
+  for (std::size_t i = 0; i < ages.trials.success.size(); ++i) {
+    csv.add(static_cast<std::int64_t>(i / ages.at.size()), ages.at[i % ages.at.size()],
+            ages.trials.success[i], ages.trials.trials[i]);
+    if (has_goal)
+      csv.add(ages.trials.goal_met[i], ages.machines[i], ages.machines_low[i], ages.machines_high[i]);
+    csv.end_row();
+  }
+}
+
+void export_lives(const StoredAges& ages, std::int64_t rigs, CsvFile& csv) {
+  csv.add("point", "rig", head_with_unit("life", ages.unit));
+  csv.end_row();
+  for (std::size_t i = 0; i < ages.lives.size(); ++i) {
+    csv.add(static_cast<std::int64_t>(i) / rigs, static_cast<std::int64_t>(i) % rigs, ages.lives[i]);
+    csv.end_row();
+  }
+}
+
+void add_ages(std::vector<ExportedTable>& tables, const ResultsFile& file) {
+  const std::optional<StoredAges> ages = file.ages();
+  if (!ages || ages->trials.success.empty()) return;
+  tables.push_back({"ages.csv", [ages](const ResultsFile&, CsvFile& csv) { export_ages(*ages, csv); }});
+  if (ages->lives.empty()) return;
+  const std::int64_t rigs = std::ssize(ages->lives) / file.header().points;
+  tables.push_back(
+      {"lives.csv", [ages, rigs](const ResultsFile&, CsvFile& csv) { export_lives(*ages, rigs, csv); }});
+}
+
 void export_trace(const TrialTables& trials, CsvFile& csv) {
   const auto read = [&](std::int64_t first, std::int64_t count) { return trials.trace_at(first, count); };
   export_records(layout::trace_fields(trials.features()), trials.trace_count(), read, trials.features().axis,
@@ -209,6 +242,7 @@ void add_study_tables(std::vector<ExportedTable>& tables, const ResultsFile& fil
   add_groups(tables, "rig", file.rigs());
   add_groups(tables, "world", file.worlds());
   add_groups(tables, "condition", file.conditions());
+  add_ages(tables, file);
 }
 
 void add_statistic_tables(std::vector<ExportedTable>& tables, const ResultsFile& file) {

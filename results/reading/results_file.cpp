@@ -253,6 +253,31 @@ std::optional<StoredGroups> ResultsFile::conditions() const {
   return stored;
 }
 
+std::optional<StoredAges> ResultsFile::ages() const {
+  if (!file_.contains("age")) return std::nullopt;
+  const hdf5::Group group = file_.open_group("age");
+  StoredAges stored;
+  stored.unit = group.open_dataset("age").text("units");
+  stored.at = read_doubles(group.open_dataset("age"));
+  stored.trials.count = std::ssize(stored.at);
+  if (!group.contains("success")) return stored;
+  const bool has_goal = group.contains("goal_met");
+  const layout::TableIo counts = layout::TableIo::open(file_, layout::age_count_table(stored.unit, has_goal));
+  stored.trials.success = layout::read_column<std::int64_t>(counts, 0);
+  stored.trials.trials = layout::read_column<std::int64_t>(counts, 1);
+  if (has_goal) {
+    stored.trials.goal_met = layout::read_column<std::int64_t>(counts, 2);
+    stored.machines = layout::read_column<double>(counts, 3);
+    stored.machines_low = layout::read_column<double>(counts, 4);
+    stored.machines_high = layout::read_column<double>(counts, 5);
+    stored.lives =
+        layout::read_column<double>(layout::TableIo::open(file_, layout::life_table(stored.unit)), 0);
+  }
+  validate_groups("age", header_, counts, stored.trials.success, stored.trials.trials,
+                  stored.trials.goal_met);
+  return stored;
+}
+
 ResultsFile::StoredSums::StoredSums(const hdf5::File& file, std::int64_t points)
     : whole(layout::TableIo::open(file, layout::whole_sums_table())),
       real(layout::TableIo::open(file, layout::real_sums_table())) {

@@ -46,6 +46,16 @@ struct StoredGroups {
   std::vector<std::string> names;  ///< [group] of conditions; otherwise empty
 };
 
+/// The ages of a study as they stand in a results file.
+struct StoredAges {
+  std::vector<double> at;
+  std::string unit;
+  StoredGroups trials;  ///< [point][age]; without counts in a part
+  /// [point][age] flattened: proportion of machines that meet the goal, and its bounds; empty without a goal.
+  std::vector<double> machines, machines_low, machines_high;
+  std::vector<double> lives;  ///< [point][rig] flattened; empty without a goal
+};
+
 /// A results file, part or shard, open to be read: the description of the study, the tables by design point
 /// and rig, and what it keeps of its trials. Every function may find that the file is damaged, and throws
 /// Failure (bad_data) then. One thread at a time.
@@ -84,6 +94,8 @@ class ResultsFile {
   std::optional<StoredGroups> worlds() const;
   /// Nothing in a study without conditions, and in a shard.
   std::optional<StoredGroups> conditions() const;
+  /// Nothing in a study without ages, and in a shard.
+  std::optional<StoredAges> ages() const;
 
   /// Nothing with `keep: statistics`.
   const std::optional<TrialTables>& trials() const { return trials_; }

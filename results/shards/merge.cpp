@@ -153,7 +153,8 @@ hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const stu
   write_profiles(file, study);
   if (study.rigs > 0) write_rigs(file, study);
   if (study.worlds > 0) write_worlds(file, study);
-  if (!study.conditions.empty()) write_conditions(file, study);
+  if (!study.condition_names.empty()) write_conditions(file, study);
+  if (!study.ages.at.empty()) write_ages(file, study);
   if (!study.retained_trials.empty())
     join(layout::on_axis(layout::trace_table(study.features), study.units.axis), 1, 0, options.renumber);
   return file.close(storage::Flush::later);
@@ -226,6 +227,7 @@ void MergedFile::write_statistics(const layout::StoredStatistics& statistics) {
     write_rig_counts(file_, study_, statistics.rig_successes, points.first);
   if (statistics.worlds) write_world_counts(file_, study_, *statistics.worlds, points.first);
   if (statistics.conditions) write_condition_counts(file_, study_, *statistics.conditions, points.first);
+  if (statistics.ages) write_age_counts(file_, study_, *statistics.ages, points.first);
 }
 
 void MergedFile::finish() {

@@ -79,7 +79,7 @@ layout::TableIo table_of_counts(hdf5::File& file, const layout::Table& table, co
   return io;
 }
 
-void write_group_counts(layout::TableIo io, const layout::GroupCounts& counts, std::int64_t first) {
+void write_group_counts(layout::TableIo& io, const layout::GroupCounts& counts, std::int64_t first) {
   for (std::size_t point = 0; point < counts.trials.size(); ++point) {
     const auto row = first + static_cast<std::int64_t>(point);
     io.column(0).write(row, 1, counts.success[point].data());
@@ -112,23 +112,48 @@ void write_worlds(hdf5::File& file, const study::Study& study) {
 
 void write_world_counts(hdf5::File& file, const study::Study& study, const layout::GroupCounts& counts,
                         std::int64_t first) {
-  write_group_counts(
-      table_of_counts(file, layout::world_count_table(!counts.goal_met.empty()), study, study.worlds, first),
-      counts, first);
+  layout::TableIo io =
+      table_of_counts(file, layout::world_count_table(!counts.goal_met.empty()), study, study.worlds, first);
+  write_group_counts(io, counts, first);
 }
 
 void write_conditions(hdf5::File& file, const study::Study& study) {
   layout::TableIo io =
-      layout::TableIo::create(file, layout::condition_table(), std::ssize(study.conditions), 1);
+      layout::TableIo::create(file, layout::condition_table(), std::ssize(study.condition_names), 1);
   io.number_rows(0);
-  io.column(0).write_texts(study.conditions);
+  io.column(0).write_texts(study.condition_names);
 }
 
 void write_condition_counts(hdf5::File& file, const study::Study& study, const layout::GroupCounts& counts,
                             std::int64_t first) {
-  write_group_counts(table_of_counts(file, layout::condition_count_table(!counts.goal_met.empty()), study,
-                                     std::ssize(study.conditions), first),
-                     counts, first);
+  layout::TableIo io = table_of_counts(file, layout::condition_count_table(!counts.goal_met.empty()), study,
+                                       std::ssize(study.condition_names), first);
+  write_group_counts(io, counts, first);
+}
+
+void write_ages(hdf5::File& file, const study::Study& study) {
+  const std::int64_t ages = std::ssize(study.ages.at);
+  layout::TableIo::create(file, layout::age_table(study.ages.unit), ages, 1)
+      .row_scale()
+      .write(0, ages, study.ages.at.data());
+}
+
+void write_age_counts(hdf5::File& file, const study::Study& study, const layout::AgeCounts& counts,
+                      std::int64_t first) {
+  const bool has_goal = !counts.machines.empty();
+  layout::TableIo io = table_of_counts(file, layout::age_count_table(study.ages.unit, has_goal), study,
+                                       std::ssize(study.ages.at), first);
+  write_group_counts(io, counts.trials, first);
+  if (!has_goal) return;
+  layout::TableIo lives =
+      table_of_counts(file, layout::life_table(study.ages.unit), study, study.rigs, first);
+  for (std::size_t point = 0; point < counts.lives.size(); ++point) {
+    const auto row = first + static_cast<std::int64_t>(point);
+    io.column(3).write(row, 1, counts.machines[point].data());
+    io.column(4).write(row, 1, counts.machines_low[point].data());
+    io.column(5).write(row, 1, counts.machines_high[point].data());
+    lives.column(0).write(row, 1, counts.lives[point].data());
+  }
 }
 
 void write_rig_counts(hdf5::File& file, const study::Study& study,

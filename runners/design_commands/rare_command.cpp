@@ -16,6 +16,7 @@
 #include "results/storage/durable_file.hpp"
 #include "results/storage/output_lock.hpp"
 #include "runners/answers/answer_format.hpp"
+#include "experiments/study/condition_study.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
@@ -76,6 +77,9 @@ std::optional<std::int64_t> world_to_ask(const command_line::Arguments& argument
 std::optional<std::int64_t> condition_to_ask(const command_line::Arguments& arguments,
                                              const study::Study& study) {
   const std::optional<std::string> name = arguments.value("condition");
+  const std::optional<double> age = command_line::number_option(arguments, "age", 0.0);
+  if (!study.ages.at.empty()) return study::turn_named(study, name, age);
+  if (age) arguments.refuse("option '--age': the study has no ages");
   if (study.conditions.empty()) {
     if (name) arguments.refuse("option '--condition': the study has no conditions");
     return std::nullopt;
@@ -181,6 +185,7 @@ commands::Command rare_command() {
             named_point_option(),
             {"world", "W", "the world, of a study with worlds"},
             {"condition", "NAME", "the condition, of a study with conditions"},
+            {"age", "A", "the age, of a study with ages"},
             {"confidence", "C", "of both bounds together (default 0.95)"},
             {"ratio", "R", "how narrow: high at most R times low (default 2)"},
             {"budget", "B", "a number of trials (default 1000000), or a time such as 60s, 5min or 2h"},

@@ -112,6 +112,9 @@ study::Study experiment_study(const command_line::Arguments& arguments, const Ex
   study::Study study = commands::load_study(arguments.operands()[0], arguments, places);
   if (study.conditions.empty()) return study;
   const std::optional<std::string> condition = arguments.value("condition");
+  if (!study.ages.at.empty())
+    return study::under_condition(
+        study, study::turn_named(study, condition, command_line::number_option(arguments, "age", 0.0)));
   if (condition) return study::under_condition(study, study::condition_named(study, *condition));
   throw Failure(ExitCode::bad_input,
                 fmt::format("{}: it has the conditions {}, and a record is made under one of them; expected "
@@ -180,6 +183,7 @@ commands::Command experiment_command() {
             {"budget", "B", "protocols to try (default 80), or a time such as 30s"},
             {"point", "P", "design point, by label or number from 0 (default 0)"},
             {"condition", "NAME", "condition of the manifest under which the record is made"},
+            {"age", "A", "age of the manifest at which the record is made"},
             {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
             answers::format_option(experiment_answer().complete_type()),
             {"quiet,q", "", "print no progress"},

@@ -6,6 +6,7 @@
 
 #include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
+#include "analysis/summary/ages_of_point.hpp"
 #include "analysis/summary/claims_of_point.hpp"
 #include "analysis/summary/conditions_of_point.hpp"
 #include "analysis/summary/judged_point.hpp"
@@ -29,7 +30,7 @@ constexpr const char* judge_help =
     "The bounds of the best of several points allow for its choice; --point judges a point that\n"
     "was chosen beforehand. In a study with worlds the goal must be met in each of them; the rates are\n"
     "those of the worst world, and a rule says what the bad worlds have in common. With conditions a\n"
-    "table says under which of them the goal is met or missed.\n"
+    "table says under which of them the goal is met or missed; with ages from which age on it is missed.\n"
     "The exit code is 0 if the goal is met, 1 if it is missed, 3 if the trials do not decide it.\n"
     "\n"
     "Example: zerocount judge gains.h5\n"
@@ -41,6 +42,7 @@ struct Judgement {
   std::optional<worlds::PointWorlds> worlds;
   std::vector<summary::ClaimOfPoint> claims;          ///< each goal under each condition
   std::vector<summary::ConditionOfPoint> conditions;  ///< [condition]; empty without conditions
+  std::vector<summary::AgeOfPoint> ages;              ///< [age]; empty without ages
 
   const std::string& label() const { return summary.labels[static_cast<std::size_t>(judged.chosen.point)]; }
   const goal::JudgedPart& worst_goal() const { return summary.question.parts[judged.verdict.goal]; }
@@ -117,7 +119,18 @@ document::AnswerDescription<Judgement> judge_answer() {
              summary::claim_description(), &Judgement::claims)
       .table({.heading = "by claim", .shown = Shown::to_people}, summary::claim_description(),
              &Judgement::several_claims)
-      .sentence([](Of j) { return summary::conditions_sentence(j.summary, j.conditions); });
+      .sentence([](Of j) { return summary::conditions_sentence(j.summary, j.conditions); })
+      .value({.key = "met_until",
+              .meaning = "last age up to and including which the goal is met; null if not at the first",
+              .shown = Shown::in_data,
+              .optional = true},
+             [](Of j) { return summary::met_until(j.ages); })
+      .value({.key = "missed_from",
+              .meaning = "first age at which the goal is shown to be missed",
+              .shown = Shown::in_data,
+              .optional = true},
+             [](Of j) { return summary::missed_from(j.ages); })
+      .sentence([](Of j) { return summary::ages_sentence(j.summary.question, j.ages); });
   return answer;
 }
 
@@ -145,7 +158,8 @@ ExitCode judge(const command_line::Arguments& arguments) {
       summary, summary::judge_point(summary, chosen),
       summary::worlds_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
       summary::claims_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
-      summary::conditions_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from))};
+      summary::conditions_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
+      summary::ages_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from))};
   return answers::print(
       arguments, judge_answer().of(judgement, commands::exit_code_of(judgement.judged.verdict.status)));
 }

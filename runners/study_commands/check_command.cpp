@@ -106,16 +106,28 @@ std::string plan_headline(const Plan& plan) {
                      counted(study.moves, "move"), status::duration_text(plan.cost.seconds()));
 }
 
+/// "0 cycles, 1e+05 cycles, 1e+06 cycles".
+std::string ages_text(const study::Ages& ages) {
+  std::vector<std::string> texts;
+  for (const double age : ages.at) texts.push_back(study::age_text(ages, age));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
 /// How the trials of a point belong to rigs and worlds, and what may end them, a line each.
 std::string trials_text(const Plan& plan) {
   const study::Study& study = plan.study;
   std::string text;
   if (study.rigs > 0)
     text += fmt::format("at each point {} rigs × {} trials of each\n", study.rigs, study.trials / study.rigs);
-  if (!study.conditions.empty()) {
+  if (!study.condition_names.empty()) {
     text += fmt::format("under {}, {} trials under each: {}\n",
-                        counted(std::ssize(study.conditions), "condition"), study::draw_count(study),
-                        fmt::join(study.conditions, ", "));
+                        counted(std::ssize(study.condition_names), "condition"),
+                        study::draw_count(study) * std::max<std::int64_t>(std::ssize(study.ages.at), 1),
+                        fmt::join(study.condition_names, ", "));
+  }
+  if (!study.ages.at.empty()) {
+    text += fmt::format("at {}, {} trials at each: {}\n", counted(std::ssize(study.ages.at), "age"),
+                        study.trials / std::ssize(study.ages.at), ages_text(study.ages));
   }
   if (study.worlds > 0) {
     text += fmt::format("in {} worlds, {} in each\n", study.worlds,
@@ -345,7 +357,7 @@ void warn_of_short_moves(std::span<const PointReading> points) {
   const auto others = std::ranges::count_if(points, is_short) - 1;
   status::tell(
       "warning: point {} ({}){}: the loop's slowest time constant{}: moves may end before they arrive{}\n",
-      first->point, first->label, first->condition ? " under condition " + *first->condition : "",
+      first->point, first->label, first->condition ? ", " + *first->condition : "",
       theory::slowness_text(first->theory.approach),
       others > 0 ? fmt::format("; likewise {} more of the {} examined", others, points.size()) : "");
 }

@@ -37,7 +37,8 @@ std::string text_of_row(const MoveBehaviour& row, const study::Study& study) {
   std::string text;
   if (!is_asked && !study.goals.empty()) text = " that no goal is about";
   if (is_asked && study.goals.size() > 1 && row.goal) text = fmt::format(" of goal '{}'", *row.goal);
-  return text + (row.condition ? fmt::format(" under condition {}", *row.condition) : std::string());
+  if (!row.condition) return text;
+  return text + (study.ages.at.empty() ? " under condition " : " at ") + *row.condition;
 }
 
 /// The largest overshoot that stays within the band of the row's goal, counts.

@@ -421,17 +421,65 @@ class MachineSearch {
     return has_profile_per_rig_ ? std::max<std::int64_t>(point.rig + 1, 2) : 1;
   }
 
+  /// By which the machine with these values multiplies a value at its age.
+  double age_factor(const study::Value& value,
+                    const std::vector<std::pair<std::string, double>>& values) const {
+    if (!value.aging) return 1.0;
+    const study::StudyPlan& plan = *given_.plan;
+    const auto point = static_cast<std::size_t>(units_.point);
+    const study::Aging& aging = plan.agings[*value.aging];
+    const auto drawn = std::ranges::find(values, plan.table.rows[aging.rate].name,
+                                         &std::pair<std::string, double>::first);
+    return study::factor_at_age(aging,
+                                drawn != values.end()
+                                    ? drawn->second
+                                    : study::limits_of_slot(plan, aging.rate, point).typical,
+                                study::age_at(plan, point));
+  }
+
+  /// Puts the values as they act at the age of the machine in place of those at age 0: its manifest has no
+  /// ages.
+  /// @throws Failure (bad_input) for a value that is drawn anew for each contact, or once for all machines
+  void let_act_at_age(manifest_text::PointChanges& changes) const {
+    const study::StudyPlan& plan = *given_.plan;
+    if (plan.ages.empty()) return;
+    const std::vector<std::pair<std::string, double>> drawn = changes.values;
+    std::erase_if(changes.values, [](const auto& one) { return one.first.ends_with(study::suffix_of_rate); });
+    changes.removed.emplace_back("ages");
+    for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
+      const study::Value& value = *study::value_at_point(plan, slot, static_cast<std::size_t>(units_.point));
+      if (!value.aging) continue;
+      const std::string name(plan.table.rows[slot].name);
+      const double factor = age_factor(value, drawn);
+      const auto known = std::ranges::find(changes.values, name, &std::pair<std::string, double>::first);
+      if (known != changes.values.end()) {
+        known->second *= factor;
+      } else if (value.kind == study::Value::Kind::number) {
+        changes.values.emplace_back(name, factor * value.number);
+      } else if (value.kind == study::Value::Kind::profile) {
+        changes.removed.push_back(name + ".aging");
+        if (const study::Rotors& rotors = *plan.profiles[value.index]; !rotors.drawn_mean())
+          changes.values.emplace_back(name + ".profile.mean", factor * rotors.mean(0));
+      } else {
+        throw Failure(ExitCode::bad_input,
+                      fmt::format("{} changes with age and is not one number of the machine", name));
+      }
+    }
+  }
+
   std::string manifest_of(const BoxPoint& point,
                           const std::vector<std::pair<std::string, double>>& values) const {
     manifest_text::PointChanges changes{
         .condition = condition_, .values = values, .folder = folder_.value_or("")};
     changes.removed = {"design", "worlds", "retain"};
+    let_act_at_age(changes);
     if (are_correlated(inputs_, *given_.plan)) changes.removed.emplace_back("correlation");
     for (const auto& [slot, value] : profiles()) {
       const study::Rotors& rotors = *given_.plan->profiles[value->index];
       if (rotors.drawn_mean())
         changes.values.emplace_back(fmt::format("{}.profile.mean", given_.plan->table.rows[slot].name),
-                                    rotors.mean(value->level == study::DrawLevel::rig ? point.rig : 0));
+                                    age_factor(*value, values) *
+                                        rotors.mean(value->level == study::DrawLevel::rig ? point.rig : 0));
     }
     for (const study::MachineInput& input : inputs_) {
       const std::vector<std::uint32_t>& rows = given_.plan->sampled_slots;
@@ -569,7 +617,9 @@ WorstMachines worst_machines(const study::Study& study, const trials::Replicates
   alone.trials_each /= study::condition_count(study);
   for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
     const std::string name =
-        study.conditions.empty() ? "" : study.conditions[static_cast<std::size_t>(condition)];
+        study.condition_names.empty()
+            ? ""
+            : study.condition_names[static_cast<std::size_t>(condition % study::conditions_of_age(study))];
     WorstMachines& found = under.emplace_back(
         MachineSearch(under_condition(study, condition), alone, name, folder, effort).run(likely_met));
     likely_met = std::min(likely_met, found.likely.met);

@@ -151,6 +151,7 @@ _WHAT = {
     "outcome": "outcomes of trials: its study does not keep them",
     "rig": "rigs: each trial is on a machine of its own",
     "world": "worlds: nothing in its manifest is drawn per world",
+    "age": "ages: its manifest has none",
     "level": "torque levels: its loop is closed",
     "jerk": "jerks",
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 import functools
 import os
 import pathlib
@@ -269,7 +270,7 @@ class Results:
         pandas.DataFrame
             Index ``trial``, the row of the trial in the file. Columns: ``point``, ``index`` (of the trial at its
             point), ``rig`` if trials share rigs, ``world`` if the study has worlds, ``condition`` if it has
-            conditions, the inputs, ``success`` (zero counts at the end of every move), ``goal_met`` (every move meets the goal), ``outcome`` (of the
+            conditions, ``age`` if it has ages, the inputs, ``success`` (zero counts at the end of every move), ``goal_met`` (every move meets the goal), ``outcome`` (of the
             worst move), and the measures of the moves, combined. ``attrs["combined"]`` tells how: ``all`` or
             ``any`` of the moves have the quality, the ``sum``, the ``largest`` magnitude (NaN if a move has none),
             or that of the last move (``last``).
@@ -295,7 +296,7 @@ class Results:
         point : int or str, optional
             Number or label of a design point; default: all.
         inputs : bool
-            Join point, index, rig, world, condition and inputs of the trial.
+            Join point, index, rig, world, condition, age and inputs of the trial.
 
         Returns
         -------
@@ -368,11 +369,61 @@ class Results:
         columns = self._group(group)
         inputs = self._group(f"{group}/input") if self._file.has(f"{group}/input") else {}
         index = columns.pop(group).values
-        counts = {name: column for name, column in columns.items() if column.dimensions == ("point", group)}
+        counts = {
+            name: column
+            for name, column in columns.items()
+            if column.dimensions == ("point", group) and name != "life"
+        }
         for name, column in counts.items():
             values = column.values.sum(axis=0) if point is None else column.values[self.point(point)]
             inputs[name] = Column(values, (group,), column.unit, column.meaning)
         return frame(f"the table of {group}s", inputs, index, group)
+
+    def ages(self, point: int | str | None = None) -> pandas.DataFrame:
+        """Ages of the machines, one row each, of a study with ages.
+
+        Parameters
+        ----------
+        point : int or str, optional
+            Number or label of the design point; default: the best.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Index ``age``, in the unit of the manifest. Columns: ``trials``, ``success`` (trials that end at zero
+            counts), and with a goal ``goal_met`` (trials that meet it) and ``machines`` (proportion of machines that
+            meet it at the age under every condition) with its bounds ``machines_low`` and ``machines_high``.
+        """
+        columns = self._group("age")
+        index = columns.pop("age").values
+        columns.pop("point", None)
+        row = self.best if point is None else self.point(point)
+        ages = {
+            name: dataclasses.replace(column, values=column.values[row], dimensions=("age",))
+            for name, column in columns.items()
+        }
+        return frame("the table of ages", ages, index, "age")
+
+    def lives(self, point: int | str | None = None) -> pandas.DataFrame:
+        """Lives of the machines, one row each, of a study with ages and a goal.
+
+        Parameters
+        ----------
+        point : int or str, optional
+            Number or label of the design point; default: the best.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Index ``rig``. Column ``life``: the last age up to and including which the rig meets the goal in its
+            proportion of moves under every condition; NaN if it does not at the first.
+        """
+        columns = self._group("rig")
+        if "life" not in columns:
+            raise DataError(f"{self.path}: its machines have no lives: the study has no ages, or no goal", 4)
+        row = self.best if point is None else self.point(point)
+        life = dataclasses.replace(columns["life"], values=columns["life"].values[row], dimensions=("rig",))
+        return frame("the table of lives", {"life": life}, columns["rig"].values, "rig")
 
     def levels(self) -> pandas.DataFrame:
         """Torque levels of an open-loop study, one row for each point and level.
@@ -395,8 +446,8 @@ class Results:
         Returns
         -------
         xarray.Dataset
-            Dimensions ``trial``, ``move`` and ``band``. Coordinates: ``point``, ``index``, ``condition`` if the study
-            has conditions, the inputs. Variables: the measures of a move. Units and meanings in ``attrs``.
+            Dimensions ``trial``, ``move`` and ``band``. Coordinates: ``point``, ``index``, ``condition`` and ``age`` if
+            the study has conditions and ages, the inputs. Variables: the measures of a move. Units and meanings in ``attrs``.
 
         Examples
         --------
@@ -412,8 +463,8 @@ class Results:
         outcome = self._group("outcome")
         outcome.update(self._columns.meets(self._columns.by_band(outcome)))
         coordinates = {**self._group("trial"), **self._group("trial/input")}
-        if self.checked.conditions:
-            coordinates["condition"] = self._columns.shared(coordinates["index"].values)["condition"]
+        shared = self._columns.shared(coordinates["index"].values)
+        coordinates.update({name: shared[name] for name in ("condition", "age") if name in shared})
         names = {name: short_name(name, list(coordinates)) for name in coordinates}
         scales = {name: outcome.pop(name) for name in ("trial", "move")}
         result = xarray.Dataset(

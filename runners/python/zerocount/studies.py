@@ -317,8 +317,16 @@ class Study:
 
     @property
     def conditions(self) -> list[str]:
-        """Names of the conditions that every machine bears; empty: there is one, which the manifest describes."""
+        """Names of the conditions that every machine bears; empty: there is one, which the manifest describes.
+
+        With ages each condition at each age: ``loaded, 1e+05 cycles``.
+        """
         return self.checked.conditions
+
+    @property
+    def ages(self) -> list[float]:
+        """Ages of every machine, in the unit of the manifest; empty: nothing changes with age."""
+        return self.checked.ages
 
     @property
     def moves(self) -> int:

@@ -117,13 +117,14 @@ class TrialColumns:
         return result
 
     def shared(self, index: Array) -> dict[str, Column]:
-        """[trial] what a trial shares with others: its rig, its world and its condition.
+        """[trial] what a trial shares with others: its rig, its world, its condition and its age.
 
-        Trial i runs on rig i mod R, under condition i div R mod C, with the draws of i mod R + R * (i div RC).
+        Trial i runs on rig i mod R, under condition i div R mod C, at age i div RC mod A, with the draws of
+        i mod R + R * (i div RCA).
         """
-        rigs, conditions = max(self.study.rigs, 1), self.study.conditions
-        turns = rigs * max(len(conditions), 1)
-        draw = index % rigs + rigs * (index // turns)
+        rigs, conditions, ages = max(self.study.rigs, 1), self.study.condition_names, self.study.ages
+        of_age = rigs * max(len(conditions), 1)
+        draw = index % rigs + rigs * (index // (of_age * max(len(ages), 1)))
         columns = {}
         if self.study.rigs > 0:
             columns["rig"] = Column(index % rigs, ("trial",), "1", "index of the rig, the machine of the trial")
@@ -132,6 +133,9 @@ class TrialColumns:
         if conditions:
             number = index // rigs % len(conditions)
             columns["condition"] = Column(number, ("trial",), "1", "what the machine bears", conditions)
+        if ages:
+            age = np.array(ages)[index // of_age % len(ages)]
+            columns["age"] = Column(age, ("trial",), self.study.age_unit, "age of the machine")
         return columns
 
 

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "analysis/goal/question.hpp"
+
+/// What the machines of a study with ages and a claim do over their life: a machine meets the question at an
+/// age if it meets every goal in its proportion of moves, under every condition at this age.
+namespace zerocount::goal {
+
+/// [age] the proportion of machines that meet the question at the age, with one-sided bounds.
+///
+/// Of one goal under one condition the bounds are those of a claim on machines (judge_goal()). Of K goals and
+/// conditions together the lower one is 1 − Σ(1 − low of each), the upper one the least of theirs, each at the
+/// confidence 1 − (1 − γ)/K (Bonferroni). With worlds they are those of the worst of them.
+/// @param counts [goal of the study] (PointSummary::goals)
+std::vector<BoundedProportion> machines_at_ages(const Question& question,
+                                                const std::vector<measures::MoveCounts>& counts);
+
+/// [rig] the last age up to and including which it meets the question; NaN if it does not at the first.
+std::vector<double> lives_of_rigs(const Question& question, const std::vector<measures::MoveCounts>& counts);
+
+/// Rigs that meet the question at every age up to one.
+struct Survival {
+  std::int64_t rigs{0};      ///< those
+  BoundedProportion living;  ///< of the rigs, with one-sided Clopper–Pearson bounds
+};
+/// [age] the survival curve of these lives. @param confidence of each bound
+std::vector<Survival> survival_of(const std::vector<double>& lives, const std::vector<double>& ages,
+                                  double confidence);
+
+}  // namespace zerocount::goal

@@ -1,0 +1,83 @@
+#include "experiments/keys/aging.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "experiments/parameters/unknown_key.hpp"
+#include "experiments/study/study_table.hpp"
+
+namespace zerocount::keys {
+namespace {
+
+constexpr std::string_view expected_aging = "{exponential: -0.1, scale: 1.0e+6}: a law, linear, exponential or "
+                                            "logarithmic, with its rate, and the scale of ages";
+
+/// Why the value cannot change with age; empty if it can.
+std::string_view obstacle(const parameters::Parameter& parameter, const study::Value& value,
+                          const Reading& reading) {
+  if (!reading.groups.ages) return "the study has no ages";
+  if (parameter.name.ends_with(study::suffix_of_rate)) return "the rate itself does not change with age";
+  if (parameter.kind != parameters::ParameterKind::real) return "whole numbers do not change with age";
+  if (value.kind == study::Value::Kind::number && value.number == parameter.none)
+    return "a limit that is off does not change with age";
+  return {};
+}
+
+std::string_view expected_instead(const Reading& reading) {
+  return !reading.groups.ages ? "the key ages: {at: [0, 1.0e+5, 1.0e+6], unit: cycles}"
+                              : "the value alone";
+}
+
+/// The rate, drawn for each rig unless it says otherwise.
+study::Value read_rate(const yaml::Field& field, std::size_t slot, Reading& reading) {
+  study::Value rate = read_value(field, slot, reading);
+  if (rate.kind != study::Value::Kind::distribution) return rate;
+  if (!reading.groups.rigs) return rate;  // which is reported
+  if (rate.level == study::DrawLevel::trial || rate.level == study::DrawLevel::contact)
+    reading.problems.add(field, "a rate of aging belongs to a machine", "per: rig, world or study");
+  return rate;
+}
+
+}  // namespace
+
+void read_aging(const yaml::Field& field, std::size_t slot, study::Value& value, Reading& reading) {
+  const std::string_view why = obstacle(reading.plan.table.rows[slot], value, reading);
+  if (!why.empty()) {
+    reading.problems.add(field, why, expected_instead(reading));
+    return;
+  }
+  if (!yaml::check_map(field, std::string(expected_aging), reading.problems)) return;
+  std::vector<std::string> known(study::aging_law_labels.begin(), study::aging_law_labels.end());
+  known.emplace_back("scale");
+  parameters::check_keys(field, known, reading.problems);
+  study::Aging aging;
+  std::optional<yaml::Field> rate;
+  std::size_t laws = 0;
+  for (std::size_t law = 0; law < study::aging_law_labels.size(); ++law) {
+    const auto given = yaml::find_field(field, study::aging_law_labels[law]);
+    if (!given) continue;
+    ++laws;
+    rate = given;
+    aging.law = static_cast<study::AgingLaw>(law);
+  }
+  const auto scale = yaml::find_field(field, "scale");
+  if (laws != 1 || !scale) {
+    reading.problems.add(field, laws != 1 ? fmt::format("found {} laws", laws) : "the scale is missing",
+                         expected_aging);
+    return;
+  }
+  aging.scale = yaml::read_real(*scale, numerics::above(0), reading.problems).value_or(1.0);
+  const std::size_t slot_of_rate = study::rate_row(reading.plan.table, slot);
+  reading.plan.base.resize(reading.plan.table.rows.size(), {.kind = study::Value::Kind::number});
+  aging.rate = static_cast<std::uint32_t>(slot_of_rate);
+  value.aging = static_cast<std::uint32_t>(reading.plan.agings.size());
+  reading.plan.agings.push_back(aging);
+  reading.rate = {aging.rate, read_rate(*rate, slot_of_rate, reading)};
+}
+
+}  // namespace zerocount::keys

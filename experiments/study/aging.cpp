@@ -1,0 +1,31 @@
+#include "experiments/study/aging.hpp"
+
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/numerics/elementary_functions.hpp"
+#include "core/text/number_text.hpp"
+
+namespace zerocount::study {
+
+double factor_at_age(const Aging& aging, double rate, double age) {
+  const double ages = age / aging.scale;
+  switch (aging.law) {
+    case AgingLaw::exponential:
+      return numerics::exp_of_draws(rate * ages);
+    case AgingLaw::logarithmic:
+      return 1.0 + rate * (numerics::log1p(ages) / std::numbers::ln10);
+    case AgingLaw::linear:
+      break;
+  }
+  return 1.0 + rate * ages;
+}
+
+std::string age_text(const Ages& ages, double age) {
+  const std::string few = fmt::format("{:g}", age);
+  return fmt::format("{} {}", text::parse_number<double>(few) == age ? few : fmt::format("{}", age),
+                     ages.unit);
+}
+
+}  // namespace zerocount::study

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
@@ -117,7 +118,9 @@ std::string_view text_of(Status status) {
 }
 
 bool is_worse(const Verdict& one, const Verdict& other) {
-  return std::pair(rank_of(one.status), one.margin) < std::pair(rank_of(other.status), other.margin);
+  // Of claims on machines that show nothing the lower bounds of moves tell more.
+  return std::tuple(rank_of(one.status), one.margin, one.moves.low) <
+         std::tuple(rank_of(other.status), other.margin, other.moves.low);
 }
 
 Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,

@@ -143,6 +143,7 @@ StudyReport study_report(const reading::AllTrialsFile& file, const ReportOptions
         answer_section("baseline", "Against the baseline", comparison_answer().of(*options.comparison)));
   if (options.history) add(page, history_section(*options.history, max_history_figures));
   add(page, success_section(reported));
+  add(page, {"ages", "Over a life", "", age_figures(reported)});
   const ReportedStudy& worst = worst_of_conditions(reported);
   add(page, {"worlds", "Worlds", "", under_worst_condition(reported, world_figures(worst))});
   add(page, {"settling", "Arrival and settling", "", distribution_figures(reported)});

@@ -70,7 +70,9 @@ const ReportedStudy& worst_of_conditions(const ReportedStudy& reported) {
 
 std::string worst_condition_text(const ReportedStudy& reported) {
   if (!has_conditions(reported)) return "";
-  return fmt::format("Under {}, the worst condition. ", reported.conditions[reported.worst_condition].name);
+  const bool ages = !question_of(reported).ages.at.empty();
+  return fmt::format("{} {}, the worst{}. ", ages ? "At" : "Under",
+                     reported.conditions[reported.worst_condition].name, ages ? "" : " condition");
 }
 
 std::vector<ReportedPart> parts_of(const ReportedStudy& reported) {

@@ -253,6 +253,7 @@ StudySummary full_study() {
   full.features.tolerances = {{1e-8}, 1};
   full.question.worlds = 1;
   full.conditions = full.question.conditions = {"empty"};
+  full.question.ages.at = {0.0};
   full.predictions.resize(1);
   full.observed_counts[""] = {};
   full.stop = study::StoppingRule{};
@@ -293,10 +294,11 @@ std::string design_line(const StudySummary& summary) {
                         summary.question.worlds,
                         summary.question.claim() ? "; those of the goal are of the worst world" : "");
   }
-  if (!summary.conditions.empty()) {
-    line += fmt::format(", {} conditions: statistics of all trials are over the conditions together",
-                        summary.conditions.size());
-  }
+  const std::size_t ages = summary.question.ages.at.size();
+  const std::size_t conditions = summary.conditions.size() / std::max<std::size_t>(ages, 1);
+  if (conditions > 1 || (conditions == 1 && ages == 0))
+    line += fmt::format(", {} conditions: statistics of all trials are over the conditions together", conditions);
+  if (ages > 0) line += fmt::format(", {} ages: statistics of all trials are over the ages together", ages);
   if (features.spread_trials) {
     line += fmt::format(
         "{} bounds are conservative: made for trials by chance, which vary more than those of this design",

@@ -66,7 +66,14 @@ struct Judgement {
   }
 };
 
-document::AnswerDescription<Judgement> judge_answer() {
+/// A question with a claim, for the type of the answer.
+goal::Question any_claim() {
+  goal::Question question;
+  question.parts.front().claim.emplace();
+  return question;
+}
+
+document::AnswerDescription<Judgement> judge_answer(const goal::Question& question) {
   using document::Shown;
   using Of = const Judgement&;
   document::AnswerDescription<Judgement> answer{
@@ -130,6 +137,10 @@ document::AnswerDescription<Judgement> judge_answer() {
               .shown = Shown::in_data,
               .optional = true},
              [](Of j) { return summary::missed_from(j.ages); })
+      .table({.key = "ages", .meaning = "the point at each age", .shown = Shown::in_json},
+             summary::age_description(question), &Judgement::ages)
+      .table({.heading = "by age", .shown = Shown::to_people}, summary::age_description(question),
+             &Judgement::ages)
       .sentence([](Of j) { return summary::ages_sentence(j.summary.question, j.ages); });
   return answer;
 }
@@ -161,7 +172,7 @@ ExitCode judge(const command_line::Arguments& arguments) {
       summary::conditions_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
       summary::ages_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from))};
   return answers::print(
-      arguments, judge_answer().of(judgement, commands::exit_code_of(judgement.judged.verdict.status)));
+      arguments, judge_answer(summary.question).of(judgement, commands::exit_code_of(judgement.judged.verdict.status)));
 }
 
 }  // namespace
@@ -169,12 +180,12 @@ ExitCode judge(const command_line::Arguments& arguments) {
 commands::Command judge_command() {
   return {{"judge",
            "FILE",
-           {answers::format_option(judge_answer().complete_type()),
+           {answers::format_option(judge_answer(any_claim()).complete_type()),
             {"point", "P", "the design point to judge (default: the best by the goal)"}}},
           "judge a study by the goal in its manifest",
           judge_help,
           judge,
-          {judge_answer().complete_type()}};
+          {judge_answer(any_claim()).complete_type()}};
 }
 
 }  // namespace zerocount::result_commands

@@ -56,7 +56,7 @@ const std::vector<AgedValue>& aged_pool() {
        1e6,
        {}},
       {"plant.inertia", "value: 5.54e-4", "linear", "{uniform: [0, 0.1]}", 1e6, 5.54e-4},
-      {"dac.gain_error", "normal: {mean: 0, sd: 0.01}", "linear", "{normal: {mean: 0, sd: 0.5}}", 1e5, {}},
+      {"dac.offset", "normal: {mean: 0, sd: 0.01}", "linear", "{normal: {mean: 0, sd: 0.5}}", 1e5, {}},
       {"initial.hardening", "uniform: [0, 1.0e-6]", "exponential", "-1", 1e6, {}}};
   return pool;
 }
@@ -90,7 +90,7 @@ const std::string command_of_ages =
 
 struct Shape {
   int rigs{2}, conditions{0}, ages{1}, worlds{0}, each{1};
-  std::string design;
+  std::string design{};
 
   int of_age() const { return std::max(conditions, 1); }
 };
@@ -222,7 +222,7 @@ TEST(Ages, ActInTheParametersOfTrials) {
   for (std::int64_t i = 0; i < study.trials; ++i) {
     const StudyTrial trial = study_trial(study, 0, i);
     EXPECT_EQ(trial.parameters.plant.inertia, input_of(study, trial, "plant.inertia"));
-    EXPECT_EQ(trial.parameters.friction.k2, input_of(study, trial, "friction.k2"));
+    EXPECT_EQ(trial.parameters.friction.uniform.k2, input_of(study, trial, "friction.k2"));
     const double start = trial.parameters.initial.position;
     ASSERT_EQ(trial.parameters.friction.profiled.size(), 1U);
     const friction::Profile& old = *trial.parameters.friction.profiled[0].profile;
@@ -250,10 +250,10 @@ TEST(Ages, LetParametersFollowFromMeasuredValuesAtTheAge) {
       command_of_ages);
   const StudyTrial old = study_trial(study, 0, 2);
   const StudyTrial same = study_trial(at_80, 0, 0);
-  EXPECT_EQ(old.parameters.friction.k1, 80.0);
-  EXPECT_EQ(old.parameters.friction.k1, same.parameters.friction.k1);
-  EXPECT_EQ(old.parameters.friction.k2, same.parameters.friction.k2);
-  EXPECT_EQ(old.parameters.friction.beta, same.parameters.friction.beta);
+  EXPECT_EQ(old.parameters.friction.uniform.k1, 80.0);
+  EXPECT_EQ(old.parameters.friction.uniform.k1, same.parameters.friction.uniform.k1);
+  EXPECT_EQ(old.parameters.friction.uniform.k2, same.parameters.friction.uniform.k2);
+  EXPECT_EQ(old.parameters.friction.uniform.beta, same.parameters.friction.uniform.beta);
 }
 
 TEST(Ages, ChangeWhatIsDrawnForEachContact) {
@@ -316,7 +316,7 @@ TEST(Ages, LeaveAStudyOfItsOwnAtEachTurn) {
 
 TEST(Ages, AreNamedInFewDigits) {
   const Study study = study_of(
-      "zerocount: 1\nname: n\nseed: 3\nrigs: 2\ntrials: 12\nages: {at: [0, 100000, 1234567], unit: km}\n"
+      "zerocount: 1\nname: named\nseed: 3\nrigs: 2\ntrials: 12\nages: {at: [0, 100000, 1234567], unit: km}\n"
       "conditions: {b: {friction.k2: {value: 400, aging: {linear: 0.1, scale: 1.0e+7}}}, a: {}}\n" +
       command_of_ages);
   EXPECT_EQ(study.conditions, (std::vector<std::string>{"b, 0 km", "a, 0 km", "b, 100000 km", "a, 100000 km",
@@ -368,8 +368,8 @@ TEST(Ages, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
        "the rate itself does not change with age"},
       {refusal_with("encoder: {fine: {integers: [100, 200], aging: {linear: 1, scale: 2}}}\n"),
        "whole numbers do not change with age"},
-      {refusal_with("friction: {k2: {value: 700, aging: {linear: -1, scale: 10}}}\n"),
-       "friction.k2: its values at 10 cycles, 0 to 0, leave the allowed range"},
+      {refusal_with("friction: {k2: {value: 700, aging: {linear: -1.5, scale: 10}}}\n"),
+       "friction.k2: its values at 10 cycles, -350 to -350, leave the allowed range"},
       {refusal_with(
            "friction: {k2: {uniform: [600, 900], aging: {linear: {normal: {mean: 0, sd: 1}}, scale: 10}}}\n"),
        "friction.k2: its values at 10 cycles, -"},
@@ -412,8 +412,8 @@ TEST(Ages, StandInTheManifestOfAPoint) {
       command_of_ages);
   const Study point = study_of(manifest_text::manifest_of_point(study, 1, {}));
   for (std::int64_t i = 0; i < 4; ++i)
-    EXPECT_EQ(study_trial(point, 0, i).parameters.friction.k2,
-              study_trial(study, 1, i).parameters.friction.k2);
+    EXPECT_EQ(study_trial(point, 0, i).parameters.friction.uniform.k2,
+              study_trial(study, 1, i).parameters.friction.uniform.k2);
 }
 
 }  // namespace

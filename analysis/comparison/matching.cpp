@@ -58,8 +58,8 @@ void require_same_names(const reading::AllTrialsFile& baseline, const std::vecto
                   fmt::format("the files cannot be compared: not the same {}{}", what, problem));
 }
 
-/// The names of the conditions, with ages at each of them; none of a manifest without them, which is not parsed
-/// for it.
+/// The names of the conditions, with ages at each of them; none of a manifest without them, which is not
+/// parsed for it.
 std::vector<std::string> conditions_of(const reading::AllTrialsFile& file) {
   const bool any = file.root().contains("condition") || file.root().contains("age");
   return any ? file.study().conditions : std::vector<std::string>();

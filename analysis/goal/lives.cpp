@@ -20,8 +20,7 @@ std::vector<ClaimAtAge> claims_at_age(const Question& question,
   std::vector<ClaimAtAge> claims;
   for (const JudgedPart& part : question.parts) {
     for (std::size_t c = 0; c < of_age; ++c)
-      claims.push_back(
-          {&*part.claim, &measures::under_condition(counts[part.number], age * of_age + c)});
+      claims.push_back({&*part.claim, &measures::under_condition(counts[part.number], age * of_age + c)});
   }
   return claims;
 }

@@ -12,8 +12,8 @@ namespace zerocount::goal {
 /// [age] the proportion of machines that meet the question at the age, with one-sided bounds.
 ///
 /// Of one goal under one condition the bounds are those of a claim on machines (judge_goal()). Of K goals and
-/// conditions together the lower one is 1 − Σ(1 − low of each), the upper one the least of theirs, each at the
-/// confidence 1 − (1 − γ)/K (Bonferroni). With worlds they are those of the worst of them.
+/// conditions together the lower one is 1 − Σ(1 − low of each), the upper one the least of theirs, each at
+/// the confidence 1 − (1 − γ)/K (Bonferroni). With worlds they are those of the worst of them.
 /// @param counts [goal of the study] (PointSummary::goals)
 std::vector<BoundedProportion> machines_at_ages(const Question& question,
                                                 const std::vector<measures::MoveCounts>& counts);

@@ -30,9 +30,10 @@ struct JudgedPart {
 /// for success.
 struct Question {
   std::vector<JudgedPart> parts{JudgedPart{}};
-  std::int64_t worlds{0};                 ///< in each of which it is asked; 0: the study has no worlds
-  bool stopped{false};                    ///< the outcomes decided the number of trials (`stop`)
-  /// Names of those under each of which it is asked; with ages each condition at each age (Study::conditions).
+  std::int64_t worlds{0};  ///< in each of which it is asked; 0: the study has no worlds
+  bool stopped{false};     ///< the outcomes decided the number of trials (`stop`)
+  /// Names of those under each of which it is asked; with ages each condition at each age
+  /// (Study::conditions).
   std::vector<std::string> conditions{};
   study::Ages ages{};
 

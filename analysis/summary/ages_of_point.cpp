@@ -18,7 +18,8 @@ namespace {
 void judge_at_age(const goal::Question& question, const goal::Verdict& of_point,
                   const std::vector<goal::GoalTimes>& times, std::size_t number, AgeOfPoint& age) {
   std::vector<goal::ClaimVerdict> claims = goal::claims_of(of_point);
-  std::erase_if(claims, [&](const goal::ClaimVerdict& one) { return age_of(question, one.condition) != number; });
+  std::erase_if(claims,
+                [&](const goal::ClaimVerdict& one) { return age_of(question, one.condition) != number; });
   const goal::ClaimVerdict worst =
       std::ranges::min(claims, [](const auto& a, const auto& b) { return is_worse(*a.verdict, *b.verdict); });
   age.rate = worst.verdict->moves;
@@ -107,28 +108,31 @@ document::Description<AgeOfPoint> age_description(const goal::Question& question
               .notation = document::Notation::percent,
               .optional = true},
              [proportion](Of a) { return proportion(a.machines); })
-      .value({.key = "living",
-              .heading = "up to here [bounds]",
-              .meaning = "proportion of the machines that meet it at every age up to this one, with one-sided "
-                         "bounds of Clopper and Pearson",
-              .unit = "1",
-              .notation = document::Notation::percent,
-              .optional = true},
-             [proportion](Of a) { return proportion(a.living); })
-      .value({.key = "settling_time_p95",
-              .heading = "95 % within",
-              .meaning = "95 % quantile of the settling time, of the slowest goal and condition; null where it "
-                         "is not within the hold",
-              .unit = "s",
-              .optional = true},
-             &AgeOfPoint::settling_time_p95)
       .value(
-          {.key = "status",
-           .heading = "verdict",
-           .meaning = "verdict on the goal at the age",
-           .words = goal::status_words(),
+          {.key = "living",
+           .heading = "up to here [bounds]",
+           .meaning = "proportion of the machines that meet it at every age up to this one, with one-sided "
+                      "bounds of Clopper and Pearson",
+           .unit = "1",
+           .notation = document::Notation::percent,
            .optional = true},
-          [](Of a) { return a.status ? std::optional(std::string(goal::text_of(*a.status))) : std::nullopt; });
+          [proportion](Of a) { return proportion(a.living); })
+      .value(
+          {.key = "settling_time_p95",
+           .heading = "95 % within",
+           .meaning = "95 % quantile of the settling time, of the slowest goal and condition; null where it "
+                      "is not within the hold",
+           .unit = "s",
+           .optional = true},
+          &AgeOfPoint::settling_time_p95)
+      .value({.key = "status",
+              .heading = "verdict",
+              .meaning = "verdict on the goal at the age",
+              .words = goal::status_words(),
+              .optional = true},
+             [](Of a) {
+               return a.status ? std::optional(std::string(goal::text_of(*a.status))) : std::nullopt;
+             });
   return description;
 }
 
@@ -153,8 +157,8 @@ std::string ages_sentence(const goal::Question& question, const std::vector<AgeO
   const std::optional<double> missed = missed_from(ages);
   const bool all = met == ages.back().age;
   if (all) return fmt::format("the goal is met at every age, up to {}", text(*met));
-  std::string sentence =
-      met ? fmt::format("the goal is met up to {}", text(*met)) : "the goal is not shown to be met at any age";
+  std::string sentence = met ? fmt::format("the goal is met up to {}", text(*met))
+                             : "the goal is not shown to be met at any age";
   return missed ? sentence + fmt::format(", and missed from {} on", text(*missed))
                 : sentence + "; no age at which it is missed is shown";
 }

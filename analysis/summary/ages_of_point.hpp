@@ -13,22 +13,23 @@ namespace zerocount::summary {
 
 /// What the trials and machines of a design point show at one age.
 struct AgeOfPoint {
-  double age{0.0};                    ///< in the unit of Question::ages
-  std::int64_t trials{0};             ///< at the age
-  std::int64_t success{0};            ///< of them, trials all of whose moves ended at zero error
-  std::optional<std::int64_t> goal_met{};             ///< trials all of whose moves meet the goal
-  goal::BoundedProportion rate{};                     ///< of moves, of the worst goal and condition; without
-                                                      ///< a goal of trials that succeed, under the worst
+  double age{0.0};                         ///< in the unit of Question::ages
+  std::int64_t trials{0};                  ///< at the age
+  std::int64_t success{0};                 ///< of them, trials all of whose moves ended at zero error
+  std::optional<std::int64_t> goal_met{};  ///< trials all of whose moves meet the goal
+  goal::BoundedProportion rate{};          ///< of moves, of the worst goal and condition; without
+                                           ///< a goal of trials that succeed, under the worst
   std::optional<goal::BoundedProportion> machines{};  ///< that meet the goal; none without a goal
   std::optional<goal::BoundedProportion> living{};    ///< rigs that meet it at every age up to this one
   std::optional<double> settling_time_p95{};          ///< s, of the slowest goal; none: not within the hold
-  std::optional<goal::Status> status{};               ///< of the worst goal and condition; none without a goal
+  std::optional<goal::Status> status{};  ///< of the worst goal and condition; none without a goal
 };
 
-/// The ages of a point, [age]; empty without ages, and of a point without judged trials. Bounds are one-sided,
-/// each with the confidence of the goal (of the summary without a goal).
+/// The ages of a point, [age]; empty without ages, and of a point without judged trials. Bounds are
+/// one-sided, each with the confidence of the goal (of the summary without a goal).
 /// @param points that the point was chosen from
-std::vector<AgeOfPoint> ages_of_point(const StudySummary& summary, std::int64_t point, std::size_t points = 1);
+std::vector<AgeOfPoint> ages_of_point(const StudySummary& summary, std::int64_t point,
+                                      std::size_t points = 1);
 
 document::Description<AgeOfPoint> age_description(const goal::Question& question);
 

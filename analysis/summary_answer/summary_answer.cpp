@@ -297,7 +297,8 @@ std::string design_line(const StudySummary& summary) {
   const std::size_t ages = summary.question.ages.at.size();
   const std::size_t conditions = summary.conditions.size() / std::max<std::size_t>(ages, 1);
   if (conditions > 1 || (conditions == 1 && ages == 0))
-    line += fmt::format(", {} conditions: statistics of all trials are over the conditions together", conditions);
+    line +=
+        fmt::format(", {} conditions: statistics of all trials are over the conditions together", conditions);
   if (ages > 0) line += fmt::format(", {} ages: statistics of all trials are over the ages together", ages);
   if (features.spread_trials) {
     line += fmt::format(

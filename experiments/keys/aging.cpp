@@ -14,8 +14,9 @@
 namespace zerocount::keys {
 namespace {
 
-constexpr std::string_view expected_aging = "{exponential: -0.1, scale: 1.0e+6}: a law, linear, exponential or "
-                                            "logarithmic, with its rate, and the scale of ages";
+constexpr std::string_view expected_aging =
+    "{exponential: -0.1, scale: 1.0e+6}: a law, linear, exponential or "
+    "logarithmic, with its rate, and the scale of ages";
 
 /// Why the value cannot change with age; empty if it can.
 std::string_view obstacle(const parameters::Parameter& parameter, const study::Value& value,
@@ -29,8 +30,7 @@ std::string_view obstacle(const parameters::Parameter& parameter, const study::V
 }
 
 std::string_view expected_instead(const Reading& reading) {
-  return !reading.groups.ages ? "the key ages: {at: [0, 1.0e+5, 1.0e+6], unit: cycles}"
-                              : "the value alone";
+  return !reading.groups.ages ? "the key ages: {at: [0, 1.0e+5, 1.0e+6], unit: cycles}" : "the value alone";
 }
 
 /// The rate, drawn for each rig unless it says otherwise.

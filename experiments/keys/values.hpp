@@ -32,8 +32,8 @@ struct Reading {
   bool plugin_failed{false};               ///< the user's controller could not be loaded
   std::vector<ProfileRequest> profiles{};  ///< [index of a value of kind profile]
   std::vector<std::string> warnings{};     ///< allowed but possibly unintended
-  /// The value of the slot of its rate, if the value read last changes with age. Whoever takes that value takes
-  /// the rate as well, and resets it.
+  /// The value of the slot of its rate, if the value read last changes with age. Whoever takes that value
+  /// takes the rate as well, and resets it.
   std::optional<study::Assignment> rate{};
 };
 

@@ -101,8 +101,8 @@ Json aging_schema() {
     rates.push_back(reference(form.name));
   Json laws = Json::array();
   for (const std::string_view law : study::aging_law_labels) {
-    laws.push_back(object_of({{std::string(law), {{"anyOf", rates}}}, {"scale", number_in(numerics::above(0))}},
-                             {law, "scale"}));
+    laws.push_back(object_of(
+        {{std::string(law), {{"anyOf", rates}}}, {"scale", number_in(numerics::above(0))}}, {law, "scale"}));
   }
   return {{"oneOf", std::move(laws)}, {"description", "how the value changes with age"}};
 }
@@ -120,11 +120,10 @@ Json definitions() {
     all[name]["properties"][std::string(keys::aging_key)] = reference(keys::aging_key);
     all[name]["description"] = form.meaning;
   }
-  all["profile"] = object_of(
-      {{"profile", profile_schema()},
-       {per, per_schema(keys::draw_level_labels_of_profiles)},
-       {std::string(keys::aging_key), reference(keys::aging_key)}},
-      {"profile"});
+  all["profile"] = object_of({{"profile", profile_schema()},
+                              {per, per_schema(keys::draw_level_labels_of_profiles)},
+                              {std::string(keys::aging_key), reference(keys::aging_key)}},
+                             {"profile"});
   all["profile"]["description"] = "friction along the rotor: a periodic random field";
   all[std::string(keys::aging_key)] = aging_schema();
   return all;

@@ -222,7 +222,8 @@ void check_conditions(Manifest& m) {
   if (m.study().design == study::Design::saltelli) {
     m.problems().add(
         yaml::find_field(m.root, "design").value(),
-        fmt::format("this design changes one factor at a time, but the trials of all {} share factors", turns),
+        fmt::format("this design changes one factor at a time, but the trials of all {} share factors",
+                    turns),
         fmt::format("monte_carlo, latin_hypercube or sobol with {}", turns));
   }
   if (m.study().stop) {
@@ -276,8 +277,8 @@ void warn_of_equal_worlds(Manifest& m) {
 void warn_of_equal_ages(Manifest& m) {
   const auto field = yaml::find_field(m.root, "ages");
   if (field && m.plan().agings.empty())
-    m.reading.warnings.push_back(yaml::at_place(
-        field->node->place, field->path, "the ages are all alike: no value has `aging` beside it"));
+    m.reading.warnings.push_back(yaml::at_place(field->node->place, field->path,
+                                                "the ages are all alike: no value has `aging` beside it"));
 }
 
 void read_retained(Manifest& m) {

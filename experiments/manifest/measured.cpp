@@ -198,8 +198,7 @@ bool check_draws(const MeasuredDraws& draws, std::size_t point, const study::Stu
   const std::string at = study::point_count(study) == 1
                              ? ""
                              : fmt::format(" at point {} ({})", design, study.points.labels[design]);
-  const std::string under =
-      study::condition_text(study, study::condition_at(*study.plan, point));
+  const std::string under = study::condition_text(study, study::condition_at(*study.plan, point));
   const std::vector<std::size_t> slots(first->slots.begin(), first->slots.end());
   const FaultPlace place = place_of_fault(places, *study.plan, slots, point);
   reading.problems.add(place.place, study.plan->table.rows[place.slot].name,

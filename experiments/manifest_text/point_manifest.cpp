@@ -130,10 +130,9 @@ class ManifestTree {
       const yaml::YamlEntry& swept = grid->entries[i];
       const std::size_t option = study::option_at(plan, axis, point);
       const study::PlanAxis& values = plan.axes[axis];
-      settle_value(
-          swept.key, swept.value->kind == YamlNode::Kind::list
-                         ? swept.value->items[option]
-                         : number_node(values.assignments[values.first[option]].value.number));
+      settle_value(swept.key, swept.value->kind == YamlNode::Kind::list
+                                  ? swept.value->items[option]
+                                  : number_node(values.assignments[values.first[option]].value.number));
     }
   }
 

@@ -4,8 +4,8 @@
 
 namespace zerocount::sections {
 
-/// Reads `ages: {at: [0, 1.0e+5], unit: cycles}` into the study and its plan. Must come before the values that
-/// change with age.
+/// Reads `ages: {at: [0, 1.0e+5], unit: cycles}` into the study and its plan. Must come before the values
+/// that change with age.
 /// @param root the manifest
 void read_ages(const yaml::Field& root, keys::Reading& reading);
 

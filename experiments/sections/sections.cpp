@@ -218,12 +218,13 @@ bool is_form_too_many(SectionReading& s, const yaml::Field& section, const std::
 // distribution.
 bool is_short_form(const yaml::Field& field) {
   if (field.node->kind != yaml::YamlNode::Kind::map) return true;
-  return std::any_of(field.node->entries.begin(), field.node->entries.end(),
-                     [](const yaml::YamlEntry& entry) {
-                       const auto forms = distributions::distribution_forms();
-                       return entry.key == keys::aging_key || std::any_of(forms.begin(), forms.end(),
-                                          [&](const auto& form) { return form.name == entry.key; });
-                     });
+  return std::any_of(
+      field.node->entries.begin(), field.node->entries.end(), [](const yaml::YamlEntry& entry) {
+        const auto forms = distributions::distribution_forms();
+        return entry.key == keys::aging_key || std::any_of(forms.begin(), forms.end(), [&](const auto& form) {
+                 return form.name == entry.key;
+               });
+      });
 }
 
 void read_section(SectionReading& s, const yaml::Field& section) {

@@ -65,7 +65,8 @@ bool is_one_number(const study::StudyPlan& plan, std::size_t slot) {
     return std::ranges::any_of(axis.assignments,
                                [slot](const study::Assignment& one) { return one.slot == slot; });
   };
-  return plan.base[slot].kind == study::Value::Kind::number && !plan.base[slot].aging && std::ranges::none_of(swept, is_swept);
+  return plan.base[slot].kind == study::Value::Kind::number && !plan.base[slot].aging &&
+         std::ranges::none_of(swept, is_swept);
 }
 
 void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuning& tuning,
@@ -90,7 +91,7 @@ void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuni
       const bool follows = plan.base[slots->first].kind == study::Value::Kind::following;
       problems.add(entry.place, field.path,
                    fmt::format("{} {}", entry.key,
-                               follows                      ? "follows from measured values"
+                               follows                         ? "follows from measured values"
                                : plan.base[slots->first].aging ? "changes with age"
                                                                : "is swept or drawn at random"),
                    "a parameter with one value, from which tuning starts");

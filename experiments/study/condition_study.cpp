@@ -90,9 +90,10 @@ std::int64_t turn_named(const Study& study, const std::optional<std::string>& co
     if (all.size() < 2 && !wanted) return 0;
     const auto found = wanted ? std::ranges::find(all, *wanted) : all.end();
     if (found != all.end()) return found - all.begin();
-    throw Failure(ExitCode::bad_input, fmt::format("{}: every machine is asked at each of its {} {}s; expected {} "
-                                                   "with one of {}",
-                                                   study.name, all.size(), noun, option, fmt::join(all, ", ")));
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: every machine is asked at each of its {} {}s; expected {} "
+                              "with one of {}",
+                              study.name, all.size(), noun, option, fmt::join(all, ", ")));
   };
   return place_in(study.condition_names, condition, "condition", "--condition") +
          conditions_of_age(study) * place_in(study.ages.at, age, "age", "--age");

@@ -32,9 +32,9 @@ struct Value {
     following  ///< computed from the values of other slots
   };
   Kind kind{Kind::number};
-  std::uint32_t index{0};             ///< into the plan's distributions, profiles or following values
-  DrawLevel level{DrawLevel::trial};  ///< how often it is drawn; for a profile study or rig
-  double number{0.0};                 ///< if kind is number
+  std::uint32_t index{0};                ///< into the plan's distributions, profiles or following values
+  DrawLevel level{DrawLevel::trial};     ///< how often it is drawn; for a profile study or rig
+  double number{0.0};                    ///< if kind is number
   std::optional<std::uint32_t> aging{};  ///< into the plan's laws of aging; none: it does not change with age
 };
 
@@ -118,8 +118,8 @@ struct StudyPlan {
   /// there are any, an axis has their overrides: the last one of the manifest.
   std::int64_t conditions{0};
   std::size_t condition_axis{0};
-  std::vector<double> ages;    ///< rising; empty: nothing changes with age
-  std::vector<Aging> agings;   ///< of the values that change with age
+  std::vector<double> ages;   ///< rising; empty: nothing changes with age
+  std::vector<Aging> agings;  ///< of the values that change with age
   std::vector<distributions::Distribution> distributions;
   std::vector<std::shared_ptr<const Rotors>> profiles;
   std::vector<FollowingValue> following;

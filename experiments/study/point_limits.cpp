@@ -55,21 +55,20 @@ std::vector<double> numbers_inside(const StudyPlan& plan, const FollowingValue& 
   std::vector<double> numbers;
   for (int i = 0; i < spread; ++i) {
     std::size_t source = 0;
-    add_number(following_value(following,
-                               [&](std::uint32_t slot) {
-                                 const bool of_row = std::ranges::find(sampled, slot) != sampled.end();
-                                 const double step =
-                                     std::sqrt(primes.at(of_row ? 0 : source % primes.size()));
-                                 ++source;
-                                 const Value& value = *value_at_point(plan, slot, point);
-                                 const double number =
-                                     value.kind == Value::Kind::number
-                                         ? value.number
-                                         : distributions::quantile(plan.distributions[value.index],
-                                                                   std::fmod(0.5 + i * step, 1.0));
-                                 return number * age_factors(plan, slot, point).typical;
-                               }),
-               numbers);
+    add_number(
+        following_value(following,
+                        [&](std::uint32_t slot) {
+                          const bool of_row = std::ranges::find(sampled, slot) != sampled.end();
+                          const double step = std::sqrt(primes.at(of_row ? 0 : source % primes.size()));
+                          ++source;
+                          const Value& value = *value_at_point(plan, slot, point);
+                          const double number = value.kind == Value::Kind::number
+                                                    ? value.number
+                                                    : distributions::quantile(plan.distributions[value.index],
+                                                                              std::fmod(0.5 + i * step, 1.0));
+                          return number * age_factors(plan, slot, point).typical;
+                        }),
+        numbers);
   }
   return numbers;
 }
@@ -77,12 +76,10 @@ std::vector<double> numbers_inside(const StudyPlan& plan, const FollowingValue& 
 /// At the corners of the box of its sources; where nothing follows from some of them, at places inside it as
 /// well.
 ValueLimits limits_of_following(const StudyPlan& plan, const FollowingValue& following, std::size_t point) {
-  if (following.value == nullptr)
-    return limits_of_slot(plan, following.from.front(), point);
+  if (following.value == nullptr) return limits_of_slot(plan, following.from.front(), point);
   std::vector<double> numbers = numbers_at_corners(plan, following, point);
-  double typical = following_value(following, [&](std::uint32_t slot) {
-    return limits_of_slot(plan, slot, point).typical;
-  });
+  double typical = following_value(
+      following, [&](std::uint32_t slot) { return limits_of_slot(plan, slot, point).typical; });
   if (numbers.size() < (std::size_t{1} << following.from.size())) {
     const std::vector<double> inside = numbers_inside(plan, following, point);
     numbers.insert(numbers.end(), inside.begin(), inside.end());
@@ -190,8 +187,8 @@ void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
   }
   std::vector<Turning> turning;  // the relevant axes, fastest first
   std::size_t stride = 1;
-  const bool aging = std::ranges::any_of(
-      slots, [&](std::size_t slot) { return changes_with_age(plan, slot); });
+  const bool aging =
+      std::ranges::any_of(slots, [&](std::size_t slot) { return changes_with_age(plan, slot); });
   for (std::size_t a = plan.axes.size(); a-- > 0;) {
     const std::size_t options = option_count(plan.axes[a]);
     const bool of_ages = aging && a == plan.condition_axis;

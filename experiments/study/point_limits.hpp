@@ -20,8 +20,8 @@ struct ValueLimits {
   double typical{0.0};  ///< the number, the median of the distribution, or the mean of the profile
 };
 
-/// The lowest and the highest number of the slot at a point of the plan, at its age, which unlike the ends of a
-/// support are finite. For a number or a distribution.
+/// The lowest and the highest number of the slot at a point of the plan, at its age, which unlike the ends of
+/// a support are finite. For a number or a distribution.
 std::pair<double, double> extremes_of(const StudyPlan& plan, std::size_t slot, std::size_t point);
 
 /// The limits of a value that does not follow from others, at age 0.

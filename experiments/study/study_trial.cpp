@@ -108,10 +108,10 @@ double at_age(const TrialDraws& draws, std::uint32_t slot, std::size_t point, do
   const parameters::Parameter& parameter = plan.table.rows[slot];
   const numerics::Interval range = parameters::range_of(parameter, plan.units);
   if (numerics::contains(range, number * factor)) return number * factor;
-  throw Failure(ExitCode::bad_input,
-                fmt::format("{}: {:.6g} at age 0 is {:.6g} at {}; expected {}", parameter.name, number,
-                            number * factor, age_text(draws.study.ages, age_at(plan, point)),
-                            numerics::range_text(range)));
+  throw Failure(
+      ExitCode::bad_input,
+      fmt::format("{}: {:.6g} at age 0 is {:.6g} at {}; expected {}", parameter.name, number, number * factor,
+                  age_text(draws.study.ages, age_at(plan, point)), numerics::range_text(range)));
 }
 
 /// The value of a slot that is drawn at each contact, by the contact's number.
@@ -143,8 +143,9 @@ double profile_mean(const TrialDraws& draws, std::uint32_t slot, std::size_t poi
   if (value.kind != Value::Kind::profile) return std::numeric_limits<double>::quiet_NaN();
   const GivenProfile* const given = given_profile(draws, slot);
   const Rotors& rotors = *draws.plan().profiles[value.index];
-  return age_factor_of(draws, value, point) *
-         (given != nullptr && given->mean ? rotors.mean_at(*given->mean) : rotors.mean(rotor_of(draws, value)));
+  return age_factor_of(draws, value, point) * (given != nullptr && given->mean
+                                                   ? rotors.mean_at(*given->mean)
+                                                   : rotors.mean(rotor_of(draws, value)));
 }
 
 /// The profile of a trial that begins at this position, at age 0.
@@ -262,9 +263,8 @@ std::vector<double> inputs_of(const Study& study, std::string_view unit, std::in
   inputs.reserve(sources.size());
   for (const InputSource& source : sources) {
     const std::size_t place = plan_point(plan, 0, source.condition.value_or(0));
-    inputs.push_back(source.profile_mean
-                         ? profile_mean(draws, source.slot, place)
-                         : number_at(draws, source.slot, place));
+    inputs.push_back(source.profile_mean ? profile_mean(draws, source.slot, place)
+                                         : number_at(draws, source.slot, place));
   }
   return inputs;
 }
@@ -301,7 +301,7 @@ void set_following(const TrialDraws& draws, std::size_t point, std::uint32_t slo
   std::map<std::uint32_t, std::function<double(std::uint64_t)>> per_contact;  // by source
   for (const std::uint32_t source : following.from) {
     const Value& value = *value_at_point(t.plan, source, point);
-    if (is_drawn_per_contact(value)) 
+    if (is_drawn_per_contact(value))
       per_contact.emplace(source, value_per_contact(draws, source, value, point));
   }
   if (per_contact.empty()) return;

@@ -168,7 +168,8 @@ struct GroupCounts {
 /// Trials and machines at the ages at the design points, [point][age].
 struct AgeCounts {
   GroupCounts trials;
-  /// Proportion of the machines that meet the goal under every condition, and its bounds; empty without a goal.
+  /// Proportion of the machines that meet the goal under every condition, and its bounds; empty without a
+  /// goal.
   std::vector<std::vector<double>> machines{}, machines_low{}, machines_high{};
   /// [point][rig] last age up to and including which the rig meets the goal; NaN: none. Empty without a goal.
   std::vector<std::vector<double>> lives{};

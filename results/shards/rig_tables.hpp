@@ -37,8 +37,8 @@ void write_condition_counts(hdf5::File& file, const study::Study& study, const l
 /// Writes the ages of a study to /age.
 void write_ages(hdf5::File& file, const study::Study& study);
 
-/// Writes the trials and machines at the ages at the points from `first` on to /age, and the lives of the rigs
-/// to /rig.
+/// Writes the trials and machines at the ages at the points from `first` on to /age, and the lives of the
+/// rigs to /rig.
 void write_age_counts(hdf5::File& file, const study::Study& study, const layout::AgeCounts& counts,
                       std::int64_t first);
 

@@ -106,8 +106,9 @@ std::string margins_sentence(Of tuning) {
       spread_text(answer.margins->spread), margins_text(*answer.margins, wanted),
       answer.margins->stable ? "" : "\n  the linear loop of a machine is unstable");
   for (std::size_t condition = 0; condition < answer.margins->conditions.size(); ++condition) {
-    text += fmt::format("\n {}: {}", study::condition_text(tuning.study, static_cast<std::int64_t>(condition)),
-                        margins_text(answer.margins->conditions[condition], wanted));
+    text +=
+        fmt::format("\n {}: {}", study::condition_text(tuning.study, static_cast<std::int64_t>(condition)),
+                    margins_text(answer.margins->conditions[condition], wanted));
   }
   return text;
 }

@@ -57,7 +57,9 @@ std::string met_headline(Of tuning) {
   if (study.goals.size() * static_cast<std::size_t>(study::condition_count(study)) < 2) return text;
   const tuning::ClaimPlace worst = worst_claim(tuning.answer.proof->verdict);
   if (study.conditions.size() > 1)
-    text += fmt::format(" under each of {} conditions", study.conditions.size());
+    text += study.ages.at.empty()
+                ? fmt::format(" under each of {} conditions", study.conditions.size())
+                : fmt::format(" at each of {} conditions and ages", study.conditions.size());
   text += study.goals.size() > 1 ? fmt::format(", '{}'", *tuning::goal_name(study, worst)) : ", that";
   return text + study::condition_text(study, static_cast<std::int64_t>(worst.condition)) + " by the least";
 }

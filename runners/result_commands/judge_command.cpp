@@ -166,13 +166,15 @@ ExitCode judge(const command_line::Arguments& arguments) {
   const auto point = command_line::point_option(arguments, summary.labels);
   const summary::ChosenPoint chosen = summary::choose_point(summary, point);
   const Judgement judgement{
-      summary, summary::judge_point(summary, chosen),
+      summary,
+      summary::judge_point(summary, chosen),
       summary::worlds_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
       summary::claims_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
       summary::conditions_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
       summary::ages_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from))};
   return answers::print(
-      arguments, judge_answer(summary.question).of(judgement, commands::exit_code_of(judgement.judged.verdict.status)));
+      arguments,
+      judge_answer(summary.question).of(judgement, commands::exit_code_of(judgement.judged.verdict.status)));
 }
 
 }  // namespace

@@ -428,13 +428,11 @@ class MachineSearch {
     const study::StudyPlan& plan = *given_.plan;
     const auto point = static_cast<std::size_t>(units_.point);
     const study::Aging& aging = plan.agings[*value.aging];
-    const auto drawn = std::ranges::find(values, plan.table.rows[aging.rate].name,
-                                         &std::pair<std::string, double>::first);
-    return study::factor_at_age(aging,
-                                drawn != values.end()
-                                    ? drawn->second
-                                    : study::limits_of_slot(plan, aging.rate, point).typical,
-                                study::age_at(plan, point));
+    const auto drawn =
+        std::ranges::find(values, plan.table.rows[aging.rate].name, &std::pair<std::string, double>::first);
+    return study::factor_at_age(
+        aging, drawn != values.end() ? drawn->second : study::limits_of_slot(plan, aging.rate, point).typical,
+        study::age_at(plan, point));
   }
 
   /// Puts the values as they act at the age of the machine in place of those at age 0: its manifest has no
@@ -477,9 +475,9 @@ class MachineSearch {
     for (const auto& [slot, value] : profiles()) {
       const study::Rotors& rotors = *given_.plan->profiles[value->index];
       if (rotors.drawn_mean())
-        changes.values.emplace_back(fmt::format("{}.profile.mean", given_.plan->table.rows[slot].name),
-                                    age_factor(*value, values) *
-                                        rotors.mean(value->level == study::DrawLevel::rig ? point.rig : 0));
+        changes.values.emplace_back(
+            fmt::format("{}.profile.mean", given_.plan->table.rows[slot].name),
+            age_factor(*value, values) * rotors.mean(value->level == study::DrawLevel::rig ? point.rig : 0));
     }
     for (const study::MachineInput& input : inputs_) {
       const std::vector<std::uint32_t>& rows = given_.plan->sampled_slots;

@@ -34,9 +34,9 @@ FigureData data_of_ages(const ReportedStudy& reported, const std::vector<summary
     for (const summary::AgeOfPoint& age : ages) {
       const std::optional<goal::BoundedProportion> rate = one.of(age);
       if (!rate) continue;
-      data.rows.push_back(ordered_json::array({one.name, datum(age.age), datum(rate->value), datum(rate->low),
-                                               datum(rate->high),
-                                               one.asked ? datum(*one.asked) : ordered_json()}));
+      data.rows.push_back(
+          ordered_json::array({one.name, datum(age.age), datum(rate->value), datum(rate->low),
+                               datum(rate->high), one.asked ? datum(*one.asked) : ordered_json()}));
     }
   }
   return data;
@@ -71,11 +71,12 @@ Figure rates_figure(const ReportedStudy& reported, const std::vector<summary::Ag
                       one_claim ? question.claim()->machines : std::nullopt});
   Figure figure = figure_of(
       "ages", "ages", "How long does it hold?",
-      fmt::format("Proportions at each age, at {}: of moves those of the worst goal and condition{}; {}. Dashed: "
-                  "what is asked.",
-                  label_of(reported, reported.chosen.point),
-                  question.claim() ? "; of machines those that meet every goal under every condition" : "",
-                  bounds_text(reported)),
+      fmt::format(
+          "Proportions at each age, at {}: of moves those of the worst goal and condition{}; {}. Dashed: "
+          "what is asked.",
+          label_of(reported, reported.chosen.point),
+          question.claim() ? "; of machines those that meet every goal under every condition" : "",
+          bounds_text(reported)),
       {data_of_ages(reported, ages, series)});
   scale_ages(figure, question.ages);
   return figure;
@@ -84,11 +85,13 @@ Figure rates_figure(const ReportedStudy& reported, const std::vector<summary::Ag
 Figure lives_figure(const ReportedStudy& reported, const std::vector<summary::AgeOfPoint>& ages) {
   Figure figure = figure_of(
       "ages", "lives", "How long do the machines live?",
-      fmt::format("Proportion of the machines that meet every goal under every condition at each age up to one, "
-                  "at {}; Clopper-Pearson, {}.",
-                  label_of(reported, reported.chosen.point), bounds_text(reported)),
-      {data_of_ages(reported, ages,
-                    {{"machines", [](const summary::AgeOfPoint& age) { return age.living; }, std::nullopt}})});
+      fmt::format(
+          "Proportion of the machines that meet every goal under every condition at each age up to one, "
+          "at {}; Clopper-Pearson, {}.",
+          label_of(reported, reported.chosen.point), bounds_text(reported)),
+      {data_of_ages(
+          reported, ages,
+          {{"machines", [](const summary::AgeOfPoint& age) { return age.living; }, std::nullopt}})});
   scale_ages(figure, question_of(reported).ages);
   ordered_json& layers = figure.specification["layer"];
   for (const int layer : {0, 2}) layers[layer]["mark"]["interpolate"] = "step-after";

@@ -27,8 +27,8 @@ std::vector<Figure> stability_maps(const ReportedStudy& reported);
 /// points, and of settling in each band.
 std::vector<Figure> distribution_figures(const ReportedStudy& reported);
 
-/// At the chosen point of a study with ages: the proportions of moves and machines in the goal at each, and the
-/// lives of the machines as a survival curve.
+/// At the chosen point of a study with ages: the proportions of moves and machines in the goal at each, and
+/// the lives of the machines as a survival curve.
 std::vector<Figure> age_figures(const ReportedStudy& reported);
 
 /// At the chosen point of a study with worlds: the times of settling in each, and the rates over each

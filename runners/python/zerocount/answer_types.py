@@ -486,6 +486,26 @@ class SummaryAnswer(Answer):
           - ``rate_low``: lower bound
           - ``rate_high``: upper bound
           - ``status``: verdict on the goal under the condition
+        - ``ages``: the point at each age
+          - ``age``: age of the machines, cycles
+          - ``trials``: trials at the age
+          - ``success``: trials all of whose moves ended at zero error
+          - ``goal_met``: trials all of whose moves meet the goal
+          - ``rate``: proportion of moves (trials without a goal), with one-sided bounds; of the worst goal, condition
+            and world
+          - ``rate_low``: lower bound
+          - ``rate_high``: upper bound
+          - ``machines``: proportion of machines that meet the goal at the age under every condition, with one-sided
+            bounds
+          - ``machines_low``: lower bound
+          - ``machines_high``: upper bound
+          - ``living``: proportion of the machines that meet it at every age up to this one, with one-sided bounds of
+            Clopper and Pearson
+          - ``living_low``: lower bound
+          - ``living_high``: upper bound
+          - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; null where it
+            is not within the hold, s
+          - ``status``: verdict on the goal at the age
         - ``assurance``.* (success_at_least, failure_at_most, rule_of_three, settling_time, statement, rigs): what the
           trials show of all axes that the manifest describes
         - ``levels``: the torque levels
@@ -1078,6 +1098,33 @@ class JudgeAnswer(Answer):
         - ``within``: settling time that the goal allows, s
         - ``status``: verdict on the goal under the condition
 
+    met_until : float or None
+        Last age up to and including which the goal is met; null if not at the first.
+    missed_from : float or None
+        First age at which the goal is shown to be missed.
+    ages : pandas.DataFrame
+        The point at each age.
+
+        - ``age``: age of the machines, cycles
+        - ``trials``: trials at the age
+        - ``success``: trials all of whose moves ended at zero error
+        - ``goal_met``: trials all of whose moves meet the goal
+        - ``rate``: proportion of moves (trials without a goal), with one-sided bounds; of the worst goal, condition and
+          world
+        - ``rate_low``: lower bound
+        - ``rate_high``: upper bound
+        - ``machines``: proportion of machines that meet the goal at the age under every condition, with one-sided
+          bounds
+        - ``machines_low``: lower bound
+        - ``machines_high``: upper bound
+        - ``living``: proportion of the machines that meet it at every age up to this one, with one-sided bounds of
+          Clopper and Pearson
+        - ``living_low``: lower bound
+        - ``living_high``: upper bound
+        - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; null where it is
+          not within the hold, s
+        - ``status``: verdict on the goal at the age
+
     """
 
     _records = {"needed": Needed, "worlds": JudgeWorlds}
@@ -1097,6 +1144,9 @@ class JudgeAnswer(Answer):
     needed: Needed | None
     worlds: JudgeWorlds | None
     claims: pandas.DataFrame
+    met_until: float | None
+    missed_from: float | None
+    ages: pandas.DataFrame
 
 
 class LearnAnswer(Answer):

@@ -299,7 +299,15 @@ std::filesystem::path write_file_in_worlds(const std::filesystem::path& director
     layout::StoredStatistics stored = sample_statistics(file);
     stored.worlds = counted_worlds(file, study.worlds);
     if (!has_goal) stored.worlds->goal_met.clear();
-    if (!study.conditions.empty()) stored.conditions = counted_worlds(file, std::ssize(study.conditions));
+    if (!study.condition_names.empty())
+      stored.conditions = counted_worlds(file, std::ssize(study.condition_names));
+    if (!study.ages.at.empty()) {
+      const std::vector<std::vector<double>> of_ages(static_cast<std::size_t>(file.header().points),
+                                                     std::vector<double>(study.ages.at.size(), 0.5));
+      const std::vector<std::vector<double>> lives(static_cast<std::size_t>(file.header().points),
+                                                   std::vector<double>(static_cast<std::size_t>(study.rigs)));
+      stored.ages = {counted_worlds(file, std::ssize(study.ages.at)), of_ages, of_ages, of_ages, lives};
+    }
     return stored;
   };
   testing::merge_shards(shards, study, path, layout::all_rows(study), statistics, {sample_provenance()});

@@ -139,7 +139,9 @@ TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
   for_each_dataset(write_sample_file(directory_with_rigs.path(), sample_study_with_rigs()), look_up);
   for_each_dataset(write_sample_file(directory_with_companions.path(), with_companions), look_up);
   study::Study in_worlds = sample_study_in_worlds();
-  in_worlds.conditions = {"empty", "loaded"};
+  in_worlds.conditions = in_worlds.condition_names = {"empty", "loaded"};
+  in_worlds.ages.at = {0.0, 1.0};
+  in_worlds.rigs = 10;
   in_worlds.features.position_error = true;
   in_worlds.features.tolerances = {{1.0e-6}, 1};
   for_each_dataset(write_file_in_worlds(directory_with_worlds.path(), in_worlds), look_up);

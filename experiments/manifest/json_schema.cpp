@@ -94,15 +94,22 @@ Json reference(std::string_view name) {
   return {{"$ref", "#/$defs/" + std::string(name)}};
 }
 
-// A law with its rate, and the scale of ages.
-Json aging_schema() {
+// The dotted path of the rate of an aging: "friction.k1.aging".
+constexpr std::string_view rate_pattern = R"(^[a-z_0-9.]+\.aging$)";
+
+Json rate_schema() {
   Json rates = Json::array({number_in(numerics::all_numbers())});
   for (const distributions::DistributionForm& form : distributions::distribution_forms())
     rates.push_back(reference(form.name));
+  return {{"anyOf", std::move(rates)}};
+}
+
+// A law with its rate, and the scale of ages.
+Json aging_schema() {
   Json laws = Json::array();
   for (const std::string_view law : study::aging_law_labels) {
-    laws.push_back(object_of(
-        {{std::string(law), {{"anyOf", rates}}}, {"scale", number_in(numerics::above(0))}}, {law, "scale"}));
+    laws.push_back(object_of({{std::string(law), rate_schema()}, {"scale", number_in(numerics::above(0))}},
+                             {law, "scale"}));
   }
   return {{"oneOf", std::move(laws)}, {"description", "how the value changes with age"}};
 }
@@ -265,6 +272,7 @@ Json assignments_schema() {
     }
     if (parameters::is_list(parameter)) assignments[pattern_of(parameter.name, true)] = value;
   }
+  assignments[std::string(rate_pattern)] = rate_schema();
   assignments[fmt::format("^controller\\.parameters\\.{}$", plugin_name)] = value_schema(plugin_value());
   return by_path(std::move(assignments));
 }
@@ -285,6 +293,7 @@ Json sweep_schema() {
       grid[pattern_of(parameter.name, true)] = spaced;
     }
   }
+  grid[std::string(rate_pattern)] = {{"anyOf", {list_of(rate_schema(), 1), spacing_schema()}}};
   const std::string of_plugin = fmt::format("^controller\\.parameters\\.{}$", plugin_name);
   grid[of_plugin] = {{"anyOf", {list_of(value_schema(plugin_value()), 1), spacing_schema()}}};
   return object_of({{"grid", by_path(std::move(grid))},

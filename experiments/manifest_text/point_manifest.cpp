@@ -89,6 +89,15 @@ const YamlNode* node_at(const YamlNode& root, std::string_view path) {
   return node;
 }
 
+/// Where the number of the path stands: that of a rate, "friction.k1.aging", at the key of its law.
+std::string number_path(const YamlNode& root, std::string_view path) {
+  const YamlNode* const aging = path.ends_with(study::suffix_of_rate) ? node_at(root, path) : nullptr;
+  if (aging == nullptr || aging->kind != YamlNode::Kind::map) return std::string(path);
+  const auto law =
+      std::ranges::find_if(aging->entries, [](const yaml::YamlEntry& entry) { return entry.key != "scale"; });
+  return law == aging->entries.end() ? std::string(path) : fmt::format("{}.{}", path, law->key);
+}
+
 /// The value, which changes with age as `before` does unless it says how itself.
 YamlPointer aging_like(const YamlNode* before, const YamlPointer& value) {
   const bool is_map = value->kind == YamlNode::Kind::map;
@@ -145,7 +154,7 @@ class ManifestTree {
   }
 
   void settle_value(std::string_view path, const YamlPointer& value) {
-    put(path, aging_like(node_at(*root_, path), value));
+    put(number_path(*root_, path), aging_like(node_at(*root_, path), value));
   }
 
   void remove(std::string_view path) { root_ = without(root_, path); }
@@ -161,7 +170,7 @@ class ManifestTree {
     const std::string_view short_name =
         slot ? study_.plan->table.rows[slot->first].short_name : std::string_view();
     const bool is_short = !short_name.empty() && !has_value_at(*root_, name);
-    put(is_short ? short_name : std::string_view(name), number_node(number));
+    put(is_short ? std::string(short_name) : number_path(*root_, name), number_node(number));
   }
 
   void put_text(const std::string& key, const std::string& text) {

@@ -408,12 +408,16 @@ TEST(Ages, StandInTheManifestOfAPoint) {
   const Study study = study_of(
       "zerocount: 1\nname: p\nseed: 3\nrigs: 2\ntrials: 4\nages: {at: [0, 10]}\n"
       "friction: {k2: {value: 700, aging: {linear: -0.1, scale: 10}}}\n"
-      "sweep: {grid: {controller.ki: [1.0e-5, 2.0e-5], friction.k2: [500, 600]}}\n" +
+      "sweep: {grid: {controller.ki: [1.0e-5, 2.0e-5], friction.k2: [500, 600], friction.k2.aging: [-0.1, "
+      "-0.2]}}\n" +
       command_of_ages);
-  const Study point = study_of(manifest_text::manifest_of_point(study, 1, {}));
-  for (std::int64_t i = 0; i < 4; ++i)
-    EXPECT_EQ(study_trial(point, 0, i).parameters.friction.uniform.k2,
-              study_trial(study, 1, i).parameters.friction.uniform.k2);
+  for (std::int64_t p = 0; p < 8; ++p) {
+    const Study point = study_of(manifest_text::manifest_of_point(study, p, {}));
+    for (std::int64_t i = 0; i < 4; ++i)
+      EXPECT_EQ(study_trial(point, 0, i).parameters.friction.uniform.k2,
+                study_trial(study, p, i).parameters.friction.uniform.k2);
+  }
+  EXPECT_NEAR(study_trial(study, 7, 2).parameters.friction.uniform.k2, 600 * 0.8, 1e-10);
 }
 
 }  // namespace

@@ -196,6 +196,48 @@ def test_trials_under_a_condition_are_those_of_its_study(shared: dict[str, int],
             assert mine[name].tolist() == alone[name].tolist() or same(mine[name].to_numpy(), alone[name].to_numpy()), name
 
 
+def test_ages_and_lives_are_those_of_the_trials(tmp_path: pathlib.Path) -> None:
+    """Ages and lives of machines, recomputed from the trials and their moves."""
+    manifest: dict[str, Any] = {
+        "zerocount": 1,
+        "name": "ages",
+        "seed": 3,
+        "rigs": 6,
+        "trials": 144,
+        "conditions": {"empty": {}, "loaded": {"plant.inertia": 9e-4}},
+        "ages": {"at": [0, 10, 100], "unit": "h"},
+        "friction": {"k1": {"uniform": [90.0, 130.0], "aging": {"linear": {"uniform": [-0.5, 0.0]}, "scale": 100}}},
+        "controller": {"ki": 5e-5},
+        "command": {"targets": [5, 8], "hold": 0.1},
+        "goal": {"band": 1, "within": 0.04, "moves": 0.8, "machines": 0.5},
+    }
+    study = zc.study(manifest)
+    assert study.ages == [0, 10, 100]
+    assert study.conditions == ["empty, 0 h", "loaded, 0 h", "empty, 10 h", "loaded, 10 h", "empty, 100 h", "loaded, 100 h"]
+    found = study.run(tmp_path / "ages.h5")
+    trials, moves, ages, lives = found.trials(), found.moves(inputs=True), found.ages(), found.lives()
+    assert set(trials["condition"]) == {"empty", "loaded"}
+    assert found.dataset["age"].values.tolist() == trials["age"].tolist()
+    young = trials["k1"] / (1 + trials["aging"] * trials["age"] / 100)
+    np.testing.assert_allclose(young, young.groupby(trials["rig"]).transform("first"), rtol=1e-12)
+    counts = trials.groupby("age")[["success", "goal_met"]].sum()
+    assert counts["success"].tolist() == ages["success"].tolist()
+    assert counts["goal_met"].tolist() == ages["goal_met"].tolist()
+    meets = moves.groupby(["age", "condition", "rig"], observed=True)["goal_met"].mean() >= 0.8
+    of_rigs = meets.groupby(["age", "rig"]).all().unstack("age")
+    assert of_rigs.mean().tolist() == ages["machines"].tolist()
+    alive = of_rigs.cummin(axis=1)
+    expected = [max((age for age in alive if row[age]), default=np.nan) for _, row in alive.iterrows()]
+    assert same(lives["life"].to_numpy(), np.array(expected))
+    assert lives.attrs["units"]["life"] == "h"
+    del manifest["ages"], manifest["friction"]
+    without = zc.study({**manifest, "trials": 12}).run(tmp_path / "without.h5")
+    for table in (without.ages, without.lives):
+        with pytest.raises(zc.DataError, match="no ages"):
+            table()
+    assert "age" not in without.trials()
+
+
 def test_the_goal_is_met_where_the_file_says_so(small: zc.Results, results_of: ResultsOf, axis: zc.Study, tmp_path: pathlib.Path) -> None:
     """Moves and trials that meet the goal are those that the program counted."""
     for r in (small, results_of("unknown-friction")):

@@ -29,6 +29,7 @@ command_line::OptionSpec format_option(const document::AnswerType& type, std::ve
 
 std::string rendered(const document::Answer& answer, std::string_view format) {
   if (format == "json") return text::json_text(document::json(answer));
+  if (format == json_line) return text::json_text(document::json(answer), text::one_line);
   if (format == "markdown") return document::markdown(answer);
   if (format == "html") return report::html_page(report::answer_page(answer));
   if (format == "csv") return document::csv(answer);

@@ -14,7 +14,10 @@ namespace zerocount::answers {
 /// with the members "answer" (the JSON), "schema" (its schema), "text" and "html".
 command_line::OptionSpec format_option(const document::AnswerType& type, std::vector<std::string> more = {});
 
-/// The answer in a format of format_option().
+/// The format JSON on one line, for commands that answer again and again.
+inline constexpr std::string_view json_line = "json_line";
+
+/// The answer in a format of format_option(), or as json_line.
 /// @throws Failure (machine_failed) for HTML with figures, if the program was built without the libraries for
 /// drawing
 std::string rendered(const document::Answer& answer, std::string_view format);

@@ -105,6 +105,7 @@ std::vector<commands::Command> commands() {
                                      result_commands::compare_command(),
                                      result_commands::baseline_command(),
                                      result_commands::history_command(),
+                                     result_commands::monitor_command(),
                                      design_commands::plan_command(),
                                      result_commands::sensitivity_command(),
                                      result_commands::report_command(),

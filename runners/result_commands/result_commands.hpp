@@ -11,6 +11,7 @@ commands::Command sensitivity_command();
 commands::Command jerks_command();
 commands::Command compare_command();
 commands::Command learn_command();
+commands::Command monitor_command();
 commands::Command baseline_command();
 commands::Command summary_command();
 commands::Command judge_command();

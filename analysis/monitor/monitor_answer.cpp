@@ -1,0 +1,226 @@
+#include "analysis/monitor/monitor_answer.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
+
+namespace zerocount::monitor {
+namespace {
+
+std::string_view word_of(MachineStatus status) {
+  switch (status) {
+    case MachineStatus::changed:
+      return "changed";
+    case MachineStatus::unchanged:
+      return "unchanged";
+    case MachineStatus::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+std::string_view word_of(Direction direction) {
+  return direction == Direction::higher ? "higher" : "lower";
+}
+
+std::string typical_text(const MeasureState& state, double value) {
+  if (state.measure.quality) return text::percent_near(value);
+  if (std::isinf(value)) return "never";
+  const std::string number = text::short_number(value);
+  return state.unit.empty() || state.unit == "1" ? number : fmt::format("{} {}", number, state.unit);
+}
+
+std::string moves_text(std::int64_t moves) {
+  return fmt::format("{} move{}", moves, moves == 1 ? "" : "s");
+}
+
+std::string change_text(const MonitorReading& r) {
+  const std::optional<double>& change = r.monitor.settings().change;
+  return change ? fmt::format("{} of the baseline's median, or {:g} of a proportion,", text::percent(*change),
+                              *change)
+                : std::string("20 % of the baseline's median, or 0.1 of a proportion,");
+}
+
+std::string changed_headline(const MonitorReading& r) {
+  const MeasureState& alarm = *r.state.alarm;
+  return fmt::format("changed: {} is {} since move {} ({}; baseline {}); alarm at move {} of {}",
+                     alarm.measure.name, word_of(alarm.direction), *alarm.since,
+                     typical_text(alarm, alarm.median.value_or(alarm.baseline_median)),
+                     typical_text(alarm, alarm.baseline_median), *alarm.alarm_at, r.state.moves);
+}
+
+std::string headline_of(const MonitorReading& r) {
+  switch (r.state.status) {
+    case MachineStatus::changed:
+      return changed_headline(r);
+    case MachineStatus::unchanged:
+      return fmt::format("unchanged: no alarm in {}, where a change of {} would have been seen with 90 %",
+                         moves_text(r.state.moves), change_text(r));
+    case MachineStatus::undecided:
+      break;
+  }
+  if (r.state.moves == 0) return "undecided: there are no moves yet";
+  return fmt::format("undecided: no alarm in {}, but a change of {} need not have been seen in each measure",
+                     moves_text(r.state.moves), change_text(r));
+}
+
+std::string bound_sentence(const MonitorReading& r) {
+  return fmt::format(
+      "a false alarm within any number of moves has at most the probability {}, where {} are exchangeable "
+      "with those of the baseline ({})",
+      text::percent(r.monitor.settings().alarm),
+      r.monitor.settings().block == 1 ? std::string("the moves")
+                                      : fmt::format("blocks of {} moves", r.monitor.settings().block),
+      moves_text(r.baseline.moves));
+}
+
+std::string model_sentence(const MonitorReading& r) {
+  if (!r.baseline.is_model) return "";
+  if (r.baseline.machines == 1)
+    return "the baseline is a simulated machine: an alarm can mean that the model is wrong, not that the "
+           "machine "
+           "changed";
+  return fmt::format(
+      "the baseline is a model of {} machines: an alarm can mean that the model is wrong, or that this "
+      "machine is "
+      "not an average one, not that it changed; whether it changed is told by its own first moves as the "
+      "baseline",
+      r.baseline.machines);
+}
+
+std::vector<std::string> not_judged(const MonitorReading& r) {
+  std::vector<std::string> names;
+  for (const MeasureState& state : r.monitor.measures())
+    if (state.to_see.directions.empty()) names.push_back(state.measure.name);
+  return names;
+}
+
+std::string not_judged_sentence(const MonitorReading& r) {
+  const std::vector<std::string> names = not_judged(r);
+  if (names.empty() || r.state.alarm != nullptr) return "";
+  return fmt::format(
+      "without a size of change to be seen, because the median is 0 or infinite, or values have both "
+      "signs: {}",
+      fmt::join(names, ", "));
+}
+
+std::string unused_sentence(const MonitorReading& r) {
+  if (r.monitor.unused().empty()) return "";
+  return fmt::format("columns that are not compared: {}",
+                     text::printable(fmt::format("{}", fmt::join(r.monitor.unused(), ", "))));
+}
+
+template <class Value, class Get>
+std::optional<Value> of_alarm(const MonitorReading& r, Get get) {
+  return r.state.alarm == nullptr ? std::nullopt : std::optional<Value>(get(*r.state.alarm));
+}
+
+document::Description<MeasureState> measure_description() {
+  using document::in_data;
+  using document::with_words;
+  using Of = const MeasureState&;
+  const std::vector<std::string> directions{"higher", "lower"};
+  return document::Description<MeasureState>()
+      .value({"measure", "measure", "name of the measure"}, [](Of s) { return s.measure.name; })
+      .value({"unit", "unit", "its unit"}, [](Of s) { return s.unit; })
+      .value(in_data("baseline", "median of the baseline, of a quality its proportion; null: never"),
+             &MeasureState::baseline_median)
+      .value(
+          in_data("moves", "likewise of the moves, since the change if there is one; null: none, or never"),
+          &MeasureState::median)
+      .value({.heading = "baseline", .shown = document::Shown::to_people, .numeric = true},
+             [](Of s) {
+               return s.measure.quality ? text::percent_near(s.baseline_median)
+                                        : text::short_number(s.baseline_median);
+             })
+      .value({.heading = "moves", .shown = document::Shown::to_people, .numeric = true},
+             [](Of s) -> std::optional<std::string> {
+               if (!s.median) return std::nullopt;
+               return s.measure.quality ? text::percent_near(*s.median) : text::short_number(*s.median);
+             })
+      .value({.key = "evidence",
+              .heading = "evidence",
+              .meaning =
+                  "largest capital of the bets on a change of the measure, as a part of the alarm's scale",
+              .unit = "1",
+              .notation = document::Notation::three_digits},
+             &MeasureState::evidence)
+      .value(with_words({"direction", "direction", "of the change, or towards which there is more evidence"},
+                        directions),
+             [](Of s) { return word_of(s.direction); })
+      .value({"since", "since", "first move of the change, from 1; null: no alarm"}, &MeasureState::since)
+      .value({"alarm_at", "alarm at", "move of the alarm, from 1; null: none"}, &MeasureState::alarm_at)
+      .value({"seen_after", "seen after",
+              "moves after which a change of the asked size would have been seen with 90 %, where there are "
+              "as many; "
+              "null: later, or not asked"},
+             &MeasureState::seen_after);
+}
+
+}  // namespace
+
+document::AnswerDescription<MonitorReading> monitor_answer() {
+  using document::in_data;
+  using document::with_words;
+  using Of = const MonitorReading&;
+  document::AnswerDescription<MonitorReading> answer{
+      {.name = "monitor", .meaning = "whether a machine has changed", .csv_table = "measures"}, {}};
+  answer.items.headline(headline_of)
+      .value(
+          with_words(in_data("status", "whether the machine changed"), {"changed", "unchanged", "undecided"}),
+          [](Of r) { return word_of(r.state.status); })
+      .value(
+          in_data("measure", "measure of the first alarm; null: none"),
+          [](Of r) { return of_alarm<std::string>(r, [](const MeasureState& s) { return s.measure.name; }); })
+      .value(with_words(in_data("direction", "direction of its change; null: no alarm"), {"higher", "lower"}),
+             [](Of r) {
+               return of_alarm<std::string>(r, [](const MeasureState& s) { return word_of(s.direction); });
+             })
+      .value(in_data("since", "estimated first move of the change, from 1; null: no alarm"),
+             [](Of r) { return of_alarm<std::int64_t>(r, [](const MeasureState& s) { return *s.since; }); })
+      .value(
+          in_data("alarm_at", "move of the alarm, from 1; null: none"),
+          [](Of r) { return of_alarm<std::int64_t>(r, [](const MeasureState& s) { return *s.alarm_at; }); })
+      .value(in_data("moves", "moves seen"), [](Of r) { return r.state.moves; })
+      .value(in_data("evidence", "e-value against no change, the largest until now; the alarm is at 1/alarm",
+                     "1"),
+             [](Of r) { return r.state.evidence; })
+      .value(in_data("alarm", "largest probability of a false alarm within any number of moves", "1"),
+             [](Of r) { return r.monitor.settings().alarm; })
+      .value(in_data("block", "consecutive moves that are one value"),
+             [](Of r) { return r.monitor.settings().block; })
+      .value(in_data("baseline_moves", "moves of the baseline"), [](Of r) { return r.baseline.moves; })
+      .value(in_data("baseline_machines", "simulated machines of the baseline; null: it was measured"),
+             [](Of r) { return r.baseline.is_model ? std::optional(r.baseline.machines) : std::nullopt; })
+      .value(in_data("unused", "columns of the moves that nothing is compared with"),
+             [](Of r) { return r.monitor.unused(); })
+      .table({.key = "measures", .meaning = "each measure"}, measure_description(),
+             [](Of r) { return r.monitor.measures(); })
+      .sentence(not_judged_sentence)
+      .sentence(unused_sentence)
+      .sentence(bound_sentence)
+      .sentence(model_sentence);
+  return answer;
+}
+
+ExitCode exit_code_of(MachineStatus status) {
+  switch (status) {
+    case MachineStatus::changed:
+      return ExitCode::regression;
+    case MachineStatus::unchanged:
+      return ExitCode::success;
+    case MachineStatus::undecided:
+      break;
+  }
+  return ExitCode::inconclusive;
+}
+
+}  // namespace zerocount::monitor

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "analysis/document/answer.hpp"
+#include "analysis/monitor/machine_monitor.hpp"
+#include "analysis/monitor/monitor_baseline.hpp"
+
+namespace zerocount::monitor {
+
+/// What the answer of `monitor` is made of.
+struct MonitorReading {
+  const MachineMonitor& monitor;
+  const Baseline& baseline;
+  MonitorState state;
+};
+
+document::AnswerDescription<MonitorReading> monitor_answer();
+
+/// regression for a machine that changed, success for one that did not, inconclusive.
+ExitCode exit_code_of(MachineStatus status);
+
+}  // namespace zerocount::monitor

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "results/layout/measure_table.hpp"
+
+namespace zerocount::monitor {
+
+/// How a change of a measure is stated.
+enum class Scale {
+  proportion,  ///< in [0, 1]: a quality of moves, or a fraction
+  counts,      ///< whole numbers, at least 0
+  plain        ///< any number
+};
+
+/// A measure of moves, by the row of the table of measures that a column is named after.
+struct MonitoredMeasure {
+  std::string name;  ///< that of the column: "band_settling_time[1]"
+  std::string unit;  ///< as the table has it: "s"
+  const layout::Measure* row{nullptr};
+  bool quality{false};  ///< 1 of moves that have it, 0 of others; an outcome is whether it is zero_count
+  Scale scale{Scale::plain};
+};
+
+/// The measure of that name, with any error band or tolerance in brackets; nothing if there is none.
+std::optional<MonitoredMeasure> measure_named(std::string_view name);
+
+/// The name in the head of a column without its unit, and the unit: "band_settling_time[1] [ms]".
+struct ColumnHead {
+  std::string name;
+  std::string unit;  ///< empty without one
+};
+ColumnHead column_head(std::string_view text);
+
+/// Factor from the unit of a column to SI, as far as the program knows units; 1 without one.
+double si_factor(std::string_view unit);
+/// Whether numbers of one unit can be compared with those of the other, both in SI. Without a unit: yes.
+bool have_same_dimension(std::string_view one, std::string_view other);
+
+/// The unit of the measure on a linear axis.
+std::string linear_unit(const MonitoredMeasure& measure);
+
+/// The value that is ranked, of the number that a results file or a log has. NaN, which stands for what never
+/// happened, becomes larger than any number.
+double ranked_value(const MonitoredMeasure& measure, double number);
+
+/// The value of a block of consecutive moves: the median, or of a quality the proportion that have it.
+double block_value(const MonitoredMeasure& measure, std::span<const double> moves);
+
+}  // namespace zerocount::monitor

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/monitor/monitored_measure.hpp"
+
+namespace zerocount::monitor {
+
+/// A log of moves as text: a header with the names of measures, then one row a move in their order. It may be
+/// read in pieces, as it grows.
+///
+/// Cells are separated by the first of tab, semicolon and comma that the header has. Empty lines and lines
+/// that begin with '#' or '%' are skipped. An empty cell, or NaN, is what never happened; so is a blank line
+/// between the rows of a log of one column.
+class MoveLog {
+ public:
+  /// @param name in messages
+  explicit MoveLog(std::string name) : name_(std::move(name)) {}
+
+  struct Column {
+    MonitoredMeasure measure;
+    std::string unit;            ///< in the header; empty: none
+    std::vector<double> values;  ///< [move] as ranked_value() has them, in SI where the column has a unit
+  };
+
+  /// Reads the lines that end in `text`. @returns the number of its characters that were read
+  /// @throws Failure: bad_input for a header without a measure, or with one twice; bad_data for a row of
+  /// another number of cells, or with a value that the measure cannot have
+  std::size_t read(std::string_view text);
+  /// Reads the last line, although nothing ends it.
+  void read_last(std::string_view line);
+  /// @throws Failure (bad_input) if there was no header
+  void require_header() const;
+
+  const std::string& name() const { return name_; }
+  bool has_header() const { return !heads_.empty(); }
+  const std::vector<Column>& columns() const { return columns_; }
+  const Column* find(std::string_view measure) const;
+  /// Names of the columns that are not measures, as the header has them.
+  const std::vector<std::string>& others() const { return others_; }
+  std::int64_t moves() const { return moves_; }
+
+ private:
+  void read_line(std::string_view line);
+  void read_header(std::string_view line);
+  void read_row(std::string_view line);
+
+  std::string name_;
+  char separator_{','};
+  std::vector<std::string> heads_;      ///< of all columns
+  std::vector<std::size_t> column_at_;  ///< [cell] its place in columns_; heads_.size() if it has none
+  std::vector<Column> columns_;
+  std::vector<std::string> others_;
+  std::int64_t moves_{0};
+  std::int64_t line_{0};
+  std::int64_t blank_lines_{0};  ///< since the last row, in a log of one column
+};
+
+}  // namespace zerocount::monitor

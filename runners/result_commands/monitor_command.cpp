@@ -1,0 +1,230 @@
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/monitor/machine_monitor.hpp"
+#include "analysis/monitor/monitor_answer.hpp"
+#include "analysis/monitor/monitor_baseline.hpp"
+#include "analysis/monitor/move_log.hpp"
+#include "experiments/yaml/text_file.hpp"
+#include "results/reading/all_trials_file.hpp"
+#include "runners/answers/answer_format.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/commands/command.hpp"
+#include "runners/commands/study_argument.hpp"
+#include "runners/result_commands/result_commands.hpp"
+#include "runners/standard_output/standard_output.hpp"
+#include "runners/status/interruption.hpp"
+
+namespace zerocount::result_commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* monitor_help =
+    "Has this machine changed? MOVES.csv has a row for each move of a machine in use, in their order,\n"
+    "and columns named like measures of moves (settling_time, band_settling_time[1], overshoot,\n"
+    "outcome, ...), with units as [ms] where they are not those of the program. An empty cell, or\n"
+    "NaN, is what never happened. BASELINE is a log of earlier moves of the machine, or a results\n"
+    "file: then an alarm can mean that the model is wrong.\n"
+    "\n"
+    "The test may be asked after every move: a false alarm within any number of moves has at most\n"
+    "the probability --alarm, where the moves are exchangeable with those of the baseline. Moves\n"
+    "that depend on the ones before are not: --block N tests the medians of N consecutive moves.\n"
+    "Exit code 1: changed. 0: unchanged, which is said where a change of --change would have been\n"
+    "seen with 90 %. 3: undecided.\n"
+    "\n"
+    "--follow reads a growing log and prints a line of JSON whenever it has new moves, until the\n"
+    "alarm. It keeps no state: started again, it reads the log from its beginning and says the same.\n"
+    "\n"
+    "Example: zerocount monitor first-week.csv moves.csv\n"
+    "         zerocount monitor my-axis.h5 moves.csv --point 2 --format json\n"
+    "         zerocount monitor first-week.csv moves.csv --follow\n";
+
+constexpr std::size_t max_log_size = std::size_t{1} << 31;  // bytes
+constexpr auto polling_interval = std::chrono::milliseconds(200);
+
+/// Reads all of a log.
+monitor::MoveLog read_log(const fs::path& path) {
+  const std::string text = yaml::read_text(path, max_log_size, "a log of moves");
+  if (text.size() > max_log_size)
+    throw Failure(ExitCode::bad_input, fmt::format("{}: the file is too large; expected at most {} bytes",
+                                                   yaml::name_of_text(path), max_log_size));
+  monitor::MoveLog log(yaml::name_of_text(path));
+  log.read_last(std::string_view(text).substr(log.read(text)));
+  log.require_header();
+  return log;
+}
+
+/// The condition of --condition, which a study with conditions needs.
+reading::AllTrialsFile with_condition(const command_line::Arguments& arguments, reading::AllTrialsFile file) {
+  const std::vector<std::string>& conditions = file.study().conditions;
+  const std::optional<std::string> name = arguments.value("condition");
+  if (conditions.empty()) {
+    if (name) arguments.refuse("option '--condition': the study has no conditions");
+    return file;
+  }
+  const auto found = std::ranges::find(conditions, name.value_or(""));
+  if (found == conditions.end())
+    arguments.refuse(fmt::format("option '--condition': expected one of {}, under which the machine moves",
+                                 fmt::join(conditions, ", ")));
+  return file.under_condition(found - conditions.begin());
+}
+
+std::int64_t point_of(const command_line::Arguments& arguments, const std::vector<std::string>& labels) {
+  const std::optional<std::int64_t> point = command_line::point_option(arguments, labels);
+  if (!point && labels.size() > 1)
+    arguments.refuse(fmt::format("option '--point': {} has {} points; expected the one of the machine",
+                                 arguments.operands()[0], labels.size()));
+  return point.value_or(0);
+}
+
+std::optional<std::int64_t> rig_of(const command_line::Arguments& arguments, std::int64_t rigs) {
+  if (rigs == 0 && arguments.has("rig")) arguments.refuse("option '--rig': the study has no rigs");
+  return rigs == 0 ? std::nullopt : arguments.whole_number("rig", 0, rigs - 1);
+}
+
+monitor::Baseline load_baseline(const command_line::Arguments& arguments) {
+  const fs::path path = arguments.operands()[0];
+  if (!commands::is_results_file(path)) {
+    for (const char* const option : {"point", "condition", "rig"})
+      if (arguments.has(option))
+        arguments.refuse(fmt::format("option '--{}': {} is a log of moves; it belongs to results files",
+                                     option, path.string()));
+    return monitor::baseline_of(read_log(path));
+  }
+  const reading::AllTrialsFile file = with_condition(arguments, reading::AllTrialsFile(path));
+  if (file.study().open_loop)
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: its moves are torque levels; expected a study with targets", path.string()));
+  return monitor::baseline_of(
+      file, {point_of(arguments, file.point_labels()), rig_of(arguments, file.study().rigs)});
+}
+
+monitor::MonitorSettings settings_from(const command_line::Arguments& arguments) {
+  monitor::MonitorSettings settings;
+  settings.alarm = command_line::probability_option(arguments, "alarm").value_or(settings.alarm);
+  settings.change = command_line::probability_option(arguments, "change");
+  settings.block = arguments.whole_number("block", 1, 1'000'000).value_or(settings.block);
+  settings.seed =
+      static_cast<std::uint64_t>(arguments.whole_number("seed", 0, std::int64_t{1} << 53).value_or(1));
+  settings.measures = arguments.values("measure");
+  return settings;
+}
+
+/// A log that another process writes.
+class GrowingLog {
+ public:
+  explicit GrowingLog(fs::path path) : path_(std::move(path)), log_(path_.string()) {}
+
+  /// Reads the lines that are new. @returns whether there are moves among them
+  bool read() {
+    std::ifstream file(path_, std::ios::binary);
+    if (!file) throw Failure(ExitCode::bad_input, fmt::format("{}: cannot be read", path_.string()));
+    file.seekg(0, std::ios::end);
+    const auto size = static_cast<std::size_t>(file.tellg());
+    if (size < read_)
+      throw Failure(ExitCode::bad_data,
+                    fmt::format("{}: became shorter while it was followed; expected a file that only grows",
+                                path_.string()));
+    const std::int64_t before = log_.moves();
+    std::string text(size - read_, '\0');
+    file.seekg(static_cast<std::streamoff>(read_));
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(file.gcount()));
+    read_ += log_.read(text);
+    return log_.moves() > before;
+  }
+  const monitor::MoveLog& log() const { return log_; }
+
+ private:
+  fs::path path_;
+  monitor::MoveLog log_;
+  std::size_t read_{0};  ///< bytes
+};
+
+/// Prints the answer as one line. @returns its exit code
+ExitCode print_line(const monitor::MonitorReading& reading) {
+  const document::Answer answer = monitor::monitor_answer().of(
+      reading, monitor::exit_code_of(reading.state.status), document::Audience::json);
+  standard_output::write(answers::rendered(answer, answers::json_line));
+  standard_output::flush();
+  return answer.exit_code;
+}
+
+/// Follows the log until the alarm, an interruption, or so many seconds without new moves.
+ExitCode follow(const command_line::Arguments& arguments, const monitor::Baseline& baseline) {
+  using Clock = std::chrono::steady_clock;
+  const fs::path path = arguments.operands()[1];
+  if (yaml::is_stream(path))
+    arguments.refuse("option '--follow': a stream cannot be read again; expected a file");
+  const std::optional<std::int64_t> idle = arguments.whole_number("idle", 0, 86400 * 365);
+  const status::InterruptionWatch interruption;
+  GrowingLog growing(path);
+  std::optional<monitor::MachineMonitor> machine;
+  ExitCode code = ExitCode::inconclusive;
+  Clock::time_point last = Clock::now();
+  while (true) {
+    if (growing.read()) {
+      if (!machine) machine.emplace(baseline, growing.log(), settings_from(arguments));
+      machine->update(growing.log());
+      const monitor::MonitorState state = machine->state();
+      code = print_line({*machine, baseline, state});
+      if (state.status == monitor::MachineStatus::changed) return code;
+      last = Clock::now();
+    } else if (idle && Clock::now() - last >= std::chrono::seconds(*idle)) {
+      return code;
+    }
+    if (interruption.token().stop_requested()) return ExitCode::interrupted;
+    std::this_thread::sleep_for(polling_interval);
+  }
+}
+
+ExitCode monitor_machine(const command_line::Arguments& arguments) {
+  const monitor::Baseline baseline = load_baseline(arguments);
+  if (arguments.has("follow")) return follow(arguments, baseline);
+  const monitor::MoveLog log = read_log(arguments.operands()[1]);
+  monitor::MachineMonitor machine(baseline, log, settings_from(arguments));
+  machine.update(log);
+  const monitor::MonitorReading reading{machine, baseline, machine.state()};
+  return answers::print(arguments, monitor::monitor_answer(), reading,
+                        monitor::exit_code_of(reading.state.status));
+}
+
+}  // namespace
+
+commands::Command monitor_command() {
+  using command_line::excluding;
+  using command_line::needing;
+  return {{"monitor",
+           "BASELINE MOVES.csv",
+           {excluding({"follow"}, answers::format_option(monitor::monitor_answer().complete_type())),
+            {"alarm", "A", "largest probability of a false alarm, ever (default 0.001)"},
+            {"change", "C",
+             "change to be seen: a part of the median, or of a proportion (default 0.2, of proportions 0.1)"},
+            {"measure", "NAME", "a measure to watch; may be repeated (default: all that both have)", true},
+            {"block", "N", "take N consecutive moves as one value, their median (default 1)"},
+            {"point", "P", "design point of a results file"},
+            {"condition", "NAME", "condition of a results file with conditions"},
+            {"rig", "R", "only this rig of a results file, from 0"},
+            {"seed", "N", "of ties and of simulated changes (default 1)"},
+            {"follow", "", "read the log while it grows, and print lines of JSON until the alarm"},
+            needing({"follow"}, {"idle", "S", "end after S seconds without new moves (default: never)"})},
+           2,
+           2},
+          "say whether a machine in use has changed",
+          monitor_help,
+          monitor_machine,
+          {monitor::monitor_answer().complete_type()}};
+}
+
+}  // namespace zerocount::result_commands

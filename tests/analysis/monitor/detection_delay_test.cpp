@@ -1,0 +1,96 @@
+// The moves after which a change would have been seen.
+#include "analysis/monitor/detection_delay.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/analysis/monitor/move_sequences.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using monitor::Direction;
+using Directions = std::vector<Direction>;
+using Values = std::vector<double>;
+
+monitor::MonitoredMeasure measure(std::string_view name) {
+  return *monitor::measure_named(name);
+}
+
+TEST(ChangeToSee, IsAPartOfTheMedianOrOfAProportion) {
+  const Directions both{Direction::higher, Direction::lower};
+  const monitor::ChangeToSee time = change_to_see(measure("settling_time"), Values{0.04, 0.05, 0.06}, {});
+  EXPECT_NEAR(time.size, 0.01, 1e-15);
+  EXPECT_EQ(time.directions, both);
+  EXPECT_NEAR(change_to_see(measure("settling_time"), Values{0.05}, 0.5).size, 0.025, 1e-15);
+  const monitor::ChangeToSee good = change_to_see(measure("outcome"), Values{1.0, 1.0, 1.0, 0.0}, {});
+  EXPECT_EQ(good.size, 0.1);
+  EXPECT_EQ(good.directions, both);
+  EXPECT_EQ(change_to_see(measure("stable"), Values{1.0}, {}).directions, Directions{Direction::lower});
+  EXPECT_EQ(change_to_see(measure("jerk_count"), Values{0.0, 0.0, 3.0}, {}).directions,
+            Directions{Direction::higher});
+}
+
+TEST(ChangeToSee, IsNotAskedOfWhatHasNoScale) {
+  EXPECT_TRUE(change_to_see(measure("holding_torque"), Values{-1.0, 1.0, 2.0}, {}).directions.empty());
+  EXPECT_TRUE(
+      change_to_see(measure("settling_time"), Values{1.0, HUGE_VAL, HUGE_VAL}, {}).directions.empty());
+  EXPECT_FALSE(change_to_see(measure("holding_torque"), Values{1.0, 1.0, 2.0}, {}).directions.empty());
+}
+
+std::optional<std::int64_t> asked(const Values& baseline, Direction direction, double size,
+                                  double alarm = 1000.0, std::string_view name = "settling_time") {
+  return monitor::values_to_see({.measure = measure(name),
+                                 .baseline = baseline,
+                                 .direction = direction,
+                                 .size = size,
+                                 .alarm = alarm,
+                                 .max_values = 2000,
+                                 .seed = 1});
+}
+
+Values sorted_values(Moves kind, std::int64_t count, std::uint32_t number) {
+  random::NumberSource numbers = numbers_of("delays", number);
+  Values values;
+  for (std::int64_t i = 0; i < count; ++i) values.push_back(move_value(kind, numbers));
+  std::ranges::sort(values);
+  return values;
+}
+
+TEST(ValuesToSee, AreMoreForSmallerChangesAndRarerAlarms) {
+  const Values baseline = sorted_values(Moves::lognormal, 300, 1);
+  const std::int64_t usual = asked(baseline, Direction::lower, 0.01).value();
+  EXPECT_LT(asked(baseline, Direction::lower, 0.02).value(), usual);
+  EXPECT_GT(asked(baseline, Direction::lower, 0.01, 1e6).value(), usual);
+  EXPECT_FALSE(asked(baseline, Direction::lower, 0.0005));
+  EXPECT_FALSE(asked(sorted_values(Moves::lognormal, 4, 2), Direction::lower, 0.01));
+}
+
+// A real sequence with that change, of the distribution that the baseline came from, is seen as often.
+TEST(ValuesToSee, IsWhatRealSequencesTake) {
+  for (const Moves kind : {Moves::lognormal, Moves::binary}) {
+    const Values baseline = sorted_values(kind, 500, 3);
+    const double size = kind == Moves::binary ? 0.1 : 0.01;
+    const std::string_view name = kind == Moves::binary ? "stable" : "settling_time";
+    const std::int64_t values = asked(baseline, Direction::lower, size, 1000.0, name).value();
+    int seen = 0;
+    constexpr int sequences = 200;
+    for (std::uint32_t i = 0; i < sequences; ++i) {
+      random::NumberSource numbers = numbers_of("real", i);
+      monitor::ChangeTest test(sorted_values(kind, 500, 100 + i), {{5, 6}, i});
+      for (std::int64_t t = 0; t < values && test.martingale().capital() < 1000.0; ++t) {
+        const double before = move_value(kind, numbers, kind == Moves::binary ? 0.85 / 0.95 : 1.0);
+        test.update(kind == Moves::binary ? before : before - size);
+      }
+      seen += test.martingale().capital() >= 1000.0 ? 1 : 0;
+    }
+    EXPECT_GE(seen, 0.83 * sequences) << name_of(kind);
+    EXPECT_LE(seen, 0.97 * sequences) << name_of(kind);
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -1,0 +1,94 @@
+// Logs of moves as machines write them.
+#include "analysis/monitor/move_log.hpp"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/failure/failure.hpp"
+#include "tests/analysis/monitor/move_sequences.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using Values = std::vector<double>;
+constexpr double never = HUGE_VAL;
+
+/// The message and the exit code with which a log is refused.
+std::string refusal(std::string_view text) {
+  try {
+    log_of(text).require_header();
+  } catch (const Failure& failure) {
+    return std::to_string(static_cast<int>(failure.code())) + " " + failure.what();
+  }
+  return "";
+}
+
+TEST(MoveLog, ReadsMeasuresByNameWithBandsUnitsAndMissingValues) {
+  const monitor::MoveLog log = log_of(
+      "# axis 3\n"
+      "move,settling_time [ms],band_settling_time[1] [s],band_exits[2],outcome,stable,holding_torque (mN "
+      "m)\r\n"
+      "1,50,0.04,2,zero_count,yes,-2\r\n"
+      "2,,NaN,0,1,0,1.5e1\r\n"
+      "\r\n"
+      "3,+75.5,inf,1,\"off_target\",True,NA\r\n");
+  EXPECT_EQ(log.moves(), 3);
+  EXPECT_EQ(log.others(), std::vector<std::string>{"move"});
+  EXPECT_EQ(log.find("settling_time")->values, (Values{0.05, never, 0.0755}));
+  EXPECT_EQ(log.find("band_settling_time[1]")->values, (Values{0.04, never, never}));
+  EXPECT_EQ(log.find("band_exits[2]")->values, (Values{2.0, 0.0, 1.0}));
+  EXPECT_EQ(log.find("outcome")->values, (Values{1.0, 0.0, 0.0})) << "whether it is zero_count";
+  EXPECT_EQ(log.find("stable")->values, (Values{1.0, 0.0, 1.0}));
+  EXPECT_EQ(log.find("holding_torque")->values, (Values{-0.002, 0.015, never}));
+  EXPECT_EQ(log.find("band_settling_time[2]"), nullptr);
+}
+
+TEST(MoveLog, TakesMagnitudesOfErrorsAndDecimalCommas) {
+  const monitor::MoveLog log = log_of("final_error;settling_time\n-3;0,05\n2;0,06\n");
+  EXPECT_EQ(log.find("final_error")->values, (Values{3.0, 2.0}));
+  EXPECT_EQ(log.find("settling_time")->values, (Values{0.05, 0.06}));
+}
+
+TEST(MoveLog, ReadsBlankLinesOfOneColumnAsMovesThatNeverSettled) {
+  EXPECT_EQ(log_of("settling_time\n0.1\n\n0.2\n\"\"\n0.3").find("settling_time")->values,
+            (Values{0.1, never, 0.2, never, 0.3}));
+  EXPECT_EQ(log_of("settling_time\n0.1\n\n\n").moves(), 1) << "what ends the file is no move";
+}
+
+TEST(MoveLog, ReadsPiecesAsTheyGrow) {
+  const std::string text = "t,settling_time\n1,0.1\n2,\n\n3,0.3\n";
+  for (std::size_t size = 1; size < text.size(); ++size) {
+    monitor::MoveLog log("moves.csv");
+    std::size_t read = 0;
+    for (std::size_t end = size; end < text.size() + size; end += size)
+      read += log.read(std::string_view(text).substr(0, std::min(end, text.size())).substr(read));
+    EXPECT_EQ(log.find("settling_time")->values, (Values{0.1, never, 0.3})) << size;
+  }
+}
+
+TEST(MoveLog, NamesThePlaceOfWhatItCannotRead) {
+  EXPECT_EQ(
+      refusal(""),
+      "2 moves.csv: is empty; expected a header with names of measures, such as settling_time, and a row "
+      "for each move");
+  EXPECT_NE(refusal("time,position\n1,2\n").find("2 moves.csv:1: no column is named like a measure"),
+            std::string::npos);
+  EXPECT_EQ(refusal("settling_time,settling_time [ms]\n1,2\n"),
+            "2 moves.csv:1: two columns are named 'settling_time'");
+  EXPECT_NE(refusal("settling_time [N]\n1\n").find("2 moves.csv:1: settling_time is in 'N'"),
+            std::string::npos);
+  EXPECT_EQ(refusal("t,settling_time\n1,0.1\n2\n"),
+            "4 moves.csv:3: a row of 1 cells; expected 2, as the header has");
+  EXPECT_EQ(refusal("t,settling_time\n1,-0.1\n"),
+            "4 moves.csv:2: settling_time: '-0.1'; expected a finite time, not negative, or NaN");
+  EXPECT_EQ(refusal("t,settling_time\n1,soon\n"),
+            "4 moves.csv:2: settling_time: 'soon'; expected a finite time, not negative, or NaN");
+  EXPECT_EQ(refusal("t,stable\n1,\n"), "4 moves.csv:2: stable: ''; expected 0 or 1");
+  EXPECT_NE(refusal("t,outcome\n1,9\n").find("expected one of zero_count, one_count"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/monitor/change_test.hpp"
+#include "analysis/monitor/machine_monitor.hpp"
+#include "core/random/number_source.hpp"
+
+namespace zerocount::testing {
+
+/// How the values of moves are distributed.
+enum class Moves { lognormal, tied, binary };
+std::string_view name_of(Moves kind);
+
+/// A value: lognormal about 0.05 with a logarithmic standard deviation of 0.25; `tied` the same in steps of
+/// 0.02; `binary` 1 with the probability 0.95.
+/// @param factor of the value, or of the probability
+double move_value(Moves kind, random::NumberSource& numbers, double factor = 1.0);
+
+/// The numbers of sequence `number` of an experiment.
+random::NumberSource numbers_of(std::string_view experiment, std::uint32_t number);
+
+struct Sequence {
+  Moves kind{Moves::lognormal};
+  std::int64_t baseline{200};
+  std::int64_t moves{10'000};  ///< at most
+  std::int64_t change{0};      ///< first changed move, from 1; 0: none
+  double factor{1.0};          ///< of the changed moves
+};
+
+/// The largest capital within the sequence.
+double largest_capital(const Sequence& sequence, std::uint32_t number);
+
+/// Moves from the change to the capital `alarm`; nothing without one, 0 or less for one before the change.
+std::optional<std::int64_t> delay_of(const Sequence& sequence, double alarm, std::uint32_t number);
+
+/// A log of one measure, and its text.
+std::string log_text(std::string_view head, const std::vector<double>& values);
+monitor::MoveLog log_of(std::string_view text, std::string name = "moves.csv");
+
+}  // namespace zerocount::testing

@@ -17,6 +17,7 @@ from .figures import Figure
 from .identification import Identification, LawIdentification, SlidingIdentification, identify
 from .laws import ControlLaw, Setup, trial
 from .laws import Sample as LoopSample
+from .monitoring import Monitor, monitor
 from .planning import plan
 from .results import Results
 from .results import open_results as open
@@ -37,6 +38,7 @@ __all__ = [
     "LoopSample",
     "MachineError",
     "ManifestError",
+    "Monitor",
     "Problem",
     "Results",
     "Sample",
@@ -50,6 +52,7 @@ __all__ = [
     "ask",
     "compare",
     "identify",
+    "monitor",
     "open",
     "plan",
     "sample",

@@ -2371,6 +2371,66 @@ class HistoryAnswer(Answer):
     series: pandas.DataFrame
 
 
+class MonitorAnswer(Answer):
+    """Whether a machine has changed.
+
+    Attributes
+    ----------
+    status : Literal["changed", "unchanged", "undecided"]
+        Whether the machine changed.
+    measure : str or None
+        Measure of the first alarm; null: none.
+    direction : Literal["higher", "lower"] or None
+        Direction of its change; null: no alarm.
+    since : int or None
+        Estimated first move of the change, from 1; null: no alarm.
+    alarm_at : int or None
+        Move of the alarm, from 1; null: none.
+    moves : int
+        Moves seen.
+    evidence : float or None
+        e-value against no change, the largest until now; the alarm is at 1/alarm.
+    alarm : float or None
+        Largest probability of a false alarm within any number of moves.
+    block : int
+        Consecutive moves that are one value.
+    baseline_moves : int
+        Moves of the baseline.
+    baseline_machines : int or None
+        Simulated machines of the baseline; null: it was measured.
+    unused : list[str]
+        Columns of the moves that nothing is compared with.
+    measures : pandas.DataFrame
+        Each measure.
+
+        - ``measure``: name of the measure
+        - ``unit``: its unit
+        - ``baseline``: median of the baseline, of a quality its proportion; null: never
+        - ``moves``: likewise of the moves, since the change if there is one; null: none, or never
+        - ``evidence``: largest capital of the bets on a change of the measure, as a part of the alarm's scale
+        - ``direction``: of the change, or towards which there is more evidence
+        - ``since``: first move of the change, from 1; null: no alarm
+        - ``alarm_at``: move of the alarm, from 1; null: none
+        - ``seen_after``: moves after which a change of the asked size would have been seen with 90 %, where there are
+          as many; null: later, or not asked
+
+    """
+
+    status: Literal["changed", "unchanged", "undecided"]
+    measure: str | None
+    direction: Literal["higher", "lower"] | None
+    since: int | None
+    alarm_at: int | None
+    moves: int
+    evidence: float | None
+    alarm: float | None
+    block: int
+    baseline_moves: int
+    baseline_machines: int | None
+    unused: list[str]
+    measures: pandas.DataFrame
+
+
 class PlanGoalAnswer(Answer):
     """The smallest studies that can meet the goal of a manifest.
 
@@ -2719,6 +2779,7 @@ TYPES: dict[str, type[Answer]] = {
     "jerks": JerksAnswer,
     "compare": CompareAnswer,
     "history": HistoryAnswer,
+    "monitor": MonitorAnswer,
     "plan-goal": PlanGoalAnswer,
     "plan-pilot": PlanPilotAnswer,
     "plan-success": PlanSuccessAnswer,
@@ -2763,6 +2824,8 @@ class Ask(Protocol):
     def __call__(self, command: Literal["compare"], /, *operands: Any, **options: Any) -> CompareAnswer: ...
     @overload
     def __call__(self, command: Literal["history"], /, *operands: Any, **options: Any) -> HistoryAnswer: ...
+    @overload
+    def __call__(self, command: Literal["monitor"], /, *operands: Any, **options: Any) -> MonitorAnswer: ...
     @overload
     def __call__(self, command: Literal["plan"], /, *operands: Any, **options: Any) -> PlanGoalAnswer | PlanPilotAnswer | PlanSuccessAnswer | PlanRigsAnswer | PlanHalfwidthAnswer | PlanEquivalenceAnswer: ...
     @overload

@@ -16,7 +16,6 @@ namespace {
 
 constexpr double usual_relative_change = 0.2;
 constexpr double usual_change_of_proportion = 0.1;
-constexpr double usual_change_of_rare_count = 0.1;
 constexpr int sequences = 200;
 constexpr int max_misses = sequences / 10;
 constexpr std::size_t max_resample = 5000;
@@ -98,8 +97,6 @@ ChangeToSee change_to_see(const MonitoredMeasure& measure, std::span<const doubl
   if (measure.scale == Scale::proportion)
     return change_of_proportion(measure.quality, baseline, change.value_or(usual_change_of_proportion));
   const double middle = middle_of(baseline);
-  if (measure.scale == Scale::counts && middle == 0.0)
-    return {change.value_or(usual_change_of_rare_count), {Direction::higher}};
   const auto [low, high] = std::ranges::minmax(baseline);
   if (middle == 0.0 || std::isinf(middle) || (low < 0.0 && high > 0.0 && !std::isinf(high))) return {};
   return {change.value_or(usual_relative_change) * std::abs(middle), {Direction::higher, Direction::lower}};

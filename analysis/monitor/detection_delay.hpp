@@ -17,8 +17,7 @@ struct ChangeToSee {
 };
 
 /// A change by the proportion `change` of the baseline's median (default 0.2), or by `change` of a proportion
-/// (default 0.1); of a count of which the median is 0, by 0.1 a move. A measure is not judged if it has
-/// values of both signs, or a median that is infinite or, of other than counts, 0.
+/// (default 0.1). A measure is not judged if its values have both signs, or its median is 0 or infinite.
 ChangeToSee change_to_see(const MonitoredMeasure& measure, std::span<const double> baseline,
                           std::optional<double> change);
 

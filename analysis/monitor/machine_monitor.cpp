@@ -72,10 +72,8 @@ MachineMonitor::MachineMonitor(const Baseline& baseline, const MoveLog& log, Mon
                                                      log.find(name) == nullptr ? log.name() : baseline.name));
   for (const MoveLog::Column& column : log.columns()) {
     const Baseline::Column* const before = baseline.find(column.measure.name);
-    if (before == nullptr || !is_wanted(settings_, column.measure.name)) {
-      unused_.push_back(column.measure.name);
-      continue;
-    }
+    if (before == nullptr) unused_.push_back(column.measure.name);
+    if (before == nullptr || !is_wanted(settings_, column.measure.name)) continue;
     if (!have_same_dimension(before->unit, column.unit))
       throw Failure(ExitCode::bad_input,
                     fmt::format("{}: {} is in '{}', and in {} in '{}'; expected units of the same dimension",
@@ -113,8 +111,8 @@ void MachineMonitor::update_measure(std::size_t number, double value) {
   state.evidence = std::max(state.evidence, capital / static_cast<double>(states_.size()));
   if (state.alarm_at) return;
   watched.p_values.push_back(p);
-  state.direction = martingale.direction();
   if (capital < alarm_capital()) return;
+  state.direction = martingale.direction();
   state.alarm_at = martingale.values() * settings_.block;
   state.since = (martingale.since(watched.p_values) - 1) * settings_.block + 1;
   watched.p_values = {};

@@ -28,7 +28,7 @@ struct MeasureState {
   MonitoredMeasure measure;
   std::string unit;
   double evidence{1.0};  ///< largest capital until now, as a proportion of the number of measures
-  Direction direction{Direction::higher};
+  std::optional<Direction> direction{};    ///< of the change, with an alarm
   std::optional<std::int64_t> alarm_at{};  ///< move, from 1
   std::optional<std::int64_t> since{};     ///< move, from 1
   double baseline_median{0.0};             ///< of a quality the mean; infinite: never

@@ -52,9 +52,18 @@ std::string change_text(const MonitorReading& r) {
 std::string changed_headline(const MonitorReading& r) {
   const MeasureState& alarm = *r.state.alarm;
   return fmt::format("changed: {} is {} since move {} ({}; baseline {}); alarm at move {} of {}",
-                     alarm.measure.name, word_of(alarm.direction), *alarm.since,
+                     alarm.measure.name, word_of(*alarm.direction), *alarm.since,
                      typical_text(alarm, alarm.median.value_or(alarm.baseline_median)),
                      typical_text(alarm, alarm.baseline_median), *alarm.alarm_at, r.state.moves);
+}
+
+/// " in overshoot, creep": the measures that need more moves.
+std::string unseen_text(const MonitorReading& r) {
+  std::vector<std::string> names;
+  for (const MeasureState& state : r.monitor.measures())
+    if (!state.to_see.directions.empty() && !state.seen_after) names.push_back(state.measure.name);
+  if (names.empty()) return ": no measure has a size of change to be seen";
+  return fmt::format(" in {}", fmt::join(names, ", "));
 }
 
 std::string headline_of(const MonitorReading& r) {
@@ -68,8 +77,8 @@ std::string headline_of(const MonitorReading& r) {
       break;
   }
   if (r.state.moves == 0) return "undecided: there are no moves yet";
-  return fmt::format("undecided: no alarm in {}, but a change of {} need not have been seen in each measure",
-                     moves_text(r.state.moves), change_text(r));
+  return fmt::format("undecided: no alarm in {}, but a change of {} need not have been seen{}",
+                     moves_text(r.state.moves), change_text(r), unseen_text(r));
 }
 
 std::string bound_sentence(const MonitorReading& r) {
@@ -153,9 +162,8 @@ document::Description<MeasureState> measure_description() {
               .unit = "1",
               .notation = document::Notation::three_digits},
              &MeasureState::evidence)
-      .value(with_words({"direction", "direction", "of the change, or towards which there is more evidence"},
-                        directions),
-             [](Of s) { return word_of(s.direction); })
+      .value(with_words({"direction", "direction", "of the change; null: no alarm"}, directions),
+             [](Of s) { return s.direction ? std::optional(word_of(*s.direction)) : std::nullopt; })
       .value({"since", "since", "first move of the change, from 1; null: no alarm"}, &MeasureState::since)
       .value({"alarm_at", "alarm at", "move of the alarm, from 1; null: none"}, &MeasureState::alarm_at)
       .value({"seen_after", "seen after",
@@ -182,7 +190,7 @@ document::AnswerDescription<MonitorReading> monitor_answer() {
           [](Of r) { return of_alarm<std::string>(r, [](const MeasureState& s) { return s.measure.name; }); })
       .value(with_words(in_data("direction", "direction of its change; null: no alarm"), {"higher", "lower"}),
              [](Of r) {
-               return of_alarm<std::string>(r, [](const MeasureState& s) { return word_of(s.direction); });
+               return of_alarm<std::string>(r, [](const MeasureState& s) { return word_of(*s.direction); });
              })
       .value(in_data("since", "estimated first move of the change, from 1; null: no alarm"),
              [](Of r) { return of_alarm<std::int64_t>(r, [](const MeasureState& s) { return *s.since; }); })

@@ -30,14 +30,13 @@ TEST(ChangeToSee, IsAPartOfTheMedianOrOfAProportion) {
   EXPECT_EQ(good.size, 0.1);
   EXPECT_EQ(good.directions, both);
   EXPECT_EQ(change_to_see(measure("stable"), Values{1.0}, {}).directions, Directions{Direction::lower});
-  EXPECT_EQ(change_to_see(measure("jerk_count"), Values{0.0, 0.0, 3.0}, {}).directions,
-            Directions{Direction::higher});
 }
 
 TEST(ChangeToSee, IsNotAskedOfWhatHasNoScale) {
   EXPECT_TRUE(change_to_see(measure("holding_torque"), Values{-1.0, 1.0, 2.0}, {}).directions.empty());
   EXPECT_TRUE(
       change_to_see(measure("settling_time"), Values{1.0, HUGE_VAL, HUGE_VAL}, {}).directions.empty());
+  EXPECT_TRUE(change_to_see(measure("jerk_count"), Values{0.0, 0.0, 3.0}, {}).directions.empty());
   EXPECT_FALSE(change_to_see(measure("holding_torque"), Values{1.0, 1.0, 2.0}, {}).directions.empty());
 }
 

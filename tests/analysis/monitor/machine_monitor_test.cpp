@@ -47,7 +47,7 @@ Said said_of(const std::string& before, const std::string& after, const MonitorS
             .evidence = state.evidence};
   if (state.alarm == nullptr) return said;
   said.measure = state.alarm->measure.name;
-  said.direction = state.alarm->direction == monitor::Direction::higher ? "higher" : "lower";
+  said.direction = *state.alarm->direction == monitor::Direction::higher ? "higher" : "lower";
   said.since = state.alarm->since;
   said.alarm_at = state.alarm->alarm_at;
   return said;

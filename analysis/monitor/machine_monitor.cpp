@@ -43,9 +43,9 @@ std::string shown_unit(const MonitoredMeasure& measure, const std::string& unit)
   return have_same_dimension(unit, measure.unit) ? measure.unit : linear_unit(measure);
 }
 
-bool is_wanted(const MonitorSettings& settings, const std::string& measure) {
-  return settings.measures.empty() ||
-         std::ranges::find(settings.measures, measure) != settings.measures.end();
+bool is_wanted(const MonitorSettings& settings, const MonitoredMeasure& measure) {
+  if (settings.measures.empty()) return !measure.accumulates;
+  return std::ranges::find(settings.measures, measure.name) != settings.measures.end();
 }
 
 [[noreturn]] void refuse_without_common(const Baseline& baseline, const MoveLog& log,
@@ -64,6 +64,11 @@ bool is_wanted(const MonitorSettings& settings, const std::string& measure) {
 
 }  // namespace
 
+bool are_dependent(double correlation, std::size_t values) {
+  constexpr double normal_quantile = 3.29;
+  return correlation * std::sqrt(static_cast<double>(values)) > normal_quantile;
+}
+
 MachineMonitor::MachineMonitor(const Baseline& baseline, const MoveLog& log, MonitorSettings settings)
     : settings_(std::move(settings)), unused_(log.others()) {
   for (const std::string& name : settings_.measures)
@@ -72,33 +77,45 @@ MachineMonitor::MachineMonitor(const Baseline& baseline, const MoveLog& log, Mon
                                                      log.find(name) == nullptr ? log.name() : baseline.name));
   for (const MoveLog::Column& column : log.columns()) {
     const Baseline::Column* const before = baseline.find(column.measure.name);
-    if (before == nullptr) unused_.push_back(column.measure.name);
-    if (before == nullptr || !is_wanted(settings_, column.measure.name)) continue;
+    const bool named = !settings_.measures.empty();
+    const bool wanted = before != nullptr && is_wanted(settings_, column.measure);
+    if (!wanted && (before == nullptr || !named)) unused_.push_back(column.measure.name);
+    if (!wanted) continue;
     if (!have_same_dimension(before->unit, column.unit))
       throw Failure(ExitCode::bad_input,
                     fmt::format("{}: {} is in '{}', and in {} in '{}'; expected units of the same dimension",
                                 log.name(), column.measure.name, column.unit, baseline.name, before->unit));
-    add(*before, column);
+    add(baseline, *before, column);
   }
   if (states_.empty()) refuse_without_common(baseline, log, settings_);
   for (MeasureState& state : states_) state.evidence = 1.0 / static_cast<double>(states_.size());
 }
 
-void MachineMonitor::add(const Baseline::Column& baseline, const MoveLog::Column& column) {
-  std::vector<double> values = blocks_of(baseline.measure, baseline.values, settings_.block);
+void MachineMonitor::add(const Baseline& baseline, const Baseline::Column& before,
+                         const MoveLog::Column& column) {
+  std::vector<double> values = blocks_of(before.measure, before.values, settings_.block);
   if (values.empty())
     throw Failure(ExitCode::bad_data,
                   fmt::format("the baseline has {} moves; expected at least a block of {}",
-                              baseline.values.size(), settings_.block));
+                              before.values.size(), settings_.block));
   MeasureState state{.measure = column.measure,
-                     .unit = shown_unit(column.measure, baseline.unit.empty() ? column.unit : baseline.unit),
-                     .baseline_median = typical_value(baseline.measure, baseline.values),
+                     .unit = shown_unit(column.measure, before.unit.empty() ? column.unit : before.unit),
+                     .baseline_median = typical_value(before.measure, before.values),
                      .to_see = change_to_see(column.measure, values, settings_.change)};
+  if (!baseline.is_model) state.correlation = serial_correlation(values);
   std::ranges::sort(values);
   const random::RandomKey ties =
       designs::random_key(settings_.seed, fmt::format("monitor.{}", column.measure.name));
   watched_.push_back({.test = ChangeTest(values, {ties, 0}), .baseline = std::move(values)});
   states_.push_back(std::move(state));
+}
+
+std::vector<std::string> MachineMonitor::dependent() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < states_.size(); ++i)
+    if (states_[i].correlation && are_dependent(*states_[i].correlation, watched_[i].baseline.size()))
+      names.push_back(states_[i].measure.name);
+  return names;
 }
 
 void MachineMonitor::update_measure(std::size_t number, double value) {

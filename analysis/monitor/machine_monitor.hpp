@@ -21,6 +21,9 @@ struct MonitorSettings {
   std::vector<std::string> measures{};  ///< to watch; empty: all that both sides have
 };
 
+/// Whether successive values correlate more than independent ones do, at a significance of 0.0005.
+bool are_dependent(double correlation, std::size_t values);
+
 enum class MachineStatus { changed, unchanged, undecided };
 
 /// What is known of one measure.
@@ -33,6 +36,8 @@ struct MeasureState {
   std::optional<std::int64_t> since{};     ///< move, from 1
   double baseline_median{0.0};             ///< of a quality the mean; infinite: never
   std::optional<double> median{};          ///< likewise of the moves since `since`, or of all
+  /// serial_correlation() of the values of a measured baseline.
+  std::optional<double> correlation{};
   ChangeToSee to_see{};
   std::optional<std::int64_t>
       seen_after{};  ///< moves after which `to_see` would have been seen, at most `moves`
@@ -61,6 +66,8 @@ class MachineMonitor {
   MonitorState state();
 
   const std::vector<MeasureState>& measures() const { return states_; }
+  /// Measures of which successive values of the baseline correlate: they are not exchangeable.
+  std::vector<std::string> dependent() const;
   const MonitorSettings& settings() const { return settings_; }
   /// Columns of the log that nothing is compared with.
   const std::vector<std::string>& unused() const { return unused_; }
@@ -76,7 +83,7 @@ class MachineMonitor {
     std::int64_t seen_limit{0};
   };
 
-  void add(const Baseline::Column& baseline, const MoveLog::Column& column);
+  void add(const Baseline& baseline, const Baseline::Column& before, const MoveLog::Column& column);
   void update_measure(std::size_t number, double value);
   void simulate_changes(std::int64_t values);
   bool is_unchanged(std::int64_t values);

@@ -91,6 +91,15 @@ std::string bound_sentence(const MonitorReading& r) {
       moves_text(r.baseline.moves));
 }
 
+std::string dependent_sentence(const MonitorReading& r) {
+  const std::vector<std::string> names = r.monitor.dependent();
+  if (names.empty()) return "";
+  return fmt::format(
+      "they are not in the baseline, where successive values correlate in {}: false alarms are more "
+      "frequent, and longer blocks (--block, now {}) make them rarer",
+      fmt::join(names, ", "), r.monitor.settings().block);
+}
+
 std::string model_sentence(const MonitorReading& r) {
   if (!r.baseline.is_model) return "";
   if (r.baseline.machines == 1)
@@ -166,6 +175,9 @@ document::Description<MeasureState> measure_description() {
              [](Of s) { return s.direction ? std::optional(word_of(*s.direction)) : std::nullopt; })
       .value({"since", "since", "first move of the change, from 1; null: no alarm"}, &MeasureState::since)
       .value({"alarm_at", "alarm at", "move of the alarm, from 1; null: none"}, &MeasureState::alarm_at)
+      .value(in_data("correlation",
+                     "rank correlation of successive values of the baseline; null: of a simulated one", "1"),
+             &MeasureState::correlation)
       .value({"seen_after", "seen after",
               "moves after which a change of the asked size would have been seen with 90 %, where there are "
               "as many; "
@@ -215,6 +227,7 @@ document::AnswerDescription<MonitorReading> monitor_answer() {
       .sentence(not_judged_sentence)
       .sentence(unused_sentence)
       .sentence(bound_sentence)
+      .sentence(dependent_sentence)
       .sentence(model_sentence);
   return answer;
 }

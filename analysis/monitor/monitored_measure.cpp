@@ -60,7 +60,12 @@ std::optional<MonitoredMeasure> measure_named(std::string_view name) {
     const bool has_index = row.band || row.tolerance;
     if (has_index != is_indexed || indexed(row.field.column.name).stem != wanted.stem) continue;
     const bool quality = layout::is_quality(row);
-    return MonitoredMeasure{std::string(name), row.field.column.unit, &row, quality, scale_of(row, quality)};
+    return MonitoredMeasure{.name = std::string(name),
+                            .unit = row.field.column.unit,
+                            .row = &row,
+                            .quality = quality,
+                            .scale = scale_of(row, quality),
+                            .accumulates = name == "creep" || name == "reversal_depth"};
   }
   return std::nullopt;
 }
@@ -105,6 +110,24 @@ double ranked_value(const MonitoredMeasure& measure, double number) {
   if (measure.name == "outcome") return number == 0.0 ? 1.0 : 0.0;
   if (measure.name == "arrival" && number < 0.0) return std::numeric_limits<double>::infinity();
   return measure.row->values.magnitude ? std::abs(number) : number;
+}
+
+double serial_correlation(std::span<const double> values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  std::ranges::sort(sorted);
+  const double middle = 0.5 * static_cast<double>(values.size());
+  std::vector<double> ranks;  // of the values, those of equal ones alike, minus their mean
+  for (const double value : values) {
+    const auto [first, last] = std::ranges::equal_range(sorted, value);
+    ranks.push_back(0.5 * static_cast<double>((first - sorted.begin()) + (last - sorted.begin())) - middle);
+  }
+  double squares = 0.0;
+  double steps = 0.0;
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
+    squares += ranks[i] * ranks[i];
+    if (i > 0) steps += (ranks[i] - ranks[i - 1]) * (ranks[i] - ranks[i - 1]);
+  }
+  return squares > 0.0 ? 1.0 - 0.5 * steps / squares : 0.0;
 }
 
 double block_value(const MonitoredMeasure& measure, std::span<const double> moves) {

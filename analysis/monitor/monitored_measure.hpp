@@ -23,6 +23,8 @@ struct MonitoredMeasure {
   const layout::Measure* row{nullptr};
   bool quality{false};  ///< 1 of moves that have it, 0 of others; an outcome is whether it is zero_count
   Scale scale{Scale::plain};
+  /// A state of the simulated friction, which grows from move to move: it is watched only where it is named.
+  bool accumulates{false};
 };
 
 /// The measure of that name, with any error band or tolerance in brackets; nothing if there is none.
@@ -46,6 +48,11 @@ std::string linear_unit(const MonitoredMeasure& measure);
 /// The value that is ranked, of the number that a results file or a log has. NaN, which stands for what never
 /// happened, becomes larger than any number.
 double ranked_value(const MonitoredMeasure& measure, double number);
+
+/// The rank correlation of successive values, 1 − V/2 with the rank version of von Neumann's ratio
+/// V = Σ(r_t − r_{t+1})²/Σ(r_t − r̄)² (Bartels, J. Amer. Statist. Assoc. 77 (1982) 40); 0 where all are equal.
+/// For n independent values it has about the standard deviation 1/√n.
+double serial_correlation(std::span<const double> values);
 
 /// The value of a block of consecutive moves: the median, or of a quality the proportion that have it.
 double block_value(const MonitoredMeasure& measure, std::span<const double> moves);

@@ -199,6 +199,36 @@ TEST(MachineMonitor, CountsBlocksInMoves) {
             said_of(log_of_times(before), log_of_times(moves)).evidence);
 }
 
+// Values that wander are not exchangeable; their blocks are, nearly.
+TEST(MachineMonitor, SaysWhereTheBaselineIsNotExchangeable) {
+  random::NumberSource numbers = numbers_of("wander", 0);
+  std::vector<double> values;
+  double wander = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    wander = 0.6 * wander + numbers.normal();
+    values.push_back(std::exp(0.1 * wander));
+  }
+  const auto dependent = [](const std::vector<double>& baseline, std::int64_t block) {
+    const MoveLog log = log_of(head + "\n");
+    return MachineMonitor(monitor::baseline_of(log_of(log_of_times(baseline))), log, {.block = block})
+        .dependent();
+  };
+  EXPECT_NEAR(monitor::serial_correlation(values), 0.6, 0.05);
+  EXPECT_EQ(dependent(values, 1), std::vector{head});
+  EXPECT_TRUE(dependent(values, 20).empty());
+  EXPECT_TRUE(dependent(times(1, 2000), 1).empty());
+  EXPECT_EQ(monitor::serial_correlation(std::vector<double>{1.0, 1.0, 1.0}), 0.0);
+}
+
+// What accumulates in a simulated contact differs from its beginning on, in any machine.
+TEST(MachineMonitor, WatchesAccumulatingStatesOnlyWhereNamed) {
+  const MoveLog log = log_of("creep,overshoot\n1e-6,1\n");
+  const Baseline baseline = monitor::baseline_of(log);
+  EXPECT_EQ(MachineMonitor(baseline, log, {}).measures().size(), 1);
+  EXPECT_EQ(MachineMonitor(baseline, log, {}).unused(), std::vector<std::string>{"creep"});
+  EXPECT_EQ(MachineMonitor(baseline, log, {.measures = {"creep"}}).measures().front().measure.name, "creep");
+}
+
 TEST(MachineMonitor, RefusesWhatCannotBeCompared) {
   const auto message = [](const std::string& before, const std::string& after,
                           const MonitorSettings& settings) {

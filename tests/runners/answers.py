@@ -89,6 +89,7 @@ PREPARATIONS = [
     "trace slide.yaml --format csv -o slide.csv",
     "history add axis.h5 --database history.sqlite",
     "history add again.h5 --database history.sqlite",
+    "export axis.h5 -o tables",
 ]
 QUESTIONS = [
     "check sweep.yaml",
@@ -120,6 +121,8 @@ QUESTIONS = [
     "compare axis.h5 again.h5",
     "compare sweep.h5 sweep.h5",
     "history show --database history.sqlite",
+    "monitor axis.h5 tables/outcomes.csv --measure settling_time --measure outcome",
+    "monitor axis.h5 tables/outcomes.csv --rig 3",
     "plan axis.yaml",
     "plan axis.h5",
     "plan --success 0.999",

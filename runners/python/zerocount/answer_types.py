@@ -2408,9 +2408,10 @@ class MonitorAnswer(Answer):
         - ``baseline``: median of the baseline, of a quality its proportion; null: never
         - ``moves``: likewise of the moves, since the change if there is one; null: none, or never
         - ``evidence``: largest capital of the bets on a change of the measure, as a part of the alarm's scale
-        - ``direction``: of the change, or towards which there is more evidence
+        - ``direction``: of the change; null: no alarm
         - ``since``: first move of the change, from 1; null: no alarm
         - ``alarm_at``: move of the alarm, from 1; null: none
+        - ``correlation``: rank correlation of successive values of the baseline; null: of a simulated one
         - ``seen_after``: moves after which a change of the asked size would have been seen with 90 %, where there are
           as many; null: later, or not asked
 

@@ -1,0 +1,144 @@
+// `monitor` as a program: results files and logs as baselines, growing logs, exit codes.
+#include <chrono>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "results/reading/all_trials_file.hpp"
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* study = R"(zerocount: 1
+name: monitored
+seed: 5
+trials: 200
+rigs: 10
+controller: {ki: 4.0e-5, sample_rate: 2000}
+friction: {k1: {uniform: [70, 150]}, alpha: 0.5}
+command: {targets: [{integers: [5, 30]}, {integers: [-30, -5]}], hold: 0.2}
+)";
+
+class Monitor : public ProgramTest {
+ protected:
+  /// A log of times that repeat 0.041 … 0.050 in a fixed order, times a factor.
+  void write_log(const std::string& name, int moves, double factor = 1.0, bool append = false) {
+    std::ofstream file(folder_.path() / name, append ? std::ios::app : std::ios::trunc);
+    if (!append) file << "settling_time [ms]\n";
+    for (int i = 0; i < moves; ++i) file << fmt::format("{}\n", factor * (41.0 + (7 * i + i / 10) % 10));
+  }
+  Json json_of(std::vector<std::string> words, int code) {
+    words.insert(words.end(), {"--format", "json"});
+    const ProgramResult result = program(words);
+    EXPECT_EQ(result.code, code) << result.out << result.err;
+    return Json::parse(result.out, nullptr, false);
+  }
+  void run_study(const std::string& more = "") {
+    folder_.write("study.yaml", study + more);
+    const ProgramResult run = program({"run", "study.yaml", "-o", "study.h5", "-q"});
+    ASSERT_EQ(run.code, 0) << run.err;
+  }
+};
+
+TEST_F(Monitor, AnswersWithItsFieldsAndExitCodes) {
+  write_log("before.csv", 200);
+  write_log("same.csv", 200);
+  write_log("few.csv", 2);
+  write_log("none.csv", 0);
+  write_log("slower.csv", 60);
+  write_log("slower.csv", 60, 1.3, true);
+  EXPECT_EQ(json_of({"monitor", "before.csv", "same.csv"}, 0)["status"], "unchanged");
+  EXPECT_EQ(json_of({"monitor", "before.csv", "few.csv"}, 3)["status"], "undecided");
+  const Json none = json_of({"monitor", "before.csv", "none.csv"}, 3);
+  EXPECT_EQ(none["moves"], 0);
+  for (const char* const key : {"measure", "direction", "since", "alarm_at"})
+    EXPECT_TRUE(none[key].is_null()) << key;
+  const Json slower = json_of({"monitor", "before.csv", "slower.csv"}, 1);
+  EXPECT_EQ(slower["status"], "changed");
+  EXPECT_EQ(slower["measure"], "settling_time");
+  EXPECT_EQ(slower["direction"], "higher");
+  EXPECT_NEAR(slower["since"].get<double>(), 61.0, 10.0);
+  EXPECT_GT(slower["alarm_at"], 60);
+  EXPECT_EQ(slower["moves"], 120);
+  EXPECT_GE(slower["evidence"], 1000.0);
+}
+
+// The moves of the file itself are its distribution; its units are those of its export.
+TEST_F(Monitor, TakesAResultsFileAsTheBaseline) {
+  run_study();
+  ASSERT_EQ(program({"export", "study.h5", "-o", "tables"}).code, 0);
+  const Json same = json_of({"monitor", "study.h5", "tables/outcomes.csv", "--measure", "settling_time"}, 0);
+  EXPECT_EQ(same["baseline_moves"], 400);
+  EXPECT_EQ(same["baseline_machines"], 10);
+  EXPECT_EQ(same["measures"][0]["baseline"], same["measures"][0]["moves"]);
+  EXPECT_EQ(json_of({"monitor", "study.h5", "tables/outcomes.csv", "--rig", "3"}, 3)["baseline_moves"], 40);
+  const std::string text = program({"monitor", "study.h5", "tables/outcomes.csv"}).out;
+  EXPECT_NE(text.find("an alarm can mean that the model is wrong"), std::string::npos) << text;
+}
+
+TEST_F(Monitor, AsksForThePointAndTheCondition) {
+  run_study(
+      "sweep: {grid: {controller.ki: [2.0e-5, 4.0e-5]}}\nconditions: {empty: {}, loaded: {plant.inertia: "
+      "8.0e-4}}\n");
+  write_log("moves.csv", 20);
+  EXPECT_NE(program({"monitor", "study.h5", "moves.csv", "--condition", "empty"}).err.find("2 points"),
+            std::string::npos);
+  EXPECT_NE(program({"monitor", "study.h5", "moves.csv", "--point", "1"}).err.find("one of empty, loaded"),
+            std::string::npos);
+  const reading::AllTrialsFile file(folder_.path() / "study.h5");
+  const reading::AllTrialsFile loaded = file.under_condition(1);
+  const Json answer =
+      json_of({"monitor", "study.h5", "moves.csv", "--point", "1", "--condition", "loaded"}, 3);
+  EXPECT_EQ(answer["baseline_moves"], loaded.rows_of(1).count * loaded.moves());
+  write_log("before.csv", 20);
+  EXPECT_EQ(program({"monitor", "before.csv", "moves.csv", "--point", "1"}).code, 2);
+}
+
+TEST_F(Monitor, FollowsAGrowingLogAndSaysWhatTheWholeLogSays) {
+  write_log("before.csv", 200);
+  write_log("moves.csv", 40);
+  std::thread writer([&] {
+    for (int i = 0; i < 3; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      write_log("moves.csv", 30, 1.3, true);
+    }
+  });
+  const ProgramResult followed = program({"monitor", "before.csv", "moves.csv", "--follow", "--idle", "20"});
+  writer.join();
+  EXPECT_EQ(followed.code, 1) << followed.err;
+  std::vector<Json> lines;
+  for (std::size_t at = 0, end = 0; (end = followed.out.find('\n', at)) != std::string::npos; at = end + 1)
+    lines.push_back(Json::parse(followed.out.substr(at, end - at)));
+  ASSERT_GE(lines.size(), 2);
+  EXPECT_EQ(lines.front()["moves"], 40);
+  EXPECT_NE(lines.front()["status"], "changed");
+  const Json whole = json_of({"monitor", "before.csv", "moves.csv"}, 1);
+  for (const char* const key : {"status", "measure", "direction", "since", "alarm_at"})
+    EXPECT_EQ(lines.back()[key], whole[key]) << key;
+  // Started again, it reads the log from its beginning.
+  const ProgramResult again = program({"monitor", "before.csv", "moves.csv", "--follow"});
+  EXPECT_EQ(again.code, 1);
+  EXPECT_EQ(Json::parse(again.out), whole);
+}
+
+TEST_F(Monitor, EndsWithoutNewMoves) {
+  write_log("before.csv", 200);
+  write_log("moves.csv", 3);
+  EXPECT_EQ(program({"monitor", "before.csv", "moves.csv", "--follow", "--idle", "0"}).code, 3);
+  write_log("moves.csv", 0);
+  const ProgramResult none = program({"monitor", "before.csv", "moves.csv", "--follow", "--idle", "0"});
+  EXPECT_EQ(none.code, 3);
+  EXPECT_EQ(none.out, "");
+  EXPECT_EQ(program({"monitor", "before.csv", "missing.csv", "--follow"}).code, 2);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -106,6 +106,7 @@ std::vector<commands::Command> commands() {
                                      result_commands::baseline_command(),
                                      result_commands::history_command(),
                                      result_commands::monitor_command(),
+                                     result_commands::accept_command(),
                                      design_commands::plan_command(),
                                      result_commands::sensitivity_command(),
                                      result_commands::report_command(),

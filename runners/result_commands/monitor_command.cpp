@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "analysis/monitor/machine_monitor.hpp"
 #include "analysis/monitor/monitor_answer.hpp"
@@ -20,6 +19,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/result_commands/machine_logs.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
 #include "runners/status/interruption.hpp"
@@ -49,43 +49,7 @@ constexpr const char* monitor_help =
     "         zerocount monitor my-axis.h5 moves.csv --point 2 --format json\n"
     "         zerocount monitor first-week.csv moves.csv --follow\n";
 
-constexpr std::size_t max_log_size = std::size_t{1} << 31;  // bytes
 constexpr auto polling_interval = std::chrono::milliseconds(200);
-
-/// Reads all of a log.
-monitor::MoveLog read_log(const fs::path& path) {
-  const std::string text = yaml::read_text(path, max_log_size, "a log of moves");
-  if (text.size() > max_log_size)
-    throw Failure(ExitCode::bad_input, fmt::format("{}: the file is too large; expected at most {} bytes",
-                                                   yaml::name_of_text(path), max_log_size));
-  monitor::MoveLog log(yaml::name_of_text(path));
-  log.read_last(std::string_view(text).substr(log.read(text)));
-  log.require_header();
-  return log;
-}
-
-/// The condition of --condition, which a study with conditions needs.
-reading::AllTrialsFile with_condition(const command_line::Arguments& arguments, reading::AllTrialsFile file) {
-  const std::vector<std::string>& conditions = file.study().conditions;
-  const std::optional<std::string> name = arguments.value("condition");
-  if (conditions.empty()) {
-    if (name) arguments.refuse("option '--condition': the study has no conditions");
-    return file;
-  }
-  const auto found = std::ranges::find(conditions, name.value_or(""));
-  if (found == conditions.end())
-    arguments.refuse(fmt::format("option '--condition': expected one of {}, under which the machine moves",
-                                 fmt::join(conditions, ", ")));
-  return file.under_condition(found - conditions.begin());
-}
-
-std::int64_t point_of(const command_line::Arguments& arguments, const std::vector<std::string>& labels) {
-  const std::optional<std::int64_t> point = command_line::point_option(arguments, labels);
-  if (!point && labels.size() > 1)
-    arguments.refuse(fmt::format("option '--point': {} has {} points; expected the one of the machine",
-                                 arguments.operands()[0], labels.size()));
-  return point.value_or(0);
-}
 
 std::optional<std::int64_t> rig_of(const command_line::Arguments& arguments, std::int64_t rigs) {
   if (rigs == 0 && arguments.has("rig")) arguments.refuse("option '--rig': the study has no rigs");

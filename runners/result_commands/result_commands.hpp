@@ -12,6 +12,7 @@ commands::Command jerks_command();
 commands::Command compare_command();
 commands::Command learn_command();
 commands::Command monitor_command();
+commands::Command accept_command();
 commands::Command baseline_command();
 commands::Command summary_command();
 commands::Command judge_command();

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis/acceptance/agreement.hpp"
+#include "analysis/goal/goal_verdict.hpp"
+#include "analysis/monitor/move_log.hpp"
+#include "results/reading/all_trials_file.hpp"
+
+/// Machines that were built, beside the study that they were built after.
+namespace zerocount::acceptance {
+
+enum class Status {
+  accepted,  ///< the moves of these machines are shown to meet every goal, and are not fewer than predicted
+  rejected,  ///< they are shown to miss a goal, or fewer of them meet it than predicted
+  undecided  ///< neither
+};
+
+/// One goal: what was predicted, and what was measured.
+struct Claim {
+  study::Goal goal{};
+  goal::Verdict predicted{};  ///< on the simulated machines
+  goal::Verdict measured{};   ///< on all machines of which the measured ones are a sample
+  std::int64_t moves{0};      ///< measured, of all machines
+  std::int64_t met{0};
+  /// Of all moves of the measured machines, each one-sided with the confidence of the goal.
+  goal::BoundedProportion rate{};
+  Agreement agreement{};
+};
+
+/// The moves of one machine that meet a goal.
+struct MeasuredMachine {
+  std::string name;
+  std::int64_t moves{0};
+  std::vector<std::int64_t> met{};  ///< [goal]
+};
+
+struct Acceptance {
+  std::vector<Claim> claims{};
+  std::vector<MeasuredMachine> machines{};
+  std::int64_t simulated{0};  ///< machines
+  std::vector<std::string>
+      assumed{};              ///< effects that the study is without, which its manifest does not name
+  double significance{0.05};  ///< of a difference
+};
+
+Status status_of(const Claim& claim, double significance);
+/// Of all claims: rejected before undecided before accepted.
+Status status_of(const Acceptance& acceptance);
+
+/// Judges the machines whose logs these are by the goals of the study, and compares them with its machines at
+/// the point, its rigs.
+/// @param file of one condition, with goals
+/// @throws Failure: bad_input for a study with worlds, or without rigs, for goals that are about some moves
+/// of a trial, and for a log without a measure that a goal asks for; bad_data for a log without moves
+Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
+                  std::span<const monitor::MoveLog> logs);
+
+}  // namespace zerocount::acceptance

@@ -1,0 +1,208 @@
+#include "analysis/acceptance/acceptance_answer.hpp"
+
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/goal/goal_description.hpp"
+#include "analysis/goal/goal_text.hpp"
+#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
+
+namespace zerocount::acceptance {
+namespace {
+
+using document::Bounded;
+
+/// A claim, with what decides on it.
+struct JudgedClaim {
+  const Claim& claim;
+  double significance;
+};
+
+std::string_view word_of(Status status) {
+  switch (status) {
+    case Status::accepted:
+      return "accepted";
+    case Status::rejected:
+      return "rejected";
+    case Status::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+/// The words of Summary's comparison with what was observed.
+std::string_view agreement_word(const JudgedClaim& c) {
+  if (c.claim.agreement.p <= c.significance) return "differs";
+  return c.claim.agreement.lowest_p <= c.significance ? "consistent" : "too_few";
+}
+
+std::string headline_of(const AcceptanceReading& r) {
+  const Acceptance& a = r.acceptance;
+  std::int64_t moves = 0;
+  for (const MeasuredMachine& machine : a.machines) moves += machine.moves;
+  const std::string of =
+      fmt::format("{} moves of {} machine{}", moves, a.machines.size(), a.machines.size() == 1 ? "" : "s");
+  switch (status_of(a)) {
+    case Status::accepted:
+      return fmt::format("accepted: {} show the goal, and are not fewer than predicted", of);
+    case Status::rejected:
+      return fmt::format("rejected: {} miss the goal, or fewer of them meet it than predicted", of);
+    case Status::undecided:
+      break;
+  }
+  return fmt::format("undecided: {} are too few to show the goal", of);
+}
+
+std::string goal_name(const JudgedClaim& c) {
+  return c.claim.goal.name.empty() ? "goal" : c.claim.goal.name;
+}
+
+std::string sentences_of_goals(const AcceptanceReading& r) {
+  std::string text;
+  for (const Claim& claim : r.acceptance.claims)
+    text += fmt::format("{}: {}\n", claim.goal.name.empty() ? "goal" : claim.goal.name,
+                        goal::goal_sentence(claim.goal));
+  return text;
+}
+
+std::string comparison_of(const JudgedClaim& c) {
+  const Agreement& agreement = c.claim.agreement;
+  return fmt::format("{} (p = {})", agreement_word(c) == "too_few" ? "too few to tell" : agreement_word(c),
+                     text::short_number(agreement.p));
+}
+
+std::optional<Bounded> of_machines(const JudgedClaim& c, const goal::Verdict& verdict) {
+  if (!c.claim.goal.machines) return std::nullopt;
+  return goal::bounded(verdict.machines);
+}
+
+document::Description<JudgedClaim> claim_rows() {
+  using document::in_data;
+  using document::Notation;
+  using document::Shown;
+  using Of = const JudgedClaim&;
+  const auto percent = [](std::string key, std::string heading, std::string meaning) {
+    return document::Item{.key = std::move(key),
+                          .heading = std::move(heading),
+                          .meaning = std::move(meaning),
+                          .unit = "1",
+                          .notation = Notation::percent};
+  };
+  return document::Description<JudgedClaim>()
+      .value({"goal", "goal", "name of the goal"}, goal_name)
+      .value(with_words(document::everywhere("status", "status", "verdict on the goal"),
+                        {"accepted", "rejected", "undecided"}),
+             [](Of c) { return word_of(status_of(c.claim, c.significance)); })
+      .value(percent("wanted", "wanted", "proportion of moves that should meet it"),
+             [](Of c) { return c.claim.goal.moves; })
+      .value(percent("predicted", "predicted",
+                     "proportion of the simulated moves that meet it; bounds: of as many machines, in as "
+                     "many moves as "
+                     "are compared, with 95 %"),
+             [](Of c) {
+               return Bounded{c.claim.predicted.moves.value, c.claim.agreement.predicted.low,
+                              c.claim.agreement.predicted.high};
+             })
+      .value(
+          percent("measured", "measured",
+                  "proportion of the measured moves that meet it, with one-sided bounds of these machines"),
+          [](Of c) { return goal::bounded(c.claim.rate); })
+      .value(in_data("met", "measured moves that meet it"), [](Of c) { return c.claim.met; })
+      .value(in_data("moves", "measured moves"), [](Of c) { return c.claim.moves; })
+      .value(with_words(in_data("agreement", "whether these machines are like those simulated"),
+                        {"consistent", "differs", "too_few"}),
+             agreement_word)
+      .value(in_data("p_value", "two-sided p-value of that", "1"), [](Of c) { return c.claim.agreement.p; })
+      .value(in_data("compared_moves", "first moves of each machine that are compared"),
+             [](Of c) { return c.claim.agreement.moves; })
+      .value(document::to_people("agreement"), comparison_of)
+      .value(
+          percent("all_machines", "of all such machines",
+                  "proportion of moves of all machines of which these are a sample, with one-sided bounds"),
+          [](Of c) { return goal::bounded(c.claim.measured.moves); })
+      .value(percent("machines_predicted", "machines, predicted",
+                     "proportion of machines that meet it in the wanted proportion of moves, with one-sided "
+                     "bounds; null: "
+                     "the goal does not ask for machines"),
+             [](Of c) { return of_machines(c, c.claim.predicted); })
+      .value(percent("machines_measured", "machines, measured", "likewise as measured"),
+             [](Of c) { return of_machines(c, c.claim.measured); });
+}
+
+/// A machine, and the first goal that it is shown by.
+document::Description<MeasuredMachine> machine_rows() {
+  return document::Description<MeasuredMachine>()
+      .value({"machine", "machine", "its log"}, [](const MeasuredMachine& m) { return m.name; })
+      .value({"moves", "moves", "its moves"}, [](const MeasuredMachine& m) { return m.moves; })
+      .value({"met", "meet the goal", "its moves that meet each goal, in the order of the goals"},
+             [](const MeasuredMachine& m) { return m.met; });
+}
+
+std::string assumed_sentence(const AcceptanceReading& r) {
+  if (r.acceptance.assumed.empty()) return "";
+  return fmt::format("the prediction assumes: {}", fmt::join(r.acceptance.assumed, ", "));
+}
+
+}  // namespace
+
+document::AnswerDescription<AcceptanceReading> acceptance_answer() {
+  using document::in_data;
+  using Of = const AcceptanceReading&;
+  document::AnswerDescription<AcceptanceReading> answer{
+      {.name = "accept",
+       .meaning = "whether machines that were built meet the goal, and the prediction",
+       .csv_table = "goals"},
+      {}};
+  answer.items.headline(headline_of)
+      .value(with_words(in_data("status", "verdict on the machines"), {"accepted", "rejected", "undecided"}),
+             [](Of r) { return word_of(status_of(r.acceptance)); })
+      .value({.key = "study", .heading = "study", .meaning = "the results file of the prediction"},
+             [](Of r) { return r.study; })
+      .value({.key = "point", .heading = "point", .meaning = "label of the design point"},
+             [](Of r) { return r.point; })
+      .value({.key = "simulated_machines",
+              .heading = "simulated machines",
+              .meaning = "machines of the prediction"},
+             [](Of r) { return r.acceptance.simulated; })
+      .sentence(sentences_of_goals)
+      .table({.key = "goals", .meaning = "each goal"}, claim_rows(),
+             [](Of r) {
+               std::vector<JudgedClaim> claims;
+               for (const Claim& claim : r.acceptance.claims)
+                 claims.push_back({claim, r.acceptance.significance});
+               return claims;
+             })
+      .table({.key = "machines", .heading = "machines", .meaning = "each machine that was measured"},
+             machine_rows(), [](Of r) { return r.acceptance.machines; })
+      .value({.key = "assumed",
+              .meaning = "effects that the prediction is without, which its manifest does not name",
+              .shown = document::Shown::in_json},
+             [](Of r) { return r.acceptance.assumed; })
+      .sentence(assumed_sentence)
+      .sentence([](Of) {
+        return std::string(
+            "measured bounds are of moves that do not depend on each other; those of the measured machines "
+            "are of "
+            "these machines alone, the others of all machines of which they are a sample");
+      })
+      .sentence([](Of) { return std::string("date, name, signature: ____________________"); });
+  return answer;
+}
+
+ExitCode exit_code_of(Status status) {
+  switch (status) {
+    case Status::accepted:
+      return ExitCode::success;
+    case Status::rejected:
+      return ExitCode::regression;
+    case Status::undecided:
+      break;
+  }
+  return ExitCode::inconclusive;
+}
+
+}  // namespace zerocount::acceptance

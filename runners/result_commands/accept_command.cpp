@@ -1,0 +1,63 @@
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "analysis/acceptance/acceptance.hpp"
+#include "analysis/acceptance/acceptance_answer.hpp"
+#include "analysis/goal/question.hpp"
+#include "results/reading/all_trials_file.hpp"
+#include "runners/answers/answer_format.hpp"
+#include "runners/commands/command.hpp"
+#include "runners/commands/study_argument.hpp"
+#include "runners/result_commands/machine_logs.hpp"
+#include "runners/result_commands/result_commands.hpp"
+
+namespace zerocount::result_commands {
+namespace {
+
+constexpr const char* accept_help =
+    "Do the machines that were built meet the goal, and what was predicted of them? STUDY.h5 is a study\n"
+    "with rigs and a goal on all moves; each MOVES.csv is the log of one machine, with a row for each\n"
+    "move and the columns that the goal asks for, such as band_settling_time[1] [ms]. One page shows\n"
+    "the goal, the predicted proportion of moves that meet it with the interval for as many machines,\n"
+    "the measured one with its bounds, whether the two agree, and what the prediction assumes.\n"
+    "\n"
+    "Exit code 0: accepted, the moves of these machines show the goal. 1: rejected, they are shown to\n"
+    "miss it, or significantly (5 %) fewer meet it than predicted. 3: too few moves to decide.\n"
+    "\n"
+    "Example: zerocount accept my-axis.h5 machine-1.csv machine-2.csv machine-3.csv\n"
+    "         zerocount accept my-axis.h5 machine-*.csv --format html > acceptance.html\n";
+
+ExitCode accept(const command_line::Arguments& arguments) {
+  const std::vector<std::string>& operands = arguments.operands();
+  const reading::AllTrialsFile file = with_condition(arguments, reading::AllTrialsFile(operands[0]));
+  goal::require_claim(file.study(), operands[0]);
+  const std::vector<std::string> labels = file.point_labels();
+  const std::int64_t point = point_of(arguments, labels);
+  std::vector<monitor::MoveLog> logs;
+  for (std::size_t i = 1; i < operands.size(); ++i) logs.push_back(read_log(operands[i]));
+  const acceptance::Acceptance accepted = acceptance::accept(file, point, logs);
+  return answers::print(
+      arguments, acceptance::acceptance_answer(),
+      acceptance::AcceptanceReading{accepted, operands[0], labels[static_cast<std::size_t>(point)]},
+      acceptance::exit_code_of(acceptance::status_of(accepted)));
+}
+
+}  // namespace
+
+commands::Command accept_command() {
+  constexpr std::size_t max_machines = 10'000;
+  return {{"accept",
+           "STUDY.h5 MOVES.csv...",
+           {answers::format_option(acceptance::acceptance_answer().complete_type()),
+            {"point", "P", "design point of the machines"},
+            {"condition", "NAME", "condition under which they moved"}},
+           2,
+           max_machines + 1},
+          "accept machines by their moves, beside the prediction",
+          accept_help,
+          accept,
+          {acceptance::acceptance_answer().complete_type()}};
+}
+
+}  // namespace zerocount::result_commands

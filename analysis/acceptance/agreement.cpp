@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "analysis/statistics/clusters/observed_test.hpp"
 #include "core/random/number_source.hpp"
 #include "experiments/designs/random_key.hpp"
 
@@ -52,6 +53,17 @@ std::int64_t drawn(std::span<const std::int64_t> met, std::int64_t moves,
   return sum;
 }
 
+bool have_as_many_moves(std::span<const statistics::RigMoves> machines) {
+  return std::ranges::all_of(machines,
+                             [&](const statistics::RigMoves& one) { return one.moves == machines[0].moves; });
+}
+
+double rank_test_of(std::int64_t met, std::int64_t moves, std::span<const statistics::RigMoves> simulated) {
+  std::vector<std::int64_t> successes;
+  for (const statistics::RigMoves& machine : simulated) successes.push_back(machine.met);
+  return statistics::rig_rank_test({met, moves}, successes, simulated[0].moves).p;
+}
+
 }  // namespace
 
 Agreement agreement_of(std::span<const std::int64_t> met, std::int64_t moves,
@@ -76,6 +88,7 @@ Agreement agreement_of(std::span<const std::int64_t> met, std::int64_t moves,
   agreement.is_lower = low < high;
   agreement.lowest_p =
       std::min(1.0, 2.0 * std::max(1.0 / (draws + 1.0), chance_of_a_choice(met.size(), simulated.size())));
+  if (met.size() == 1 && have_as_many_moves(simulated)) agreement.p = rank_test_of(met[0], moves, simulated);
   std::ranges::sort(predicted);
   const auto of_moves =
       static_cast<double>(moves) * static_cast<double>(std::min(met.size(), simulated.size()));

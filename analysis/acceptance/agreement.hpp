@@ -25,8 +25,8 @@ struct Agreement {
 ///
 ///   p₋ = (1 + #{T ≤ k})/(B + 1),  p₊ = (1 + #{T ≥ k})/(B + 1),  p = min(1, 2·min(p₋, p₊)),  B = 9999:
 ///
-/// a permutation test, for one machine rig_rank_test(). The n of a simulated machine are a random choice of
-/// its moves.
+/// a permutation test. The n of a simulated machine are a random choice of its moves. For one machine it is
+/// rig_rank_test(), which needs no random choices, where all simulated machines have as many moves.
 /// @param met [measured machine] in its first n moves @param simulated with n or more moves each
 /// @param seed of the random choices
 Agreement agreement_of(std::span<const std::int64_t> met, std::int64_t moves,

@@ -123,6 +123,7 @@ QUESTIONS = [
     "history show --database history.sqlite",
     "monitor axis.h5 tables/outcomes.csv --measure settling_time --measure outcome",
     "monitor axis.h5 tables/outcomes.csv --rig 3",
+    "accept axis.h5 tables/outcomes.csv",
     "plan axis.yaml",
     "plan axis.h5",
     "plan --success 0.999",

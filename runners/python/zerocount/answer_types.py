@@ -2432,6 +2432,68 @@ class MonitorAnswer(Answer):
     measures: pandas.DataFrame
 
 
+class AcceptAnswer(Answer):
+    """Whether machines that were built meet the goal, and the prediction.
+
+    Attributes
+    ----------
+    status : Literal["accepted", "rejected", "undecided"]
+        Verdict on the machines.
+    study : str
+        The results file of the prediction.
+    point : str
+        Label of the design point.
+    simulated_machines : int
+        Machines of the prediction.
+    goals : pandas.DataFrame
+        Each goal.
+
+        - ``goal``: name of the goal
+        - ``status``: verdict on the goal
+        - ``wanted``: proportion of moves that should meet it
+        - ``predicted``: proportion of the simulated moves that meet it; bounds: of as many machines, in as many moves
+          as are compared, with 95 %
+        - ``predicted_low``: lower bound
+        - ``predicted_high``: upper bound
+        - ``measured``: proportion of the measured moves that meet it, with one-sided bounds of these machines
+        - ``measured_low``: lower bound
+        - ``measured_high``: upper bound
+        - ``met``: measured moves that meet it
+        - ``moves``: measured moves
+        - ``agreement``: whether these machines are like those simulated
+        - ``p_value``: two-sided p-value of that
+        - ``compared_moves``: first moves of each machine that are compared
+        - ``all_machines``: proportion of moves of all machines of which these are a sample, with one-sided bounds
+        - ``all_machines_low``: lower bound
+        - ``all_machines_high``: upper bound
+        - ``machines_predicted``: proportion of machines that meet it in the wanted proportion of moves, with one-sided
+          bounds; null: the goal does not ask for machines
+        - ``machines_predicted_low``: lower bound
+        - ``machines_predicted_high``: upper bound
+        - ``machines_measured``: likewise as measured
+        - ``machines_measured_low``: lower bound
+        - ``machines_measured_high``: upper bound
+
+    machines : pandas.DataFrame
+        Each machine that was measured.
+
+        - ``machine``: its log
+        - ``moves``: its moves
+        - ``met``: its moves that meet each goal, in the order of the goals
+
+    assumed : list[str]
+        Effects that the prediction is without, which its manifest does not name.
+    """
+
+    status: Literal["accepted", "rejected", "undecided"]
+    study: str
+    point: str
+    simulated_machines: int
+    goals: pandas.DataFrame
+    machines: pandas.DataFrame
+    assumed: list[str]
+
+
 class PlanGoalAnswer(Answer):
     """The smallest studies that can meet the goal of a manifest.
 
@@ -2781,6 +2843,7 @@ TYPES: dict[str, type[Answer]] = {
     "compare": CompareAnswer,
     "history": HistoryAnswer,
     "monitor": MonitorAnswer,
+    "accept": AcceptAnswer,
     "plan-goal": PlanGoalAnswer,
     "plan-pilot": PlanPilotAnswer,
     "plan-success": PlanSuccessAnswer,
@@ -2827,6 +2890,8 @@ class Ask(Protocol):
     def __call__(self, command: Literal["history"], /, *operands: Any, **options: Any) -> HistoryAnswer: ...
     @overload
     def __call__(self, command: Literal["monitor"], /, *operands: Any, **options: Any) -> MonitorAnswer: ...
+    @overload
+    def __call__(self, command: Literal["accept"], /, *operands: Any, **options: Any) -> AcceptAnswer: ...
     @overload
     def __call__(self, command: Literal["plan"], /, *operands: Any, **options: Any) -> PlanGoalAnswer | PlanPilotAnswer | PlanSuccessAnswer | PlanRigsAnswer | PlanHalfwidthAnswer | PlanEquivalenceAnswer: ...
     @overload

@@ -62,7 +62,7 @@ TEST(Agreement, OfOneMachineIsTheRankTest) {
 
 TEST(Agreement, IsSeldomRefusedToMachinesOfTheSameKind) {
   Machines machines(2, 0.85, 0.1);
-  constexpr int studies = 300;
+  constexpr int studies = 120;
   int refused = 0;
   for (int i = 0; i < studies; ++i) {
     const std::vector<RigMoves> rigs = machines.rigs(20, 50);

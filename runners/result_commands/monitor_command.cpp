@@ -126,13 +126,14 @@ ExitCode print_line(const monitor::MonitorReading& reading) {
 }
 
 /// Follows the log until the alarm, an interruption, or so many seconds without new moves.
-ExitCode follow(const command_line::Arguments& arguments, const monitor::Baseline& baseline) {
+ExitCode follow(const command_line::Arguments& arguments) {
   using Clock = std::chrono::steady_clock;
   const fs::path path = arguments.operands()[1];
   if (yaml::is_stream(path))
     arguments.refuse("option '--follow': a stream cannot be read again; expected a file");
   const std::optional<std::int64_t> idle = arguments.whole_number("idle", 0, 86400 * 365);
   const status::InterruptionWatch interruption;
+  const monitor::Baseline baseline = load_baseline(arguments);
   GrowingLog growing(path);
   std::optional<monitor::MachineMonitor> machine;
   ExitCode code = ExitCode::inconclusive;
@@ -154,8 +155,8 @@ ExitCode follow(const command_line::Arguments& arguments, const monitor::Baselin
 }
 
 ExitCode monitor_machine(const command_line::Arguments& arguments) {
+  if (arguments.has("follow")) return follow(arguments);
   const monitor::Baseline baseline = load_baseline(arguments);
-  if (arguments.has("follow")) return follow(arguments, baseline);
   const monitor::MoveLog log = read_log(arguments.operands()[1]);
   monitor::MachineMonitor machine(baseline, log, settings_from(arguments));
   machine.update(log);

@@ -1,5 +1,6 @@
 // `monitor` as a program: results files and logs as baselines, growing logs, exit codes.
 #include <chrono>
+#include <csignal>
 #include <fstream>
 #include <string>
 #include <thread>
@@ -138,6 +139,22 @@ TEST_F(Monitor, EndsWithoutNewMoves) {
   EXPECT_EQ(none.code, 3);
   EXPECT_EQ(none.out, "");
   EXPECT_EQ(program({"monitor", "before.csv", "missing.csv", "--follow"}).code, 2);
+}
+
+TEST_F(Monitor, FollowsUntilItIsInterrupted) {
+  write_log("before.csv", 200);
+  write_log("moves.csv", 30);
+  RunningProgram running({"monitor", "before.csv", "moves.csv", "--follow"}, folder_.path(),
+                               folder_.path() / "lines.json");
+  const auto has_line = [&] {
+    std::ifstream file(folder_.path() / "lines.json");
+    std::string line;
+    return static_cast<bool>(std::getline(file, line));
+  };
+  for (int i = 0; i < 200 && !has_line(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_TRUE(has_line());
+  running.send(SIGINT);
+  EXPECT_EQ(running.wait(), 130);
 }
 
 }  // namespace

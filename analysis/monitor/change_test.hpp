@@ -12,10 +12,16 @@ namespace zerocount::monitor {
 
 /// The values of one measure, one after the other, tested for a change since their baseline: p-values among
 /// all earlier values, on which a ChangeMartingale bets.
+///
+/// The number u of a value (ChangeMartingale) is a random function of the ranks of the moves before it, so
+/// that sequences that differ have different numbers, and what does not change the ranks changes nothing:
+///
+///     h_0 = n,   u_t = open_uniform(w(0, h_{t−1})),   h_t = w(1, h_{t−1} ⊕ (a_t + 2³²·e_t)),
+///
+/// w(s, i) the random bits of the key with the stream s and the index i.
 class ChangeTest {
  public:
-  /// @param ties stream of the numbers u of ChangeMartingale: that of the value number t has the index t
-  ChangeTest(std::vector<double> baseline, const random::RandomStream& ties);
+  explicit ChangeTest(std::vector<double> baseline, const random::RandomKey& ties);
 
   /// @param value not NaN. @returns its p-value
   double update(double value);
@@ -25,7 +31,8 @@ class ChangeTest {
  private:
   RankedBag bag_;
   ChangeMartingale martingale_;
-  random::RandomStream ties_;
+  random::RandomKey ties_;
+  std::uint64_t history_;  ///< h
 };
 
 }  // namespace zerocount::monitor

@@ -107,13 +107,13 @@ std::optional<std::int64_t> values_to_see(const DelayQuestion& question) {
   const random::RandomKey values = designs::random_key(
       question.seed, fmt::format("monitor.{}.{}", question.measure.name,
                                  question.direction == Direction::higher ? "higher" : "lower"));
-  const random::RandomKey ties =
-      designs::random_key(question.seed, fmt::format("monitor.{}.simulated", question.measure.name));
   std::vector<std::int64_t> delays;
   int misses = 0;
   for (std::uint32_t i = 0; i < sequences && misses <= max_misses; ++i) {
     random::NumberSource numbers(values, i);
-    ChangeTest test(resample(question.baseline, numbers), {ties, i});
+    ChangeTest test(
+        resample(question.baseline, numbers),
+        designs::random_key(question.seed, fmt::format("monitor.{}.{}", question.measure.name, i)));
     while (test.martingale().values() < question.max_values && test.martingale().capital() < question.alarm)
       test.update(changed(numbers));
     const bool seen = test.martingale().capital() >= question.alarm;

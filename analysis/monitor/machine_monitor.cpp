@@ -106,7 +106,7 @@ void MachineMonitor::add(const Baseline& baseline, const Baseline::Column& befor
   std::ranges::sort(values);
   const random::RandomKey ties =
       designs::random_key(settings_.seed, fmt::format("monitor.{}", column.measure.name));
-  watched_.push_back({.test = ChangeTest(values, {ties, 0}), .baseline = std::move(values)});
+  watched_.push_back({.test = ChangeTest(values, ties), .baseline = std::move(values)});
   states_.push_back(std::move(state));
 }
 

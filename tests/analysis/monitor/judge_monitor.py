@@ -20,18 +20,21 @@ from philox import MASK, philox4x32_10
 STEPS = [1 / 64, 1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2, 3 / 4, 7 / 8, 15 / 16, 31 / 32, 63 / 64]
 
 
-def tie_number(seed, measure, t):
-    """u of the move t."""
-    key = struct.unpack("<2I", hashlib.sha256(f"{seed}:monitor.{measure}".encode()).digest()[:8])
-    words = philox4x32_10([t & MASK, t >> 32, 0, 0], key)
-    return (((words[0] | words[1] << 32) >> 12) + 0.5) * 2.0**-52
+def bits(key, stream, index):
+    words = philox4x32_10([index & MASK, index >> 32, 0, stream], key)
+    return words[0] | words[1] << 32
 
 
 def p_values(baseline, moves, measure, seed):
+    key = struct.unpack("<2I", hashlib.sha256(f"{seed}:monitor.{measure}".encode()).digest()[:8])
     known = list(baseline)
-    for t, value in enumerate(moves, start=1):
+    history = len(known)
+    for value in moves:
         before = np.array(known)
-        yield ((before > value).sum() + tie_number(seed, measure, t) * ((before == value).sum() + 1)) / (len(known) + 1)
+        above, equal = int((before > value).sum()), int((before == value).sum())
+        u = ((bits(key, 0, history) >> 12) + 0.5) * 2.0**-52
+        yield (above + u * (equal + 1)) / (len(known) + 1)
+        history = bits(key, 1, history ^ (above + (equal << 32)))
         known.append(value)
 
 

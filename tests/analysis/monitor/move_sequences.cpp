@@ -12,11 +12,10 @@ namespace {
 
 constexpr std::uint64_t seed = 20261127;
 
-monitor::ChangeTest test_after_baseline(const Sequence& sequence, random::NumberSource& numbers,
-                                        std::uint32_t number) {
+monitor::ChangeTest test_after_baseline(const Sequence& sequence, random::NumberSource& numbers) {
   std::vector<double> baseline;
   for (std::int64_t i = 0; i < sequence.baseline; ++i) baseline.push_back(move_value(sequence.kind, numbers));
-  return {std::move(baseline), {designs::random_key(seed, "ties"), number}};
+  return monitor::ChangeTest(std::move(baseline), designs::random_key(seed, "ties"));
 }
 
 std::string experiment_of(const Sequence& sequence) {
@@ -49,7 +48,7 @@ random::NumberSource numbers_of(std::string_view experiment, std::uint32_t numbe
 
 double largest_capital(const Sequence& sequence, std::uint32_t number) {
   random::NumberSource numbers = numbers_of(experiment_of(sequence), number);
-  monitor::ChangeTest test = test_after_baseline(sequence, numbers, number);
+  monitor::ChangeTest test = test_after_baseline(sequence, numbers);
   double largest = 0.0;
   for (std::int64_t t = 0; t < sequence.moves; ++t) {
     test.update(move_value(sequence.kind, numbers));
@@ -60,7 +59,7 @@ double largest_capital(const Sequence& sequence, std::uint32_t number) {
 
 std::optional<std::int64_t> delay_of(const Sequence& sequence, double alarm, std::uint32_t number) {
   random::NumberSource numbers = numbers_of(experiment_of(sequence), number);
-  monitor::ChangeTest test = test_after_baseline(sequence, numbers, number);
+  monitor::ChangeTest test = test_after_baseline(sequence, numbers);
   for (std::int64_t t = 1; t <= sequence.moves; ++t) {
     test.update(move_value(sequence.kind, numbers, t >= sequence.change ? sequence.factor : 1.0));
     if (test.martingale().capital() >= alarm) return t - sequence.change + 1;

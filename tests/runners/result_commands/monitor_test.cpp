@@ -145,7 +145,7 @@ TEST_F(Monitor, FollowsUntilItIsInterrupted) {
   write_log("before.csv", 200);
   write_log("moves.csv", 30);
   RunningProgram running({"monitor", "before.csv", "moves.csv", "--follow"}, folder_.path(),
-                               folder_.path() / "lines.json");
+                         folder_.path() / "lines.json");
   const auto has_line = [&] {
     std::ifstream file(folder_.path() / "lines.json");
     std::string line;

@@ -52,6 +52,7 @@ bool is_wanted(const MonitorSettings& settings, const MonitoredMeasure& measure)
                                         const MonitorSettings& settings) {
   const auto names = [](const auto& columns) {
     std::vector<std::string> all;
+    all.reserve(columns.size());
     for (const auto& column : columns) all.push_back(column.measure.name);
     return fmt::format("{}", fmt::join(all, ", "));
   };
@@ -106,7 +107,8 @@ void MachineMonitor::add(const Baseline& baseline, const Baseline::Column& befor
   std::ranges::sort(values);
   const random::RandomKey ties =
       designs::random_key(settings_.seed, fmt::format("monitor.{}", column.measure.name));
-  watched_.push_back({.test = ChangeTest(values, ties), .baseline = std::move(values)});
+  ChangeTest test(values, ties);
+  watched_.push_back({.test = std::move(test), .baseline = std::move(values)});
   states_.push_back(std::move(state));
 }
 

@@ -118,7 +118,7 @@ double serial_correlation(std::span<const double> values) {
   const double middle = 0.5 * static_cast<double>(values.size());
   std::vector<double> ranks;  // of the values, those of equal ones alike, minus their mean
   for (const double value : values) {
-    const auto [first, last] = std::ranges::equal_range(sorted, value);
+    const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), value);
     ranks.push_back(0.5 * static_cast<double>((first - sorted.begin()) + (last - sorted.begin())) - middle);
   }
   double squares = 0.0;

@@ -14,7 +14,7 @@ RankedBag::RankedBag(std::vector<double> values) : size_(std::ssize(values)) {
 RankedBag::Place RankedBag::place_of(double value) const {
   Place place;
   for (const std::vector<double>& run : runs_) {
-    const auto [first, last] = std::ranges::equal_range(run, value);
+    const auto [first, last] = std::equal_range(run.begin(), run.end(), value);
     place.above += run.end() - last;
     place.equal += last - first;
   }

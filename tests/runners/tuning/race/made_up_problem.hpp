@@ -19,7 +19,7 @@ struct MadeUpProblem {
   double fall{0.4};  ///< of the rate per squared distance
   Values reliable{0.3, 0.6};
   Values fast{0.7, 0.4};
-  Values widths;  ///< of the peak of the rate, which has long slopes, where `fall` is not to be used
+  Values widths{};  ///< of the peak of the rate, which has long slopes, where `fall` is not to be used
   study::Goal goal{.within = 1.0, .moves = 0.95};
 
   static double squared_distance(const Values& a, const Values& b) {

@@ -5,6 +5,7 @@
 #include <deque>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "core/random/number_source.hpp"
@@ -33,11 +34,11 @@ constexpr int tries_before_walking = 8;  // of a later generation, if they find 
 constexpr double walked_part = 0.6;      // of the difference of two others
 constexpr double crossover = 0.9;        // probability that a coordinate moves
 
-/// The effort without that which the race of the finalists, and of an earlier leader, takes at most.
+/// The effort without that which the race of the finalists takes at most, with the best start and a leader.
 trials::Effort before_final_race(const SearchProblem& problem, const trials::Effort& whole) {
   const SearchSize& size = problem.size;
   const std::int64_t final_trials =
-      (size.max_units - size.climbing_units) * (size.elites + 1) * problem.trials_of_unit;
+      (size.max_units - size.climbing_units) * (size.elites + 2) * problem.trials_of_unit;
   const std::int64_t least = std::min(size.max_units * problem.trials_of_unit, whole.trials_left());
   const double seconds = whole.seconds_left();
   return whole.share(std::max(whole.trials_left() - final_trials, least),
@@ -56,6 +57,7 @@ class Search {
 
   SearchResult run() {
     race_starts();
+    if (!population_.empty()) best_start_ = population_.front();
     fill_ranges();
     int without = 0;
     while (!population_.empty()) {
@@ -442,8 +444,10 @@ class Search {
     std::vector<Candidate> before{leaders_.front().candidate};
     trials::within(effort_, [&] { run_units(before, most_units_); });
     if (before.empty()) return false;
-    const double now = best_estimate().margin;
-    return now - estimate_of(problem_.aim, before.front(), most_units_).margin > min_approach * std::abs(now);
+    const std::int64_t units =
+        std::min(std::ssize(before.front().units), std::ssize(population_.front().units));
+    const double now = estimate_of(problem_.aim, population_.front(), units).margin;
+    return now - estimate_of(problem_.aim, before.front(), units).margin > min_approach * std::abs(now);
   }
 
   void tell() const {
@@ -462,7 +466,10 @@ class Search {
     if (most_units_ == problem_.size.max_units) return;
     effort_ = settings_.effort;
     most_units_ = problem_.size.max_units;
-    race({});
+    std::vector<Candidate> left_behind;
+    const auto is_best_start = [this](const Candidate& one) { return one.values == best_start_->values; };
+    if (best_start_ && std::ranges::none_of(population_, is_best_start)) left_behind.push_back(*best_start_);
+    race(std::move(left_behind));
   }
 
   SearchResult finish() {
@@ -488,6 +495,7 @@ class Search {
   std::set<Values> tried_;
   std::map<Values, Estimate> estimates_;  ///< of all that were simulated
   std::vector<Candidate> population_;     ///< the best first
+  std::optional<Candidate> best_start_;   ///< so that few units do not drop it by chance
   std::deque<Leader> leaders_;            ///< since two thirds of the candidates
   SearchResult result_;
 };

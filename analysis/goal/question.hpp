@@ -43,7 +43,7 @@ struct Question {
 };
 
 Question question_of(const study::Study& study);
-/// " under condition loaded", " at loaded, 1e+05 cycles"; empty without conditions.
+/// " under condition loaded", " at loaded, 100000 cycles"; empty without conditions.
 std::string under_text(const Question& question, std::size_t condition);
 /// The number of the age at which that condition is.
 std::size_t age_of(const Question& question, std::size_t condition);

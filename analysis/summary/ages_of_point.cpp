@@ -81,7 +81,10 @@ document::Description<AgeOfPoint> age_description(const goal::Question& question
   };
   document::Description<AgeOfPoint> description;
   description
-      .value({.key = "age", .heading = "age", .meaning = "age of the machines", .unit = question.ages.unit},
+      .value({.key = "age",
+              .heading = "age",
+              .meaning = "age of the machines, in the unit of the manifest",
+              .unit = question.ages.at.empty() ? "" : question.ages.unit},
              &AgeOfPoint::age)
       .value({"trials", "trials", "trials at the age"}, &AgeOfPoint::trials)
       .value({"success", "succeeded", "trials all of whose moves ended at zero error"}, &AgeOfPoint::success);

@@ -152,7 +152,7 @@ std::span<const GeneralKey> general_keys() {
        "must "
        "be a multiple of R*C"},
       {"ages",
-       "ages of every machine at which it is asked, of values that have `aging` beside them: {at: [0, "
+       "ages of every machine at which it is simulated, of values that have `aging` beside them: {at: [0, "
        "1.0e+5, "
        "1.0e+6], unit: cycles}; trial i is at age floor(i/(R*C)) mod A, and `trials` must be a multiple of "
        "R*C*A"},

@@ -94,7 +94,10 @@ namespace {
 /// Adds the value of `field`, and the rate at which it changes with age before it.
 void assign_read(SweptAxis& axis, std::size_t slot, const yaml::Field& field, keys::Reading& reading) {
   const study::Value value = keys::read_value(field, slot, reading);
-  if (reading.rate) assign(axis, reading.rate->slot, reading.rate->value, field.node->place);
+  if (reading.rate) {
+    note_slots(axis, {reading.rate->slot, 1, false});
+    assign(axis, reading.rate->slot, reading.rate->value, field.node->place);
+  }
   assign(axis, slot, value, field.node->place);
 }
 
@@ -145,7 +148,11 @@ void read_option(const yaml::Field& options, const yaml::YamlEntry& entry, const
     const auto slots = find_assigned(field, assignment, words.refusal, reading);
     if (!slots) continue;
     note_slots(axis, *slots);
-    for (std::size_t slot = slots->first; slot < slots->first + slots->count; ++slot) {
+    const std::size_t first = axis.axis.assignments.size();
+    read_assignments(yaml::entry_of(field, assignment), *slots, axis, reading);
+    // Those of the rates of aging too.
+    for (std::size_t i = first; i < axis.axis.assignments.size(); ++i) {
+      const std::size_t slot = axis.axis.assignments[i].slot;
       if (in_this_option.insert(slot).second) continue;
       reading.problems.add(
           assignment.place, yaml::entry_of(field, assignment).path,
@@ -153,7 +160,6 @@ void read_option(const yaml::Field& options, const yaml::YamlEntry& entry, const
           "one value");
       break;
     }
-    read_assignments(yaml::entry_of(field, assignment), *slots, axis, reading);
   }
   finish_option(axis, entry.key);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -44,7 +45,8 @@ bool check_point_count(const yaml::Field& sweep, std::size_t options, SweepReadi
 // The value in an option's label: a number in its shortest form, anything else as in the manifest.
 std::string value_label(const SweptAxis& axis, const study::SlotRange& slots, const yaml::YamlNode& node,
                         const study::StudyTable& table) {
-  if (slots.list || parameters::has_labels(table.rows[slots.first]) || axis.axis.assignments.empty() ||
+  if (slots.list || node.kind == yaml::YamlNode::Kind::map ||
+      parameters::has_labels(table.rows[slots.first]) || axis.axis.assignments.empty() ||
       axis.axis.assignments.back().value.kind != study::Value::Kind::number) {
     return yaml::flow_text(node);
   }
@@ -97,10 +99,11 @@ void read_spaced(const yaml::Field& sweep, const yaml::Field& field, const study
 
 // Reports a parameter in two axes of the grid. If the cases also give it a value, the grid takes precedence,
 // with a warning.
-bool take_for_grid(const yaml::Field& grid, const yaml::YamlEntry& entry, const SweptAxis& axis,
+// @param slots of the axis
+bool take_for_grid(const yaml::Field& grid, const yaml::YamlEntry& entry, std::span<const std::size_t> slots,
                    SweepReading& state) {
   const std::string path = yaml::entry_of(grid, entry).path;
-  for (const std::size_t slot : axis.slots) {
+  for (const std::size_t slot : slots) {
     if (!state.in_grid.insert(slot).second) {
       state.reading.problems.add(entry.place, path,
                                  fmt::format("{} is swept twice", state.table().rows[slot].name),
@@ -126,7 +129,8 @@ void read_grid(const yaml::Field& sweep, const yaml::Field& grid, std::vector<Sw
     const yaml::Field field = yaml::entry_of(grid, entry);
     SweptAxis axis{.name = entry.key, .place = field.node->place};
     note_slots(axis, *slots);
-    if (!take_for_grid(grid, entry, axis, state)) continue;
+    if (!take_for_grid(grid, entry, axis.slots, state)) continue;
+    const std::size_t taken = axis.slots.size();
     if (field.node->kind == yaml::YamlNode::Kind::map) {
       read_spaced(sweep, field, *slots, axis, state);
     } else if (yaml::check_list(field, "a list of values, such as [1, 2]", state.reading.problems)) {
@@ -136,6 +140,7 @@ void read_grid(const yaml::Field& sweep, const yaml::Field& grid, std::vector<Sw
         read_listed(field, *slots, axis, state);
       }
     }
+    take_for_grid(grid, entry, std::span(axis.slots).subspan(taken), state);  // rates of aging
     axes.push_back(std::move(axis));
   }
 }

@@ -87,6 +87,11 @@ void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuni
                    "the dotted path of a numeric parameter (zerocount parameters)");
       continue;
     }
+    if (row.name.ends_with(study::suffix_of_rate)) {
+      problems.add(entry.place, field.path, "a rate of aging belongs to the machine, and is not tuned",
+                   "a parameter of the control or the command");
+      continue;
+    }
     if (!is_one_number(plan, slots->first)) {
       const bool follows = plan.base[slots->first].kind == study::Value::Kind::following;
       problems.add(entry.place, field.path,

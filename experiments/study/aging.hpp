@@ -28,13 +28,13 @@ struct Aging {
 /// The value at this age divided by that at age 0. Exactly 1 at age 0.
 double factor_at_age(const Aging& aging, double rate, double age);
 
-/// The ages at which every machine is asked (`ages`).
+/// The ages at which every machine is simulated (`ages`).
 struct Ages {
   std::vector<double> at;      ///< rising, from 0 on; empty: the study has no ages
   std::string unit{"cycles"};  ///< one word
 };
 
-/// "1e+05 cycles": an age in few digits, but all that it has.
+/// "100000 cycles": an age in few digits, but all that it has.
 std::string age_text(const Ages& ages, double age);
 
 }  // namespace zerocount::study

@@ -91,7 +91,7 @@ std::int64_t turn_named(const Study& study, const std::optional<std::string>& co
     const auto found = wanted ? std::ranges::find(all, *wanted) : all.end();
     if (found != all.end()) return found - all.begin();
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: every machine is asked at each of its {} {}s; expected {} "
+                  fmt::format("{}: every machine is simulated at each of its {} {}s; expected {} "
                               "with one of {}",
                               study.name, all.size(), noun, option, fmt::join(all, ", ")));
   };

@@ -233,7 +233,7 @@ struct Study {
   std::int64_t rigs{0};    ///< number of rigs; 0: no trials share a rig
   std::int64_t worlds{0};  ///< number of worlds, which divides `rigs`; 0: nothing is drawn for each
   /// What every machine bears in turn, by names; empty: one condition. With ages each condition at each age,
-  /// "loaded, 1e+05 cycles", those of an age together.
+  /// "loaded, 100000 cycles", those of an age together.
   std::vector<std::string> conditions{};
   std::vector<std::string> condition_names{};  ///< of the manifest; empty: it has no conditions
   Ages ages{};

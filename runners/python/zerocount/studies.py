@@ -319,7 +319,7 @@ class Study:
     def conditions(self) -> list[str]:
         """Names of the conditions that every machine bears; empty: there is one, which the manifest describes.
 
-        With ages each condition at each age: ``loaded, 1e+05 cycles``.
+        With ages each condition at each age: ``loaded, 100000 cycles``.
         """
         return self.checked.conditions
 

@@ -383,7 +383,18 @@ TEST(Ages, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
       {refusal_with(k2 + "stop: {success_rate_halfwidth: 0.1, max_trials: 48}\n"),
        "sequential stopping does not tell ages apart"},
       {refusal_with(k2 + "goal: {within: 0.002, moves: 0.9}\ntune: {free: {friction.k2: [500, 700]}}\n"),
-       "friction.k2 changes with age"}};
+       "friction.k2 changes with age"},
+      {refusal_with(k2 + "goal: {within: 0.002, moves: 0.9}\ntune: {free: {friction.k2.aging: [-0.1, 0]}}\n"),
+       "a rate of aging belongs to the machine, and is not tuned"},
+      {refusal_with(k2 + "sweep: {grid: {friction.k2.aging: [-0.1, -0.2], friction.k2: [{value: 700, aging: "
+                         "{linear: 0, scale: 1}}, 600]}}\n"),
+       "friction.k2.aging is swept twice"},
+      {refusal_with(k2 + "conditions: {a: {friction.k2: {value: 700, aging: {linear: 0, scale: 1}}}}\n"
+                         "sweep: {grid: {friction.k2.aging: [-0.1, -0.2]}}\n"),
+       "friction.k2.aging is swept at m.yaml:9:36: a condition cannot override it"},
+      {refusal_with(k2 + "conditions: {a: {friction.k2.aging: -0.1, friction.k2: {value: 700, aging: "
+                         "{linear: 0, scale: 1}}}}\n"),
+       "friction.k2.aging is given twice in this condition"}};
   for (const auto& [error, expected] : faults)
     EXPECT_NE(error.find(expected), std::string::npos) << error << "\n" << expected;
 }

@@ -8,6 +8,7 @@
 
 #include "analysis/measures/goal_counts.hpp"
 #include "core/failure/failure.hpp"
+#include "experiments/parameters/study_units.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount::acceptance {
@@ -21,21 +22,29 @@ std::string settling_measure_of(const study::Goal& goal) {
                         : layout::name_of_band("band_settling_time", goal.band);
 }
 
-const std::vector<double>& values_of(const monitor::MoveLog& log, const std::string& measure) {
+/// @param axis of the study
+const std::vector<double>& values_of(const monitor::MoveLog& log, const std::string& measure,
+                                     parameters::AxisKind axis) {
   const monitor::MoveLog::Column* const column = log.find(measure);
   if (column == nullptr)
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: has no column {}, which the goal asks for", log.name(), measure));
+  const std::string unit = parameters::unit_on(axis, column->measure.unit);
+  if (!monitor::have_same_dimension(column->unit, unit))
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: {} is in '{}', and in the study in '{}'; expected a unit of the same "
+                              "dimension",
+                              log.name(), measure, column->unit, unit));
   return column->values;
 }
 
 /// [move] whether it meets the goal.
-std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log) {
+std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log, parameters::AxisKind axis) {
   const double latest = measures::latest({.within = goal.within});
   std::vector<bool> met;
-  for (const double time : values_of(log, settling_measure_of(goal))) met.push_back(time <= latest);
+  for (const double time : values_of(log, settling_measure_of(goal), axis)) met.push_back(time <= latest);
   for (const study::GoalLimit& limit : goal.limits) {
-    const std::vector<double>& values = values_of(log, limit.measure);
+    const std::vector<double>& values = values_of(log, limit.measure, axis);
     for (std::size_t i = 0; i < met.size(); ++i) met[i] = met[i] && std::abs(values[i]) <= limit.largest;
   }
   return met;
@@ -141,7 +150,7 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
   for (std::size_t i = 0; i < study.goals.size(); ++i) {
     std::vector<std::vector<bool>> met;
     for (std::size_t machine = 0; machine < logs.size(); ++machine) {
-      met.push_back(met_moves(study.goals[i], logs[machine]));
+      met.push_back(met_moves(study.goals[i], logs[machine], file.axis()));
       acceptance.machines[machine].met.push_back(std::ranges::count(met.back(), true));
     }
     acceptance.claims.push_back(claim_of(study.goals[i], simulated[i], met, study.seed));

@@ -55,7 +55,8 @@ Status status_of(const Acceptance& acceptance);
 /// the point, its rigs.
 /// @param file of one condition, with goals
 /// @throws Failure: bad_input for a study with worlds, or without rigs, for goals that are about some moves
-/// of a trial, and for a log without a measure that a goal asks for; bad_data for a log without moves
+/// of a trial, and for a log without a measure that a goal asks for, or with it in a unit of another
+/// dimension than the study has; bad_data for a log without moves
 Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
                   std::span<const monitor::MoveLog> logs);
 

@@ -18,7 +18,7 @@ constexpr double smallest_change = 1.0 / 32.0;  // below all sizes at a stake
 constexpr std::array steps{0.0, 1.0 / 64, 1.0 / 32, 1.0 / 16,  1.0 / 8,   1.0 / 4,
                            0.5, 3.0 / 4,  7.0 / 8,  15.0 / 16, 31.0 / 32, 63.0 / 64};
 constexpr double max_loss = 0.9;       // of a bet by a step
-constexpr double max_capital = 1e200;  // money beyond it is given away, so that sums stay finite
+constexpr double max_capital = 1e200;  // the most that a bet can have, so that sums stay finite
 
 /// 1/log2(t + 1), of which the differences are the stakes: they sum to 1.
 double kept_before(std::int64_t t) {

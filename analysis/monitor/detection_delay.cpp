@@ -39,6 +39,12 @@ ChangeToSee change_of_proportion(bool quality, std::span<const double> baseline,
   return change;
 }
 
+bool can_be(const MonitoredMeasure& measure, double value) {
+  if (measure.row->values.magnitude && value < 0.0) return false;
+  const layout::ValidValues& valid = measure.row->field.valid;
+  return valid.expected.empty() || (value >= valid.low && value <= valid.high);
+}
+
 /// Draws a value of the changed machine.
 class ChangedValue {
  public:
@@ -99,7 +105,10 @@ ChangeToSee change_to_see(const MonitoredMeasure& measure, std::span<const doubl
   const double middle = middle_of(baseline);
   const auto [low, high] = std::ranges::minmax(baseline);
   if (middle == 0.0 || std::isinf(middle) || (low < 0.0 && high > 0.0 && !std::isinf(high))) return {};
-  return {change.value_or(usual_relative_change) * std::abs(middle), {Direction::higher, Direction::lower}};
+  ChangeToSee to_see{.size = change.value_or(usual_relative_change) * std::abs(middle)};
+  if (can_be(measure, middle + to_see.size)) to_see.directions.push_back(Direction::higher);
+  if (can_be(measure, middle - to_see.size)) to_see.directions.push_back(Direction::lower);
+  return to_see;
 }
 
 std::optional<std::int64_t> values_to_see(const DelayQuestion& question) {

@@ -16,8 +16,9 @@ struct ChangeToSee {
   std::vector<Direction> directions{};  ///< that are possible; empty: the measure is not judged
 };
 
-/// A change by the proportion `change` of the baseline's median (default 0.2), or by `change` of a proportion
-/// (default 0.1). A measure is not judged if its values have both signs, or its median is 0 or infinite.
+/// A change by `change` times the baseline's median (default 0.2), or by `change` of a proportion (default
+/// 0.1), in the directions in which the measure can change so much. A measure is not judged if there is none,
+/// its values have both signs, or its median is 0 or infinite.
 ChangeToSee change_to_see(const MonitoredMeasure& measure, std::span<const double> baseline,
                           std::optional<double> change);
 

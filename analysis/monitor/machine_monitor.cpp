@@ -43,6 +43,13 @@ std::string shown_unit(const MonitoredMeasure& measure, const std::string& unit)
   return have_same_dimension(unit, measure.unit) ? measure.unit : linear_unit(measure);
 }
 
+/// The settings with the measures named as columns are.
+MonitorSettings with_own_names(MonitorSettings settings) {
+  for (std::string& name : settings.measures)
+    if (const std::optional<MonitoredMeasure> measure = measure_named(name)) name = measure->name;
+  return settings;
+}
+
 bool is_wanted(const MonitorSettings& settings, const MonitoredMeasure& measure) {
   if (settings.measures.empty()) return !measure.accumulates;
   return std::ranges::find(settings.measures, measure.name) != settings.measures.end();
@@ -71,7 +78,7 @@ bool are_dependent(double correlation, std::size_t values) {
 }
 
 MachineMonitor::MachineMonitor(const Baseline& baseline, const MoveLog& log, MonitorSettings settings)
-    : settings_(std::move(settings)), unused_(log.others()) {
+    : settings_(with_own_names(std::move(settings))), unused_(log.others()) {
   for (const std::string& name : settings_.measures)
     if (log.find(name) == nullptr || baseline.find(name) == nullptr)
       throw Failure(ExitCode::bad_input, fmt::format("--measure {}: {} has no such measure", name,

@@ -125,8 +125,8 @@ std::string not_judged_sentence(const MonitorReading& r) {
   const std::vector<std::string> names = not_judged(r);
   if (names.empty() || r.state.alarm != nullptr) return "";
   return fmt::format(
-      "without a size of change to be seen, because the median is 0 or infinite, or values have both "
-      "signs: {}",
+      "without a size of change to be seen, because the median is 0 or infinite, values have both signs, or "
+      "a proportion cannot change so much: {}",
       fmt::join(names, ", "));
 }
 

@@ -42,6 +42,15 @@ const layout::MeasureTable& table_with_both() {
   return layout::measure_table(features);
 }
 
+/// The name of the row's measure of this band or tolerance; nothing if there is none.
+std::optional<std::string> name_with_index(const layout::Measure& row, std::string_view stem, double index) {
+  constexpr double largest = 1e15;  // below which all whole numbers are exact
+  if (!(std::abs(index) < largest)) return std::nullopt;
+  if (!row.band) return layout::name_of_tolerance(stem, index);
+  if (std::rint(index) != index) return std::nullopt;
+  return layout::name_of_band(stem, static_cast<std::int64_t>(index));
+}
+
 Scale scale_of(const layout::Measure& row, bool quality) {
   if (quality || row.field.valid.high <= 1.0) return Scale::proportion;
   const layout::ValidValues& valid = row.field.valid;
@@ -60,7 +69,10 @@ std::optional<MonitoredMeasure> measure_named(std::string_view name) {
     const bool has_index = row.band || row.tolerance;
     if (has_index != is_indexed || indexed(row.field.column.name).stem != wanted.stem) continue;
     const bool quality = layout::is_quality(row);
-    return MonitoredMeasure{.name = std::string(name),
+    const std::optional<std::string> own_name =
+        wanted.index ? name_with_index(row, wanted.stem, *wanted.index) : std::string(name);
+    if (!own_name) return std::nullopt;
+    return MonitoredMeasure{.name = *own_name,
                             .unit = row.field.column.unit,
                             .row = &row,
                             .quality = quality,
@@ -103,6 +115,13 @@ bool have_same_dimension(std::string_view one, std::string_view other) {
 
 std::string linear_unit(const MonitoredMeasure& measure) {
   return parameters::unit_on(parameters::AxisKind::linear, measure.unit);
+}
+
+bool can_be_in(const MonitoredMeasure& measure, std::string_view unit) {
+  const bool is_counted =
+      measure.scale != Scale::proportion && (measure.unit == "count" || measure.unit == "1");
+  if (is_counted && si_factor(unit) != 1.0) return false;
+  return have_same_dimension(unit, measure.unit) || have_same_dimension(unit, linear_unit(measure));
 }
 
 double ranked_value(const MonitoredMeasure& measure, double number) {

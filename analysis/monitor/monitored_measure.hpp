@@ -27,7 +27,8 @@ struct MonitoredMeasure {
   bool accumulates{false};
 };
 
-/// The measure of that name, with any error band or tolerance in brackets; nothing if there is none.
+/// The measure of that name, with any error band or tolerance in brackets; nothing if there is none. Its own
+/// name has the number as the program writes it: that of "band_settling_time[1.0]" has [1].
 std::optional<MonitoredMeasure> measure_named(std::string_view name);
 
 /// The name in the head of a column without its unit, and the unit: "band_settling_time[1] [ms]".
@@ -44,6 +45,10 @@ bool have_same_dimension(std::string_view one, std::string_view other);
 
 /// The unit of the measure on a linear axis.
 std::string linear_unit(const MonitoredMeasure& measure);
+
+/// Whether a column of the measure can have this unit, on an axis of any kind. What is counted has no
+/// multiples of its unit, such as percent. Without a unit: yes.
+bool can_be_in(const MonitoredMeasure& measure, std::string_view unit);
 
 /// The value that is ranked, of the number that a results file or a log has. NaN, which stands for what never
 /// happened, becomes larger than any number.

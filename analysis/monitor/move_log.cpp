@@ -124,17 +124,29 @@ void MoveLog::read_line(std::string_view line) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   ++line_;
   if (line_ == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  const std::string_view shown = bare(line);
-  if (shown.starts_with('#') || shown.starts_with('%')) return;
-  if (line.find_first_not_of(" \t") == std::string_view::npos) {
+  while (line.ends_with('\r')) line.remove_suffix(1);
+  if (!has_header()) require_line_feeds(line);
+  // A tab that separates cells is no blank: a line of such tabs is a row of empty cells.
+  const std::string_view blanks = has_header() && separator_ == '\t' ? " " : " \t";
+  const std::size_t begin = line.find_first_not_of(blanks);
+  if (begin == std::string_view::npos) {
     if (heads_.size() == 1) ++blank_lines_;
     return;
   }
+  const std::string_view shown = bare(line.substr(begin));
+  if (shown.starts_with('#') || shown.starts_with('%')) return;
   if (!has_header()) return read_header(line);
   // In a log of one column a blank line is an empty cell, unless nothing follows.
   for (; blank_lines_ > 0; --blank_lines_) read_row("");
   read_row(line);
+}
+
+void MoveLog::require_line_feeds(std::string_view line) const {
+  if (line.find('\r') == std::string_view::npos) return;
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}:{}: a carriage return stands alone within the line; expected lines that end "
+                            "with a line feed, or with both",
+                            name_, line_));
 }
 
 void MoveLog::read_header(std::string_view line) {
@@ -154,11 +166,10 @@ void MoveLog::read_header(std::string_view line) {
       if (!cell.empty()) others_.emplace_back(cell);
       continue;
     }
-    if (find(head.name) != nullptr)
+    if (find(measure->name) != nullptr)
       throw Failure(ExitCode::bad_input,
-                    fmt::format("{}:{}: two columns are named '{}'", name_, line_, head.name));
-    if (!have_same_dimension(head.unit, measure->unit) &&
-        !have_same_dimension(head.unit, linear_unit(*measure)))
+                    fmt::format("{}:{}: two columns are named '{}'", name_, line_, measure->name));
+    if (!can_be_in(*measure, head.unit))
       throw Failure(ExitCode::bad_input,
                     fmt::format("{}:{}: {} is in '{}'; expected '{}', or a unit of the same dimension", name_,
                                 line_, head.name, text::printable(head.unit), measure->unit));

@@ -13,9 +13,9 @@ namespace zerocount::monitor {
 /// A log of moves as text: a header with the names of measures, then one row a move in their order. It may be
 /// read in pieces, as it grows.
 ///
-/// Cells are separated by the first of tab, semicolon and comma that the header has. Empty lines and lines
-/// that begin with '#' or '%' are skipped. An empty cell, or NaN, is what never happened; so is a blank line
-/// between the rows of a log of one column.
+/// Cells are separated by the first of tab, semicolon and comma that the header has. Blank lines, which have
+/// no separator, and lines that begin with '#' or '%' are skipped. An empty cell, or NaN, is what never
+/// happened; so is a blank line between the rows of a log of one column.
 class MoveLog {
  public:
   /// @param name in messages
@@ -28,8 +28,9 @@ class MoveLog {
   };
 
   /// Reads the lines that end in `text`. @returns the number of its characters that were read
-  /// @throws Failure: bad_input for a header without a measure, or with one twice; bad_data for a row of
-  /// another number of cells, or with a value that the measure cannot have
+  /// @throws Failure: bad_input for a header without a measure, with one twice or in a unit that it cannot
+  /// have, or where carriage returns alone end the lines; bad_data for a row of another number of cells, or
+  /// with a value that the measure cannot have
   std::size_t read(std::string_view text);
   /// Reads the last line, although nothing ends it.
   void read_last(std::string_view line);
@@ -46,6 +47,7 @@ class MoveLog {
 
  private:
   void read_line(std::string_view line);
+  void require_line_feeds(std::string_view line) const;
   void read_header(std::string_view line);
   void read_row(std::string_view line);
 

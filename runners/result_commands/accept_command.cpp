@@ -1,6 +1,11 @@
 #include <cstdint>
+#include <filesystem>
+#include <set>
 #include <string>
+#include <system_error>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "analysis/acceptance/acceptance.hpp"
 #include "analysis/acceptance/acceptance_answer.hpp"
@@ -28,8 +33,21 @@ constexpr const char* accept_help =
     "Example: zerocount accept my-axis.h5 machine-1.csv machine-2.csv machine-3.csv\n"
     "         zerocount accept my-axis.h5 machine-*.csv --format html > acceptance.html\n";
 
+/// The moves of a log that is given twice would count as those of two machines.
+void require_different_logs(const command_line::Arguments& arguments) {
+  const std::vector<std::string>& operands = arguments.operands();
+  std::set<std::filesystem::path> places;
+  for (std::size_t i = 1; i < operands.size(); ++i) {
+    std::error_code error;
+    const std::filesystem::path place = std::filesystem::weakly_canonical(operands[i], error);
+    if (!places.insert(error ? std::filesystem::path(operands[i]) : place).second)
+      arguments.refuse(fmt::format("{} is given twice; expected the log of another machine", operands[i]));
+  }
+}
+
 ExitCode accept(const command_line::Arguments& arguments) {
   const std::vector<std::string>& operands = arguments.operands();
+  require_different_logs(arguments);
   const reading::AllTrialsFile file = with_condition(arguments, reading::AllTrialsFile(operands[0]));
   goal::require_claim(file.study(), operands[0]);
   const std::vector<std::string> labels = file.point_labels();
@@ -51,7 +69,8 @@ commands::Command accept_command() {
            "STUDY.h5 MOVES.csv...",
            {answers::format_option(acceptance::acceptance_answer().complete_type()),
             {"point", "P", "design point of the machines"},
-            {"condition", "NAME", "condition under which they moved"}},
+            {"condition", "NAME", "condition under which they moved"},
+            {"age", "A", "age at which they moved, of a study with ages"}},
            2,
            max_machines + 1},
           "accept machines by their moves, beside the prediction",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -15,7 +16,12 @@ namespace zerocount::result_commands {
 /// Reads all of a log.
 monitor::MoveLog read_log(const std::filesystem::path& path);
 
-/// The trials under the condition of --condition, which a study with conditions needs.
+/// Refuses what read_log() does not open, such as a directory.
+void require_log(const std::filesystem::path& path);
+/// Refuses a log of more bytes than read_log() reads.
+void require_log_size(const std::filesystem::path& path, std::size_t size);
+
+/// The trials under the condition of --condition at the age of --age, which a study with several needs.
 reading::AllTrialsFile with_condition(const command_line::Arguments& arguments, reading::AllTrialsFile file);
 
 /// The point of --point, which a study with several points needs.

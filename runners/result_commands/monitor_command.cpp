@@ -59,7 +59,7 @@ std::optional<std::int64_t> rig_of(const command_line::Arguments& arguments, std
 monitor::Baseline load_baseline(const command_line::Arguments& arguments) {
   const fs::path path = arguments.operands()[0];
   if (!commands::is_results_file(path)) {
-    for (const char* const option : {"point", "condition", "rig"})
+    for (const char* const option : {"point", "condition", "age", "rig"})
       if (arguments.has(option))
         arguments.refuse(fmt::format("option '--{}': {} is a log of moves; it belongs to results files",
                                      option, path.string()));
@@ -74,10 +74,17 @@ monitor::Baseline load_baseline(const command_line::Arguments& arguments) {
       file, {point_of(arguments, file.point_labels()), rig_of(arguments, file.study().rigs)});
 }
 
+std::optional<double> change_from(const command_line::Arguments& arguments) {
+  const std::optional<double> change = command_line::number_option(arguments, "change", 0.0);
+  if (change && !(*change > 0.0))
+    arguments.refuse("option '--change': no change is always there; expected a number above 0");
+  return change;
+}
+
 monitor::MonitorSettings settings_from(const command_line::Arguments& arguments) {
   monitor::MonitorSettings settings;
   settings.alarm = command_line::probability_option(arguments, "alarm").value_or(settings.alarm);
-  settings.change = command_line::probability_option(arguments, "change");
+  settings.change = change_from(arguments);
   settings.block = arguments.whole_number("block", 1, 1'000'000).value_or(settings.block);
   settings.seed =
       static_cast<std::uint64_t>(arguments.whole_number("seed", 0, std::int64_t{1} << 53).value_or(1));
@@ -95,7 +102,10 @@ class GrowingLog {
     std::ifstream file(path_, std::ios::binary);
     if (!file) throw Failure(ExitCode::bad_input, fmt::format("{}: cannot be read", path_.string()));
     file.seekg(0, std::ios::end);
-    const auto size = static_cast<std::size_t>(file.tellg());
+    const auto end = static_cast<std::streamoff>(file.tellg());
+    if (end < 0) throw Failure(ExitCode::bad_input, fmt::format("{}: cannot be read", path_.string()));
+    const auto size = static_cast<std::size_t>(end);
+    require_log_size(path_, size);
     if (size < read_)
       throw Failure(ExitCode::bad_data,
                     fmt::format("{}: became shorter while it was followed; expected a file that only grows",
@@ -116,8 +126,11 @@ class GrowingLog {
   std::size_t read_{0};  ///< bytes
 };
 
-/// Prints the answer as one line. @returns its exit code
-ExitCode print_line(const monitor::MonitorReading& reading) {
+/// Prints the state after all moves of the log as one line. @returns its exit code
+ExitCode print_state(monitor::MachineMonitor& machine, const monitor::MoveLog& log,
+                     const monitor::Baseline& baseline) {
+  machine.update(log);
+  const monitor::MonitorReading reading{machine, baseline, machine.state()};
   const document::Answer answer = monitor::monitor_answer().of(
       reading, monitor::exit_code_of(reading.state.status), document::Audience::json);
   standard_output::write(answers::rendered(answer, answers::json_line));
@@ -132,26 +145,30 @@ ExitCode follow(const command_line::Arguments& arguments) {
   if (yaml::is_stream(path))
     arguments.refuse("option '--follow': a stream cannot be read again; expected a file");
   const std::optional<std::int64_t> idle = arguments.whole_number("idle", 0, 86400 * 365);
+  const monitor::MonitorSettings settings = settings_from(arguments);
+  require_log(path);
   const status::InterruptionWatch interruption;
   const monitor::Baseline baseline = load_baseline(arguments);
   GrowingLog growing(path);
   std::optional<monitor::MachineMonitor> machine;
-  ExitCode code = ExitCode::inconclusive;
+  std::optional<ExitCode> code;  // of the last line
   Clock::time_point last = Clock::now();
   while (true) {
-    if (growing.read()) {
-      if (!machine) machine.emplace(baseline, growing.log(), settings_from(arguments));
-      machine->update(growing.log());
-      const monitor::MonitorState state = machine->state();
-      code = print_line({*machine, baseline, state});
-      if (state.status == monitor::MachineStatus::changed) return code;
+    const bool has_moves = growing.read();
+    if (!machine && growing.log().has_header()) machine.emplace(baseline, growing.log(), settings);
+    if (machine && has_moves) {
+      code = print_state(*machine, growing.log(), baseline);
+      if (code == ExitCode::regression) return *code;
       last = Clock::now();
     } else if (idle && Clock::now() - last >= std::chrono::seconds(*idle)) {
-      return code;
+      break;
     }
     if (interruption.token().stop_requested()) return ExitCode::interrupted;
     std::this_thread::sleep_for(polling_interval);
   }
+  if (code) return *code;
+  growing.log().require_header();
+  return print_state(machine.value(), growing.log(), baseline);
 }
 
 ExitCode monitor_machine(const command_line::Arguments& arguments) {
@@ -175,11 +192,13 @@ commands::Command monitor_command() {
            {excluding({"follow"}, answers::format_option(monitor::monitor_answer().complete_type())),
             {"alarm", "A", "largest probability of a false alarm, ever (default 0.001)"},
             {"change", "C",
-             "change to be seen: a part of the median, or of a proportion (default 0.2, of proportions 0.1)"},
+             "change to be seen: so many times the median, or so much of a proportion (default 0.2, of "
+             "proportions 0.1)"},
             {"measure", "NAME", "a measure to watch; may be repeated (default: all that both have)", true},
             {"block", "N", "take N consecutive moves as one value, their median (default 1)"},
             {"point", "P", "design point of a results file"},
             {"condition", "NAME", "condition of a results file with conditions"},
+            {"age", "A", "age of a results file with ages"},
             {"rig", "R", "only this rig of a results file, from 0"},
             {"seed", "N", "of ties and of simulated changes (default 1)"},
             {"follow", "", "read the log while it grows, and print lines of JSON until the alarm"},

@@ -52,3 +52,16 @@ def test_moves_of_other_columns_are_refused() -> None:
         zc.monitor({"settling_time": [0.05, 0.06], "overshoot": [1]})
     with pytest.raises(zc.ManifestError, match="no measure to compare"):
         zc.monitor({"overshoot": [1, 2]}, {"settling_time": [1.0]})
+
+
+def test_refused_moves_are_not_added() -> None:
+    watch = zc.monitor({"settling_time": times(1, 10)})
+    with pytest.raises(ValueError, match="no columns"):
+        watch.update([])
+    with pytest.raises(zc.DataError):
+        watch.update({"settling_time": [0.05, -1.0]})
+    assert watch.update({"settling_time": [0.05]}).moves == 1
+    with pytest.raises(zc.DataError):
+        watch.update({"settling_time": "soon"})
+    assert watch.update([]).moves == 1
+    assert watch.update({"settling_time": [pd.NA, None]}).moves == 3

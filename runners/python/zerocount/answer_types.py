@@ -487,7 +487,7 @@ class SummaryAnswer(Answer):
           - ``rate_high``: upper bound
           - ``status``: verdict on the goal under the condition
         - ``ages``: the point at each age
-          - ``age``: age of the machines, cycles
+          - ``age``: age of the machines, in the unit of the manifest, cycles
           - ``trials``: trials at the age
           - ``success``: trials all of whose moves ended at zero error
           - ``goal_met``: trials all of whose moves meet the goal
@@ -1105,7 +1105,7 @@ class JudgeAnswer(Answer):
     ages : pandas.DataFrame
         The point at each age.
 
-        - ``age``: age of the machines, cycles
+        - ``age``: age of the machines, in the unit of the manifest
         - ``trials``: trials at the age
         - ``success``: trials all of whose moves ended at zero error
         - ``goal_met``: trials all of whose moves meet the goal

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import os
 import pathlib
 import tempfile
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, overload
 
 from .answer_types import MonitorAnswer
@@ -16,8 +17,9 @@ from .results import Results
 
 
 def _cell(value: Any) -> str:
-    """As the program reads it: what never happened is nan."""
-    return "nan" if value is None else str(value)
+    """As the program reads it: what never happened is nan, also pandas.NA."""
+    text = str(value)
+    return "nan" if value is None or text == "<NA>" else text
 
 
 def _columns(moves: Any) -> dict[str, list[Any]]:
@@ -49,6 +51,20 @@ def _add(path: pathlib.Path, columns: Mapping[str, Sequence[Any]]) -> None:
         writer.writerows([_cell(value) for value in row] for row in zip(*columns.values()))
 
 
+@contextlib.contextmanager
+def _restored(path: pathlib.Path) -> Iterator[None]:
+    """Leaves a log as it was before, where what is done with it fails."""
+    size = path.stat().st_size if path.exists() else None
+    try:
+        yield
+    except BaseException:
+        if size is None:
+            path.unlink(missing_ok=True)
+        else:
+            os.truncate(path, size)
+        raise
+
+
 class Monitor:
     """Watches a machine, move after move. Made by :func:`monitor`.
 
@@ -70,7 +86,7 @@ class Monitor:
         self._folder = tempfile.TemporaryDirectory(prefix="zerocount-monitor-")
         self._log = pathlib.Path(self._folder.name) / "moves.csv"
         self._options = options
-        self._names: list[str] | None = None
+        self._names: list[str] = []
         if _is_file(baseline):
             self._baseline = path_of(baseline)
         else:
@@ -104,7 +120,7 @@ class Monitor:
         Parameters
         ----------
         moves : table
-            A DataFrame, lists or values by the name of the measure, or one mapping a move. NaN or None: it never happened.
+            A DataFrame, lists or values by the name of the measure, or one mapping a move. NaN, NA or None: it never happened.
 
         Returns
         -------
@@ -114,15 +130,21 @@ class Monitor:
         Raises
         ------
         ValueError
-            If the columns are not those of the first moves.
+            If the columns are not those of the first moves, or the first moves have none.
+        Error
+            Of the class of the exit code, if the program refuses the moves: then none of them is added.
         """
         columns = _columns(moves)
-        if self._names is None:
-            self._names = list(columns)
-        elif columns and set(columns) != set(self._names):
-            raise ValueError(f"columns {', '.join(columns)}; expected {', '.join(self._names)}, as the first moves have")
-        _add(self._log, {name: columns[name] for name in self._names} if columns else {})
-        return self.read(self._log)
+        names = self._names or list(columns)
+        if not names:
+            raise ValueError("no columns; expected names of measures, as the first moves")
+        if columns and set(columns) != set(names):
+            raise ValueError(f"columns {', '.join(columns)}; expected {', '.join(names)}, as the first moves have")
+        with _restored(self._log):
+            _add(self._log, {name: columns[name] for name in names} if columns else {})
+            answer = self.read(self._log)
+        self._names = names
+        return answer
 
 
 @overload
@@ -140,7 +162,7 @@ def monitor(baseline: Any, moves: Any = None, **options: Any) -> Monitor | Monit
     moves : path or table, optional
         The moves in their order. Without them the machine is watched by :meth:`Monitor.update`.
     **options
-        Of the command: ``alarm``, ``change``, ``measure`` (a list), ``block``, ``point``, ``condition``, ``rig``, ``seed``.
+        Of the command: ``alarm``, ``change``, ``measure`` (a list), ``block``, ``point``, ``condition``, ``age``, ``rig``, ``seed``.
 
     Returns
     -------

@@ -26,6 +26,9 @@ TEST(ChangeToSee, IsAPartOfTheMedianOrOfAProportion) {
   EXPECT_NEAR(time.size, 0.01, 1e-15);
   EXPECT_EQ(time.directions, both);
   EXPECT_NEAR(change_to_see(measure("settling_time"), Values{0.05}, 0.5).size, 0.025, 1e-15);
+  const monitor::ChangeToSee large = change_to_see(measure("settling_time"), Values{0.04, 0.05, 0.06}, 1.5);
+  EXPECT_NEAR(large.size, 0.075, 1e-15);
+  EXPECT_EQ(large.directions, Directions{Direction::higher}) << "no time is negative";
   const monitor::ChangeToSee good = change_to_see(measure("outcome"), Values{1.0, 1.0, 1.0, 0.0}, {});
   EXPECT_EQ(good.size, 0.1);
   EXPECT_EQ(good.directions, both);

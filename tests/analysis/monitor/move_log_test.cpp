@@ -1,6 +1,7 @@
 // Logs of moves as machines write them.
 #include "analysis/monitor/move_log.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -58,6 +59,24 @@ TEST(MoveLog, ReadsBlankLinesOfOneColumnAsMovesThatNeverSettled) {
   EXPECT_EQ(log_of("settling_time\n0.1\n\n\n").moves(), 1) << "what ends the file is no move";
 }
 
+TEST(MoveLog, ReadsLinesOfSeparatorsAsMovesThatNeverSettled) {
+  for (const char separator : {'\t', ';', ','}) {
+    std::string text = "settling_time,final_settling_time\n0.1,0.2\n,\n , \n  \n\n0.3,0.4\n";
+    std::ranges::replace(text, ',', separator);
+    EXPECT_EQ(log_of(text).find("settling_time")->values, (Values{0.1, never, never, 0.3})) << separator;
+  }
+  EXPECT_EQ(log_of("settling_time,final_settling_time\n\t\n1,2\n").moves(), 1);
+}
+
+TEST(MoveLog, NamesBandsAndTolerancesAsTheProgramDoes) {
+  const monitor::MoveLog log = log_of("band_settling_time[1.0],tolerance_settling_time[0.00000001]\n1,2\n");
+  EXPECT_NE(log.find("band_settling_time[1]"), nullptr);
+  EXPECT_NE(log.find("tolerance_settling_time[1e-08]"), nullptr);
+  EXPECT_EQ(refusal("band_settling_time[1],band_settling_time[1.0]\n1,2\n"),
+            "2 moves.csv:1: two columns are named 'band_settling_time[1]'");
+  EXPECT_FALSE(monitor::measure_named("band_settling_time[1.5]"));
+}
+
 TEST(MoveLog, ReadsPiecesAsTheyGrow) {
   const std::string text = "t,settling_time\n1,0.1\n2,\n\n3,0.3\n";
   for (std::size_t size = 1; size < text.size(); ++size) {
@@ -80,6 +99,9 @@ TEST(MoveLog, NamesThePlaceOfWhatItCannotRead) {
             "2 moves.csv:1: two columns are named 'settling_time'");
   EXPECT_NE(refusal("settling_time [N]\n1\n").find("2 moves.csv:1: settling_time is in 'N'"),
             std::string::npos);
+  EXPECT_NE(refusal("overshoot [%]\n1\n").find("2 moves.csv:1: overshoot is in '%'"), std::string::npos);
+  EXPECT_EQ(refusal("overshoot [count],jerk_count [1],zero_fraction [%]\n1,2,3\n"), "");
+  EXPECT_NE(refusal("settling_time\r0.1\r0.2\r").find("2 moves.csv:1: a carriage return"), std::string::npos);
   EXPECT_EQ(refusal("t,settling_time\n1,0.1\n2\n"),
             "4 moves.csv:3: a row of 1 cells; expected 2, as the header has");
   EXPECT_EQ(refusal("t,settling_time\n1,-0.1\n"),

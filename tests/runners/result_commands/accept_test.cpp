@@ -85,6 +85,8 @@ TEST_F(Accept, RefusesWhatItCannotJudge) {
             "2 other.csv: has no column band_settling_time[1], which the goal asks for\n");
   EXPECT_EQ(message({"none.csv"}), "4 none.csv: has no moves; expected a row for each move of the machine\n");
   EXPECT_EQ(message({}).substr(0, 1), "2");
+  EXPECT_EQ(message({"good.csv", "./good.csv"}).substr(0, 1), "2");
+  EXPECT_NE(message({"good.csv", "./good.csv"}).find("is given twice"), std::string::npos);
   run_study("goal: {band: 1, within: 0.03, moves: 0.9}\n");
   EXPECT_NE(message({"good.csv"}).find("no trials share a machine"), std::string::npos);
   run_study("rigs: 40\n");

@@ -137,8 +137,30 @@ TEST_F(Monitor, EndsWithoutNewMoves) {
   write_log("moves.csv", 0);
   const ProgramResult none = program({"monitor", "before.csv", "moves.csv", "--follow", "--idle", "0"});
   EXPECT_EQ(none.code, 3);
-  EXPECT_EQ(none.out, "");
+  EXPECT_EQ(Json::parse(none.out, nullptr, false), json_of({"monitor", "before.csv", "moves.csv"}, 3));
+  folder_.write("moves.csv", "");
+  EXPECT_EQ(program({"monitor", "before.csv", "moves.csv", "--follow", "--idle", "0"}).code, 2);
   EXPECT_EQ(program({"monitor", "before.csv", "missing.csv", "--follow"}).code, 2);
+}
+
+// What is wrong is said at once, not with the first move.
+TEST_F(Monitor, RefusesBeforeItFollows) {
+  write_log("before.csv", 200);
+  write_log("moves.csv", 0);
+  folder_.write("other.csv", "overshoot\n");
+  const auto followed = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> all{"monitor", "before.csv"};
+    all.insert(all.end(), words.begin(), words.end());
+    all.insert(all.end(), {"--follow", "--idle", "20"});
+    const ProgramResult result = program(all);
+    EXPECT_EQ(result.code, 2) << result.out;
+    return result.err;
+  };
+  EXPECT_NE(followed({"moves.csv", "--alarm", "2"}).find("--alarm"), std::string::npos);
+  EXPECT_NE(followed({"moves.csv", "--change", "0"}).find("--change"), std::string::npos);
+  EXPECT_NE(followed({"moves.csv", "--measure", "overshoot"}).find("no such measure"), std::string::npos);
+  EXPECT_NE(followed({"other.csv"}).find("no measure to compare"), std::string::npos);
+  EXPECT_NE(followed({"."}).find("this is a directory"), std::string::npos);
 }
 
 TEST_F(Monitor, FollowsUntilItIsInterrupted) {

@@ -101,11 +101,11 @@ def tune(
     --------
     >>> free = {"controller.ki": {"log": [5e3, 5e4]}}
     >>> margins = {"gain": 1, "phase": 10, "spread": "off"}
-    >>> tuned = zc.tune("my-axis.yaml", "tuned.h5", free=free, margins=margins, budget=20000)
+    >>> tuned = zc.tune("my-axis.yaml", "tuned.h5", free=free, margins=margins, budget=40000)
     >>> tuned.status
     'met'
     >>> tuned.manifest
-    <Study 'my-axis': 1 design point × 4231 trials>
+    <Study 'my-axis': 1 design point × 5547 trials>
     """
     from .studies import study
 

@@ -157,6 +157,31 @@ Description<Alternative> alternative_columns() {
              [](Row row) { return row.verdict ? std::optional(row.criterion) : std::nullopt; });
 }
 
+/// Whether the control does clearly better than the proven values, which could be the same: its other
+/// parameters are 0 in their ranges.
+bool is_better_within_ranges(const Alternative& one, const TuneAnswer& answer) {
+  constexpr double clearly = 0.95;
+  if (one.fixed.empty() || !one.verdict || !answer.proof) return false;
+  const goal::Verdict& proven = answer.proof->verdict;
+  if (one.verdict->status == goal::Status::met && proven.status == goal::Status::met)
+    return one.criterion < clearly * answer.criterion;
+  return one.verdict->status == goal::Status::met || one.verdict->moves.low > proven.moves.high;
+}
+
+std::string better_control_sentence(Of tuning) {
+  std::string lines;
+  for (const Alternative& one : tuning.answer.alternatives) {
+    if (!is_better_within_ranges(one, tuning.answer)) continue;
+    std::string settings;
+    for (const auto& [name, value] : one.fixed) settings += fmt::format(" --set {}={}", name, value);
+    for (const auto& [name, value] : one.gains) settings += fmt::format(" --set {}={}", name, value);
+    lines += fmt::format(
+        "{}{} does better, and lies in the ranges too, where the search missed it; begin there:{}",
+        lines.empty() ? "" : "\n", one.name, settings);
+  }
+  return lines;
+}
+
 struct FrontierRow {
   const TriedPoint& point;
   const std::vector<study::FreeParameter>& free;
@@ -287,11 +312,13 @@ void add_robustness(Description<Tuning>& items) {
 }
 
 void add_controls(Description<Tuning>& items) {
-  items.table({.key = "alternatives",
-               .heading = "other controls, each at its own best values, on other machines than its search",
-               .meaning = "simpler and other controls at their own best values"},
-              alternative_columns(),
-              [](Of t) -> const std::vector<Alternative>& { return t.answer.alternatives; });
+  items
+      .table({.key = "alternatives",
+              .heading = "other controls, each at its own best values, on other machines than its search",
+              .meaning = "simpler and other controls at their own best values"},
+             alternative_columns(),
+             [](Of t) -> const std::vector<Alternative>& { return t.answer.alternatives; })
+      .sentence(better_control_sentence);
 }
 
 void add_limits(Description<Tuning>& items) {

@@ -86,11 +86,11 @@ std::string headline_of(Of tuning) {
       break;
   }
   if (tuning.answer.proof->verdict.status == goal::Status::missed)
-    return fmt::format(
-        "undecided: the effort ended while the search still came nearer to the goal; {}; a larger --budget "
-        "may "
-        "find better ones",
-        missed_by(tuning));
+    return fmt::format("undecided: {}; {}; a larger --budget may find better ones",
+                       tuning.answer.approaching
+                           ? "the effort ended while the search still came nearer to the goal"
+                           : "not all values that may meet the goal were tried on fresh machines",
+                       missed_by(tuning));
   return fmt::format(
       "undecided: the trials of the proof do not decide whether the best values found, {}, meet the goal",
       tuned_text(tuning));

@@ -317,7 +317,11 @@ class Tuner {
     ProofRun run;
     ProofProblem problem;
     problem.goals = study_.goals;
-    for (const Estimate& one : result_.estimates) problem.promising.push_back(seems_to_meet(one));
+    const Aim aim = aim_of(study_);
+    for (const Estimate& one : result_.estimates) {
+      problem.may_meet.push_back(may_meet(aim, one));
+      problem.margins.push_back(one.margin);
+    }
     problem.first_units = [&](std::size_t finalist, std::size_t correction) {
       const std::vector<UnitResult>& found = result_.finalists[finalist].units;
       const GoalCounts counts = counts_of(study_, search_.units(), found);
@@ -370,7 +374,8 @@ class Tuner {
                         proven.attempt.number,
                         correction_of(proven.attempt.number)};
     describe_proof(std::move(run.study), reading::AllTrialsFile(settings_.output), judged, answer_);
-    if (answer_.status == goal::Status::missed && answer_.approaching)
+    answer_.all_tried = proven.all_tried;
+    if (answer_.status == goal::Status::missed && (answer_.approaching || !answer_.all_tried))
       answer_.status = goal::Status::undecided;
     add_rest_torque(answer_.behaviour, simulated_);
     answer_.refusals = refusals_of(answer_.behaviour, answer_.margins, study_);

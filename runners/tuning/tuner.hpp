@@ -119,7 +119,9 @@ struct TuneAnswer {
   std::int64_t points{0};             ///< that were simulated
   std::int64_t trials{0};             ///< of the search, and of those for other controls
   bool converged{false};
-  bool approaching{false};  ///< SearchResult::approaching: a proof that misses the goal does not decide it
+  // A proof that misses the goal decides it only if neither of these says that others may meet it.
+  bool approaching{false};  ///< SearchResult::approaching
+  bool all_tried{true};     ///< ProvenFinalist::all_tried
   double seconds{0.0};
   TuneBudget budget{};
   std::int64_t spent_trials{0};       ///< of all: search, proof, and what follows

@@ -76,10 +76,14 @@ double margin_of(const Claim& claim, double rate, std::int64_t units) {
   return logit((rate * n + 0.5) / (n + 1.0)) - logit(std::min(wanted_rate(claim), almost_all));
 }
 
-bool seems_to_hold(const Claim& claim, double rate, std::int64_t units) {
+double standard_error(double rate, std::int64_t units) {
   const auto n = static_cast<double>(units);
   const double cautious = (rate * n + 1.0) / (n + 2.0);
-  const double error = std::sqrt(cautious * (1.0 - cautious) / std::max(n, 1.0));
+  return std::sqrt(cautious * (1.0 - cautious) / std::max(n, 1.0));
+}
+
+bool seems_to_hold(const Claim& claim, double rate, std::int64_t units) {
+  const double error = standard_error(rate, units);
   return rate >= wanted_rate(claim) + std::min(error, 0.5 * (1.0 - wanted_rate(claim)));
 }
 
@@ -134,6 +138,14 @@ Estimate estimate_of(const Aim& aim, const Candidate& candidate, std::int64_t un
 bool reaches(const Aim& aim, const Estimate& estimate) {
   for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
     if (estimate.rates[claim] < wanted_rate(aim.claims[claim])) return false;
+  }
+  return true;
+}
+
+bool may_meet(const Aim& aim, const Estimate& estimate) {
+  for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
+    const double rate = estimate.rates[claim];
+    if (rate + 2.0 * standard_error(rate, estimate.units) < wanted_rate(aim.claims[claim])) return false;
   }
   return true;
 }

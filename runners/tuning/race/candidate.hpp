@@ -89,6 +89,9 @@ inline bool seems_to_meet(const Estimate& estimate) {
 /// Whether every rate is as high as wanted, with nothing to spare.
 bool reaches(const Aim& aim, const Estimate& estimate);
 
+/// Whether every rate is as high as wanted, or less than two standard errors lower.
+bool may_meet(const Aim& aim, const Estimate& estimate);
+
 /// Whether `a` is the better candidate: one that seems to meet more of the goals is; of two that meet all of
 /// them the smaller criterion is better; else the one whose worst claim is nearer to what is wanted.
 bool is_better(const Aim& aim, const Estimate& a, const Estimate& b);

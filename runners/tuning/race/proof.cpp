@@ -5,8 +5,19 @@
 namespace zerocount::tuning {
 namespace {
 
+/// The finalist with the largest margin, of those that are not tried and may meet the goals.
+std::optional<std::size_t> surest(const ProofProblem& problem, const std::vector<bool>& tried) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < problem.may_meet.size(); ++i) {
+    if (!problem.may_meet[i] || tried[i]) continue;
+    if (!found || problem.margins[i] > problem.margins[*found]) found = i;
+  }
+  return found;
+}
+
 /// The attempt after one with this result; nothing if there is none worth making.
-std::optional<Attempt> next_attempt(const ProofProblem& problem, const ProvenFinalist& last) {
+std::optional<Attempt> next_attempt(const ProofProblem& problem, const std::vector<bool>& tried,
+                                    const ProvenFinalist& last) {
   const Attempt& before = last.attempt;
   const std::size_t correction = correction_of(before.number + 1);
   switch (last.verdict.status) {
@@ -20,9 +31,9 @@ std::optional<Attempt> next_attempt(const ProofProblem& problem, const ProvenFin
     case goal::Status::missed:
       break;
   }
-  const std::size_t finalist = before.finalist + 1;
-  if (finalist >= problem.promising.size() || !problem.promising[finalist]) return std::nullopt;
-  return Attempt{before.number + 1, finalist, problem.first_units(finalist, correction)};
+  const std::optional<std::size_t> finalist = surest(problem, tried);
+  if (!finalist) return std::nullopt;
+  return Attempt{before.number + 1, *finalist, problem.first_units(*finalist, correction)};
 }
 
 }  // namespace
@@ -33,16 +44,19 @@ std::size_t correction_of(int attempt) {
 
 std::optional<ProvenFinalist> prove(const ProofProblem& problem) {
   std::optional<ProvenFinalist> proven;
+  std::vector<bool> tried(problem.may_meet.size(), false);
   std::optional<Attempt> attempt = Attempt{1, 0, problem.first_units(0, correction_of(1))};
   while (attempt) {
     std::optional<GoalCounts> counts = problem.run(*attempt);
     if (!counts) break;
+    tried[attempt->finalist] = true;
     proven = ProvenFinalist{*attempt, std::move(*counts), {}};
     proven->verdict = goal::judge_goals(problem.goals, proven->counts, correction_of(attempt->number));
     if (problem.rejects(*attempt)) proven->verdict.status = goal::Status::missed;
     if (attempt->number == max_attempts || !problem.goes_on()) break;
-    attempt = next_attempt(problem, *proven);
+    attempt = next_attempt(problem, tried, *proven);
   }
+  if (proven) proven->all_tried = !surest(problem, tried);
   return proven;
 }
 

@@ -15,7 +15,7 @@ namespace zerocount::tuning {
 /// One run of a finalist on units that neither the search nor another attempt has seen.
 struct Attempt {
   int number{1};            ///< from 1
-  std::size_t finalist{0};  ///< of ProofProblem::promising
+  std::size_t finalist{0};  ///< of ProofProblem::may_meet
   std::int64_t units{0};
 };
 
@@ -32,7 +32,8 @@ using GoalCounts = std::vector<measures::MoveCounts>;
 
 struct ProofProblem {
   std::vector<study::Goal> goals;  ///< all of which must be met
-  std::vector<bool> promising;     ///< [finalist] whether it seems to meet them; the best first
+  std::vector<bool> may_meet;      ///< [finalist] whether it may meet them, by the search; the best first
+  std::vector<double> margins;     ///< [finalist] Estimate::margin: the larger, the surer it meets them
   /// trials::Replicates that are expected to decide the goals with this correction, by the results of the
   /// search.
   std::function<std::int64_t(std::size_t finalist, std::size_t correction)> first_units;
@@ -50,14 +51,17 @@ struct ProvenFinalist {
   Attempt attempt;
   GoalCounts counts;
   goal::Verdict verdict;
+  bool all_tried{true};  ///< every finalist that may meet the goals was run
 };
 
-/// Proves the best finalist.
+/// Proves the best finalist or, where it misses the goals, the surest of the others: the best ones were
+/// chosen because they look fast on the units of the search, and miss goals at the limit of what is possible.
 ///
 ///     finalist = 0
 ///     for attempt = 1 … max_attempts, while the effort is enough:
 ///       run the finalist on fresh units; verdict = judge_goals() with the attempt's part of α
-///       met: done; missed: the next finalist; undecided: again on more units, if more are expected to decide
+///       met: done; missed: of the others that may meet the goals, the one with the largest margin;
+///       undecided: again on more units, if more are expected to decide
 ///
 /// @returns the last attempt; nothing if the effort ended before the first one
 std::optional<ProvenFinalist> prove(const ProofProblem& problem);

@@ -305,9 +305,23 @@ class Search {
       result_.cut = true;
       keep_those_with_most_units(candidates);
     }
-    const auto elites = static_cast<std::size_t>(problem_.size.elites);
-    if (candidates.size() > elites) candidates.resize(elites);
+    keep_elites(candidates);
     population_ = std::move(candidates);
+  }
+
+  /// The best ones and, in the last place, the most reliable one: the best by a criterion meet a goal that is
+  /// hard to reach by luck, and all of them may miss it.
+  void keep_elites(std::vector<Candidate>& candidates) const {
+    const auto elites = static_cast<std::size_t>(problem_.size.elites);
+    if (candidates.size() <= elites) return;
+    std::vector<double> margins;
+    margins.reserve(candidates.size());
+    for (const Candidate& one : candidates)
+      margins.push_back(estimate_of(problem_.aim, one, most_units_).margin);
+    const std::ptrdiff_t reliable = std::ranges::max_element(margins) - margins.begin();
+    if (reliable >= problem_.size.elites)
+      std::swap(candidates[elites - 1], candidates[static_cast<std::size_t>(reliable)]);
+    candidates.resize(elites);
   }
 
   /// While the best candidate seems to miss the goal, many candidates with few units find the way sooner than

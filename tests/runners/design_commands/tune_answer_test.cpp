@@ -307,5 +307,33 @@ TEST(TuneAnswer, SaysWhatAnEngineerWouldRefuseAndWhatExcludesIt) {
               HasSubstr("before the proof: a drive engineer would refuse"));
 }
 
+TEST(TuneAnswer, IsUndecidedWhereAnotherFinalistMayMeetTheGoal) {
+  const study::Study study = axis();
+  TuneAnswer answer = answer_for(study, goal::Status::undecided);
+  answer.proof->verdict.status = goal::Status::missed;
+  answer.all_tried = false;
+  EXPECT_THAT(text_of(answer, study),
+              HasSubstr("undecided: not all values that may meet the goal were tried"));
+}
+
+TEST(TuneAnswer, NamesASimplerControlInTheRangesThatDoesBetter) {
+  const study::Study study = axis();
+  TuneAnswer answer = answer_for(study, goal::Status::met);
+  answer.proof->verdict.status = goal::Status::met;
+  answer.criterion = 0.02;
+  goal::Verdict met;
+  met.status = goal::Status::met;
+  answer.alternatives = {
+      {"controller.kp = 0", {{"controller.kp", 0.0}}, {{"controller.ki", 3e-5}}, met, 0.0195}};
+  EXPECT_THAT(text_of(answer, study), Not(HasSubstr("does better")));
+  answer.alternatives[0].criterion = 0.015;
+  EXPECT_THAT(text_of(answer, study),
+              HasSubstr("controller.kp = 0 does better, and lies in the ranges too, where "
+                        "the search missed it; begin there: --set controller.kp=0 --set "
+                        "controller.ki=3e-05"));
+  answer.alternatives[0].fixed.clear();  // a block is added
+  EXPECT_THAT(text_of(answer, study), Not(HasSubstr("does better")));
+}
+
 }  // namespace
 }  // namespace zerocount::design_commands

@@ -79,33 +79,36 @@ bool ExtrasMaker::wants(Extra extra) const {
   return std::ranges::find(of_.settings.extras, extra) != of_.settings.extras.end();
 }
 
-/// What an extra takes, at most, s.
-double ExtrasMaker::seconds_of(Extra extra) const {
+/// What an extra takes, at most.
+std::int64_t ExtrasMaker::trials_of(Extra extra) const {
   const std::int64_t each = plan_.units * of_.search.units().trials_each;
-  std::int64_t trials = 0;
   switch (extra) {
     case Extra::margins:
-      trials = is_met() ? points_of_delay * each : units_of_limits().trials();
-      break;
+      return is_met() ? points_of_delay * each : units_of_limits().trials();
     case Extra::room:
-      trials = is_met() ? points_of_room * std::ssize(answer_.free) * each : 0;
-      break;
+      return is_met() ? points_of_room * std::ssize(answer_.free) * each : 0;
     case Extra::robustness:
-      trials = is_met() ? points_of_robustness * units_of_limits().trials() : 0;
-      break;
+      return is_met() ? points_of_robustness * units_of_limits().trials() : 0;
     case Extra::controls:
-      trials =
-          std::ssize(controls_) *
-          std::min(trials_of_control, affordable_trials(one_of_shares(std::ssize(controls_)), of_.speed));
-      break;
+      return std::ssize(controls_) *
+             std::min(trials_of_control, affordable_trials(one_of_shares(std::ssize(controls_)), of_.speed));
     case Extra::limits:
-      trials = points_of_limits * units_of_limits().trials();
-      break;
+      return points_of_limits * units_of_limits().trials();
     case Extra::maps:
-      trials = trials_of_maps(of_.search.units(), answer_.free.size());
-      break;
+      return trials_of_maps(of_.search.units(), answer_.free.size());
   }
-  return std::min(static_cast<double>(trials) / of_.measured_speed, of_.effort.seconds_left());
+  return 0;
+}
+
+double ExtrasMaker::seconds_of(Extra extra) const {
+  return std::max(
+      0.0, std::min(static_cast<double>(trials_of(extra)) / of_.measured_speed, of_.effort.seconds_left()));
+}
+
+/// The room usually takes half of its points; controls are searched with what there is.
+bool ExtrasMaker::fits(Extra extra) const {
+  const std::int64_t usual = trials_of(extra) / (extra == Extra::room ? 2 : 1);
+  return extra == Extra::controls || usual <= affordable_trials(of_.effort, of_.speed);
 }
 
 void ExtrasMaker::make() {
@@ -115,25 +118,30 @@ void ExtrasMaker::make() {
   }
   const auto remaining = [&](std::size_t first) {
     double seconds = 0.0;
-    for (std::size_t i = first; i < wanted.size(); ++i) seconds += seconds_of(wanted[i]);
-    return std::min(seconds, of_.effort.seconds_left());
+    for (std::size_t i = first; i < wanted.size(); ++i)
+      seconds += fits(wanted[i]) ? seconds_of(wanted[i]) : 0.0;
+    return std::max(0.0, std::min(seconds, of_.effort.seconds_left()));
   };
-  if (!wanted.empty() && !of_.settings.quiet && of_.measured_speed > 0.0) {
+  if (remaining(0) > 0.0 && !of_.settings.quiet && of_.measured_speed > 0.0) {
     std::vector<std::string> each;
     each.reserve(wanted.size());
-    for (const Extra extra : wanted)
-      each.push_back(fmt::format("{} {}", name_of(extra), status::duration_text(seconds_of(extra))));
+    for (const Extra extra : wanted) {
+      each.push_back(fits(extra)
+                         ? fmt::format("{} {}", name_of(extra), status::duration_text(seconds_of(extra)))
+                         : fmt::format("{} not within the budget", name_of(extra)));
+    }
     of_.line.clear();
     status::tell("the extras take at most {} more: {}; Ctrl-C keeps what is printed\n",
                  status::duration_text(remaining(0)), fmt::join(each, ", "));
   }
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     of_.line.show([&] {
-      return fmt::format("proven; {}{}", name_of(wanted[i]),
-                         of_.measured_speed > 0.0 ? fmt::format(": at most {} of {} that remain",
-                                                                status::duration_text(seconds_of(wanted[i])),
-                                                                status::duration_text(remaining(i)))
-                                                  : std::string());
+      return fmt::format(
+          "proven; {}{}", name_of(wanted[i]),
+          of_.measured_speed > 0.0 && fits(wanted[i])
+              ? fmt::format(": at most {} of {} that remain", status::duration_text(seconds_of(wanted[i])),
+                            status::duration_text(remaining(i)))
+              : std::string());
     });
     make(wanted[i]);
     of_.line.clear();
@@ -159,7 +167,7 @@ void ExtrasMaker::leave_out(Extra extra, const std::string& part) {
 
 void ExtrasMaker::make(Extra extra) {
   const auto try_to = [&](const std::function<void()>& work) {
-    if (ended(work)) return;
+    if (fits(extra) && ended(work)) return;
     leave_out(extra,
               extra == Extra::margins ? "margins (what more delay loses)" : std::string(name_of(extra)));
   };

@@ -21,6 +21,7 @@ namespace zerocount::tuning {
 ///
 ///     plan: so many units for each point that the budget is enough for all wanted extras
 ///     for each wanted extra, in the order of Extra:
+///       what it takes is more than what is left: it is left out, so that later ones may fit
 ///       tell what remains; make it; ready(extra)
 ///       the effort ended: it is left out, and named
 ///       a stop is requested: it and all later ones are left out
@@ -53,7 +54,9 @@ class ExtrasMaker {
                      const Values& values, const trials::Effort& effort, Alternative& alternative) const;
   bool ended(const std::function<void()>& work) const;
   void leave_out(Extra extra, const std::string& part);
+  std::int64_t trials_of(Extra extra) const;
   double seconds_of(Extra extra) const;
+  bool fits(Extra extra) const;
   trials::Replicates units_of_limits() const;
   study::Study tuned_for_limits(std::vector<std::string> overrides = {}) const;
   trials::Effort one_of_shares(std::int64_t parts) const;

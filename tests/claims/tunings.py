@@ -5,7 +5,7 @@
 
 - Twenty tunings with goals that the best gains just meet or just miss. The truth is the rate on 100 000 machines that neither the search
   nor the proof has seen. A claim is false where the proof's lower bound, or a goal that is called met, is above it: with 95 % each, three
-  of twenty are with a probability of 8 %.
+  of twenty are with a probability of 8 %. A goal that is called unreachable is met by none of the twenty.
 - The criterion of three tunings against the best of a grid of 1573 points on three axes, each on 500 machines, which is a little better
   than it is because it is the best of many. No tuning may be more than a tenth later.
 
@@ -104,19 +104,24 @@ def main():
         claims = [pool.submit(claim, program, wanted.budget, seed) for seed in range(1, 21)]
         slices = [pool.submit(best_of_slice, program, number) for number in range(13)]
         criteria = [pool.submit(criterion, program, wanted.budget, seed) for seed in (7, 8, 9)]
-        statuses, false_claims = [], 0
+        statuses, false_claims, unreachable, truths = [], 0, [], []
         for job in claims:
             seed, asked, status, low, truth = job.result()
             is_false = truth < low or (status == "met" and truth < asked)
             statuses.append(status)
+            truths.append(truth)
+            if status == "unreachable":
+                unreachable.append(asked)
             false_claims += is_false
             print(f"seed {seed}: {asked} wanted: {status}, at least {low:.4f}; {truth:.4f} on fresh machines"
                   f"{': FALSE' if is_false else ''}", flush=True)
         best = min(job.result() for job in slices)
         latest = max(job.result() for job in criteria)
+    wrong = [asked for asked in unreachable if asked < max(truths)]
     print(f"{false_claims} of 20 claims are false; {statuses.count('met')} goals are met")
+    print(f"{len(unreachable)} goals are called unreachable; reached by another tuning: {wrong or 'none'}")
     print(f"best of the grid {best:.4g} s; tuned {', '.join(f'{job.result():.4g}' for job in criteria)} s")
-    return 0 if false_claims <= 2 and 0 < statuses.count("met") < 20 and latest <= 1.1 * best else 1
+    return 0 if false_claims <= 2 and not wrong and 0 < statuses.count("met") < 20 and latest <= 1.1 * best else 1
 
 
 if __name__ == "__main__":

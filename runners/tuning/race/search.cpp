@@ -10,11 +10,12 @@
 
 #include "core/random/number_source.hpp"
 #include "experiments/designs/random_key.hpp"
+#include "runners/tuning/race/dropping.hpp"
+#include "runners/tuning/race/walk.hpp"
 
 namespace zerocount::tuning {
 namespace {
 
-constexpr double error_of_dropping = 0.01;
 constexpr int tries_of_candidate = 60;      // draws for one admissible candidate
 constexpr std::size_t places_at_once = 32;  // to be examined
 constexpr double first_step = 0.15;         // in the unit cube
@@ -26,13 +27,7 @@ constexpr double min_approach = 0.2;        // of the distance left to the goal,
 constexpr double final_part = 0.1;          // of the time, for the race of the finalists
 constexpr double examining = 0.3;           // of the time left, at most, to find candidates of a generation
 
-// Of differential evolution.
-constexpr std::size_t walkers = 24;
-constexpr std::int64_t first_places = 96;  // the best of which become walkers
-constexpr int rounds_of_walkers = 60;
 constexpr int tries_before_walking = 8;  // of a later generation, if they find less than half of it
-constexpr double walked_part = 0.6;      // of the difference of two others
-constexpr double crossover = 0.9;        // probability that a coordinate moves
 
 /// The effort without that which the race of the finalists takes at most, with the best start and a leader.
 trials::Effort before_final_race(const SearchProblem& problem, const trials::Effort& whole) {
@@ -90,9 +85,7 @@ class Search {
     Candidate candidate;
   };
 
-  std::size_t index_below(std::size_t size) {
-    return std::min(static_cast<std::size_t>(numbers_.uniform() * static_cast<double>(size)), size - 1);
-  }
+  std::size_t index_below(std::size_t size) { return tuning::index_below(size, numbers_); }
 
   /// Adds the places that are admissible and new, up to `wanted` of them.
   void add_admissible(const std::vector<UnitCubePoint>& places, std::size_t wanted,
@@ -175,19 +168,11 @@ class Search {
     approach(candidates, wanted, face, [&](std::int64_t i) { return spread_place(start, i); });
   }
 
-  struct Walker {
-    UnitCubePoint place;
-    double shortfall{0.0};
-  };
-
-  std::vector<Walker> at_places(std::vector<UnitCubePoint> places) const {
+  std::vector<double> shortfalls_at(const std::vector<UnitCubePoint>& places) const {
     std::vector<Values> values;
     values.reserve(places.size());
     for (const UnitCubePoint& place : places) values.push_back(values_at(problem_.free, place));
-    const std::vector<double> shortfalls = problem_.shortfall(values);
-    std::vector<Walker> walking;
-    for (std::size_t i = 0; i < places.size(); ++i) walking.push_back({std::move(places[i]), shortfalls[i]});
-    return walking;
+    return problem_.shortfall(values);
   }
 
   /// Adds candidates that differential evolution finds where `shortfall` is 0, up to `wanted` of all.
@@ -195,48 +180,12 @@ class Search {
   void approach(std::vector<Candidate>& candidates, std::size_t wanted, const std::vector<std::size_t>& face,
                 const std::function<UnitCubePoint(std::int64_t)>& first) {
     if (candidates.size() >= wanted) return;
-    std::vector<Walker> walking;
-    int round = 0;
+    Walk walk([this](const std::vector<UnitCubePoint>& places) { return shortfalls_at(places); }, face,
+              numbers_);
     find(candidates, [&] {
-      std::vector<UnitCubePoint> places;
-      if (walking.empty()) {
-        for (std::int64_t i = 0; i < first_places; ++i) places.push_back(first(i));
-      } else {
-        for (const Walker& one : walking) places.push_back(moved(one, walking));
-      }
-      for (UnitCubePoint& place : places) {
-        for (const std::size_t parameter : face) place[parameter] = 0.0;
-      }
-      std::vector<Walker> found = at_places(std::move(places));
-      std::vector<UnitCubePoint> admissible;
-      for (const Walker& one : found) {
-        if (one.shortfall == 0.0) admissible.push_back(one.place);
-      }
-      add_admissible(admissible, wanted, candidates);
-      if (walking.empty()) {
-        std::ranges::stable_sort(found, {}, &Walker::shortfall);
-        found.resize(walkers);
-        walking = std::move(found);
-      } else {
-        for (std::size_t i = 0; i < walking.size(); ++i) {
-          if (found[i].shortfall <= walking[i].shortfall) walking[i] = std::move(found[i]);
-        }
-      }
-      return candidates.size() < wanted && ++round < rounds_of_walkers;
+      add_admissible(walk.next(first), wanted, candidates);
+      return candidates.size() < wanted && walk.goes_on();
     });
-  }
-
-  UnitCubePoint moved(const Walker& walker, const std::vector<Walker>& walking) {
-    const UnitCubePoint& base = walking[index_below(walking.size())].place;
-    const UnitCubePoint& from = walking[index_below(walking.size())].place;
-    const UnitCubePoint& to = walking[index_below(walking.size())].place;
-    const std::size_t always = index_below(base.size());
-    UnitCubePoint place = walker.place;
-    for (std::size_t i = 0; i < place.size(); ++i) {
-      if (i != always && numbers_.uniform() >= crossover) continue;
-      place[i] = std::clamp(base[i] + walked_part * (to[i] - from[i]), 0.0, 1.0);
-    }
-    return place;
   }
 
   /// A place near an elite, moved along the difference of two others: their spread knows the direction of a
@@ -295,7 +244,7 @@ class Search {
         sort_by_merit(candidates, units);
         verify_leaders(candidates);
         if (candidates.empty()) return;
-        drop(candidates, units);
+        candidates = dropped(problem_.aim, problem_.size, std::move(candidates), units);
         const bool tells_them_apart = estimate_of(problem_.aim, candidates.front(), units).rate > 0.0;
         if (!tells_them_apart || (units == most_units_ && !takes_more_units(candidates.front()))) return;
         units = std::min(2 * units, most_units_);
@@ -392,49 +341,6 @@ class Search {
       candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(i));
       keep_admissible(candidates);
     }
-  }
-
-  /// Drops the candidates that cannot win: those that surely miss the goal, and those that are surely later
-  /// than one that surely meets it. Of the others the better half stays at each doubling of the units, as in
-  /// successive halving, so that a race between equals ends: by turns the best and the most reliable, because
-  /// few units make fast points look as if they met the goal.
-  void drop(std::vector<Candidate>& candidates, std::int64_t units) const {
-    const Aim& aim = problem_.aim;
-    std::vector<std::size_t> by_margin(candidates.size());
-    std::vector<Estimate> estimates;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      by_margin[i] = i;
-      estimates.push_back(estimate_of(aim, candidates[i], units));
-    }
-    std::ranges::stable_sort(
-        by_margin, [&](std::size_t a, std::size_t b) { return estimates[a].margin > estimates[b].margin; });
-    const Candidate& reliable = candidates[by_margin.front()];
-    const auto sure = std::ranges::find_if(
-        candidates, [&](const Candidate& one) { return surely_meets(aim, one, error_of_dropping); });
-    const auto stays = [&](const Candidate& one) {
-      return !surely_misses(aim, one, reliable, error_of_dropping) &&
-             (sure == candidates.end() || &one == &*sure ||
-              !is_significantly_later(aim, one, *sure, error_of_dropping));
-    };
-    const auto most = static_cast<std::size_t>(max_after(problem_.size, units));
-    std::vector<char> chosen;
-    chosen.reserve(candidates.size());
-    for (const Candidate& one : candidates) chosen.push_back(std::ssize(one.units) > units ? 1 : 0);
-    std::size_t count = 0;
-    const auto choose = [&](std::size_t i) {
-      if (count == most || chosen[i] != 0 || !stays(candidates[i])) return;
-      chosen[i] = 1;
-      ++count;
-    };
-    for (std::size_t place = 0; place < candidates.size(); ++place) {
-      choose(place);
-      choose(by_margin[place]);
-    }
-    std::vector<Candidate> left;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (chosen[i] != 0) left.push_back(std::move(candidates[i]));
-    }
-    candidates = std::move(left);
   }
 
   Estimate best_estimate() const { return estimate_of(problem_.aim, population_.front(), most_units_); }

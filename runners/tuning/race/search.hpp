@@ -92,8 +92,7 @@ struct SearchResult {
 ///     race of the population up to max_units
 ///
 /// Where the effort ends within a race, the candidates with the most units stay. Differential evolution is
-/// that of Storn and Price (Journal of Global Optimization 11, 1997), rand/1/bin: once its walkers are in an
-/// admissible region they fill it, because any move within it is taken.
+/// that of Walk.
 /// @throws trial::Interrupted
 SearchResult search(const SearchProblem& problem, const SearchSettings& settings);
 

@@ -114,6 +114,88 @@ std::string model_sentence(const MonitorReading& r) {
       r.baseline.machines);
 }
 
+std::string_view word_of(ChangeTold told) {
+  switch (told) {
+    case ChangeTold::one:
+      return "one";
+    case ChangeTold::several:
+      return "several";
+    case ChangeTold::none:
+      return "none";
+    case ChangeTold::unknown:
+      break;
+  }
+  return "unknown";
+}
+
+/// "friction.k1 lower by 12 to 20 %".
+std::string change_text(const ParameterChange& change) {
+  const auto percent_off = [](double factor) { return 100.0 * std::abs(factor - 1.0); };
+  const bool lower = change.high <= 1.0;
+  if (!lower && change.low < 1.0)
+    return fmt::format("{} between {:.2g} % lower and {:.2g} % higher", change.parameter,
+                       percent_off(change.low), percent_off(change.high));
+  const double least = percent_off(lower ? change.high : change.low);
+  const double most = percent_off(lower ? change.low : change.high);
+  const char* const direction = lower ? "lower" : "higher";
+  const bool beyond = lower ? change.beyond_low : change.beyond_high;
+  if (beyond) return fmt::format("{} {} by at least {:.2g} %", change.parameter, direction, least);
+  return fmt::format("{} {} by {:.2g} to {:.2g} %", change.parameter, direction, least, most);
+}
+
+std::string explanation_sentence(const MonitorReading& r) {
+  if (r.explanation == nullptr) return "";
+  const ChangeExplanation& explanation = *r.explanation;
+  std::vector<std::string> texts;
+  for (const ParameterChange& change : explanation.parameters)
+    texts.push_back(fmt::format("{} ({})", change_text(change), text::percent_near(change.probability)));
+  switch (explanation.told) {
+    case ChangeTold::one:
+      return fmt::format("if one parameter of the model changed, it is {}",
+                         change_text(explanation.parameters[0]));
+    case ChangeTold::several:
+      return fmt::format("what changed cannot be told from these measures: {}", fmt::join(texts, ", or "));
+    case ChangeTold::none:
+      return fmt::format(
+          "no change of a single parameter of the model between half and twice explains these "
+          "moves; nearest: {}",
+          fmt::join(texts, ", or "));
+    case ChangeTold::unknown:
+      break;
+  }
+  return fmt::format("which parameter changed is not told: {}", explanation.reason);
+}
+
+document::Description<ParameterChange> parameter_description() {
+  using document::Notation;
+  return document::Description<ParameterChange>()
+      .value({"parameter", "parameter", "dotted path"}, &ParameterChange::parameter)
+      .value({.key = "factor",
+              .heading = "times",
+              .meaning = "most likely factor by which it changed",
+              .unit = "1",
+              .notation = Notation::three_digits},
+             &ParameterChange::factor)
+      .value({.key = "low",
+              .heading = "from",
+              .meaning = "low end of the 95 % interval of the factor",
+              .unit = "1",
+              .notation = Notation::three_digits},
+             &ParameterChange::low)
+      .value({.key = "high",
+              .heading = "to",
+              .meaning = "high end of it",
+              .unit = "1",
+              .notation = Notation::three_digits},
+             &ParameterChange::high)
+      .value({.key = "probability",
+              .heading = "probability",
+              .meaning = "that it is this parameter, if it is one of those tried",
+              .unit = "1",
+              .notation = Notation::percent},
+             &ParameterChange::probability);
+}
+
 std::vector<std::string> not_judged(const MonitorReading& r) {
   std::vector<std::string> names;
   for (const MeasureState& state : r.monitor.measures())
@@ -224,6 +306,17 @@ document::AnswerDescription<MonitorReading> monitor_answer() {
              [](Of r) { return r.monitor.unused(); })
       .table({.key = "measures", .meaning = "each measure"}, measure_description(),
              [](Of r) { return r.monitor.measures(); })
+      .value(
+          with_words(
+              in_data("told", "what is told of the parameters of the model after an alarm; null: not asked"),
+              {"one", "several", "none", "unknown"}),
+          [](Of r) { return r.explanation ? std::optional(word_of(r.explanation->told)) : std::nullopt; })
+      .value(in_data("tried", "parameters of the model that may have changed"),
+             [](Of r) { return r.explanation ? r.explanation->tried : std::vector<std::string>{}; })
+      .sentence(explanation_sentence)
+      .table({.key = "parameters", .meaning = "parameters of the model that explain the change"},
+             parameter_description(),
+             [](Of r) { return r.explanation ? r.explanation->parameters : std::vector<ParameterChange>{}; })
       .sentence(not_judged_sentence)
       .sentence(unused_sentence)
       .sentence(bound_sentence)

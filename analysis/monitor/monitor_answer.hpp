@@ -3,6 +3,7 @@
 #include "analysis/document/answer.hpp"
 #include "analysis/monitor/machine_monitor.hpp"
 #include "analysis/monitor/monitor_baseline.hpp"
+#include "analysis/monitor/parameter_change.hpp"
 
 namespace zerocount::monitor {
 
@@ -11,6 +12,7 @@ struct MonitorReading {
   const MachineMonitor& monitor;
   const Baseline& baseline;
   MonitorState state;
+  const ChangeExplanation* explanation{nullptr};  ///< of an alarm beside a simulated study; null: none
 };
 
 document::AnswerDescription<MonitorReading> monitor_answer();

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <vector>
 
-#include "analysis/records/unit.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "core/text/number_text.hpp"
+#include "core/text/unit.hpp"
 #include "experiments/parameters/study_units.hpp"
 
 namespace zerocount::monitor {
@@ -97,17 +97,17 @@ ColumnHead column_head(std::string_view text) {
 }
 
 double si_factor(std::string_view unit) {
-  const std::optional<records::Unit> known = records::unit_named(unit);
+  const std::optional<text::Unit> known = text::unit_named(unit);
   return known ? known->si : 1.0;
 }
 
 bool have_same_dimension(std::string_view one, std::string_view other) {
   if (one.empty() || other.empty() || one == other) return true;
-  using enum records::Dimension;
-  const std::optional<records::Unit> a = records::unit_named(one);
-  const std::optional<records::Unit> b = records::unit_named(other);
+  using enum text::Dimension;
+  const std::optional<text::Unit> a = text::unit_named(one);
+  const std::optional<text::Unit> b = text::unit_named(other);
   if (!a || !b) return false;
-  const auto is_number = [](const records::Unit& unit) {
+  const auto is_number = [](const text::Unit& unit) {
     return unit.dimension == count || unit.dimension == proportion;
   };
   return a->dimension == b->dimension || (is_number(*a) && is_number(*b));

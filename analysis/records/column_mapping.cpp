@@ -15,17 +15,17 @@ namespace {
 
 struct QuantityRow {
   std::string_view name;
-  std::optional<Dimension> dimension;
+  std::optional<text::Dimension> dimension;
 };
 
 /// In the order of Quantity.
-constexpr std::array<QuantityRow, 8> quantity_rows{{{"time", Dimension::time},
-                                                    {"torque", Dimension::torque},
-                                                    {"drive_torque", Dimension::torque},
-                                                    {"angle", Dimension::angle},
-                                                    {"force", Dimension::force},
-                                                    {"drive_force", Dimension::force},
-                                                    {"position", Dimension::length},
+constexpr std::array<QuantityRow, 8> quantity_rows{{{"time", text::Dimension::time},
+                                                    {"torque", text::Dimension::torque},
+                                                    {"drive_torque", text::Dimension::torque},
+                                                    {"angle", text::Dimension::angle},
+                                                    {"force", text::Dimension::force},
+                                                    {"drive_force", text::Dimension::force},
+                                                    {"position", text::Dimension::length},
                                                     {"repetition", std::nullopt}}};
 
 std::string_view without_blanks(std::string_view text) {
@@ -62,33 +62,34 @@ std::string quantity_names() {
   return text;
 }
 
-std::optional<Dimension> dimension_of(Quantity quantity) {
+std::optional<text::Dimension> dimension_of(Quantity quantity) {
   return quantity_rows[static_cast<std::size_t>(quantity)].dimension;
 }
 
-Unit si_unit(Quantity quantity) {
+text::Unit si_unit(Quantity quantity) {
   switch (dimension_of(quantity).value()) {
-    case Dimension::time:
-      return unit_named("s").value();
-    case Dimension::torque:
-      return unit_named("N m").value();
-    case Dimension::angle:
-      return unit_named("rad").value();
-    case Dimension::force:
-      return unit_named("N").value();
-    case Dimension::length:
-      return unit_named("m").value();
-    case Dimension::current:
-    case Dimension::voltage:
-    case Dimension::count:
-    case Dimension::proportion:
+    case text::Dimension::time:
+      return text::unit_named("s").value();
+    case text::Dimension::torque:
+      return text::unit_named("N m").value();
+    case text::Dimension::angle:
+      return text::unit_named("rad").value();
+    case text::Dimension::force:
+      return text::unit_named("N").value();
+    case text::Dimension::length:
+      return text::unit_named("m").value();
+    case text::Dimension::current:
+    case text::Dimension::voltage:
+    case text::Dimension::count:
+    case text::Dimension::proportion:
       break;
   }
   throw std::invalid_argument("a quantity of no SI unit");
 }
 
 bool is_linear(Quantity quantity) {
-  return dimension_of(quantity) == Dimension::force || dimension_of(quantity) == Dimension::length;
+  return dimension_of(quantity) == text::Dimension::force ||
+         dimension_of(quantity) == text::Dimension::length;
 }
 
 ParsedMapping parse_mapping(std::string_view text) {
@@ -112,10 +113,10 @@ ParsedMapping parse_mapping(std::string_view text) {
     const std::string_view unit = column.substr(open + 1, close - open - 1);
     const std::string_view factors = without_blanks(column.substr(close + 1));
     column = without_blanks(column.substr(0, open));
-    parsed.mapping.unit = unit_named(unit);
+    parsed.mapping.unit = text::unit_named(unit);
     if (!parsed.mapping.unit) {
-      return refuse(
-          fmt::format("'{}' is not a known unit; expected one of {}", text::printable(unit), unit_names()));
+      return refuse(fmt::format("'{}' is not a known unit; expected one of {}", text::printable(unit),
+                                text::unit_names()));
     }
     if (!factors.empty()) parsed.mapping.factor = product_of(factors);
     if (!factors.empty() && !parsed.mapping.factor) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "analysis/records/unit.hpp"
+#include "core/text/unit.hpp"
 
 namespace zerocount::records {
 
@@ -24,10 +24,10 @@ std::string_view name_of(Quantity quantity);
 /// Names of all quantities, for messages.
 std::string quantity_names();
 /// The dimension of the quantity's values; none for the repetition.
-std::optional<Dimension> dimension_of(Quantity quantity);
+std::optional<text::Dimension> dimension_of(Quantity quantity);
 bool is_linear(Quantity quantity);  ///< of a linear axis only
 /// The SI unit of the quantity's values; not of the repetition.
-Unit si_unit(Quantity quantity);
+text::Unit si_unit(Quantity quantity);
 
 /// The source of the values of a quantity: `torque=current[A]*0.87`.
 ///
@@ -38,9 +38,9 @@ Unit si_unit(Quantity quantity);
 /// their product is the quantity in its SI unit for one UNIT, 0.87 N m/A here.
 struct ColumnMapping {
   Quantity quantity{Quantity::time};
-  std::string column;              ///< name in the header, #NUMBER from 1, or path of a dataset
-  std::optional<Unit> unit{};      ///< none: that of the header, or the SI unit
-  std::optional<double> factor{};  ///< product of the factors; none without any
+  std::string column;                ///< name in the header, #NUMBER from 1, or path of a dataset
+  std::optional<text::Unit> unit{};  ///< none: that of the header, or the SI unit
+  std::optional<double> factor{};    ///< product of the factors; none without any
 };
 
 /// The mapping, or the reason why the text is none.

@@ -16,7 +16,7 @@ namespace {
 struct FoundColumn {
   Quantity quantity;
   std::string column;
-  Unit unit;
+  text::Unit unit;
   double factor{1.0};  ///< of the numbers as they stand, to the quantity's SI unit
   bool has_factor{false};
 };
@@ -34,23 +34,23 @@ const ColumnMapping* mapping_of(const SeriesChoice& choice, std::initializer_lis
 }
 
 /// The unit that the file says; `usual` if it says none.
-Unit unit_in_file(const ColumnSource& source, const std::string& column, const Unit& usual) {
+text::Unit unit_in_file(const ColumnSource& source, const std::string& column, const text::Unit& usual) {
   const std::string name = source.unit(column);
   if (name.empty()) return usual;
-  if (const std::optional<Unit> unit = unit_named(name)) return *unit;
+  if (const std::optional<text::Unit> unit = text::unit_named(name)) return *unit;
   refuse_column(source,
                 fmt::format("column '{}' is in '{}', which is not a known unit; expected one of {}, or "
                             "--column with the unit",
-                            text::printable(column), text::printable(name), unit_names()));
+                            text::printable(column), text::printable(name), text::unit_names()));
 }
 
 /// Finishes the column: a unit of another dimension needs factors. An encoder's counts need none, because the
 /// size of a count may be given.
 FoundColumn finished(const ColumnSource& source, FoundColumn found, std::optional<double> factor) {
-  const Dimension dimension = dimension_of(found.quantity).value();
+  const text::Dimension dimension = dimension_of(found.quantity).value();
   const bool own = found.unit.dimension == dimension;
-  const bool of_encoder = dimension == Dimension::angle || dimension == Dimension::length;
-  const bool counted_angle = of_encoder && found.unit.dimension == Dimension::count;
+  const bool of_encoder = dimension == text::Dimension::angle || dimension == text::Dimension::length;
+  const bool counted_angle = of_encoder && found.unit.dimension == text::Dimension::count;
   if (!own && !factor && !counted_angle) {
     refuse_column(source,
                   fmt::format("column '{}' is in {}, which is no {} without a factor; expected "
@@ -85,7 +85,7 @@ void require_column(const ColumnSource& source, const std::string& column) {
                   seems_to_have_factor(column) ? "; factors stand after a unit, as in current[A]*0.87" : ""));
 }
 
-FoundColumn mapped_column(const ColumnSource& source, const ColumnMapping& mapping, const Unit& usual) {
+FoundColumn mapped_column(const ColumnSource& source, const ColumnMapping& mapping, const text::Unit& usual) {
   require_column(source, mapping.column);
   FoundColumn found{mapping.quantity, mapping.column,
                     mapping.unit ? *mapping.unit : unit_in_file(source, mapping.column, usual)};
@@ -107,7 +107,7 @@ FoundColumn usual_column(const ColumnSource& source, Quantity quantity,
   if (name->starts_with("drive_")) {
     quantity = is_linear(quantity) ? Quantity::drive_force : Quantity::drive_torque;
   }
-  const Unit usual = *name == "count" ? unit_named("count").value() : si_unit(quantity);
+  const text::Unit usual = *name == "count" ? text::unit_named("count").value() : si_unit(quantity);
   return finished(source, {quantity, *name, unit_in_file(source, *name, usual)}, std::nullopt);
 }
 
@@ -120,12 +120,13 @@ std::vector<double> scaled_numbers(const ColumnSource& source, const FoundColumn
 
 /// The unit of the readings where neither the mapping nor the file says one. Whole numbers are counts if
 /// their size is given, and nothing without: an angle in rad, or a position in m, has decimals.
-Unit unit_of_readings(const ColumnSource& source, const ColumnMapping& mapping, const SeriesChoice& choice) {
+text::Unit unit_of_readings(const ColumnSource& source, const ColumnMapping& mapping,
+                            const SeriesChoice& choice) {
   const std::vector<double> values = source.numbers(mapping.column);
   const bool whole = std::ranges::all_of(values, [](double value) { return value == std::round(value); }) &&
                      std::ranges::any_of(values, [&](double value) { return value != values.front(); });
-  if (whole && choice.count_size) return unit_named("count").value();
-  const Unit usual = si_unit(mapping.quantity);
+  if (whole && choice.count_size) return text::unit_named("count").value();
+  const text::Unit usual = si_unit(mapping.quantity);
   if (!whole && !choice.count_size) return usual;
   const std::string as_column =
       fmt::format("{}={}", name_of(mapping.quantity), text::printable(mapping.column));
@@ -164,7 +165,7 @@ void read_time(const ColumnSource& source, const SeriesChoice& choice, RawSeries
     return;
   }
   if (const ColumnMapping* mapping = mapping_of(choice, {Quantity::time})) {
-    series.time = scaled_numbers(source, mapped_column(source, *mapping, unit_named("s").value()));
+    series.time = scaled_numbers(source, mapped_column(source, *mapping, text::unit_named("s").value()));
     return;
   }
   if (source.has("t") && source.has("time")) {
@@ -188,7 +189,7 @@ void read_torque(const ColumnSource& source, const SeriesChoice& choice, RawSeri
 
 void read_angle(const ColumnSource& source, const SeriesChoice& choice, RawSeries& series) {
   FoundColumn column = angle_column(source, choice, series.linear);
-  if (column.unit.dimension == Dimension::count) {
+  if (column.unit.dimension == text::Dimension::count) {
     const std::string_view option = count_size_option(series.linear);
     const std::string_view what = name_of(column.quantity);
     if (!column.has_factor && !choice.count_size) {

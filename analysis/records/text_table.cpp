@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "analysis/records/unit.hpp"
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "core/text/number_text.hpp"
+#include "core/text/unit.hpp"
 #include "experiments/yaml/text_file.hpp"
 
 namespace zerocount::records {
@@ -260,7 +260,7 @@ void TextTable::read_header(std::string_view line) {
       const std::size_t bracket = cell.find(open);
       if (bracket == std::string_view::npos || !cell.ends_with(close)) continue;
       const std::string_view inside = trimmed(cell.substr(bracket + 1, cell.size() - bracket - 2));
-      if (open == '(' && !unit_named(inside)) continue;
+      if (open == '(' && !text::unit_named(inside)) continue;
       unit = inside;
       cell = trimmed(cell.substr(0, bracket));
       break;
@@ -281,8 +281,8 @@ bool TextTable::read_units(std::string_view line) {
     const std::string_view unit = without_brackets(cell);
     const bool is_value = std::isfinite(number_of(unit, separator_)) && unit == cell;
     if (is_value && unit != "1") return false;  // 1 is the unit of counts
-    if (!unit.empty() && unit != "-" && !unit_named(unit)) return false;
-    any = any || (!is_value && unit_named(unit));
+    if (!unit.empty() && unit != "-" && !text::unit_named(unit)) return false;
+    any = any || (!is_value && text::unit_named(unit));
   }
   if (!any || cells.size() != columns_.size()) return false;
   for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -51,6 +51,47 @@ document::Description<SlidingRecord> record_description() {
       });
 }
 
+document::Description<FreeRun> run_description() {
+  using document::in_data;
+  using Of = const FreeRun&;
+  const auto for_people = [](const char* key, const char* heading) {
+    return document::Item{
+        .key = key, .heading = heading, .shown = document::Shown::to_people, .numeric = true};
+  };
+  const auto length_text = [](Of r, double length) {
+    return fmt::format("{:.3g} {}", length, parameters::unit_on(r.axis, "rad"));
+  };
+  return document::Description<FreeRun>()
+      .value({"name", "record", "file, and part of it"}, [](Of r) { return text::printable(r.name); })
+      .value({"start", "from", "time at which the simulation begins with the measured state", "s"},
+             &FreeRun::start)
+      .value({"duration", "duration", "simulated time without a restart", "s"}, &FreeRun::duration)
+      .value(in_data("rms", "root mean square of simulated less read positions, rad or m"), &FreeRun::rms)
+      .value(for_people("rms_text", "error rms"), [=](Of r) { return length_text(r, r.rms); })
+      .value(in_data("max", "largest difference, rad or m"), &FreeRun::max)
+      .value(for_people("max_text", "largest"), [=](Of r) { return length_text(r, r.max); })
+      .value(in_data("stroke", "largest less smallest reading, rad or m"), &FreeRun::stroke)
+      .value({.key = "proportion",
+              .heading = "of the stroke",
+              .meaning = "rms over the stroke",
+              .unit = "1",
+              .notation = document::Notation::percent},
+             [](Of r) { return r.rms / r.stroke; });
+}
+
+document::Description<RepeatingForce> force_description() {
+  return document::Description<RepeatingForce>()
+      .value({"with", "with", "what the unexplained torque may repeat with"}, &RepeatingForce::with)
+      .value({"foretold", "foretold",
+              "part of its variance that the means over other strokes foretell; 0 or "
+              "less: it does not repeat",
+              "1"},
+             &RepeatingForce::foretold)
+      .value({"low", "least mean", "smallest mean over a tenth of the range, N m or N"}, &RepeatingForce::low)
+      .value({"high", "largest mean", "largest mean over a tenth of the range, N m or N"},
+             &RepeatingForce::high);
+}
+
 }  // namespace
 
 document::AnswerDescription<SlidingIdentification> sliding_answer() {
@@ -89,6 +130,12 @@ document::AnswerDescription<SlidingIdentification> sliding_answer() {
             "residuals that depend on each other within a window or a stroke.",
             i.misfit, i.unexplained_torque, i.torque, parameters::unit_on(i.axis, "N m"));
       })
+      .table({"simulation", "Simulated under the recorded torque, without a restart",
+              "motion of the identified axis beside the readings"},
+             run_description(), &SlidingIdentification::runs)
+      .table({"unexplained", "What the unexplained torque repeats with",
+              "cross-validated over strokes; empty with fewer than 4 strokes"},
+             force_description(), &SlidingIdentification::forces)
       .value(identification::fragment_item(), &SlidingIdentification::fragment);
   return answer;
 }

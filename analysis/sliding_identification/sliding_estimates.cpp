@@ -121,7 +121,7 @@ std::string sliding_fragment(const SlidingIdentification& identification) {
   const ParameterEstimate& offset = parameter("offset");
   fragment.remarks = "\n";
   if (is_estimated(offset)) {
-    fragment.remarks += fmt::format("# A constant {} of {} {} acts against the drive; a manifest has none.\n",
+    fragment.remarks += fmt::format("# A constant {} of {} {} acts against the drive: disturbance.torque.\n",
                                     parameters::text_on(identification.axis, "$torque"),
                                     identification::with_digits(offset.value, offset), offset.unit);
   }
@@ -132,7 +132,15 @@ std::string sliding_fragment(const SlidingIdentification& identification) {
   } else {
     fragment.friction = identification::manifest_lines(identification.parameters, "friction");
   }
-  return identification::fragment_text(fragment, identification.axis);
+  std::string text = identification::fragment_text(fragment, identification.axis);
+  if (is_estimated(offset)) {
+    ParameterEstimate acting = offset;
+    acting.value = -offset.value;
+    text += fmt::format("disturbance:\n  torque: {{normal: {{mean: {}, sd: {}}}}}   # {}\n",
+                        identification::with_digits(acting.value, acting),
+                        identification::manifest_number(offset.standard_error, 0.1), offset.unit);
+  }
+  return text;
 }
 
 }  // namespace zerocount::sliding_identification

@@ -167,8 +167,9 @@ SlidingFit fit_sliding(std::span<const SlidingRecord> records, const SlidingPoin
     if (fitted.window->first == fitted.record->strokes[fitted.window->stroke].first) by_stroke.emplace_back();
     by_stroke.back() += score;
     // A step of this window's offset alone.
-    unexplained += std::pow(
-        score.score[offset_torque] / std::max(score.information(offset_torque, offset_torque), tiny), 2);
+    fit.unexplained.push_back(score.score[offset_torque] /
+                              std::max(score.information(offset_torque, offset_torque), tiny));
+    unexplained += fit.unexplained.back() * fit.unexplained.back();
     fit.samples += samples_of(*fitted.window);
   }
   const auto windows = static_cast<double>(fit.windows.size());

@@ -30,8 +30,8 @@ struct SlidingFit {
   double misfit{0.0};  ///< root mean square of the residuals, in steps of the readings
   /// Covariance of the point; zero for parameters that are not free. See fit_sliding().
   SlidingMatrix covariance{SlidingMatrix::Zero()};
-  /// Root mean square over the windows of the mean torque that the model leaves unexplained.
-  double unexplained_torque{0.0};
+  std::vector<double> unexplained;  ///< [window] mean torque against the drive that the model lacks, N m or N
+  double unexplained_torque{0.0};   ///< its root mean square
 };
 
 /// The starting point: least squares of the torque on acceleration, direction, velocity and 1 (the inverse

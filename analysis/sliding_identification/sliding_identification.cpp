@@ -125,6 +125,8 @@ SlidingIdentification identify_sliding(std::vector<SlidingRecord> records) {
   result.unexplained_torque = fit.unexplained_torque;
   result.torque = torque_rms(records);
   set_correlation(fit, result);
+  result.runs = free_runs(fit);
+  result.forces = repeating_forces(fit);
   result.records = std::move(records);
   refuse_unexplained(result);
   result.fragment = sliding_fragment(result);

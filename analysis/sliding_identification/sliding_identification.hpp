@@ -5,7 +5,9 @@
 
 #include "analysis/document/answer.hpp"
 #include "analysis/identification/answer/fit_report.hpp"
+#include "analysis/sliding_identification/free_run.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
+#include "analysis/sliding_identification/unexplained_force.hpp"
 
 namespace zerocount::sliding_identification {
 
@@ -18,6 +20,8 @@ struct SlidingIdentification : identification::FitReport {
   double misfit{0.0};                   ///< root mean square of the residuals, in resolutions
   double unexplained_torque{0.0};       ///< root mean square over the windows, N m or N
   double torque{0.0};                   ///< root mean square of the torque in the strokes, N m or N
+  std::vector<FreeRun> runs;            ///< of the records
+  std::vector<RepeatingForce> forces;   ///< what the unexplained torque repeats with
   std::vector<std::string> correlated;  ///< names of the fitted parameters
   std::vector<std::vector<double>> correlation{};  ///< of their errors, in that order
 };

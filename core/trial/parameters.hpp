@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/friction/parameters.hpp"
@@ -10,6 +11,7 @@
 #include "core/random/trial_randomness.hpp"
 #include "core/trial/disturbance.hpp"
 #include "core/trial/error_bands.hpp"
+#include "core/trial/torque_record.hpp"
 
 namespace zerocount::trial {
 
@@ -24,6 +26,8 @@ struct TorqueCommand {
   std::vector<double> levels;  ///< N m; empty where the trial has targets
   double rate{0.1};            ///< N m/s
   TorquePath through{TorquePath::dac};
+  /// A recorded torque in place of the levels, as one move; then there is one level, 0. Null: none.
+  std::shared_ptr<const TorqueRecord> record{};
 };
 
 /// The moves of a trial.

@@ -105,7 +105,7 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
   return outcome;
 }
 
-/// Open loop: the torque goes from level to level.
+/// Open loop: the torque goes from level to level, or is that of a record.
 template <class AnyPlant>
 TrialOutcome apply_torques(const TrialParameters& p, const TrialObservers& observers) {
   Rig<AnyPlant> rig(p);
@@ -119,7 +119,9 @@ TrialOutcome apply_torques(const TrialParameters& p, const TrialObservers& obser
     const MoveTiming timing = move_timing(p, m);
     const auto decide = [&](std::int64_t i, SampleRecord& record) {
       record.error = -record.count;
-      const double torque = torque_at(ramp, i);
+      const double torque = command.record
+                                ? torque_at(*command.record, static_cast<double>(i) * timing.sample_time)
+                                : torque_at(ramp, i);
       if (command.through == TorquePath::exact) {
         rig.drive_exactly(torque, record);
       } else {

@@ -269,6 +269,9 @@ std::span<const GeneralKey> general_keys() {
        "list of torques that vary in time: {amplitude, frequency, phase}, amplitude*sin(2*pi*frequency*t + "
        "phase); or {spectrum: [[frequency, density], ...], lines: 100}, a random vibration with this "
        "one-sided power spectral density, (N m)^2/Hz, drawn anew in each trial"},
+      {"command.torque.file",
+       "open loop: a recorded torque in place of levels, as one move: a table with the columns t [s] and "
+       "torque [N m] (force [N] on a linear axis), each value held until the next; or a list of such pairs"},
       label({"command.units",
              "unit of targets and overrun: counts (default) of the fine encoder; or si: rad (m on a linear "
              "axis), of which each trial takes the nearest count of its encoder"},

@@ -1,6 +1,7 @@
 #include "experiments/manifest/json_schema.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -19,6 +20,7 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/sections/observations.hpp"
 #include "experiments/sections/sweep.hpp"
+#include "experiments/sections/torque_record.hpp"
 #include "experiments/study/sequence.hpp"
 
 namespace zerocount::manifest {
@@ -237,6 +239,18 @@ Json vibration_schema() {
   return schema;
 }
 
+// The name of a table, or its pairs.
+Json torque_record_schema() {
+  const Json pair = {{"type", "array"},
+                     {"prefixItems", {number_in(numerics::at_least(0)), Json{{"type", "number"}}}},
+                     {"minItems", 2},
+                     {"maxItems", 2}};
+  return {
+      {"anyOf",
+       {Json{{"type", "array"}, {"items", pair}, {"minItems", 2}, {"maxItems", sections::max_record_rows}},
+        Json{{"type", "string"}, {"minLength", 1}}}}};
+}
+
 Json spacing_schema() {
   const Json count{{"type", "integer"}, {"minimum", 2}, {"maximum", sections::max_points}};
   const auto spacing = [&](const Json& end) {
@@ -379,6 +393,7 @@ Json own_schemas() {
         {"patternProperties", {{fmt::format("^{}$", plugin_name), value_schema(plugin_value())}}},
         {"additionalProperties", false}}},
       {"disturbance.vibration", vibration_schema()},
+      {"command.torque.file", torque_record_schema()},
       {"verdict.bands",
        {{"type", "array"},
         {"items", {{"type", "integer"}, {"minimum", 0}, {"maximum", keys::max_band}}},
@@ -513,7 +528,13 @@ Json section_schema(const std::string& path) {
       properties[key] = section_or_value_schema(name);
     }
   }
+  const bool torque = path == "command.torque";
+  if (torque) required.clear();
   Json schema = object_of(std::move(properties), std::move(required));
+  if (torque) {
+    constexpr std::array<std::string_view, 2> forms{"levels", "file"};
+    schema["oneOf"] = one_of_keys(forms);
+  }
   if (path == keys::required_section) {
     schema["oneOf"] = one_of_keys(keys::command_forms);
     require_counts(schema);

@@ -14,6 +14,7 @@
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/sections/joint_draws.hpp"
 #include "experiments/sections/spectrum.hpp"
+#include "experiments/sections/torque_record.hpp"
 #include "experiments/yaml/text_file.hpp"
 
 namespace zerocount::manifest {
@@ -86,10 +87,11 @@ study::Study parse_study(std::string text, std::string_view source,
   root = manifest_text::apply_overrides(root, given_overrides, override_sources, problems);
   std::vector<std::string> overrides = given_overrides;
   if (root) {
-    const std::vector<std::string> spectra =
-        sections::spectrum_overrides(*root, companions.samples, problems);
-    root = manifest_text::apply_overrides(root, spectra, override_sources, problems);
-    overrides.insert(overrides.end(), spectra.begin(), spectra.end());
+    std::vector<std::string> tables = sections::spectrum_overrides(*root, companions.samples, problems);
+    for (std::string& record : sections::torque_record_overrides(*root, companions.samples, problems))
+      tables.push_back(std::move(record));
+    root = manifest_text::apply_overrides(root, tables, override_sources, problems);
+    overrides.insert(overrides.end(), tables.begin(), tables.end());
   }
   const yaml::YamlPointer written = root;
   std::optional<sections::SamplesTable> samples;

@@ -150,6 +150,27 @@ ValueRule range_of_the_converter(const std::string& unit) {
           true};
 }
 
+ValueRule length_of_the_record(const trial::TorqueRecord& record) {
+  return {
+      {"command.hold"}, false, [length = trial::duration(record)](Limits l, Limits) -> Faults {
+        constexpr double rounding = 1e-9;
+        if (!std::isfinite(l[0].high) || l[0].high <= length * (1.0 + rounding)) return {};
+        return {{fmt::format("the record of command.torque.file lasts {:.9g} s, and the move can take {} s",
+                             length, l[0].high),
+                 "at most the record"}};
+      }};
+}
+
+// As of a level between the lowest and the highest torque of the record.
+ValueRule range_for_the_record(const trial::TorqueRecord& record, const std::string& unit) {
+  const auto [lowest, highest] = std::minmax_element(record.torque.begin(), record.torque.end());
+  const std::vector<study::ValueLimits> levels{{.low = *lowest, .high = *highest}};
+  ValueRule rule = range_of_the_converter(unit);
+  const auto of_levels = rule.find_faults;
+  rule.find_faults = [levels, of_levels](Limits l, Limits) { return of_levels(l, levels); };
+  return rule;
+}
+
 ValueRule order_of_targets(const std::string& unit) {
   return {{}, true, [unit](Limits, Limits targets) -> Faults {
             Faults faults;
@@ -286,6 +307,9 @@ std::vector<ValueRule> command_rules(const study::StudyPlan& plan) {
   if (plan.open_loop) {
     add({limits_of_torque_levels(), lowest_rate_of_torque(), samples_of_torque_levels(),
          range_of_the_converter(parameters::unit_on(plan.units.axis, "N m"))});
+    if (const auto& record = plan.common.command.torque.record)
+      add({length_of_the_record(*record),
+           range_for_the_record(*record, parameters::unit_on(plan.units.axis, "N m"))});
   } else if (!plan.sequence) {
     add({samples_of_targets(static_cast<double>(listed)), time_of_travel(plan.units, {})});
   } else {

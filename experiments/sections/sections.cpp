@@ -12,6 +12,7 @@
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/sections/goal.hpp"
 #include "experiments/sections/spectrum.hpp"
+#include "experiments/sections/torque_record.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::sections {
@@ -61,12 +62,23 @@ void read_list(SectionReading& s, const yaml::Field& field, std::size_t row) {
   for (std::size_t i = 0; i < count; ++i) read_slot(s, yaml::item_of(field, i), values.first + i);
 }
 
-// Gives a study whose manifest lacks the list of moves one with an unreadable value.
+// Gives a study whose manifest lacks the list of moves one with an unreadable value; that of a recorded
+// torque the level 0.
 void complete_moves(SectionReading& s) {
   study::RowGroup& list = s.plan().list;
   if (list.count > 0) return;
   list = study::add_list(s.plan().table, list.row, 1);
   add_slots(s);
+  if (s.plan().common.command.torque.record) s.plan().base[list.first] = study::Value{};
+}
+
+// Reads the torque that command.torque.file has in place of levels.
+void read_recorded_torque(SectionReading& s, const yaml::Field& field) {
+  s.plan().common.command.torque.record = read_torque_record(field, s.problems());
+  const auto torque = yaml::find_field(yaml::find_field(s.root, "command").value(), "torque").value();
+  if (const auto levels = yaml::find_field(torque, "levels"))
+    s.problems().add(*levels, "it has no effect: command.torque.file defines the torque",
+                     "command.torque.file, or levels with their rate");
 }
 
 void read_parameter(SectionReading& s, const yaml::Field& field, std::size_t row) {
@@ -198,6 +210,8 @@ void read_plugin_parameters(SectionReading& s, const yaml::Field& map) {
 void read_general_key(SectionReading& s, const yaml::Field& field, const keys::GeneralKey& key) {
   if (field.path == "verdict.bands") {
     read_bands(field, s.plan().common.verdict.bands, s.problems());
+  } else if (field.path == "command.torque.file") {
+    read_recorded_torque(s, field);
   } else if (!field.path.ends_with(".units")) {
     keys::read_key(field, key, s.reading);
   }
@@ -309,6 +323,7 @@ void check_units_of_targets(SectionReading& s, const yaml::Field& command) {
 // Reports the keys of the form chosen that are missing.
 void check_form_complete(SectionReading& s, const yaml::Field& command) {
   if (!s.plan().open_loop && !s.plan().sequence) return;
+  if (s.plan().common.command.torque.record) return;
   const auto form = yaml::find_field(command, s.plan().open_loop ? "torque" : "sequence");
   if (!form || form->node->kind != yaml::YamlNode::Kind::map) return;
   for (const std::string& key : keys::keys_below(form->path)) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/result_commands/changed_parameters.hpp"
 #include "runners/result_commands/machine_logs.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
@@ -56,22 +58,41 @@ std::optional<std::int64_t> rig_of(const command_line::Arguments& arguments, std
   return rigs == 0 ? std::nullopt : arguments.whole_number("rig", 0, rigs - 1);
 }
 
-monitor::Baseline load_baseline(const command_line::Arguments& arguments) {
+/// Earlier moves, and the simulated study that they are of.
+struct LoadedBaseline {
+  monitor::Baseline moves;
+  std::optional<reading::AllTrialsFile> file{};
+  monitor::ModelMoves of_file{};
+};
+
+LoadedBaseline load_baseline(const command_line::Arguments& arguments) {
   const fs::path path = arguments.operands()[0];
   if (!commands::is_results_file(path)) {
     for (const char* const option : {"point", "condition", "age", "rig"})
       if (arguments.has(option))
         arguments.refuse(fmt::format("option '--{}': {} is a log of moves; it belongs to results files",
                                      option, path.string()));
-    return monitor::baseline_of(read_log(path));
+    return {monitor::baseline_of(read_log(path))};
   }
-  const reading::AllTrialsFile file = with_condition(arguments, reading::AllTrialsFile(path));
+  reading::AllTrialsFile file = with_condition(arguments, reading::AllTrialsFile(path));
   if (file.study().open_loop)
     throw Failure(
         ExitCode::bad_input,
         fmt::format("{}: its moves are torque levels; expected a study with targets", path.string()));
-  return monitor::baseline_of(
-      file, {point_of(arguments, file.point_labels()), rig_of(arguments, file.study().rigs)});
+  const monitor::ModelMoves moves{point_of(arguments, file.point_labels()),
+                                  rig_of(arguments, file.study().rigs)};
+  monitor::Baseline baseline = monitor::baseline_of(file, moves);
+  return {std::move(baseline), std::move(file), moves};
+}
+
+/// What changed in the model, after an alarm; nothing beside measured moves, and with a plugin.
+std::optional<monitor::ChangeExplanation> explanation_of(const LoadedBaseline& baseline,
+                                                         const monitor::MachineMonitor& machine,
+                                                         const monitor::MonitorState& state,
+                                                         const monitor::MoveLog& log,
+                                                         const std::stop_token& stop) {
+  if (!baseline.file || state.alarm == nullptr || baseline.file->header().plugin) return std::nullopt;
+  return explain_alarm(*baseline.file, baseline.of_file, machine, state, log, stop);
 }
 
 std::optional<double> change_from(const command_line::Arguments& arguments) {
@@ -128,9 +149,12 @@ class GrowingLog {
 
 /// Prints the state after all moves of the log as one line. @returns its exit code
 ExitCode print_state(monitor::MachineMonitor& machine, const monitor::MoveLog& log,
-                     const monitor::Baseline& baseline) {
+                     const LoadedBaseline& baseline, const std::stop_token& stop) {
   machine.update(log);
-  const monitor::MonitorReading reading{machine, baseline, machine.state()};
+  const monitor::MonitorState state = machine.state();
+  const auto explanation = explanation_of(baseline, machine, state, log, stop);
+  const monitor::MonitorReading reading{machine, baseline.moves, state,
+                                        explanation ? &*explanation : nullptr};
   const document::Answer answer = monitor::monitor_answer().of(
       reading, monitor::exit_code_of(reading.state.status), document::Audience::json);
   standard_output::write(answers::rendered(answer, answers::json_line));
@@ -147,17 +171,17 @@ ExitCode follow(const command_line::Arguments& arguments) {
   const std::optional<std::int64_t> idle = arguments.whole_number("idle", 0, 86400 * 365);
   const monitor::MonitorSettings settings = settings_from(arguments);
   require_log(path);
+  const LoadedBaseline baseline = load_baseline(arguments);
   const status::InterruptionWatch interruption;
-  const monitor::Baseline baseline = load_baseline(arguments);
   GrowingLog growing(path);
   std::optional<monitor::MachineMonitor> machine;
   std::optional<ExitCode> code;  // of the last line
   Clock::time_point last = Clock::now();
   while (true) {
     const bool has_moves = growing.read();
-    if (!machine && growing.log().has_header()) machine.emplace(baseline, growing.log(), settings);
+    if (!machine && growing.log().has_header()) machine.emplace(baseline.moves, growing.log(), settings);
     if (machine && has_moves) {
-      code = print_state(*machine, growing.log(), baseline);
+      code = print_state(*machine, growing.log(), baseline, interruption.token());
       if (code == ExitCode::regression) return *code;
       last = Clock::now();
     } else if (idle && Clock::now() - last >= std::chrono::seconds(*idle)) {
@@ -168,16 +192,20 @@ ExitCode follow(const command_line::Arguments& arguments) {
   }
   if (code) return *code;
   growing.log().require_header();
-  return print_state(machine.value(), growing.log(), baseline);
+  return print_state(machine.value(), growing.log(), baseline, interruption.token());
 }
 
 ExitCode monitor_machine(const command_line::Arguments& arguments) {
   if (arguments.has("follow")) return follow(arguments);
-  const monitor::Baseline baseline = load_baseline(arguments);
+  const LoadedBaseline baseline = load_baseline(arguments);
+  const status::InterruptionWatch interruption;
   const monitor::MoveLog log = read_log(arguments.operands()[1]);
-  monitor::MachineMonitor machine(baseline, log, settings_from(arguments));
+  monitor::MachineMonitor machine(baseline.moves, log, settings_from(arguments));
   machine.update(log);
-  const monitor::MonitorReading reading{machine, baseline, machine.state()};
+  const monitor::MonitorState state = machine.state();
+  const auto explanation = explanation_of(baseline, machine, state, log, interruption.token());
+  const monitor::MonitorReading reading{machine, baseline.moves, state,
+                                        explanation ? &*explanation : nullptr};
   return answers::print(arguments, monitor::monitor_answer(), reading,
                         monitor::exit_code_of(reading.state.status));
 }

@@ -67,11 +67,11 @@ TEST(ColumnMappings, UnitsHaveTheirSiValue) {
                                                    {"N", 1},
                                                    {"kN", 1e3}};
   for (const auto& [name, si] : values) {
-    ASSERT_TRUE(records::unit_named(name)) << name;
-    EXPECT_DOUBLE_EQ(records::unit_named(name)->si, si) << name;
+    ASSERT_TRUE(text::unit_named(name)) << name;
+    EXPECT_DOUBLE_EQ(text::unit_named(name)->si, si) << name;
   }
   for (const char* name : {"", "furlong", "S", "nM", "seconds?"})
-    EXPECT_FALSE(records::unit_named(name)) << name;
+    EXPECT_FALSE(text::unit_named(name)) << name;
 }
 
 TEST(ColumnMappings, FaultsAreNamed) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace zerocount::records {
+namespace zerocount::text {
 
 /// Physical dimension of the numbers of a column.
 enum class Dimension {
@@ -33,4 +33,4 @@ std::optional<Unit> unit_named(std::string_view name);
 /// The names of all units, for messages.
 std::string unit_names();
 
-}  // namespace zerocount::records
+}  // namespace zerocount::text

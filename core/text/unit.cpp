@@ -1,10 +1,10 @@
-#include "analysis/records/unit.hpp"
+#include "core/text/unit.hpp"
 
 #include <algorithm>
 #include <array>
 #include <numbers>
 
-namespace zerocount::records {
+namespace zerocount::text {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -48,17 +48,21 @@ constexpr std::array units{
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> spellings{
     {{"°", "deg"}, {"\"", "arcsec"}, {"'", "arcmin"}, {"counts", "count"}, {"1", "count"}, {"sec", "s"}}};
 
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
-    text.replace(at, from.size(), to);
+/// The text with `to` in place of each `from`.
+std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
+  std::string result;
+  for (std::size_t at = text.find(from); at != std::string_view::npos; at = text.find(from)) {
+    result.append(text.substr(0, at)).append(to);
+    text.remove_prefix(at + from.size());
   }
+  return result.append(text);
 }
 
 /// The name as it is compared: no blanks and products' signs, and u for both signs of micro.
 std::string compared(std::string_view name) {
   std::string text(name);
-  for (const std::string_view gone : {" ", "·", "⋅", "*", "."}) replace_all(text, gone, "");
-  for (const std::string_view micro : {"µ", "μ"}) replace_all(text, micro, "u");
+  for (const std::string_view gone : {" ", "·", "⋅", "*", "."}) text = replaced(text, gone, "");
+  for (const std::string_view micro : {"µ", "μ"}) text = replaced(text, micro, "u");
   for (const auto& [other, usual] : spellings) {
     if (text == other) return std::string(usual);
   }
@@ -80,4 +84,4 @@ std::string unit_names() {
   return text;
 }
 
-}  // namespace zerocount::records
+}  // namespace zerocount::text

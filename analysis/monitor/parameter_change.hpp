@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+/// Which parameter of a simulated study has changed, told from the moves of a machine that changed.
+namespace zerocount::monitor {
+
+/// Moves of one machine: the values of `measures` measures, move after move.
+using MachineMoves = std::vector<double>;
+
+/// The moves of simulated machines with a parameter changed by a factor; the same machines at every factor.
+struct SimulatedFactor {
+  double factor{1.0};
+  std::vector<MachineMoves> machines;
+};
+
+/// A parameter that may have changed.
+struct ChangeCandidate {
+  std::string parameter;                 ///< dotted path
+  std::vector<SimulatedFactor> factors;  ///< rising, with 1 among them
+};
+
+/// The moves of the machine before the change and after it.
+struct ObservedMoves {
+  MachineMoves before;
+  MachineMoves after;
+};
+
+/// How well a change of one parameter explains the moves.
+struct ParameterChange {
+  std::string parameter;
+  double factor{1.0};  ///< most likely
+  double low{1.0};  ///< 95 % interval of the factor, by the likelihood; an end of the range where it goes on
+  double high{1.0};
+  double probability{
+      0.0};            ///< that it is this one, where one of the candidates changed and all were alike before
+  double misfit{0.0};  ///< squared Mahalanobis distance of the moves from the simulated ones
+  bool beyond_low{false};   ///< the interval reaches the lowest simulated factor
+  bool beyond_high{false};  ///< and the highest
+};
+
+enum class ChangeTold {
+  one,      ///< one parameter explains the moves, with a probability of at least 0.95
+  several,  ///< several do
+  none,     ///< no single one does: P < 0.01 of moves this far from those simulated
+  unknown   ///< nothing can be said: too few moves, or none of the candidates acts on the measures
+};
+
+struct ChangeExplanation {
+  ChangeTold told{ChangeTold::unknown};
+  std::vector<ParameterChange> parameters{};  ///< those with a probability of at least 0.05, likeliest first
+  double misfit{0.0};                         ///< the smallest of all parameters
+  double max_misfit{0.0};                     ///< that the right one exceeds with the probability 0.01
+  std::string reason{};                       ///< of `unknown`
+  std::vector<std::string> tried{};           ///< names of the parameters that act on the measures
+};
+
+/// With fewer moves before the change than this the model stands for them, with the spread of its machines.
+inline constexpr std::size_t min_moves_before = 20;
+inline constexpr std::size_t min_moves_after = 10;
+
+/// Tells what changed by a simulated (synthetic) likelihood (Wood, Nature 466 (2010) 1102).
+///
+/// A value counts by its normal score z = Φ⁻¹(rank/(n + 1)) among the n values of the unchanged machines. The
+/// statistic D is the mean z of each measure after the change, less that before it where there are
+/// min_moves_before moves. For each factor f of each parameter it is normal, with
+///
+///     mean μ(f) = mean over machines of z̄(f) − z̄(1);  covariance C(f) = B(f) + W(1)/n_before + W(f)/n_after
+///
+/// B between machines (less what their few moves add), W within one, enlarged by (1 + ρ)/(1 − ρ) with the
+/// serial correlation ρ of the observed moves. Without moves before, μ(f) is the mean of z̄(f). Between the
+/// factors μ and C are interpolated in log f. All parameters have the same prior, log f evenly over the
+/// range.
+///
+/// @param measures number of measures of a move
+ChangeExplanation explain_change(std::span<const ChangeCandidate> candidates, const ObservedMoves& observed,
+                                 std::size_t measures);
+
+}  // namespace zerocount::monitor

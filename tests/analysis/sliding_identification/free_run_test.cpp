@@ -1,0 +1,119 @@
+// The identified axis simulated under the recorded force, without a restart, and what the unexplained force
+// repeats with.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/sliding_identification/sliding_identification.hpp"
+#include "tests/analysis/sliding_identification/dwell_records.hpp"
+#include "tests/analysis/sliding_identification/motion_records.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using sliding_identification::FreeRun;
+using sliding_identification::RepeatingForce;
+using sliding_identification::SlidingIdentification;
+
+SlidingIdentification identify(const records::RawSeries& series) {
+  return sliding_identification::identify_sliding({sliding_identification::sliding_record(series)});
+}
+
+double foretold_by(const SlidingIdentification& found, const std::string& with) {
+  return std::ranges::find(found.forces, with, &RepeatingForce::with)->foretold;
+}
+
+// Where the law is that of the axis only the errors of its parameters add up.
+TEST(FreeRunOfTheAxis, FollowsATwinOfTheSameLaw) {
+  std::mt19937_64 random(11);
+  const records::RawSeries series = closed_loop_record({}, {}, emps_lap(), 2, random);
+  const SlidingIdentification found = identify(series);
+  ASSERT_EQ(found.runs.size(), 1u);
+  const FreeRun& run = found.runs[0];
+  const auto [lowest, highest] = std::ranges::minmax(series.angle);
+  EXPECT_NEAR(run.stroke, highest - lowest, 1e-12);
+  EXPECT_LT(run.start, 0.1);
+  EXPECT_NEAR(run.start + run.duration, series.time.back(), 1e-9);
+  EXPECT_LT(run.rms, 2e-4 * run.stroke);
+  EXPECT_GE(run.max, run.rms);
+}
+
+// Dwells under a positioning loop, bristles before sliding and noise, by another integrator: the rotor rests
+// where the friction holds it, so that the error does not grow from dwell to dwell.
+TEST(FreeRunOfTheAxis, StandsInDwells) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    std::mt19937_64 random(seed);
+    DwellLoop loop;
+    loop.noise = 5e-8;
+    const SlidingIdentification found = identify(dwell_record({}, loop, random));
+    EXPECT_LT(found.runs[0].rms, 0.02 * found.runs[0].stroke) << seed;
+    EXPECT_GT(found.runs[0].duration, 8.0);
+  }
+}
+
+// A wrong force of ΔF moves a sliding axis by ΔF/cs each second.
+TEST(FreeRunOfTheAxis, DriftsByAForceThatTheLawLacks) {
+  std::mt19937_64 random(12);
+  SlidingAxis shaken;
+  shaken.friction_noise = 1.0;
+  const SlidingIdentification with = identify(closed_loop_record(shaken, {}, emps_lap(), 2, random));
+  const SlidingIdentification without = identify(closed_loop_record({}, {}, emps_lap(), 2, random));
+  EXPECT_GT(with.runs[0].rms, 10.0 * without.runs[0].rms);
+}
+
+/// The record with a force that the axis meets at each position, and in one direction more than in the other.
+records::RawSeries with_force_along_travel(double amplitude, double direction_part, std::mt19937_64& random) {
+  records::RawSeries series = closed_loop_record({}, {}, emps_lap(), 4, random);
+  const auto [lowest, highest] = std::ranges::minmax(series.angle);
+  for (std::size_t k = 0; k + 1 < series.angle.size(); ++k) {
+    const double part = (series.angle[k] - lowest) / (highest - lowest);
+    const double direction = series.angle[k + 1] >= series.angle[k] ? 1.0 : -1.0;
+    series.torque[k] +=
+        amplitude * std::sin(2.0 * std::numbers::pi * part) * (1.0 + direction_part * direction);
+  }
+  return series;
+}
+
+TEST(UnexplainedForce, RepeatsWithThePosition) {
+  std::mt19937_64 random(13);
+  const SlidingIdentification found = identify(with_force_along_travel(2.0, 0.0, random));
+  EXPECT_GT(foretold_by(found, "position"), 0.8);
+  EXPECT_GT(foretold_by(found, "position and direction"), 0.8);
+  EXPECT_LT(foretold_by(found, "acceleration"), 0.3);
+  const auto& force = *std::ranges::find(found.forces, std::string("position"), &RepeatingForce::with);
+  EXPECT_NEAR(force.high, 2.0, 0.4);
+  EXPECT_NEAR(force.low, -2.0, 0.4);
+}
+
+TEST(UnexplainedForce, RepeatsWithPositionAndDirection) {
+  std::mt19937_64 random(14);
+  const SlidingIdentification found = identify(with_force_along_travel(1.5, 1.0, random));
+  EXPECT_GT(foretold_by(found, "position and direction"), foretold_by(found, "position") + 0.2);
+}
+
+TEST(UnexplainedForce, ThatIsRandomRepeatsWithNothing) {
+  std::mt19937_64 random(15);
+  SlidingAxis shaken;
+  shaken.friction_noise = 1.0;
+  const SlidingIdentification found = identify(closed_loop_record(shaken, {}, emps_lap(), 4, random));
+  for (const RepeatingForce& force : found.forces) EXPECT_LT(force.foretold, 0.15) << force.with;
+}
+
+TEST(UnexplainedForce, NeedsStrokes) {
+  std::mt19937_64 random(16);
+  const SlidingIdentification found =
+      identify(closed_loop_record({}, {}, {{0.1228, 0.6}, {-0.1228, 0.6}}, 1, random));
+  EXPECT_TRUE(found.forces.empty());
+  const auto json = document::json(sliding_identification::sliding_answer().of(found));
+  EXPECT_EQ(json["unexplained"].size(), 0u);
+  EXPECT_NEAR(json["simulation"][0]["proportion"].get<double>(), found.runs[0].rms / found.runs[0].stroke,
+              1e-15);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/measures/goal_counts.hpp"
 #include "core/failure/failure.hpp"
@@ -38,38 +39,59 @@ const std::vector<double>& values_of(const monitor::MoveLog& log, const std::str
   return column->values;
 }
 
-/// [move] whether it meets the goal.
-std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log, parameters::AxisKind axis) {
-  const double latest = measures::latest({.within = goal.within});
-  std::vector<bool> met;
-  for (const double time : values_of(log, settling_measure_of(goal), axis)) met.push_back(time <= latest);
-  for (const study::GoalLimit& limit : goal.limits) {
-    const std::vector<double>& values = values_of(log, limit.measure, axis);
-    for (std::size_t i = 0; i < met.size(); ++i) met[i] = met[i] && std::abs(values[i]) <= limit.largest;
+/// [row] whether the goal is about it.
+/// @param moves of a trial
+std::vector<bool> asked_rows(const study::Goal& goal, const monitor::MoveLog& log, std::int64_t moves) {
+  if (goal.on.empty()) return std::vector<bool>(static_cast<std::size_t>(log.moves()), true);
+  if (log.numbers().empty())
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: a goal is about some moves of a trial ('on'); expected a column 'move' with "
+                    "the number of each in the sequence, from 0",
+                    log.name()));
+  std::vector<bool> asked;
+  for (const std::int64_t number : log.numbers()) {
+    if (number < 0 || number >= moves)
+      throw Failure(ExitCode::bad_data,
+                    fmt::format("{}: row {}: its 'move' is not a number in the sequence; expected 0 to {}",
+                                log.name(), asked.size() + 1, moves - 1));
+    asked.push_back(std::ranges::find(goal.on, number) != goal.on.end());
   }
+  return asked;
+}
+
+/// [move that the goal is about] whether it meets the goal.
+std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log,
+                            const reading::AllTrialsFile& file) {
+  const double latest = measures::latest({.within = goal.within});
+  const std::vector<bool> asked = asked_rows(goal, log, file.moves());
+  const std::vector<double>& times = values_of(log, settling_measure_of(goal), file.axis());
+  std::vector<const std::vector<double>*> limited;
+  for (const study::GoalLimit& limit : goal.limits)
+    limited.push_back(&values_of(log, limit.measure, file.axis()));
+  std::vector<bool> met;
+  for (std::size_t row = 0; row < times.size(); ++row) {
+    if (!asked[row]) continue;
+    bool all = times[row] <= latest;
+    for (std::size_t i = 0; i < limited.size(); ++i)
+      all = all && std::abs((*limited[i])[row]) <= goal.limits[i].largest;
+    met.push_back(all);
+  }
+  if (met.empty())
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: has none of the moves that the goal is about; expected "
+                              "{} in its column 'move'",
+                              log.name(), fmt::join(goal.on, ", ")));
   return met;
 }
 
 void require_acceptable(const study::Study& study, const std::string& path) {
-  if (study.worlds > 0)
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: has worlds, each of which predicts something else; expected a study of what is "
-                    "known of the machines",
-                    path));
   if (study.rigs == 0)
     throw Failure(
         ExitCode::bad_input,
         fmt::format("{}: no trials share a machine, so that it does not tell machines from moves; expected "
                     "rigs: 50, or more",
                     path));
-  for (const study::Goal& goal : study.goals)
-    if (!goal.on.empty())
-      throw Failure(
-          ExitCode::bad_input,
-          fmt::format("{}: a goal is about some moves of a trial ('on'), and a log does not tell which "
-                      "they are; expected goals on all moves",
-                      path));
 }
 
 /// [goal] the moves of each machine of the study at the point.
@@ -77,6 +99,7 @@ std::vector<measures::MoveCounts> simulated_counts(const reading::AllTrialsFile&
   const study::Study& study = file.study();
   const std::vector<measures::CountedGoal> goals = measures::counted_goals(study);
   std::vector<measures::MoveCounts> counts(goals.size());
+  for (measures::MoveCounts& one : counts) one.tell_apart(study.worlds, 0);
   const auto of_trial = static_cast<std::size_t>(file.moves());
   const layout::RowRange rows = file.rows_of(point);
   for (std::int64_t first = 0; first < rows.count; first += trials_at_a_time) {
@@ -95,25 +118,56 @@ goal::BoundedProportion bounded_rate(std::int64_t met, std::int64_t moves, doubl
           statistics::proportion_at_most(met, moves, confidence)};
 }
 
-Claim claim_of(const study::Goal& goal, const measures::MoveCounts& simulated,
-               const std::vector<std::vector<bool>>& met_of_machines, std::uint64_t seed) {
-  Claim claim{.goal = goal, .predicted = goal::judge_goal(goal, simulated, 1)};
+/// The first moves of the machines, beside the simulated ones.
+Agreement agreement_with(const std::vector<std::vector<bool>>& met_of_machines,
+                         const measures::MoveCounts& simulated, std::uint64_t seed) {
   std::int64_t common = std::numeric_limits<std::int64_t>::max();
   for (const statistics::RigMoves& rig : simulated.rigs) common = std::min(common, rig.moves);
   for (const std::vector<bool>& met : met_of_machines) common = std::min(common, std::ssize(met));
-  measures::MoveCounts measured;
   std::vector<std::int64_t> first_met;
+  for (const std::vector<bool>& met : met_of_machines)
+    first_met.push_back(std::count(met.begin(), met.begin() + common, true));
+  return agreement_of(first_met, common, simulated.rigs, seed);
+}
+
+/// The prediction of the world that the machines are most like, with the intervals of all worlds.
+void compare_with_worlds(Claim& claim, const std::vector<measures::MoveCounts>& worlds,
+                         const std::vector<std::vector<bool>>& met_of_machines, std::uint64_t seed,
+                         double significance) {
+  statistics::ConfidenceInterval all{1.0, 0.0};
+  claim.like_worlds = 0;
+  for (std::size_t world = 0; world < worlds.size(); ++world) {
+    const Agreement one = agreement_with(met_of_machines, worlds[world], seed);
+    all = {std::min(all.low, one.predicted.low), std::max(all.high, one.predicted.high)};
+    if (one.p > significance) ++*claim.like_worlds;
+    if (world > 0 && one.p <= claim.agreement.p) continue;
+    claim.agreement = one;
+    claim.predicted = goal::judge_goal(claim.goal, worlds[world], 1);
+  }
+  claim.agreement.predicted = all;
+}
+
+Claim claim_of(const study::Goal& goal, const measures::MoveCounts& simulated,
+               const std::vector<std::vector<bool>>& met_of_machines, std::uint64_t seed,
+               double significance) {
+  Claim claim{.goal = goal};
+  measures::MoveCounts measured;
   for (std::size_t i = 0; i < met_of_machines.size(); ++i) {
     const std::vector<bool>& met = met_of_machines[i];
     const auto all = std::ranges::count(met, true);
     measured.add_rig(i, 0, {.trials = std::ssize(met), .moves = std::ssize(met), .met = all});
-    first_met.push_back(std::count(met.begin(), met.begin() + common, true));
   }
   claim.measured = goal::judge_goal(goal, measured, 1);
   claim.moves = measured.moves;
   claim.met = measured.met;
   claim.rate = bounded_rate(claim.met, claim.moves, goal.confidence);
-  claim.agreement = agreement_of(first_met, common, simulated.rigs, seed);
+  const std::vector<measures::MoveCounts> worlds = measures::in_worlds(simulated);
+  if (!worlds.empty()) {
+    compare_with_worlds(claim, worlds, met_of_machines, seed, significance);
+    return claim;
+  }
+  claim.predicted = goal::judge_goal(goal, simulated, 1);
+  claim.agreement = agreement_with(met_of_machines, simulated, seed);
   return claim;
 }
 
@@ -150,12 +204,15 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
   for (std::size_t i = 0; i < study.goals.size(); ++i) {
     std::vector<std::vector<bool>> met;
     for (std::size_t machine = 0; machine < logs.size(); ++machine) {
-      met.push_back(met_moves(study.goals[i], logs[machine], file.axis()));
+      met.push_back(met_moves(study.goals[i], logs[machine], file));
       acceptance.machines[machine].met.push_back(std::ranges::count(met.back(), true));
     }
-    acceptance.claims.push_back(claim_of(study.goals[i], simulated[i], met, study.seed));
+    acceptance.claims.push_back(
+        claim_of(study.goals[i], simulated[i], met, study.seed, acceptance.significance));
     acceptance.simulated = std::ssize(simulated[i].rigs);
   }
+  acceptance.worlds = study.worlds;
+  acceptance.standard_values = standard_values(file, point, logs);
   for (const study::Premise& premise : study.premises)
     if (premise.state == study::PremiseState::assumed) acceptance.assumed.emplace_back(premise.assumption);
   return acceptance;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "analysis/acceptance/agreement.hpp"
+#include "analysis/acceptance/standard_values.hpp"
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/monitor/move_log.hpp"
 #include "results/reading/all_trials_file.hpp"
@@ -29,6 +31,9 @@ struct Claim {
   /// Of all moves of the measured machines, each one-sided with the confidence of the goal.
   goal::BoundedProportion rate{};
   Agreement agreement{};
+  /// Worlds of the study that the machines are like; the prediction is that of the one that they are most
+  /// like, with the intervals of all. Null: it has none.
+  std::optional<std::int64_t> like_worlds{};
 };
 
 /// The moves of one machine that meet a goal.
@@ -41,7 +46,9 @@ struct MeasuredMachine {
 struct Acceptance {
   std::vector<Claim> claims{};
   std::vector<MeasuredMachine> machines{};
-  std::int64_t simulated{0};  ///< machines
+  std::int64_t simulated{0};                     ///< machines
+  std::int64_t worlds{0};                        ///< of the study; 0: none
+  std::vector<StandardValue> standard_values{};  ///< of a study with a sequence, where the logs tell them
   std::vector<std::string>
       assumed{};              ///< effects that the study is without, which its manifest does not name
   double significance{0.05};  ///< of a difference
@@ -54,9 +61,13 @@ Status status_of(const Acceptance& acceptance);
 /// Judges the machines whose logs these are by the goals of the study, and compares them with its machines at
 /// the point, its rigs.
 /// @param file of one condition, with goals
-/// @throws Failure: bad_input for a study with worlds, or without rigs, for goals that are about some moves
-/// of a trial, and for a log without a measure that a goal asks for, or with it in a unit of another
-/// dimension than the study has; bad_data for a log without moves
+///
+/// A goal `on` some moves is judged by the rows that the column `move` of a log says are of these. Machines
+/// that live in one of the worlds of a study differ from it where they differ from each of them: the largest
+/// p-value counts.
+/// @throws Failure: bad_input for a study without rigs, for a log without a measure that a goal asks for, or
+/// with it in a unit of another dimension than the study has, and for one that does not number its moves
+/// where a goal asks for some; bad_data for a log without moves
 Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
                   std::span<const monitor::MoveLog> logs);
 

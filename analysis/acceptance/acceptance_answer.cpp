@@ -1,5 +1,8 @@
 #include "analysis/acceptance/acceptance_answer.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -117,6 +120,8 @@ document::Description<JudgedClaim> claim_rows() {
                         {"consistent", "differs", "too_few"}),
              agreement_word)
       .value(in_data("p_value", "two-sided p-value of that", "1"), [](Of c) { return c.claim.agreement.p; })
+      .value(in_data("like_worlds", "worlds of the study that the machines are like; null: it has none"),
+             [](Of c) { return c.claim.like_worlds; })
       .value(in_data("compared_moves", "first moves of each machine that are compared"),
              [](Of c) { return c.claim.agreement.moves; })
       .value(document::to_people("agreement"), comparison_of)
@@ -140,6 +145,63 @@ document::Description<MeasuredMachine> machine_rows() {
       .value({"moves", "moves", "its moves"}, [](const MeasuredMachine& m) { return m.moves; })
       .value({"met", "meet the goal", "its moves that meet each goal, in the order of the goals"},
              [](const MeasuredMachine& m) { return m.met; });
+}
+
+/// "3 to 5", or one number.
+std::optional<std::string> measured_text(const StandardValue& value) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const double one : value.measured) {
+    if (!std::isfinite(one)) continue;
+    low = std::min(low, one);
+    high = std::max(high, one);
+  }
+  if (low > high) return std::nullopt;
+  if (low == high) return text::short_number(low);
+  return fmt::format("{} to {}", text::short_number(low), text::short_number(high));
+}
+
+document::Description<StandardValue> standard_rows() {
+  using document::Notation;
+  return document::Description<StandardValue>()
+      .value({"value", "value", "name of the value of the axis"},
+             [](const StandardValue& v) { return v.name; })
+      .value({"symbol", "symbol", "in the standard"}, [](const StandardValue& v) { return v.symbol; })
+      .value({.key = "predicted",
+              .heading = "predicted",
+              .meaning = "median of the simulated runs",
+              .unit = "count",
+              .notation = Notation::three_digits},
+             &StandardValue::median)
+      .value({.key = "predicted_low",
+              .heading = "95 % from",
+              .meaning = "95 % of the simulated runs have more",
+              .unit = "count",
+              .notation = Notation::three_digits},
+             &StandardValue::low)
+      .value({.key = "predicted_high",
+              .heading = "to",
+              .meaning = "and less",
+              .unit = "count",
+              .notation = Notation::three_digits},
+             &StandardValue::high)
+      .value(document::in_data("measured", "of each measured run", "count"), &StandardValue::measured)
+      .value({.heading = "measured", .shown = document::Shown::to_people, .numeric = true}, measured_text)
+      .value({"within", "runs within", "measured runs in the predicted interval"}, &StandardValue::within)
+      .value(document::in_data("runs", "measured runs"),
+             [](const StandardValue& v) { return v.measured.size(); });
+}
+
+std::string worlds_sentence(const AcceptanceReading& r) {
+  if (r.acceptance.worlds == 0) return "";
+  std::string text;
+  for (const Claim& claim : r.acceptance.claims)
+    text += fmt::format(
+        "{}: the machines are like those of {} of {} worlds; the prediction is that of the world "
+        "that they are most like, with the interval of all\n",
+        claim.goal.name.empty() ? "goal" : claim.goal.name, claim.like_worlds.value_or(0),
+        r.acceptance.worlds);
+  return text;
 }
 
 std::string assumed_sentence(const AcceptanceReading& r) {
@@ -176,6 +238,13 @@ document::AnswerDescription<AcceptanceReading> acceptance_answer() {
                  claims.push_back({claim, r.acceptance.significance});
                return claims;
              })
+      .sentence(worlds_sentence)
+      .table(
+          {.key = "standard",
+           .heading = "ISO 230-2, by the encoder",
+           .meaning = "values of the axis; empty without a sequence, or without the columns final_error and "
+                      "move in every log"},
+          standard_rows(), [](Of r) { return r.acceptance.standard_values; })
       .table({.key = "machines", .heading = "machines", .meaning = "each machine that was measured"},
              machine_rows(), [](Of r) { return r.acceptance.machines; })
       .value({.key = "assumed",

@@ -73,6 +73,13 @@ std::string series_sha256(const reading::AllTrialsFile& file);
 /// and as summarise().
 RunRecord record_of(const reading::AllTrialsFile& file);
 
+/// An answer of `zerocount monitor` as a run: the median of each measure of a machine, which is the point,
+/// with the baseline's, and 1 over the evidence against no change for p. The series is one baseline's.
+/// Nothing for a file that is not named *.json.
+/// @throws Failure: bad_data where it is not such JSON, bad_input for another answer, inconclusive without
+/// moves
+std::optional<RunRecord> monitor_record(const std::filesystem::path& json);
+
 /// Adds to a run what the JSON of `zerocount compare` says of it.
 /// @throws Failure (bad_data) where the file is not such JSON, (bad_input) where it is of another run.
 void add_comparison(RunRecord& run, const std::filesystem::path& json);

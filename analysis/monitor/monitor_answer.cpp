@@ -149,17 +149,22 @@ std::string explanation_sentence(const MonitorReading& r) {
   std::vector<std::string> texts;
   for (const ParameterChange& change : explanation.parameters)
     texts.push_back(fmt::format("{} ({})", change_text(change), text::percent_near(change.probability)));
+  const std::string compared =
+      explanation.since > 1
+          ? fmt::format("since move {}, compared with the machine's own moves before", explanation.since)
+          : std::string("compared with the simulated machines, from the first move on");
   switch (explanation.told) {
     case ChangeTold::one:
-      return fmt::format("if one parameter of the model changed, it is {}",
-                         change_text(explanation.parameters[0]));
+      return fmt::format("if one parameter of the model differs, it is {}, {}",
+                         change_text(explanation.parameters[0]), compared);
     case ChangeTold::several:
-      return fmt::format("what changed cannot be told from these measures: {}", fmt::join(texts, ", or "));
+      return fmt::format("which parameter differs cannot be told from these measures: {}; {}",
+                         fmt::join(texts, ", or "), compared);
     case ChangeTold::none:
       return fmt::format(
-          "no change of a single parameter of the model between half and twice explains these "
-          "moves; nearest: {}",
-          fmt::join(texts, ", or "));
+          "no single parameter of the model, between half and twice its value, explains these "
+          "moves; nearest: {}; {}",
+          fmt::join(texts, ", or "), compared);
     case ChangeTold::unknown:
       break;
   }
@@ -299,6 +304,8 @@ document::AnswerDescription<MonitorReading> monitor_answer() {
              [](Of r) { return r.monitor.settings().alarm; })
       .value(in_data("block", "consecutive moves that are one value"),
              [](Of r) { return r.monitor.settings().block; })
+      .value(in_data("baseline", "file of the baseline"), [](Of r) { return r.baseline.name; })
+      .value(in_data("log", "file of the moves"), [](Of r) { return r.log; })
       .value(in_data("baseline_moves", "moves of the baseline"), [](Of r) { return r.baseline.moves; })
       .value(in_data("baseline_machines", "simulated machines of the baseline; null: it was measured"),
              [](Of r) { return r.baseline.is_model ? std::optional(r.baseline.machines) : std::nullopt; })
@@ -311,6 +318,8 @@ document::AnswerDescription<MonitorReading> monitor_answer() {
               in_data("told", "what is told of the parameters of the model after an alarm; null: not asked"),
               {"one", "several", "none", "unknown"}),
           [](Of r) { return r.explanation ? std::optional(word_of(r.explanation->told)) : std::nullopt; })
+      .value(in_data("parameters_since", "first move that the parameters are of, from 1; null: not asked"),
+             [](Of r) { return r.explanation ? std::optional(r.explanation->since) : std::nullopt; })
       .value(in_data("tried", "parameters of the model that may have changed"),
              [](Of r) { return r.explanation ? r.explanation->tried : std::vector<std::string>{}; })
       .sentence(explanation_sentence)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "analysis/document/answer.hpp"
 #include "analysis/monitor/machine_monitor.hpp"
 #include "analysis/monitor/monitor_baseline.hpp"
@@ -12,6 +14,7 @@ struct MonitorReading {
   const MachineMonitor& monitor;
   const Baseline& baseline;
   MonitorState state;
+  std::string log{};                              ///< name of the file of the moves
   const ChangeExplanation* explanation{nullptr};  ///< of an alarm beside a simulated study; null: none
 };
 

@@ -164,6 +164,7 @@ void MoveLog::read_header(std::string_view line) {
     if (!measure) {
       column_at_.back() = std::string::npos;
       if (!cell.empty()) others_.emplace_back(cell);
+      if (head.name == "move") number_cell_ = column_at_.size() - 1;
       continue;
     }
     if (find(measure->name) != nullptr)
@@ -200,7 +201,10 @@ void MoveLog::read_row(std::string_view line) {
                     fmt::format("{}:{}: {}: '{}'; expected {}", name_, line_, column.measure.name,
                                 text::printable(cells[cell].substr(0, 40)), expected_of(column.measure)));
     column.values.push_back(ranked_value(column.measure, *value));
+    if (column.measure.name == "final_error") column.written.push_back(*value);
   }
+  if (number_cell_)
+    numbers_.push_back(text::parse_number<std::int64_t>(bare(cells[*number_cell_])).value_or(-1));
   ++moves_;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,8 +24,9 @@ class MoveLog {
 
   struct Column {
     MonitoredMeasure measure;
-    std::string unit;            ///< in the header; empty: none
-    std::vector<double> values;  ///< [move] as ranked_value() has them, in SI where the column has a unit
+    std::string unit;               ///< in the header; empty: none
+    std::vector<double> values;     ///< [move] as ranked_value() has them, in SI where the column has a unit
+    std::vector<double> written{};  ///< [move] of final_error: with their signs
   };
 
   /// Reads the lines that end in `text`. @returns the number of its characters that were read
@@ -44,6 +46,9 @@ class MoveLog {
   /// Names of the columns that are not measures, as the header has them.
   const std::vector<std::string>& others() const { return others_; }
   std::int64_t moves() const { return moves_; }
+  /// [move] its number in the sequence of a trial, from 0, by the column `move`; −1 where that has no whole
+  /// number. Empty without such a column.
+  const std::vector<std::int64_t>& numbers() const { return numbers_; }
 
  private:
   void read_line(std::string_view line);
@@ -57,6 +62,8 @@ class MoveLog {
   std::vector<std::size_t> column_at_;  ///< [cell] its place in columns_; heads_.size() if it has none
   std::vector<Column> columns_;
   std::vector<std::string> others_;
+  std::optional<std::size_t> number_cell_{};  ///< of the column `move`
+  std::vector<std::int64_t> numbers_;
   std::int64_t moves_{0};
   std::int64_t line_{0};
   std::int64_t blank_lines_{0};  ///< since the last row, in a log of one column

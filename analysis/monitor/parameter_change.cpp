@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "analysis/statistics/distributions.hpp"
 #include "core/numerics/dense.hpp"
@@ -12,6 +14,8 @@
 
 namespace zerocount::monitor {
 namespace {
+
+constexpr double improbable = 0.001;
 
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
@@ -78,7 +82,15 @@ Spread spread_of(const std::vector<Matrix>& machines) {
   spread.within = repeated ? Matrix(within / (moves - count)) : Matrix(total / std::max(moves - 1.0, 1.0));
   if (machines.size() < 2) return spread;
   spread.between = covariance_about(means, spread.mean) / (count - 1.0);
-  const double of_moves = spread.within.trace() / (moves / count);
+  // The difference of a machine's halves shows how well its moves tell its mean.
+  double of_moves = 0.0;
+  for (const Matrix& machine : machines) {
+    const Eigen::Index half = machine.cols() / 2;
+    if (half == 0) continue;
+    const Vector difference =
+        machine.leftCols(half).rowwise().mean() - machine.rightCols(half).rowwise().mean();
+    of_moves += 0.25 * difference.squaredNorm() / count;
+  }
   spread.between *= std::max(0.0, 1.0 - of_moves / std::max(spread.between.trace(), 1e-300));
   return spread;
 }
@@ -98,7 +110,7 @@ double log_likelihood(const Vector& observed, const Vector& mean, const Matrix& 
   return -0.5 * misfit - factor.diagonal().array().log().sum();
 }
 
-/// How much more the observed moves vary in their mean than independent ones, for their serial correlation.
+/// How much more the mean of moves in parts varies than of independent ones, for their serial correlation.
 double inflation_of(const Matrix& scores) {
   double largest = 0.0;
   for (Eigen::Index row = 0; row < scores.rows(); ++row) {
@@ -111,6 +123,38 @@ double inflation_of(const Matrix& scores) {
   constexpr double most = 0.95;
   const double correlation = std::min(largest, most);
   return (1.0 + correlation) / (1.0 - correlation);
+}
+
+/// Number of moves before the change; 0 if they show none.
+Eigen::Index moves_before_change(const Matrix& scores, const Matrix& within) {
+  const Eigen::Index moves = scores.cols();
+  const auto first = static_cast<Eigen::Index>(min_moves_before);
+  const auto last = moves - static_cast<Eigen::Index>(min_moves_after);
+  if (last < first) return 0;
+  Matrix covariance = within;
+  constexpr double rounding = 1e-6;
+  covariance.diagonal().array() += rounding;
+  const Matrix precision = numerics::inverse_of_positive_definite(covariance);
+  const Vector total = scores.rowwise().sum();
+  Vector sum = scores.leftCols(first - 1).rowwise().sum();
+  double most = 0.0;
+  Eigen::Index found = 0;
+  for (Eigen::Index split = first; split <= last; ++split) {
+    sum += scores.col(split - 1);
+    const auto before = static_cast<double>(split);
+    const auto after = static_cast<double>(moves - split);
+    const Vector away = sum / before - (total - sum) / after;
+    const double contrast = before * after / (before + after) * away.dot(precision * away);
+    if (contrast <= most) continue;
+    most = contrast;
+    found = split;
+  }
+  const double inflation =
+      std::min(inflation_of(scores.leftCols(found)), inflation_of(scores.rightCols(moves - found)));
+  const double splits = static_cast<double>(last - first + 1);
+  const double limit =
+      statistics::chi_squared_quantile(static_cast<double>(scores.rows()), 1.0 - improbable / splits);
+  return most > inflation * limit ? found : 0;
 }
 
 struct Statistic {
@@ -197,21 +241,43 @@ Fit fit_of(const ChangeCandidate& candidate, const std::vector<Expected>& expect
           best->likelihood + std::log(area / range)};
 }
 
-/// The measures of which the unchanged machines have more than one value.
-std::vector<std::size_t> varying_measures(const ChangeCandidate& any, std::size_t measures) {
-  std::vector<double> low(measures, std::numeric_limits<double>::infinity());
-  std::vector<double> high(measures, -std::numeric_limits<double>::infinity());
-  for (const SimulatedFactor& factor : any.factors) {
-    for (const MachineMoves& moves : factor.machines) {
-      for (std::size_t i = 0; i < moves.size(); ++i) {
-        low[i % measures] = std::min(low[i % measures], moves[i]);
-        high[i % measures] = std::max(high[i % measures], moves[i]);
-      }
-    }
+const SimulatedFactor& unchanged_of(const ChangeCandidate& candidate) {
+  return *std::ranges::find(candidate.factors, 1.0, &SimulatedFactor::factor);
+}
+
+/// The part of a row that has its most frequent value.
+double part_tied(const Eigen::MatrixXd::ConstRowXpr& row) {
+  std::vector<double> values(row.begin(), row.end());
+  std::ranges::sort(values);
+  std::size_t most = 0;
+  for (std::size_t first = 0, end = 0; first < values.size(); first = end) {
+    while (end < values.size() && values[end] == values[first]) ++end;
+    most = std::max(most, end - first);
   }
+  return static_cast<double>(most) / static_cast<double>(values.size());
+}
+
+/// The measures to go by, in their order: at most eight whose mean is nearly normal, of which none says what
+/// another says.
+std::vector<std::size_t> telling_measures(const std::vector<MachineMoves>& unchanged, std::size_t measures) {
+  constexpr std::size_t most = 8;
+  constexpr double too_tied = 0.8;
+  constexpr double alike = 0.9;  // correlation
+  const NormalScores scores(unchanged, measures);
+  MachineMoves all;
+  for (const MachineMoves& moves : unchanged) all.insert(all.end(), moves.begin(), moves.end());
+  Matrix rows = scores.of(all);
   std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < measures; ++i)
-    if (low[i] < high[i]) found.push_back(i);
+  for (std::size_t i = 0; i < measures && found.size() < most; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    if (part_tied(std::as_const(rows).row(row)) > too_tied) continue;
+    rows.row(row).array() -= rows.row(row).mean();
+    rows.row(row) /= rows.row(row).norm();
+    const bool repeats = std::ranges::any_of(found, [&](std::size_t other) {
+      return std::abs(rows.row(row).dot(rows.row(static_cast<Eigen::Index>(other)))) > alike;
+    });
+    if (!repeats) found.push_back(i);
+  }
   return found;
 }
 
@@ -220,10 +286,6 @@ MachineMoves picked(const MachineMoves& moves, const std::vector<std::size_t>& w
   for (std::size_t move = 0; move < moves.size() / measures; ++move)
     for (const std::size_t measure : wanted) result.push_back(moves[move * measures + measure]);
   return result;
-}
-
-const SimulatedFactor& unchanged_of(const ChangeCandidate& candidate) {
-  return *std::ranges::find(candidate.factors, 1.0, &SimulatedFactor::factor);
 }
 
 void set_probabilities(std::vector<Fit>& fits) {
@@ -240,13 +302,13 @@ ChangeExplanation unknown_because(std::string reason) {
 
 }  // namespace
 
-ChangeExplanation explain_change(std::span<const ChangeCandidate> given, const ObservedMoves& observed,
+ChangeExplanation explain_change(std::span<const ChangeCandidate> given, const MachineMoves& observed,
                                  std::size_t measures) {
   if (given.empty()) return unknown_because("no parameter of the study can be changed");
-  if (observed.after.size() < min_moves_after * measures)
-    return unknown_because("there are too few moves since the change");
-  const std::vector<std::size_t> wanted = varying_measures(given.front(), measures);
-  if (wanted.empty()) return unknown_because("no measure differs between simulated moves");
+  if (observed.size() < min_moves_after * measures)
+    return unknown_because(fmt::format("there are fewer than {} moves", min_moves_after));
+  const std::vector<std::size_t> wanted = telling_measures(unchanged_of(given.front()).machines, measures);
+  if (wanted.empty()) return unknown_because("no measure differs between most simulated moves");
   std::vector<ChangeCandidate> candidates(given.begin(), given.end());
   for (ChangeCandidate& candidate : candidates)
     for (SimulatedFactor& factor : candidate.factors)
@@ -254,16 +316,17 @@ ChangeExplanation explain_change(std::span<const ChangeCandidate> given, const O
   const std::vector<MachineMoves>& same = unchanged_of(candidates.front()).machines;
   const NormalScores scores(same, wanted.size());
   const std::vector<Matrix> unchanged = scored(scores, same);
-  const Matrix before = scores.of(picked(observed.before, wanted, measures));
-  const Matrix after = scores.of(picked(observed.after, wanted, measures));
-  const double inflation = inflation_of(after);
-  Statistic statistic{.observed = after.rowwise().mean(),
-                      .has_before = before.cols() >= static_cast<Eigen::Index>(min_moves_before),
+  const Matrix seen = scores.of(picked(observed, wanted, measures));
+  const Eigen::Index before = moves_before_change(seen, spread_of(unchanged).within);
+  const Eigen::Index after = seen.cols() - before;
+  const double inflation = inflation_of(seen.rightCols(after));
+  Statistic statistic{.observed = seen.rightCols(after).rowwise().mean(),
+                      .has_before = before > 0,
                       .per_move_before = 0.0,
-                      .per_move_after = inflation / static_cast<double>(after.cols())};
+                      .per_move_after = inflation / static_cast<double>(after)};
   if (statistic.has_before) {
-    statistic.observed -= before.rowwise().mean();
-    statistic.per_move_before = inflation / static_cast<double>(before.cols());
+    statistic.observed -= seen.leftCols(before).rowwise().mean();
+    statistic.per_move_before = inflation / static_cast<double>(before);
   }
   std::vector<Fit> fits;
   for (const ChangeCandidate& candidate : candidates) {
@@ -279,11 +342,11 @@ ChangeExplanation explain_change(std::span<const ChangeCandidate> given, const O
   if (fits.empty()) return unknown_because("no parameter acts on these measures");
   set_probabilities(fits);
   ChangeExplanation explanation;
+  explanation.since = before + 1;
   for (const Fit& fit : fits) explanation.tried.push_back(fit.change.parameter);
   const double misfit =
       std::ranges::min_element(fits, {}, [](const Fit& fit) { return fit.change.misfit; })->change.misfit;
   explanation.misfit = misfit;
-  constexpr double improbable = 0.01;
   explanation.max_misfit =
       statistics::chi_squared_quantile(static_cast<double>(wanted.size()), 1.0 - improbable);
   constexpr double plausible = 0.05;

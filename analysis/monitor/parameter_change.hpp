@@ -23,12 +23,6 @@ struct ChangeCandidate {
   std::vector<SimulatedFactor> factors;  ///< rising, with 1 among them
 };
 
-/// The moves of the machine before the change and after it.
-struct ObservedMoves {
-  MachineMoves before;
-  MachineMoves after;
-};
-
 /// How well a change of one parameter explains the moves.
 struct ParameterChange {
   std::string parameter;
@@ -45,38 +39,44 @@ struct ParameterChange {
 enum class ChangeTold {
   one,      ///< one parameter explains the moves, with a probability of at least 0.95
   several,  ///< several do
-  none,     ///< no single one does: P < 0.01 of moves this far from those simulated
+  none,     ///< no single one does: P < 0.001 of moves this far from those simulated
   unknown   ///< nothing can be said: too few moves, or none of the candidates acts on the measures
 };
 
 struct ChangeExplanation {
   ChangeTold told{ChangeTold::unknown};
   std::vector<ParameterChange> parameters{};  ///< those with a probability of at least 0.05, likeliest first
-  double misfit{0.0};                         ///< the smallest of all parameters
-  double max_misfit{0.0};                     ///< that the right one exceeds with the probability 0.01
-  std::string reason{};                       ///< of `unknown`
-  std::vector<std::string> tried{};           ///< names of the parameters that act on the measures
+  /// First move of the change, from 1; 1: the machine is from its first move on unlike those simulated.
+  std::int64_t since{1};
+  double misfit{0.0};                ///< the smallest of all parameters
+  double max_misfit{0.0};            ///< that the right one exceeds with the probability 0.001
+  std::string reason{};              ///< of `unknown`
+  std::vector<std::string> tried{};  ///< names of the parameters that act on the measures
 };
 
-/// With fewer moves before the change than this the model stands for them, with the spread of its machines.
 inline constexpr std::size_t min_moves_before = 20;
-inline constexpr std::size_t min_moves_after = 10;
+inline constexpr std::size_t min_moves_after = 20;
 
 /// Tells what changed by a simulated (synthetic) likelihood (Wood, Nature 466 (2010) 1102).
 ///
-/// A value counts by its normal score z = Φ⁻¹(rank/(n + 1)) among the n values of the unchanged machines. The
-/// statistic D is the mean z of each measure after the change, less that before it where there are
-/// min_moves_before moves. For each factor f of each parameter it is normal, with
+/// A value counts by its normal score z = Φ⁻¹(rank/(n + 1)) among the n values of the unchanged machines.
+/// The change is where the means before and after it differ most, max over s of s·(N − s)/N·|W^(−1/2)·(z̄₁ −
+/// z̄₂)|², if that is significant at 0.001 (Bonferroni over s); otherwise the machine is compared with those
+/// simulated, as a whole. The statistic D is the mean z of each measure after the change, less that before
+/// it, if there is one. For each factor f of each parameter D is normal, with
 ///
 ///     mean μ(f) = mean over machines of z̄(f) − z̄(1);  covariance C(f) = B(f) + W(1)/n_before + W(f)/n_after
 ///
 /// B between machines (less what their few moves add), W within one, enlarged by (1 + ρ)/(1 − ρ) with the
-/// serial correlation ρ of the observed moves. Without moves before, μ(f) is the mean of z̄(f). Between the
-/// factors μ and C are interpolated in log f. All parameters have the same prior, log f evenly over the
-/// range.
+/// serial correlation ρ of the observed moves. Without a change μ(f) is the mean of z̄(f), and B that of z̄(f).
+/// Between the factors μ and C are interpolated in log f. All parameters have the same prior, log f evenly
+/// over the range.
 ///
-/// @param measures number of measures of a move
-ChangeExplanation explain_change(std::span<const ChangeCandidate> candidates, const ObservedMoves& observed,
+/// Of measures that correlate by more than 0.9 the first counts, and none with one value in most moves; at
+/// most eight.
+/// @param observed the moves of the machine @param measures number of measures of a move, the most telling
+/// first
+ChangeExplanation explain_change(std::span<const ChangeCandidate> candidates, const MachineMoves& observed,
                                  std::size_t measures);
 
 }  // namespace zerocount::monitor

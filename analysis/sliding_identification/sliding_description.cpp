@@ -79,6 +79,44 @@ document::Description<FreeRun> run_description() {
              [](Of r) { return r.rms / r.stroke; });
 }
 
+std::string reversal_sentence(const SlidingIdentification& i) {
+  if (!i.reversal) return "";
+  const ReversalFriction& r = *i.reversal;
+  const std::string length = parameters::unit_on(i.axis, "rad");
+  if (r.samples < min_reversal_samples)
+    return fmt::format(
+        "After a reversal the friction turns over by {:.3g} {} within {:.3g} {}, {} samples or fewer: faster "
+        "than "
+        "this record shows. Its stiffness before sliding is not told.",
+        r.swing, parameters::unit_on(i.axis, "N m"), r.max_travel, length, r.samples);
+  return fmt::format(
+      "After each of {} reversals nine tenths of the friction, of a swing of {:.3g} {}, turn over within "
+      "{:.3g} to "
+      "{:.3g} {}, {} samples: a secant stiffness of {:.2g} {} before sliding. Its course in between is "
+      "smoothed over "
+      "7 samples, and creep and the stiffness at rest are not told: material tests before sliding tell them "
+      "(zerocount experiment).",
+      r.reversals.size(), r.swing, parameters::unit_on(i.axis, "N m"), r.min_travel, r.max_travel, length,
+      r.samples, r.stiffness, parameters::unit_on(i.axis, "N m/rad"));
+}
+
+document::Description<ReversalFriction> reversal_description() {
+  using document::in_data;
+  return document::Description<ReversalFriction>()
+      .value(in_data("reversals", "reversals without a standstill"),
+             [](const ReversalFriction& r) { return r.reversals.size(); })
+      .value(in_data("swing", "sum of the levels of both directions near a reversal, median, N m or N"),
+             &ReversalFriction::swing)
+      .value(
+          in_data("travel", "travel after a reversal in which nine tenths of it turn over, median, rad or m"),
+          &ReversalFriction::travel)
+      .value(in_data("min_travel", "smallest of them, rad or m"), &ReversalFriction::min_travel)
+      .value(in_data("max_travel", "largest of them, rad or m"), &ReversalFriction::max_travel)
+      .value(in_data("samples", "samples in that travel, median; below 6 the travel is an upper bound"),
+             &ReversalFriction::samples)
+      .value(in_data("stiffness", "0.9 swing/travel, N m/rad or N/m"), &ReversalFriction::stiffness);
+}
+
 document::Description<RepeatingForce> force_description() {
   return document::Description<RepeatingForce>()
       .value({"with", "with", "what the unexplained torque may repeat with"}, &RepeatingForce::with)
@@ -130,6 +168,9 @@ document::AnswerDescription<SlidingIdentification> sliding_answer() {
             "residuals that depend on each other within a window or a stroke.",
             i.misfit, i.unexplained_torque, i.torque, parameters::unit_on(i.axis, "N m"));
       })
+      .object(in_data("reversal", "friction after reversals; null: none without a standstill"),
+              reversal_description(), [](Of i) { return i.reversal ? &*i.reversal : nullptr; })
+      .sentence(reversal_sentence)
       .table({"simulation", "Simulated under the recorded torque, without a restart",
               "motion of the identified axis beside the readings"},
              run_description(), &SlidingIdentification::runs)

@@ -127,6 +127,7 @@ SlidingIdentification identify_sliding(std::vector<SlidingRecord> records) {
   set_correlation(fit, result);
   result.runs = free_runs(fit);
   result.forces = repeating_forces(fit);
+  result.reversal = reversal_friction(fit);
   result.records = std::move(records);
   refuse_unexplained(result);
   result.fragment = sliding_fragment(result);

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/document/answer.hpp"
 #include "analysis/identification/answer/fit_report.hpp"
 #include "analysis/sliding_identification/free_run.hpp"
+#include "analysis/sliding_identification/reversal_friction.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
 #include "analysis/sliding_identification/unexplained_force.hpp"
 
@@ -16,13 +18,14 @@ namespace zerocount::sliding_identification {
 /// The parameters are inertia, sliding_damping, coulomb_level, breakaway_level, coulomb_ratio,
 /// stribeck_velocity and offset.
 struct SlidingIdentification : identification::FitReport {
-  std::vector<SlidingRecord> records;   ///< with the windows of the fit
-  double misfit{0.0};                   ///< root mean square of the residuals, in resolutions
-  double unexplained_torque{0.0};       ///< root mean square over the windows, N m or N
-  double torque{0.0};                   ///< root mean square of the torque in the strokes, N m or N
-  std::vector<FreeRun> runs;            ///< of the records
-  std::vector<RepeatingForce> forces;   ///< what the unexplained torque repeats with
-  std::vector<std::string> correlated;  ///< names of the fitted parameters
+  std::vector<SlidingRecord> records;        ///< with the windows of the fit
+  double misfit{0.0};                        ///< root mean square of the residuals, in resolutions
+  double unexplained_torque{0.0};            ///< root mean square over the windows, N m or N
+  double torque{0.0};                        ///< root mean square of the torque in the strokes, N m or N
+  std::vector<FreeRun> runs;                 ///< of the records
+  std::vector<RepeatingForce> forces;        ///< what the unexplained torque repeats with
+  std::optional<ReversalFriction> reversal;  ///< nothing without a reversal
+  std::vector<std::string> correlated;       ///< names of the fitted parameters
   std::vector<std::vector<double>> correlation{};  ///< of their errors, in that order
 };
 

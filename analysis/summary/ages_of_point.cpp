@@ -84,7 +84,8 @@ document::Description<AgeOfPoint> age_description(const goal::Question& question
       .value({.key = "age",
               .heading = "age",
               .meaning = "age of the machines, in the unit of the manifest",
-              .unit = question.ages.at.empty() ? "" : question.ages.unit},
+              .unit = question.ages.at.empty() ? "" : question.ages.unit,
+              .notation = document::Notation::exact},
              &AgeOfPoint::age)
       .value({"trials", "trials", "trials at the age"}, &AgeOfPoint::trials)
       .value({"success", "succeeded", "trials all of whose moves ended at zero error"}, &AgeOfPoint::success);
@@ -106,7 +107,7 @@ document::Description<AgeOfPoint> age_description(const goal::Question& question
       .value({.key = "machines",
               .heading = "machines in goal [bounds]",
               .meaning = "proportion of machines that meet the goal at the age under every condition, with "
-                         "one-sided bounds",
+                         "one-sided bounds that allow for the few moves in which each was seen",
               .unit = "1",
               .notation = document::Notation::percent,
               .optional = true},
@@ -115,7 +116,7 @@ document::Description<AgeOfPoint> age_description(const goal::Question& question
           {.key = "living",
            .heading = "up to here [bounds]",
            .meaning = "proportion of the machines that meet it at every age up to this one, with one-sided "
-                      "bounds of Clopper and Pearson",
+                      "bounds of Clopper and Pearson, which take the verdict on each machine as it was seen",
            .unit = "1",
            .notation = document::Notation::percent,
            .optional = true},

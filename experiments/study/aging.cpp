@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/numerics/elementary_functions.hpp"
-#include "core/text/number_text.hpp"
 
 namespace zerocount::study {
 
@@ -23,9 +22,7 @@ double factor_at_age(const Aging& aging, double rate, double age) {
 }
 
 std::string age_text(const Ages& ages, double age) {
-  const std::string few = fmt::format("{:g}", age);
-  return fmt::format("{} {}", text::parse_number<double>(few) == age ? few : fmt::format("{}", age),
-                     ages.unit);
+  return fmt::format("{} {}", age, ages.unit);
 }
 
 }  // namespace zerocount::study

@@ -34,7 +34,7 @@ struct Ages {
   std::string unit{"cycles"};  ///< one word
 };
 
-/// "100000 cycles": an age in few digits, but all that it has.
+/// "100000 cycles": an age with all digits that it has, as columns of ages print it.
 std::string age_text(const Ages& ages, double age);
 
 }  // namespace zerocount::study

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,8 +22,8 @@ constexpr std::array<std::string_view, 11> candidate_names{"friction.k1",       
                                                            "plant.sliding_damping"};
 constexpr std::array<double, 13> tried_factors{0.5,  0.6,  0.7,  0.8,  0.87, 0.94, 1.0,
                                                1.06, 1.15, 1.25, 1.43, 1.67, 2.0};
-constexpr std::int64_t max_simulated_machines = 128;
-constexpr std::int64_t max_simulated_trials = 512;
+constexpr std::int64_t max_simulated_machines = 64;
+constexpr std::int64_t max_simulated_trials = 1024;
 constexpr std::int64_t trials_of_block = 64;
 
 /// The trials of the simulated machines.
@@ -57,6 +58,7 @@ using Field = layout::RecordField<trial::MoveOutcome>;
 struct WatchedField {
   const Field* field;
   monitor::MonitoredMeasure measure;
+  double evidence;  ///< of its change
 };
 
 std::vector<monitor::MachineMoves> simulated(const study::Study& study, std::int64_t point,
@@ -89,21 +91,18 @@ bool can_be_scaled(const study::Study& study, std::int64_t point, std::string_vi
   return limits.low != 0.0 || limits.high != 0.0;
 }
 
-/// The values of the watched measures of the moves `first` to `last` of the log, excluded.
-monitor::MachineMoves moves_of(const monitor::MoveLog& log, const std::vector<WatchedField>& watched,
-                               std::int64_t first, std::int64_t last) {
+/// The values of the watched measures, move after move.
+monitor::MachineMoves moves_of(const monitor::MoveLog& log, const std::vector<WatchedField>& watched) {
   monitor::MachineMoves moves;
-  for (std::int64_t move = first; move < last; ++move)
-    for (const WatchedField& one : watched)
-      moves.push_back(log.find(one.measure.name)->values[static_cast<std::size_t>(move)]);
+  for (std::size_t move = 0; move < static_cast<std::size_t>(log.moves()); ++move)
+    for (const WatchedField& one : watched) moves.push_back(log.find(one.measure.name)->values[move]);
   return moves;
 }
 
 }  // namespace
 
 monitor::ChangeExplanation explain_alarm(const reading::AllTrialsFile& file, const monitor::ModelMoves& moves,
-                                         const monitor::MachineMonitor& machine,
-                                         const monitor::MonitorState& state, const monitor::MoveLog& log,
+                                         const monitor::MachineMonitor& machine, const monitor::MoveLog& log,
                                          const trials::Effort& effort) {
   const study::Study& study = file.study();
   const std::vector<Field>& fields = file.measures();
@@ -111,8 +110,9 @@ monitor::ChangeExplanation explain_alarm(const reading::AllTrialsFile& file, con
   for (const monitor::MeasureState& one : machine.measures()) {
     const auto found = std::ranges::find_if(
         fields, [&](const Field& field) { return field.column.name == one.measure.name; });
-    if (found != fields.end()) watched.push_back({&*found, one.measure});
+    if (found != fields.end()) watched.push_back({&*found, one.measure, one.evidence});
   }
+  std::ranges::stable_sort(watched, std::greater{}, &WatchedField::evidence);
   const MachineTrials chosen = machine_trials(study, moves);
   const std::vector<monitor::MachineMoves> same = simulated(study, moves.point, chosen, watched, effort);
   std::vector<monitor::ChangeCandidate> candidates;
@@ -132,10 +132,7 @@ monitor::ChangeExplanation explain_alarm(const reading::AllTrialsFile& file, con
     }
     if (candidate.factors.size() > 1) candidates.push_back(std::move(candidate));
   }
-  const std::int64_t since = *state.alarm->since - 1;
-  return monitor::explain_change(
-      candidates, {moves_of(log, watched, 0, since), moves_of(log, watched, since, state.moves)},
-      watched.size());
+  return monitor::explain_change(candidates, moves_of(log, watched), watched.size());
 }
 
 }  // namespace zerocount::result_commands

@@ -15,8 +15,7 @@ namespace zerocount::result_commands {
 /// @param file under one condition at one age @param moves of its baseline
 /// @throws trial::Interrupted if a stop is requested
 monitor::ChangeExplanation explain_alarm(const reading::AllTrialsFile& file, const monitor::ModelMoves& moves,
-                                         const monitor::MachineMonitor& machine,
-                                         const monitor::MonitorState& state, const monitor::MoveLog& log,
+                                         const monitor::MachineMonitor& machine, const monitor::MoveLog& log,
                                          const trials::Effort& effort);
 
 }  // namespace zerocount::result_commands

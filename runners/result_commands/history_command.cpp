@@ -2,8 +2,10 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -28,7 +30,8 @@ constexpr const char* history_help =
     "\n"
     "history add FILE adds the measures of a results file that 'zerocount compare' judges (rates,\n"
     "settling times, numbers of jerks), at every point, with 95 % bounds. With --compare also the\n"
-    "verdicts of a comparison of FILE with its baseline. A file is added only once.\n"
+    "verdicts of a comparison of FILE with its baseline. A file is added only once. FILE.json, the\n"
+    "answer of 'zerocount monitor --format json', adds the medians of the machine's measures.\n"
     "\n"
     "history show prints each series of values and where it changed: the runs and commits between\n"
     "which the change lies, and the run since which it is significant. Runs of a changed manifest\n"
@@ -70,7 +73,11 @@ ExitCode add(const command_line::Arguments& arguments) {
   if (arguments.operands().size() != 2) arguments.refuse("'history add' needs the results FILE to add");
   const std::filesystem::path database = database_of(arguments);
   const std::string file = arguments.operands()[1];
-  history::RunRecord run = history::record_of(reading::AllTrialsFile(file));
+  std::optional<history::RunRecord> of_monitor = history::monitor_record(file);
+  if (of_monitor && arguments.has("compare"))
+    arguments.refuse("option '--compare': an answer of monitor is compared already; expected a results file");
+  history::RunRecord run =
+      of_monitor ? std::move(*of_monitor) : history::record_of(reading::AllTrialsFile(file));
   if (const auto json = arguments.value("compare")) history::add_comparison(run, *json);
   switch (history::add_run(database, run, patience_with(database))) {
     case history::Addition::added:

@@ -92,7 +92,7 @@ std::optional<monitor::ChangeExplanation> explanation_of(const LoadedBaseline& b
                                                          const monitor::MoveLog& log,
                                                          const std::stop_token& stop) {
   if (!baseline.file || state.alarm == nullptr || baseline.file->header().plugin) return std::nullopt;
-  return explain_alarm(*baseline.file, baseline.of_file, machine, state, log, stop);
+  return explain_alarm(*baseline.file, baseline.of_file, machine, log, stop);
 }
 
 std::optional<double> change_from(const command_line::Arguments& arguments) {
@@ -153,7 +153,7 @@ ExitCode print_state(monitor::MachineMonitor& machine, const monitor::MoveLog& l
   machine.update(log);
   const monitor::MonitorState state = machine.state();
   const auto explanation = explanation_of(baseline, machine, state, log, stop);
-  const monitor::MonitorReading reading{machine, baseline.moves, state,
+  const monitor::MonitorReading reading{machine, baseline.moves, state, log.name(),
                                         explanation ? &*explanation : nullptr};
   const document::Answer answer = monitor::monitor_answer().of(
       reading, monitor::exit_code_of(reading.state.status), document::Audience::json);
@@ -204,7 +204,7 @@ ExitCode monitor_machine(const command_line::Arguments& arguments) {
   machine.update(log);
   const monitor::MonitorState state = machine.state();
   const auto explanation = explanation_of(baseline, machine, state, log, interruption.token());
-  const monitor::MonitorReading reading{machine, baseline.moves, state,
+  const monitor::MonitorReading reading{machine, baseline.moves, state, log.name(),
                                         explanation ? &*explanation : nullptr};
   return answers::print(arguments, monitor::monitor_answer(), reading,
                         monitor::exit_code_of(reading.state.status));

@@ -68,7 +68,7 @@ TEST(FreeRunOfTheAxis, DriftsByAForceThatTheLawLacks) {
 
 /// The record with a force that the axis meets at each position, and in one direction more than in the other.
 records::RawSeries with_force_along_travel(double amplitude, double direction_part, std::mt19937_64& random) {
-  records::RawSeries series = closed_loop_record({}, {}, emps_lap(), 4, random);
+  records::RawSeries series = closed_loop_record({}, {}, emps_lap(), 2, random);
   const auto [lowest, highest] = std::ranges::minmax(series.angle);
   for (std::size_t k = 0; k + 1 < series.angle.size(); ++k) {
     const double part = (series.angle[k] - lowest) / (highest - lowest);
@@ -82,8 +82,8 @@ records::RawSeries with_force_along_travel(double amplitude, double direction_pa
 TEST(UnexplainedForce, RepeatsWithThePosition) {
   std::mt19937_64 random(13);
   const SlidingIdentification found = identify(with_force_along_travel(2.0, 0.0, random));
-  EXPECT_GT(foretold_by(found, "position"), 0.8);
-  EXPECT_GT(foretold_by(found, "position and direction"), 0.8);
+  EXPECT_GT(foretold_by(found, "position"), 0.7);
+  EXPECT_GT(foretold_by(found, "position and direction"), 0.7);
   EXPECT_LT(foretold_by(found, "acceleration"), 0.3);
   const auto& force = *std::ranges::find(found.forces, std::string("position"), &RepeatingForce::with);
   EXPECT_NEAR(force.high, 2.0, 0.4);
@@ -100,7 +100,7 @@ TEST(UnexplainedForce, ThatIsRandomRepeatsWithNothing) {
   std::mt19937_64 random(15);
   SlidingAxis shaken;
   shaken.friction_noise = 1.0;
-  const SlidingIdentification found = identify(closed_loop_record(shaken, {}, emps_lap(), 4, random));
+  const SlidingIdentification found = identify(closed_loop_record(shaken, {}, emps_lap(), 2, random));
   for (const RepeatingForce& force : found.forces) EXPECT_LT(force.foretold, 0.15) << force.with;
 }
 
@@ -113,6 +113,29 @@ TEST(UnexplainedForce, NeedsStrokes) {
   EXPECT_EQ(json["unexplained"].size(), 0u);
   EXPECT_NEAR(json["simulation"][0]["proportion"].get<double>(), found.runs[0].rms / found.runs[0].stroke,
               1e-15);
+}
+
+// After a reversal Dahl's friction is Fc·(1 − 2·exp(−σ0·x/Fc)): nine tenths of 2·Fc are done at ln 10·Fc/σ0.
+TEST(ReversalOfTheFriction, IsThatOfTheBristles) {
+  for (const double travel : {60e-6, 150e-6}) {
+    std::mt19937_64 random(17);
+    SlidingAxis axis;
+    axis.bristle_stiffness = std::numbers::ln10 * axis.coulomb / travel;
+    const SlidingIdentification found = identify(closed_loop_record(axis, {}, emps_lap(), 2, random));
+    ASSERT_TRUE(found.reversal.has_value());
+    EXPECT_EQ(found.reversal->reversals.size(), 3u);
+    EXPECT_GE(found.reversal->samples, sliding_identification::min_reversal_samples);
+    EXPECT_NEAR(found.reversal->travel, travel, 0.3 * travel);
+    EXPECT_NEAR(found.reversal->swing, 2.0 * axis.coulomb, 0.1 * axis.coulomb);
+    EXPECT_NEAR(found.reversal->stiffness, 0.9 * found.reversal->swing / found.reversal->travel, 1e-6);
+  }
+}
+
+TEST(ReversalOfTheFriction, ThatIsAbruptIsNotTold) {
+  std::mt19937_64 random(18);
+  const SlidingIdentification found = identify(closed_loop_record({}, {}, emps_lap(), 2, random));
+  ASSERT_TRUE(found.reversal.has_value());
+  EXPECT_LT(found.reversal->samples, sliding_identification::min_reversal_samples);
 }
 
 }  // namespace

@@ -15,6 +15,11 @@ plant::Plant plant_of(const SlidingAxis& axis) {
   parameters.sliding_damping = axis.damping;
   friction::FrictionAlongRotor friction;
   friction.model = friction::FrictionModel::coulomb;
+  if (axis.bristle_stiffness > 0.0) {
+    friction.model = friction::FrictionModel::dahl;
+    friction.uniform.sigma0 = axis.bristle_stiffness;
+    parameters.presliding_damping = axis.damping;
+  }
   friction.uniform.breakaway = axis.breakaway;
   friction.uniform.coulomb_ratio = axis.coulomb / axis.breakaway;
   friction.uniform.stribeck_velocity = axis.stribeck_velocity;

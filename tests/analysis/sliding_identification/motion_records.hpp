@@ -15,6 +15,7 @@ struct SlidingAxis {
   double offset{-3.1648};          ///< N, against the drive
   double breakaway{20.3935};       ///< N
   double stribeck_velocity{0.01};  ///< m/s
+  double bristle_stiffness{0.0};   ///< σ0 of Dahl's law in place of that of Coulomb, N/m; 0: Coulomb
   double friction_noise{0.0};      ///< standard deviation of a force that the record does not show, N
 };
 

@@ -18,15 +18,15 @@ std::string replay(const std::string& torque, const std::string& more = "") {
   return "zerocount: 1\nname: replay\nseed: 1\ntrials: 1\ncommand: {torque: " + torque + more + "}\n";
 }
 
-study::Study study_with(const std::string& manifest, const Files& files = {}) {
+study::Study replayed_study(const std::string& manifest, const Files& files = {}) {
   Companions companions;
   companions.samples = [&files](const std::string& path) { return files.at(path); };
   return manifest::parse_study(manifest, "replay.yaml", {}, companions);
 }
 
-std::string error_with(const std::string& manifest, const Files& files = {}) {
+std::string refusal_of_replay(const std::string& manifest, const Files& files = {}) {
   try {
-    study_with(manifest, files);
+    replayed_study(manifest, files);
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::bad_input);
     return failure.what();
@@ -38,7 +38,7 @@ const Files table{
     {"record.csv", "time [ms];torque [mN m];count\n# started by hand\n\n100;250;1\n101;-125.5;2\n104;0;5\n"}};
 
 TEST(TorqueOfAFile, IsThatOfTheListInSiUnits) {
-  const study::Study study = study_with(replay("{file: record.csv, through: exact}"), table);
+  const study::Study study = replayed_study(replay("{file: record.csv, through: exact}"), table);
   EXPECT_TRUE(study.open_loop);
   EXPECT_EQ(study.moves, 1);
   const trial::TrialParameters trial = study::study_trial(study, 0, 0).parameters;
@@ -59,7 +59,8 @@ TEST(TorqueOfAFile, IsThatOfTheListInSiUnits) {
 
 TEST(TorqueOfAFile, MayBeShortenedAndHasTheUnitsOfTheAxis) {
   const Files force{{"f.csv", "t,force [kN]\n0,1\n0.5,2\n"}};
-  const study::Study study = study_with(replay("{file: f.csv}", ", hold: 0.75") + "axis: linear\n", force);
+  const study::Study study =
+      replayed_study(replay("{file: f.csv}", ", hold: 0.75") + "axis: linear\n", force);
   const trial::TrialParameters trial = study::study_trial(study, 0, 0).parameters;
   EXPECT_EQ(trial.command.torque.record->torque[1], 2000.0);
   EXPECT_EQ(trial.command.hold, 0.75);
@@ -87,22 +88,22 @@ TEST(TorqueOfAFile, FaultsHaveTheirPlace) {
       {"", "record.csv:1:1: command.torque.file: the table has 0 rows"},
   };
   for (const Case& one : cases) {
-    const std::string found = error_with(replay("{file: record.csv}"), {{"record.csv", one.text}});
+    const std::string found = refusal_of_replay(replay("{file: record.csv}"), {{"record.csv", one.text}});
     EXPECT_NE(found.find(one.expected), std::string::npos) << found << "\n" << one.expected;
   }
-  const std::string longer = error_with(replay("{file: record.csv}", ", hold: 0.008"), table);
+  const std::string longer = refusal_of_replay(replay("{file: record.csv}", ", hold: 0.008"), table);
   EXPECT_NE(
       longer.find("command.hold: the record of command.torque.file lasts 0.007 s, and the move can take "
                   "0.008 s; expected at most the record"),
       std::string::npos)
       << longer;
-  const std::string both = error_with(replay("{file: record.csv, levels: [1]}"), table);
+  const std::string both = refusal_of_replay(replay("{file: record.csv, levels: [1]}"), table);
   EXPECT_NE(both.find("command.torque.levels: it has no effect: command.torque.file defines the torque"),
             std::string::npos)
       << both;
-  EXPECT_NE(error_with(replay("{file: [[0, 1], [0.5, 2], [0.5, 1]]}")).find("found the time 0.5 s"),
+  EXPECT_NE(refusal_of_replay(replay("{file: [[0, 1], [0.5, 2], [0.5, 1]]}")).find("found the time 0.5 s"),
             std::string::npos);
-  EXPECT_NE(error_with(replay("{file: [[0.5, 1], [1, 2]]}")).find("found the time 0.5 s; expected 0"),
+  EXPECT_NE(refusal_of_replay(replay("{file: [[0.5, 1], [1, 2]]}")).find("found the time 0.5 s; expected 0"),
             std::string::npos);
 }
 

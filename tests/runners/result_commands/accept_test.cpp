@@ -1,4 +1,5 @@
 // `accept` as a program: logs of machines beside a study.
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -91,6 +92,117 @@ TEST_F(Accept, RefusesWhatItCannotJudge) {
   EXPECT_NE(message({"good.csv"}).find("no trials share a machine"), std::string::npos);
   run_study("rigs: 40\n");
   EXPECT_NE(message({"good.csv"}).find("its manifest has no goal"), std::string::npos);
+}
+
+TEST_F(Accept, AsksForTheConditionAndTheAge) {
+  run_study(
+      "rigs: 40\ngoal: {band: 1, within: 0.03, moves: 0.9}\nages: {at: [0, 100000]}\n"
+      "conditions: {empty: {}, loaded: {controller.ki: 8.0e-6}}\n");
+  write_log("good.csv", 100, 0);
+  EXPECT_NE(program({"accept", "study.h5", "good.csv"}).code, 0);
+  const ProgramResult other =
+      program({"accept", "study.h5", "good.csv", "--condition", "empty", "--age", "7"});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("100000"), std::string::npos) << other.err;
+  const ProgramResult none = program({"accept", "study.h5", "good.csv", "--age", "100000"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("loaded"), std::string::npos) << none.err;
+  const Json empty = json_of({"good.csv", "--condition", "empty", "--age", "0"}, 0);
+  const Json loaded = json_of({"good.csv", "--condition", "loaded", "--age", "100000"}, 0);
+  EXPECT_EQ(loaded["goals"][0]["agreement"], "differs") << "these are better";
+  EXPECT_EQ(loaded["simulated_machines"], 40);
+  EXPECT_NE(loaded["goals"][0]["predicted"], empty["goals"][0]["predicted"]) << "a slower loop";
+}
+
+// The unit of a column may be that of another kind of axis.
+TEST_F(Accept, ChecksUnits) {
+  run_study("rigs: 40\ngoal: {band: 1, within: 0.03, moves: 0.9, limits: {holding_torque: 1}}\n");
+  folder_.write("force.csv", "band_settling_time[1] [ms],holding_torque [N]\n12,0.1\n");
+  const ProgramResult force = program({"accept", "study.h5", "force.csv"});
+  EXPECT_EQ(force.code, 2);
+  EXPECT_EQ(force.err,
+            "force.csv: holding_torque is in 'N', and in the study in 'N m'; expected a unit of the same "
+            "dimension\n");
+  folder_.write("angle.csv", "band_settling_time[1] [rad],holding_torque [N m]\n12,0.1\n");
+  EXPECT_EQ(program({"accept", "study.h5", "angle.csv"}).code, 2);
+  folder_.write("milli.csv", "band_settling_time[1] [ms],holding_torque [mN m]\n12,900\n12,1100\n");
+  EXPECT_EQ(json_of({"milli.csv"}, 1)["goals"][0]["met"], 1);
+}
+
+TEST_F(Accept, JudgesAGoalOnSomeMovesByTheirNumbers) {
+  run_study("rigs: 40\ngoals: {first: {on: [0], band: 1, within: 0.03, moves: 0.9}}\n");
+  folder_.write("unnumbered.csv", "band_settling_time[1]\n0.01\n");
+  const ProgramResult unnumbered = program({"accept", "study.h5", "unnumbered.csv"});
+  EXPECT_EQ(unnumbered.code, 2);
+  EXPECT_NE(unnumbered.err.find("expected a column 'move'"), std::string::npos) << unnumbered.err;
+  folder_.write("beyond.csv", "move,band_settling_time[1]\n0,0.01\n7,0.01\n");
+  const ProgramResult beyond = program({"accept", "study.h5", "beyond.csv"});
+  EXPECT_EQ(beyond.code, 4);
+  EXPECT_NE(beyond.err.find("row 2: its 'move'"), std::string::npos) << beyond.err;
+
+  folder_.write("two.yaml", R"(zerocount: 1
+name: two
+seed: 5
+trials: 400
+rigs: 40
+controller: {ki: 4.0e-5, sample_rate: 2000}
+friction: {k1: {uniform: [70, 150]}, alpha: 0.5}
+command: {targets: [{integers: [3, 9]}, 0], hold: 0.1}
+goals: {back: {on: [1], band: 1, within: 0.03, moves: 0.9}}
+)");
+  ASSERT_EQ(program({"run", "two.yaml", "-o", "study.h5", "-q", "--force"}).code, 0);
+  std::string log = "move,band_settling_time[1]\n";
+  for (int i = 0; i < 100; ++i) log += "0,\n1,0.012\n";
+  folder_.write("numbered.csv", log);
+  const Json numbered = json_of({"numbered.csv"}, 0);
+  EXPECT_EQ(numbered["goals"][0]["moves"], 100) << "the late ones are not asked";
+  EXPECT_EQ(numbered["goals"][0]["met"], 100);
+}
+
+// Machines of an unknown world differ where they are like those of none.
+TEST_F(Accept, ComparesWithEachWorld) {
+  run_study(
+      "rigs: 160\nworlds: 4\nplant: {inertia: {uniform: [4.0e-4, 9.0e-4], per: world}}\n"
+      "goal: {band: 1, within: 0.03, moves: 0.9}\n");
+  write_log("good.csv", 100, 0);
+  write_log("bad.csv", 100, 80);
+  const Json good = json_of({"good.csv"}, 0);
+  EXPECT_GE(good["goals"][0]["like_worlds"], 1);
+  const Json bad = json_of({"bad.csv"}, 1);
+  EXPECT_EQ(bad["goals"][0]["like_worlds"], 0);
+  EXPECT_EQ(bad["goals"][0]["agreement"], "differs");
+  const std::string text = program({"accept", "study.h5", "good.csv"}).out;
+  EXPECT_NE(text.find("of 4 worlds"), std::string::npos) << text;
+}
+
+// The runs of a machine of the study itself have the values of its summary.
+TEST_F(Accept, HasTheValuesOfTheStandard) {
+  folder_.write("iso.yaml", R"(zerocount: 1
+name: iso
+seed: 5
+trials: 80
+rigs: 40
+controller: {ki: 4.0e-5, sample_rate: 2000}
+friction: {k1: {uniform: [70, 150]}, alpha: 0.5}
+command: {sequence: {targets: [-20, 5, 20], overrun: 5, cycles: 3}, hold: 0.1}
+initial: {encoder_phase: {uniform: [0, 1]}}
+goal: {band: 1, within: 0.09, moves: 0.5}
+)");
+  ASSERT_EQ(program({"run", "iso.yaml", "-o", "study.h5", "-q", "--force"}).code, 0);
+  ASSERT_EQ(program({"export", "study.h5", "-o", "tables"}).code, 0);
+  const Json answer = json_of({"tables/outcomes.csv"}, 0);
+  ASSERT_EQ(answer["standard"].size(), 12u);
+  const Json summary = Json::parse(program({"summary", "study.h5", "--format", "json"}).out);
+  for (const Json& value : answer["standard"]) {
+    EXPECT_EQ(value["runs"], 80);
+    EXPECT_GE(value["within"].get<int>(), 70) << value;
+    if (value["value"] != "repeatability") continue;
+    const std::string text = summary.dump();
+    EXPECT_NE(text.find("repeatability"), std::string::npos);
+    std::vector<double> measured = value["measured"].get<std::vector<double>>();
+    std::ranges::sort(measured);
+    EXPECT_DOUBLE_EQ(value["predicted"].get<double>(), 0.5 * (measured[39] + measured[40]));
+  }
 }
 
 }  // namespace

@@ -178,5 +178,32 @@ TEST_F(HistoryCommand, RefusesWhatItCannotUse) {
   EXPECT_EQ(program({"history", "add", "levels.h5"}).code, 3) << "it measured nothing that a history has";
 }
 
+// The answers of monitor to a growing log are a series of each measure, which changed where its p says so.
+TEST_F(HistoryCommand, TakesAnswersOfMonitor) {
+  std::string before = "settling_time [ms]\n";
+  for (int i = 0; i < 300; ++i) before += fmt::format("{}\n", 40 + (7 * i) % 11);
+  folder_.write("before.csv", before);
+  std::string moves = "settling_time [ms]\n";
+  for (int week = 0; week < 4; ++week) {
+    for (int i = 0; i < 100; ++i) moves += fmt::format("{}\n", (week < 2 ? 40 : 52) + (7 * i) % 11);
+    folder_.write("moves.csv", moves);
+    const ProgramResult answer = program({"monitor", "before.csv", "moves.csv", "--format", "json"});
+    const std::string name = fmt::format("week-{}.json", week);
+    folder_.write(name, answer.out);
+    EXPECT_EQ(program({"history", "add", name}).code, 0);
+  }
+  EXPECT_NE(program({"history", "add", "week-0.json"}).err.find("already in"), std::string::npos);
+  const json series = series_shown();
+  ASSERT_EQ(series.size(), 1u);
+  EXPECT_EQ(series[0].at("study"), "monitor of before.csv");
+  EXPECT_EQ(series[0].at("point"), "moves.csv");
+  EXPECT_EQ(series[0].at("measure"), "settling_time");
+  ASSERT_EQ(series[0].at("runs").size(), 4u);
+  folder_.write("other.json", "{\"answer\": \"judge\"}");
+  EXPECT_EQ(program({"history", "add", "other.json"}).code, 2);
+  folder_.write("broken.json", "{");
+  EXPECT_EQ(program({"history", "add", "broken.json"}).code, 4);
+}
+
 }  // namespace
 }  // namespace zerocount::testing

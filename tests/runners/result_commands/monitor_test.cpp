@@ -4,6 +4,7 @@
 #include <fstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -177,6 +178,56 @@ TEST_F(Monitor, FollowsUntilItIsInterrupted) {
   EXPECT_TRUE(has_line());
   running.send(SIGINT);
   EXPECT_EQ(running.wait(), 130);
+}
+
+TEST_F(Monitor, AsksForTheAge) {
+  run_study("ages: {at: [0, 100000]}\n");
+  write_log("moves.csv", 20);
+  const ProgramResult none = program({"monitor", "study.h5", "moves.csv"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("100000"), std::string::npos) << none.err;
+  EXPECT_EQ(program({"monitor", "study.h5", "moves.csv", "--age", "7"}).code, 2);
+  EXPECT_EQ(json_of({"monitor", "study.h5", "moves.csv", "--age", "100000"}, 3)["baseline_moves"], 200);
+  write_log("before.csv", 20);
+  EXPECT_EQ(program({"monitor", "before.csv", "moves.csv", "--age", "0"}).code, 2);
+}
+
+// A machine like those of the study, and then the same machine with a softer contact.
+TEST_F(Monitor, NamesTheParameterThatChanged) {
+  folder_.write("study.yaml", R"(zerocount: 1
+name: monitored
+seed: 5
+trials: 400
+rigs: 20
+controller: {ki: 4.0e-5, sample_rate: 2000}
+friction: {k1: {uniform: [108, 112]}, alpha: 0.5}
+command: {targets: [{integers: [5, 30]}, {integers: [-30, -5]}], hold: 0.2}
+)");
+  ASSERT_EQ(program({"run", "study.yaml", "-o", "study.h5", "-q"}).code, 0);
+  std::string log;
+  for (const auto& [k1, seed] : {std::pair("110", "71"), std::pair("88", "72")}) {
+    ASSERT_EQ(program({"run", "study.yaml", "-o", "one.h5", "-q", "--force", "--set",
+                       fmt::format("friction.k1={}", k1), "--set", fmt::format("seed={}", seed), "--set",
+                       "trials=120"})
+                  .code,
+              0);
+    ASSERT_EQ(program({"export", "one.h5", "-o", "tables", "--force"}).code, 0);
+    std::ifstream file(folder_.path() / "tables/outcomes.csv");
+    std::string line;
+    for (bool first = true; std::getline(file, line); first = false)
+      if (!first || log.empty()) log += line + "\n";
+  }
+  folder_.write("moves.csv", log);
+  const Json answer = json_of({"monitor", "study.h5", "moves.csv"}, 1);
+  ASSERT_FALSE(answer["parameters"].empty()) << answer;
+  EXPECT_NEAR(answer["parameters_since"].get<double>(), 241.0, 12.0);
+  EXPECT_EQ(answer["parameters"][0]["parameter"], "friction.k1") << answer["parameters"];
+  EXPECT_NEAR(answer["parameters"][0]["factor"].get<double>(), 0.8, 0.05);
+  EXPECT_LT(answer["parameters"][0]["high"], 1.0);
+  // A log as the baseline has no parameters.
+  write_log("before.csv", 200);
+  write_log("slower.csv", 200, 1.3);
+  EXPECT_TRUE(json_of({"monitor", "before.csv", "slower.csv"}, 1)["told"].is_null());
 }
 
 }  // namespace

@@ -1,0 +1,112 @@
+#include "analysis/sliding_identification/reversal_friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/statistics/quantile.hpp"
+
+namespace zerocount::sliding_identification {
+namespace {
+
+constexpr std::size_t half = 3;         // samples to both sides of a parabola
+constexpr std::size_t near_level = 20;  // samples from the reversal
+constexpr std::size_t far_level = 40;
+constexpr std::size_t max_gap = 64;  // samples between strokes about a reversal
+constexpr double turned = 0.9;
+
+/// Torque that is left for the friction at a sample: u − u0 − J·a − cs·v.
+double friction_near(const SlidingRecord& record, const SlidingPoint& point, std::size_t k) {
+  const double interval = (record.time[k + half] - record.time[k - half]) / (2.0 * half);
+  double slope = 0.0;
+  double bend = 0.0;
+  double squares = 0.0;
+  double quartics = 0.0;
+  double torque = 0.0;
+  for (std::size_t i = 0; i <= 2 * half; ++i) {
+    const double at = static_cast<double>(i) - static_cast<double>(half);
+    const double moved = record.position[k - half + i] - record.position[k];
+    slope += at * moved;
+    squares += at * at;
+    quartics += at * at * at * at;
+    bend += at * at * moved;
+    if (i < 2 * half) torque += record.torque[k - half + i].now / (2.0 * half);
+  }
+  const double count = 2.0 * half + 1.0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i <= 2 * half; ++i) sum += record.position[k - half + i] - record.position[k];
+  const double acceleration = 2.0 * (count * bend - squares * sum) / (count * quartics - squares * squares);
+  const double velocity = slope / squares;
+  return torque - point[offset_torque] - std::exp(point[log_inertia]) * acceleration / (interval * interval) -
+         point[viscous_damping] * velocity / interval;
+}
+
+double median_friction(const SlidingRecord& record, const SlidingPoint& point, std::size_t from,
+                       std::size_t to) {
+  std::vector<double> values;
+  for (std::size_t k = from; k <= to; ++k) values.push_back(friction_near(record, point, k));
+  return statistics::upper_median(std::move(values));
+}
+
+/// Whether the axis rests about its turning point: more samples than a motion has that only turns.
+bool rests_at(const SlidingRecord& record, std::size_t k) {
+  constexpr std::size_t reach = 5;
+  const double about = std::abs(record.position[k + reach] - record.position[k]) +
+                       std::abs(record.position[k - reach] - record.position[k]);
+  return about < 6.0 * record.resolution;
+}
+
+std::optional<Reversal> reversal_between(const SlidingRecord& record, const SlidingPoint& point,
+                                         const Window& before, const Window& after) {
+  if (before.direction == after.direction || after.first > before.last + max_gap) return std::nullopt;
+  std::size_t turn = before.last;
+  for (std::size_t k = before.last; k <= after.first; ++k)
+    if (before.direction * record.position[k] > before.direction * record.position[turn]) turn = k;
+  if (turn < before.first + far_level + half || turn + far_level > after.last) return std::nullopt;
+  if (turn < far_level + half || turn + far_level + half >= record.time.size()) return std::nullopt;
+  if (rests_at(record, turn)) return std::nullopt;
+  const double start = median_friction(record, point, turn - far_level, turn - near_level);
+  const double end = median_friction(record, point, turn + near_level, turn + far_level);
+  Reversal reversal{.time = record.time[turn], .swing = after.direction * (end - start)};
+  if (!(reversal.swing > 0.0)) return std::nullopt;
+  for (std::size_t k = turn; k <= turn + far_level; ++k) {
+    const double part = after.direction * (friction_near(record, point, k) - start) / reversal.swing;
+    reversal.travel = std::abs(record.position[k] - record.position[turn]);
+    reversal.samples = k - turn;
+    if (part >= turned) return reversal;
+  }
+  return std::nullopt;
+}
+
+template <class Get>
+double median_of(const std::vector<Reversal>& reversals, const Get& get) {
+  std::vector<double> values;
+  for (const Reversal& one : reversals) values.push_back(get(one));
+  return statistics::upper_median(std::move(values));
+}
+
+}  // namespace
+
+std::optional<ReversalFriction> reversal_friction(const SlidingFit& fit) {
+  ReversalFriction found;
+  const SlidingRecord* last = nullptr;
+  for (const FittedWindow& fitted : fit.windows) {
+    if (fitted.record == last) continue;
+    last = fitted.record;
+    for (std::size_t i = 0; i + 1 < last->strokes.size(); ++i) {
+      const auto reversal = reversal_between(*last, fit.point, last->strokes[i], last->strokes[i + 1]);
+      if (reversal) found.reversals.push_back(*reversal);
+    }
+  }
+  if (found.reversals.empty()) return std::nullopt;
+  found.swing = median_of(found.reversals, [](const Reversal& one) { return one.swing; });
+  found.travel = median_of(found.reversals, [](const Reversal& one) { return one.travel; });
+  found.samples = static_cast<std::size_t>(
+      median_of(found.reversals, [](const Reversal& one) { return static_cast<double>(one.samples); }));
+  const auto [shortest, longest] = std::ranges::minmax_element(found.reversals, {}, &Reversal::travel);
+  found.min_travel = shortest->travel;
+  found.max_travel = longest->travel;
+  found.stiffness = turned * found.swing / found.travel;
+  return found;
+}
+
+}  // namespace zerocount::sliding_identification

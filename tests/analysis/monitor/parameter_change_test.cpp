@@ -1,0 +1,138 @@
+// Which parameter changed: simulated machines whose measures are normal, with means that are linear in the
+// logarithms of two parameters.
+#include "analysis/monitor/parameter_change.hpp"
+
+#include <array>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace zerocount::monitor {
+namespace {
+
+constexpr std::size_t measures = 3;
+using Slopes = std::array<double, measures>;  ///< of the measures' means, by the logarithm of the factor
+
+constexpr Slopes stiffness{3.0, -1.0, 0.0};
+constexpr Slopes damping{0.0, 1.5, 2.0};
+
+/// The moves of machines that differ by their own means, with a parameter changed.
+class Machines {
+ public:
+  explicit Machines(std::uint64_t seed, double spread) : seed_(seed), spread_(spread) {}
+
+  std::vector<MachineMoves> at(const Slopes& slopes, double factor, int machines, int moves) const {
+    std::vector<MachineMoves> all;
+    for (int machine = 0; machine < machines; ++machine)
+      all.push_back(moves_of(slopes, factor, machine, moves, 0));
+    return all;
+  }
+  MachineMoves moves_of(const Slopes& slopes, double factor, int machine, int moves, int part) const {
+    std::mt19937_64 own(seed_ + 1000003ULL * static_cast<std::uint64_t>(machine));
+    std::array<double, measures> place{};
+    std::normal_distribution<double> normal;
+    for (double& one : place) one = spread_ * normal(own);
+    normal.reset();
+    std::mt19937_64 random(seed_ + 7919ULL * static_cast<std::uint64_t>(machine) +
+                           104729ULL * static_cast<std::uint64_t>(part + 1));
+    MachineMoves values;
+    for (int move = 0; move < moves; ++move)
+      for (std::size_t i = 0; i < measures; ++i)
+        values.push_back(place[i] + slopes[i] * std::log(factor) + normal(random));
+    return values;
+  }
+
+ private:
+  std::uint64_t seed_;
+  double spread_;
+};
+
+ChangeCandidate candidate(const char* name, const Machines& simulated, const Slopes& slopes) {
+  ChangeCandidate one{name, {}};
+  for (const double factor : {0.5, 0.6, 0.7, 0.8, 0.87, 0.94, 1.0, 1.06, 1.15, 1.25, 1.43, 1.67, 2.0})
+    one.factors.push_back({factor, simulated.at(slopes, factor, 64, 16)});
+  return one;
+}
+
+/// The moves of machine 1000 before and after a change of a parameter by the factor.
+MachineMoves changed_machine(const Machines& machines, const Slopes& slopes, double factor, int before,
+                             int after) {
+  MachineMoves moves = machines.moves_of(slopes, 1.0, 1000, before, 1);
+  const MachineMoves later = machines.moves_of(slopes, factor, 1000, after, 2);
+  moves.insert(moves.end(), later.begin(), later.end());
+  return moves;
+}
+
+TEST(ParameterChange, IsToldWithAnIntervalThatCovers) {
+  const Machines simulated(1, 0.5);
+  const std::vector<ChangeCandidate> candidates{candidate("stiffness", simulated, stiffness),
+                                                candidate("damping", simulated, damping)};
+  int covered = 0;
+  int told = 0;
+  constexpr int machines = 60;
+  for (int i = 0; i < machines; ++i) {
+    const Machines own(static_cast<std::uint64_t>(100 + i), 0.5);
+    const double factor = i % 2 == 0 ? 0.7 : 1.4;
+    const ChangeExplanation found =
+        explain_change(candidates, changed_machine(own, stiffness, factor, 200, 300), measures);
+    EXPECT_NEAR(static_cast<double>(found.since), 201.0, 60.0) << i;
+    if (found.told != ChangeTold::one || found.parameters[0].parameter != "stiffness") continue;
+    ++told;
+    covered += found.parameters[0].low <= factor && factor <= found.parameters[0].high ? 1 : 0;
+  }
+  EXPECT_GE(told, machines - 4);
+  EXPECT_GE(covered, told - 8) << "95 % of " << told;
+}
+
+TEST(ParameterChange, OfTwoThatActAlikeIsNotTold) {
+  const Machines simulated(2, 0.5);
+  const std::vector<ChangeCandidate> candidates{candidate("stiffness", simulated, stiffness),
+                                                candidate("twin", simulated, stiffness),
+                                                candidate("damping", simulated, damping)};
+  const ChangeExplanation found =
+      explain_change(candidates, changed_machine(Machines(3, 0.5), stiffness, 0.8, 200, 300), measures);
+  EXPECT_EQ(found.told, ChangeTold::several);
+  ASSERT_EQ(found.parameters.size(), 2u);
+  EXPECT_NEAR(found.parameters[0].probability, 0.5, 1e-6);
+}
+
+TEST(ParameterChange, ThatNoneExplainsIsSaid) {
+  const Machines simulated(4, 0.5);
+  const std::vector<ChangeCandidate> candidates{candidate("stiffness", simulated, stiffness),
+                                                candidate("damping", simulated, damping)};
+  const Slopes other{3.0, 3.0, -3.0};
+  const ChangeExplanation found =
+      explain_change(candidates, changed_machine(Machines(5, 0.5), other, 0.6, 200, 300), measures);
+  EXPECT_EQ(found.told, ChangeTold::none);
+  EXPECT_GT(found.misfit, found.max_misfit);
+}
+
+// A machine that is unlike the simulated ones from its first move on is compared with them, with their
+// spread.
+TEST(ParameterChange, WithoutAChangeIsThePlaceAmongTheMachines) {
+  const Machines simulated(6, 0.2);
+  const std::vector<ChangeCandidate> candidates{candidate("stiffness", simulated, stiffness),
+                                                candidate("damping", simulated, damping)};
+  const ChangeExplanation found =
+      explain_change(candidates, Machines(7, 0.2).moves_of(stiffness, 0.6, 1000, 400, 1), measures);
+  EXPECT_EQ(found.since, 1);
+  EXPECT_EQ(found.parameters[0].parameter, "stiffness");
+  EXPECT_LT(found.parameters[0].low, 0.62);
+  EXPECT_GT(found.parameters[0].high, 0.58);
+  EXPECT_GT(found.parameters[0].high - found.parameters[0].low, 0.05) << "machines differ";
+}
+
+TEST(ParameterChange, WithoutMovesOrEffectsIsUnknown) {
+  const Machines simulated(8, 0.5);
+  const std::vector<ChangeCandidate> candidates{candidate("nothing", simulated, {0.0, 0.0, 0.0})};
+  const MachineMoves some = changed_machine(Machines(9, 0.5), stiffness, 0.8, 100, 100);
+  EXPECT_EQ(explain_change(candidates, some, measures).told, ChangeTold::unknown);
+  EXPECT_EQ(explain_change({}, some, measures).told, ChangeTold::unknown);
+  const std::vector<ChangeCandidate> acts{candidate("stiffness", simulated, stiffness)};
+  const MachineMoves few(some.begin(), some.begin() + 30);
+  EXPECT_EQ(explain_change(acts, few, measures).told, ChangeTold::unknown);
+}
+
+}  // namespace
+}  // namespace zerocount::monitor

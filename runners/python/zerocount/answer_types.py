@@ -496,11 +496,11 @@ class SummaryAnswer(Answer):
           - ``rate_low``: lower bound
           - ``rate_high``: upper bound
           - ``machines``: proportion of machines that meet the goal at the age under every condition, with one-sided
-            bounds
+            bounds that allow for the few moves in which each was seen
           - ``machines_low``: lower bound
           - ``machines_high``: upper bound
           - ``living``: proportion of the machines that meet it at every age up to this one, with one-sided bounds of
-            Clopper and Pearson
+            Clopper and Pearson, which take the verdict on each machine as it was seen
           - ``living_low``: lower bound
           - ``living_high``: upper bound
           - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; null where it
@@ -855,6 +855,36 @@ class Correlation(Record):
     matrix: list[list[float | None]]
 
 
+class Reversal(Record):
+    """Friction after reversals; null: none without a standstill.
+
+    Attributes
+    ----------
+    reversals : int
+        Reversals without a standstill.
+    swing : float or None
+        Sum of the levels of both directions near a reversal, median, N m or N.
+    travel : float or None
+        Travel after a reversal in which nine tenths of it turn over, median, rad or m.
+    min_travel : float or None
+        Smallest of them, rad or m.
+    max_travel : float or None
+        Largest of them, rad or m.
+    samples : int
+        Samples in that travel, median; below 6 the travel is an upper bound.
+    stiffness : float or None
+        0.9 swing/travel, N m/rad or N/m.
+    """
+
+    reversals: int
+    swing: float | None
+    travel: float | None
+    min_travel: float | None
+    max_travel: float | None
+    samples: int
+    stiffness: float | None
+
+
 class IdentifySlidingAnswer(Answer):
     """Inertia and friction of an axis from its sliding motion.
 
@@ -901,11 +931,32 @@ class IdentifySlidingAnswer(Answer):
         Its root mean square over the windows, N m or N.
     torque : float or None
         Root mean square of the torque in the strokes, N m or N.
+    reversal : Reversal or None
+        Friction after reversals; null: none without a standstill.
+    simulation : pandas.DataFrame
+        Motion of the identified axis beside the readings.
+
+        - ``name``: file, and part of it
+        - ``start``: time at which the simulation begins with the measured state, s
+        - ``duration``: simulated time without a restart, s
+        - ``rms``: root mean square of simulated less read positions, rad or m
+        - ``max``: largest difference, rad or m
+        - ``stroke``: largest less smallest reading, rad or m
+        - ``proportion``: rms over the stroke
+
+    unexplained : pandas.DataFrame
+        cross-validated over strokes; empty with fewer than 4 strokes.
+
+        - ``with``: what the unexplained torque may repeat with
+        - ``foretold``: part of its variance that the means over other strokes foretell; 0 or less: it does not repeat
+        - ``low``: smallest mean over a tenth of the range, N m or N
+        - ``high``: largest mean over a tenth of the range, N m or N
+
     manifest : str
         The parameters as a fragment of a manifest.
     """
 
-    _records = {"correlation": Correlation}
+    _records = {"correlation": Correlation, "reversal": Reversal}
 
     kind: str
     axis: Literal["rotary", "linear"]
@@ -915,6 +966,9 @@ class IdentifySlidingAnswer(Answer):
     misfit: float | None
     unexplained_torque: float | None
     torque: float | None
+    reversal: Reversal | None
+    simulation: pandas.DataFrame
+    unexplained: pandas.DataFrame
     manifest: str
 
 
@@ -1114,11 +1168,11 @@ class JudgeAnswer(Answer):
         - ``rate_low``: lower bound
         - ``rate_high``: upper bound
         - ``machines``: proportion of machines that meet the goal at the age under every condition, with one-sided
-          bounds
+          bounds that allow for the few moves in which each was seen
         - ``machines_low``: lower bound
         - ``machines_high``: upper bound
         - ``living``: proportion of the machines that meet it at every age up to this one, with one-sided bounds of
-          Clopper and Pearson
+          Clopper and Pearson, which take the verdict on each machine as it was seen
         - ``living_low``: lower bound
         - ``living_high``: upper bound
         - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; null where it is
@@ -2394,6 +2448,10 @@ class MonitorAnswer(Answer):
         Largest probability of a false alarm within any number of moves.
     block : int
         Consecutive moves that are one value.
+    baseline : str
+        File of the baseline.
+    log : str
+        File of the moves.
     baseline_moves : int
         Moves of the baseline.
     baseline_machines : int or None
@@ -2415,6 +2473,21 @@ class MonitorAnswer(Answer):
         - ``seen_after``: moves after which a change of the asked size would have been seen with 90 %, where there are
           as many; null: later, or not asked
 
+    told : Literal["one", "several", "none", "unknown"] or None
+        What is told of the parameters of the model after an alarm; null: not asked.
+    parameters_since : int or None
+        First move that the parameters are of, from 1; null: not asked.
+    tried : list[str]
+        Parameters of the model that may have changed.
+    parameters : pandas.DataFrame
+        Parameters of the model that explain the change.
+
+        - ``parameter``: dotted path
+        - ``factor``: most likely factor by which it changed
+        - ``low``: low end of the 95 % interval of the factor
+        - ``high``: high end of it
+        - ``probability``: that it is this parameter, if it is one of those tried
+
     """
 
     status: Literal["changed", "unchanged", "undecided"]
@@ -2426,10 +2499,16 @@ class MonitorAnswer(Answer):
     evidence: float | None
     alarm: float | None
     block: int
+    baseline: str
+    log: str
     baseline_moves: int
     baseline_machines: int | None
     unused: list[str]
     measures: pandas.DataFrame
+    told: Literal["one", "several", "none", "unknown"] | None
+    parameters_since: int | None
+    tried: list[str]
+    parameters: pandas.DataFrame
 
 
 class AcceptAnswer(Answer):
@@ -2462,6 +2541,7 @@ class AcceptAnswer(Answer):
         - ``moves``: measured moves
         - ``agreement``: whether these machines are like those simulated
         - ``p_value``: two-sided p-value of that
+        - ``like_worlds``: worlds of the study that the machines are like; null: it has none
         - ``compared_moves``: first moves of each machine that are compared
         - ``all_machines``: proportion of moves of all machines of which these are a sample, with one-sided bounds
         - ``all_machines_low``: lower bound
@@ -2473,6 +2553,18 @@ class AcceptAnswer(Answer):
         - ``machines_measured``: likewise as measured
         - ``machines_measured_low``: lower bound
         - ``machines_measured_high``: upper bound
+
+    standard : pandas.DataFrame
+        Values of the axis; empty without a sequence, or without the columns final_error and move in every log.
+
+        - ``value``: name of the value of the axis
+        - ``symbol``: in the standard
+        - ``predicted``: median of the simulated runs, count
+        - ``predicted_low``: 95 % of the simulated runs have more, count
+        - ``predicted_high``: and less, count
+        - ``measured``: of each measured run, count
+        - ``within``: measured runs in the predicted interval
+        - ``runs``: measured runs
 
     machines : pandas.DataFrame
         Each machine that was measured.
@@ -2490,6 +2582,7 @@ class AcceptAnswer(Answer):
     point: str
     simulated_machines: int
     goals: pandas.DataFrame
+    standard: pandas.DataFrame
     machines: pandas.DataFrame
     assumed: list[str]
 

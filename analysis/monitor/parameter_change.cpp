@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -149,6 +148,7 @@ Eigen::Index moves_before_change(const Matrix& scores, const Matrix& within) {
     most = contrast;
     found = split;
   }
+  if (found == 0) return 0;
   const double inflation =
       std::min(inflation_of(scores.leftCols(found)), inflation_of(scores.rightCols(moves - found)));
   const double splits = static_cast<double>(last - first + 1);

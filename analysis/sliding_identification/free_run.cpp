@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/sliding_identification/sliding_fit.hpp"
 #include "core/plant/plant.hpp"
 
 namespace zerocount::sliding_identification {

@@ -1,8 +1,13 @@
 #pragma once
 
-#include "analysis/sliding_identification/sliding_fit.hpp"
+#include <string>
+#include <vector>
+
+#include "experiments/parameters/study_units.hpp"
 
 namespace zerocount::sliding_identification {
+
+struct SlidingFit;
 
 /// The simulated motion of the identified axis under the whole torque of a record, beside the readings.
 struct FreeRun {

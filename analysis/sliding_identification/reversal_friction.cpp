@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/sliding_identification/sliding_fit.hpp"
 #include "analysis/statistics/quantile.hpp"
 
 namespace zerocount::sliding_identification {

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/sliding_identification/sliding_fit.hpp"
-
 namespace zerocount::sliding_identification {
+
+struct SlidingFit;
 
 /// A reversal without a standstill: how the friction turns over, from one direction's level to the other's.
 struct Reversal {

@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "analysis/sliding_identification/sliding_fit.hpp"
+
 namespace zerocount::sliding_identification {
 namespace {
 

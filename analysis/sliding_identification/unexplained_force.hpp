@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/sliding_identification/sliding_fit.hpp"
-
 namespace zerocount::sliding_identification {
+
+struct SlidingFit;
 
 /// How far the torque that the law leaves unexplained repeats with something.
 struct RepeatingForce {

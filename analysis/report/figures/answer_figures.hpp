@@ -6,11 +6,19 @@
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/document/answer.hpp"
 #include "analysis/document/figure.hpp"
-#include "analysis/experiment_design/experiment_design.hpp"
 #include "analysis/history/series.hpp"
-#include "analysis/identification/identification.hpp"
 #include "analysis/report/figures/figure.hpp"
 #include "analysis/sensitivity/sensitivity.hpp"
+
+namespace zerocount::experiment_design {
+struct ExperimentDesign;
+}
+
+namespace zerocount::identification {
+struct FittedRecord;
+struct Identification;
+struct RecordSummary;
+}  // namespace zerocount::identification
 
 /// Answers with their figures, for pages.
 namespace zerocount::report {

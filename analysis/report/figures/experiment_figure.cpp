@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/experiment_design/experiment_design.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/figures/thinning.hpp"
 #include "analysis/report/html.hpp"

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/identification/identification.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/figures/thinning.hpp"
 #include "analysis/report/html.hpp"

@@ -59,11 +59,21 @@ TEST(TorqueOfAFile, IsThatOfTheListInSiUnits) {
 
 TEST(TorqueOfAFile, MayBeShortenedAndHasTheUnitsOfTheAxis) {
   const Files force{{"f.csv", "t,force [kN]\n0,1\n0.5,2\n"}};
-  const study::Study study =
-      replayed_study(replay("{file: f.csv}", ", hold: 0.75") + "axis: linear\n", force);
+  const std::string axis =
+      "axis: linear\nplant: {inertia: 95, sliding_damping: 200}\nfriction: {model: coulomb, breakaway: 20, "
+      "coulomb_ratio: 1}\n"
+      "encoder: {resolution: 5.0e-8}\n";
+  const std::string exact = "{file: f.csv, through: exact}";
+  const study::Study study = replayed_study(replay(exact, ", hold: 0.75") + axis, force);
   const trial::TrialParameters trial = study::study_trial(study, 0, 0).parameters;
   EXPECT_EQ(trial.command.torque.record->torque[1], 2000.0);
   EXPECT_EQ(trial.command.hold, 0.75);
+  const std::string torque =
+      refusal_of_replay(replay(exact) + axis, {{"f.csv", "t,force [N m]\n0,1\n1,2\n"}});
+  EXPECT_NE(torque.find(
+                "f.csv:1:1: command.torque.file: the column force has the unit 'N m'; expected N, mN or kN"),
+            std::string::npos)
+      << torque;
 }
 
 TEST(TorqueOfAFile, FaultsHaveTheirPlace) {

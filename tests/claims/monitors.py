@@ -32,6 +32,7 @@ CHANGES = {
     "k1 −20 %": ["friction.k1=88"],
     "creep (alpha) × 2": ["friction.alpha=1"],
     "encoder noise 0 → 0.2 counts": ["encoder.fine_errors.noise=0.2"],
+    "encoder scale that swings: 0.5 counts rms below 50 Hz": ["encoder.fine_errors={noise: 0.5, noise_bandwidth: 50}"],
     "encoder scale that skips 1 % of the counts": ["encoder.fine_errors.missed=0.01"],
     "breakaway −10 %": ["friction.breakaway=0.27"],
 }

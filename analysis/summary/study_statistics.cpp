@@ -249,6 +249,12 @@ class BlockStages {
   std::atomic<bool> has_failed_{false};
 };
 
+/// Number of blocks on their way. Each may hold a decoded chunk, of 6 MB with the usual measures; the other
+/// ones of many threads help to decode.
+std::size_t blocks_at_once(std::size_t threads) {
+  return std::min(threads + 2, threads / 4 + 6);
+}
+
 /// Sums of consecutive trials.
 using Sums = std::vector<SummedPoint>;
 constexpr std::size_t sums_added_at_once = 8;
@@ -305,7 +311,7 @@ void StudyAccumulator::add(const reading::AllTrialsFile& file, layout::RowRange 
   };
   const auto pipeline = [&] {
     tbb::parallel_pipeline(
-        static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + 2,
+        blocks_at_once(static_cast<std::size_t>(tbb::this_task_arena::max_concurrency())),
         tbb::make_filter<void, BlockPointer>(Mode::serial_in_order, fetch) &
             stage(Mode::parallel, &BlockStages::decode) &
             stage(Mode::serial_in_order, &BlockStages::add_jerks) &

@@ -58,9 +58,10 @@ hdf5::Storage storage_of(hdf5::Element element, std::int64_t rows, std::span<con
 }
 
 /// The scale of a dimension; tables of one group share the scales of equal names.
-hdf5::Dataset make_scale(hdf5::Group& group, const Column& column, std::int64_t size) {
+hdf5::Dataset make_scale(hdf5::Group& group, const Column& column, std::int64_t size, bool described) {
   if (group.contains(column.name)) return group.open_dataset(column.name);
   hdf5::Dataset scale = group.create_dataset(column.name, scale_storage(column, size));
+  if (!described) return scale;
   scale.make_scale(column.name);
   describe(scale, column);
   return scale;
@@ -97,20 +98,20 @@ hdf5::Storage column_storage(const Table& table, const Column& column, std::int6
 }
 
 TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t second,
-                        hdf5::Compression compression) {
+                        const TableStorage& storage) {
   hdf5::Group group = make_group(root, table.group);
-  hdf5::Dataset scale = make_scale(group, table.rows, rows);
+  hdf5::Dataset scale = make_scale(group, table.rows, rows, storage.described);
   TableIo io(std::move(group), std::move(scale));
   io.rows_ = rows;
-  io.compression_ = compression;
+  io.storage_ = storage;
   if (table.second) {
-    io.second_scale_ = make_scale(io.group_, *table.second, second);
+    io.second_scale_ = make_scale(io.group_, *table.second, second, storage.described);
     if (table.second->element == hdf5::Element::int64) write_numbers(*io.second_scale_, second, 0);
     io.add_dimension(second);
   }
   if (table.last) {
     const std::int64_t last = std::ssize(table.last->values);
-    io.last_scale_ = make_scale(root, table.last->scale, last);
+    io.last_scale_ = make_scale(root, table.last->scale, last, storage.described);
     if (table.last->scale.element == hdf5::Element::int64) {
       const std::vector<std::int64_t> whole(table.last->values.begin(), table.last->values.end());
       io.last_scale_->write(0, last, whole.data());
@@ -175,12 +176,14 @@ void require_flags(const TableIo& io, std::size_t index, std::int64_t first,
 }
 
 hdf5::Dataset& TableIo::add(const Column& column) {
-  hdf5::Dataset dataset =
-      make_dataset(group_, column.name, storage_of(column.element, rows_, inner_extent_, compression_));
-  describe(dataset, column);
-  dataset.attach_scale(row_scale_, 0);
-  if (second_scale_) dataset.attach_scale(*second_scale_, 1);
-  if (last_scale_) dataset.attach_scale(*last_scale_, static_cast<unsigned>(inner_extent_.size()));
+  hdf5::Dataset dataset = make_dataset(
+      group_, column.name, storage_of(column.element, rows_, inner_extent_, storage_.compression));
+  if (storage_.described) {
+    describe(dataset, column);
+    dataset.attach_scale(row_scale_, 0);
+    if (second_scale_) dataset.attach_scale(*second_scale_, 1);
+    if (last_scale_) dataset.attach_scale(*last_scale_, static_cast<unsigned>(inner_extent_.size()));
+  }
   return datasets_.emplace_back(std::move(dataset));
 }
 

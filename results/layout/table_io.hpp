@@ -28,6 +28,14 @@ hdf5::Storage scale_storage(const Column& scale, std::int64_t size);
 hdf5::Storage column_storage(const Table& table, const Column& column, std::int64_t rows, std::int64_t second,
                              hdf5::Compression compression);
 
+/// How the datasets of a new table are stored.
+struct TableStorage {
+  hdf5::Compression compression{hdf5::Compression::deflate};
+  /// With the attributes that describe them, and attached to their scales. These are half of the work of
+  /// creating a table, and only other readers of HDF5 want them.
+  bool described{true};
+};
+
 /// The datasets of a table in an open file.
 class TableIo {
  public:
@@ -36,7 +44,7 @@ class TableIo {
   /// used as it is. A table without rows is made extendible, because
   /// the netCDF library knows a length of zero only of an unlimited dimension.
   static TableIo create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t second,
-                        hdf5::Compression compression = hdf5::Compression::deflate);
+                        const TableStorage& storage = {});
   /// Opens the axes of `table`: it has rows() and width(), and no columns.
   static TableIo open_axes(const hdf5::Group& root, const Table& table);
   /// Opens also its columns, and checks that they have its element types and equal sizes.
@@ -65,7 +73,7 @@ class TableIo {
 
   std::int64_t rows_{0};
   std::int64_t width_{1};
-  hdf5::Compression compression_{hdf5::Compression::deflate};
+  TableStorage storage_{};
   hdf5::Group group_;
   hdf5::Dataset row_scale_;
   std::optional<hdf5::Dataset> second_scale_;

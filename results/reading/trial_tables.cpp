@@ -20,14 +20,15 @@ namespace {
 /// Columns of /trial before the inputs: point and index.
 constexpr std::size_t columns_before_inputs = 2;
 
-/// The axis by the unit of a position, and the features by their columns.
+/// The axis by the unit of a position, which a shard leaves out, and the features by their columns.
 study::StudyFeatures read_features(const hdf5::File& file, const layout::MeasureTable& table) {
   const hdf5::Group outcome = file.open_group("outcome");
   study::StudyFeatures features;
   features.bands = read_bands(file);
   features.tolerances = read_tolerances(file);
-  if (outcome.open_dataset("final_position").text("units") ==
-      parameters::unit_on(parameters::AxisKind::linear, "rad"))
+  const hdf5::Dataset position = outcome.open_dataset("final_position");
+  if (position.has_attribute("units") &&
+      position.text("units") == parameters::unit_on(parameters::AxisKind::linear, "rad"))
     features.axis = parameters::AxisKind::linear;
   for (const layout::Measure& measure : table) {
     if (measure.file.only_with != nullptr)

@@ -15,7 +15,7 @@
 namespace zerocount::trials {
 
 /// Limits of a shard. The last one does not count the points of its last block.
-inline constexpr std::size_t max_trials_per_shard = 6 << 14;
+inline constexpr std::size_t max_trials_per_shard = 3 << 14;
 inline constexpr std::size_t max_bytes_per_shard = std::size_t{64} << 20;
 inline constexpr std::size_t max_points_of_shard = 32;  ///< with sums
 

@@ -8,6 +8,10 @@
 #include <utility>
 #include <vector>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
@@ -36,7 +40,7 @@ struct BlockLimits {
   std::int64_t trials;
 };
 constexpr BlockLimits reference_block{1e5, 256};
-constexpr BlockLimits batch_block{1e7, 4096};
+constexpr BlockLimits batch_block{1e7, 1024};
 
 /// A block ends with the trial whose trace takes the traces of its retained trials beyond this size.
 constexpr std::size_t max_trace_bytes_per_block = std::size_t{8} << 20;
@@ -283,6 +287,14 @@ class ShardPipeline {
   FinishedTrials finished_;
 };
 
+/// Gives the system what the threads have freed. Otherwise each keeps its share for blocks of trials that do
+/// not come any more, beside the memory of what follows.
+void return_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 /// Bytes of the statistics of the points that are written together, when all trials have been run.
 double memory_of_statistics(const study::Study& study) {
   constexpr double all_statistics = 4e6;  // of the few points that have them all; measured
@@ -340,7 +352,9 @@ FinishedTrials run_trials(const study::Study& study, std::span<const layout::Row
   const int threads = threads_to_use(settings.threads);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
-  return ShardPipeline(study, directory, settings).run(ranges, threads, stop);
+  FinishedTrials finished = ShardPipeline(study, directory, settings).run(ranges, threads, stop);
+  return_freed_memory();
+  return finished;
 }
 
 }  // namespace zerocount::trials

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "analysis/statistics/distributions.hpp"
 
@@ -12,11 +14,20 @@ namespace {
 
 constexpr std::size_t min_values = 10;
 
+// The values of a sample as ranks.
+struct Ranks {
+  std::vector<std::size_t> order;  // indices, by ascending value
+  std::vector<double> middle;      // [i]: its mid-distribution
+};
+
 std::vector<std::size_t> ascending_order(std::span<const double> values) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) { return values[i] < values[j]; });
+  std::vector<std::pair<double, std::size_t>> sorted;
+  sorted.reserve(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) sorted.emplace_back(values[i], i);
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::size_t> order;
+  order.reserve(values.size());
+  for (const auto& [value, index] : sorted) order.push_back(index);
   return order;
 }
 
@@ -31,17 +42,25 @@ void visit_ties(std::span<const double> values, const std::vector<std::size_t>& 
   }
 }
 
+Ranks ranked(std::span<const double> values) {
+  Ranks ranks{ascending_order(values), std::vector<double>(values.size())};
+  visit_ties(values, ranks.order, [&](std::size_t first, std::size_t last) {
+    const double middle = 0.5 * static_cast<double>(first + last) / static_cast<double>(values.size());
+    for (std::size_t place = first; place < last; ++place) ranks.middle[ranks.order[place]] = middle;
+  });
+  return ranks;
+}
+
 // [i]: 1/n Σ_l m(x_i, x_l) weight_l.
-std::vector<double> mean_above(std::span<const double> x, std::span<const double> weight) {
-  const std::vector<std::size_t> order = ascending_order(x);
-  std::vector<double> means(x.size());
+std::vector<double> mean_above(const Ranks& x, std::span<const double> weight) {
+  std::vector<double> means(weight.size());
   double above = std::accumulate(weight.begin(), weight.end(), 0.0);
-  visit_ties(x, order, [&](std::size_t first, std::size_t last) {
+  visit_ties(x.middle, x.order, [&](std::size_t first, std::size_t last) {
     double tied = 0.0;
-    for (std::size_t place = first; place < last; ++place) tied += weight[order[place]];
+    for (std::size_t place = first; place < last; ++place) tied += weight[x.order[place]];
     above -= tied;
     for (std::size_t place = first; place < last; ++place) {
-      means[order[place]] = (above + 0.5 * tied) / static_cast<double>(x.size());
+      means[x.order[place]] = (above + 0.5 * tied) / static_cast<double>(weight.size());
     }
   });
   return means;
@@ -53,11 +72,13 @@ struct CoMoment {
   std::vector<double> influence;
 };
 
-CoMoment co_moment(std::span<const double> f, std::span<const double> g) {
+CoMoment co_moment(const Ranks& x, const Ranks& y) {
+  const std::vector<double>& f = x.middle;
+  const std::vector<double>& g = y.middle;
   const double n = static_cast<double>(f.size());
   const double product = std::inner_product(f.begin(), f.end(), g.begin(), 0.0) / n;
-  const std::vector<double> along_f = mean_above(f, g);
-  const std::vector<double> along_g = mean_above(g, f);
+  const std::vector<double> along_f = mean_above(x, g);
+  const std::vector<double> along_g = mean_above(y, f);
   CoMoment moment{product - 0.25, std::vector<double>(f.size())};
   for (std::size_t i = 0; i < f.size(); ++i) {
     moment.influence[i] = f[i] * g[i] + along_f[i] + along_g[i] - 3.0 * product;
@@ -72,13 +93,7 @@ bool is_constant(std::span<const double> values) {
 }
 
 std::vector<double> mid_distribution(std::span<const double> values) {
-  std::vector<double> result(values.size());
-  const std::vector<std::size_t> order = ascending_order(values);
-  visit_ties(values, order, [&](std::size_t first, std::size_t last) {
-    const double middle = 0.5 * static_cast<double>(first + last) / static_cast<double>(values.size());
-    for (std::size_t place = first; place < last; ++place) result[order[place]] = middle;
-  });
-  return result;
+  return ranked(values).middle;
 }
 
 BoundedNumber fisher_bounds(double correlation, double standard_error, double confidence) {
@@ -91,12 +106,12 @@ BoundedNumber fisher_bounds(double correlation, double standard_error, double co
 
 BoundedNumber rank_correlation(std::span<const double> x, std::span<const double> y, double confidence) {
   if (x.size() < min_values) return {};
-  const std::vector<double> f = mid_distribution(x);
-  const std::vector<double> g = mid_distribution(y);
-  if (is_constant(f) || is_constant(g)) return {};
-  const CoMoment together = co_moment(f, g);
-  const CoMoment of_x = co_moment(f, f);
-  const CoMoment of_y = co_moment(g, g);
+  if (is_constant(x) || is_constant(y)) return {};
+  const Ranks ranked_x = ranked(x);
+  const Ranks ranked_y = ranked(y);
+  const CoMoment together = co_moment(ranked_x, ranked_y);
+  const CoMoment of_x = co_moment(ranked_x, ranked_x);
+  const CoMoment of_y = co_moment(ranked_y, ranked_y);
   const double scale = std::sqrt(of_x.value * of_y.value);
   const double correlation = std::clamp(together.value / scale, -1.0, 1.0);
   double squares = 0.0;

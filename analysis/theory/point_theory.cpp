@@ -130,14 +130,22 @@ void add_arrivals(Approach& approach, const trial::TrialParameters& p,
   }
 }
 
-/// Adds criterion (6) for this k1.
-void add_low_end(const study::Study& study, const trial::TrialParameters& p, double k1,
-                 LowestStiffness& lowest) {
+/// The lowest k1 of a trial's rotor, and criterion (6) for it.
+struct LowEnd {
+  double k1;            ///< N m/rad
+  double stable_below;  ///< in the unit of the manifest
+};
+
+LowEnd low_end_at(const study::Study& study, const trial::TrialParameters& p, double k1) {
   friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
   contact.k1 = k1;
-  lowest.k1.add(k1);
   const IntegralGainBounds bounds = integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
-  lowest.stable_below.add(as_given(study.units, p, bounds.stable_below));
+  return {k1, as_given(study.units, p, bounds.stable_below)};
+}
+
+void add(LowestStiffness& lowest, const LowEnd& end) {
+  lowest.k1.add(end.k1);
+  lowest.stable_below.add(end.stable_below);
 }
 
 /// A design point under a condition.
@@ -164,24 +172,22 @@ void know_rotor(const friction::FrictionAlongRotor& friction, KnownRotor& known)
 void examine_rotors(const ExaminedPoint& at, LowestStiffness& lowest, std::vector<KnownRotor>& known) {
   const study::Study& study = at.study;
   lowest.rigs = std::min(study.rigs, max_rigs_examined);
+  if (lowest.rigs == 0) return;
   const auto rigs = static_cast<std::size_t>(lowest.rigs);
   known.resize(rigs);
-  constexpr std::size_t rigs_at_once = 64;
+  std::vector<LowEnd> ends(rigs);
+  constexpr std::size_t rigs_at_once = 8;
   parallel::for_each_index((rigs + rigs_at_once - 1) / rigs_at_once, [&](std::size_t block) {
-    for (std::size_t rig = block * rigs_at_once; rig < std::min((block + 1) * rigs_at_once, rigs); ++rig)
-      know_rotor(at.trial(static_cast<std::int64_t>(rig)).friction, known[rig]);
+    for (std::size_t rig = block * rigs_at_once; rig < std::min((block + 1) * rigs_at_once, rigs); ++rig) {
+      const trial::TrialParameters p = at.trial(static_cast<std::int64_t>(rig));
+      know_rotor(p.friction, known[rig]);
+      ends[rig] = low_end_at(study, p, known[rig].lowest);
+    }
   });
-  std::int64_t softest = 0;
-  Range k1;
-  for (std::int64_t rig = 0; rig < lowest.rigs; ++rig) {
-    const double k1_of_rig = known[static_cast<std::size_t>(rig)].lowest;
-    add_low_end(study, at.trial(rig), k1_of_rig, lowest);
-    if (k1_of_rig < k1.low) softest = rig;
-    k1.add(k1_of_rig);
-  }
-  if (lowest.rigs > 0)
-    lowest.sampled_below.add(
-        as_given(study.units, at.trial(softest), sampled_bound(k1.low, at.trial(softest))));
+  for (const LowEnd& end : ends) add(lowest, end);
+  const auto softest = std::ranges::min_element(ends, {}, &LowEnd::k1);
+  const trial::TrialParameters p = at.trial(softest - ends.begin());
+  lowest.sampled_below.add(as_given(study.units, p, sampled_bound(softest->k1, p)));
 }
 
 /// Adds what takes longer to compute and the paper does not treat: the sampled loop, its time constants and
@@ -197,7 +203,7 @@ void examine_closely(const study::Study& study, const trial::TrialParameters& p,
   LowestStiffness& lowest = theory.lowest;
   const bool varies = lowest.source.kind == study::LowEnd::Kind::profile;
   const double k1 = varies ? lowest_k1(p.friction) : lowest.source.value;
-  add_low_end(study, p, k1, lowest);
+  add(lowest, low_end_at(study, p, k1));
   lowest.sampled_below.add(as_given(study.units, p, sampled_bound(k1, p)));
 }
 

@@ -85,8 +85,9 @@ void encode_tables(EncodedShard& shard, hdf5::Compression compression) {
 }
 
 void write_table(hdf5::File& file, const EncodedShard& shard, const EncodedTable& table) {
-  layout::TableIo io = layout::TableIo::create(file, table.table.table, table.columns.rows,
-                                               table.table.second, {shard.options.compression, false});
+  layout::TableIo io =
+      layout::TableIo::create(file, table.table.table, table.columns.rows, table.table.second,
+                              {shard.options.compression, table.table.described});
   if (table.scale) io.row_scale().write(0, *table.scale);
   for (std::size_t i = 0; i < table.encoded.size(); ++i) io.column(i).write(0, table.encoded[i]);
   if (!table.encoded.empty()) return;

@@ -99,7 +99,7 @@ std::vector<ShardTable> shard_tables(const study::Study& study, const layout::Me
   using Rows = ShardTable::Rows;
   const study::StudyFeatures& features = study.features;
   std::vector<ShardTable> tables;
-  tables.push_back({layout::trial_table(study.columns.inputs), 1, Rows::trials});
+  tables.push_back({layout::trial_table(study.columns.inputs), 1, Rows::trials, true});
   tables.push_back(
       {layout::outcome_table(layout::format_version, features, measures), study.moves, Rows::trials});
   tables.push_back({layout::band_table(features.bands), study.moves, Rows::shared});

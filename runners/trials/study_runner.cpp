@@ -329,19 +329,21 @@ double samples_per_trial(const study::Study& study) {
 }
 
 double peak_memory(const study::Study& study, double bytes_of_trial, double record_bytes, int threads) {
-  constexpr double program = 40e6;        // program, libraries, lanes and statistics; measured
+  constexpr double program = 40e6;        // program, libraries and statistics; measured
+  constexpr double lanes = 2.5e6;         // of a thread; measured
   constexpr double bytes_of_point = 480;  // label, swept values and predictions, here and in HDF5; measured
   const int workers = threads_to_use(threads);
   const std::int64_t rows = study::trial_count(study);
   // A block is in memory as results and then as columns, and up to as many blocks wait as are run.
   const double in_work = 3.0 * workers * static_cast<double>(block_size_of(study, rows, workers));
-  const double waiting = std::min(static_cast<double>(max_trials_per_shard),
-                                  static_cast<double>(max_bytes_per_shard) / bytes_of_trial);
+  // A shard grows while another is encoded, column by column.
+  const double waiting = 1.5 * std::min(static_cast<double>(max_trials_per_shard),
+                                        static_cast<double>(max_bytes_per_shard) / bytes_of_trial);
   const double records = std::min(record_bytes, static_cast<double>(max_bytes_per_shard));
   const double block_traces = static_cast<double>(max_trace_bytes_per_block) + bytes_of_trace(study);
   const double running = bytes_of_trial * std::min(in_work + waiting, 3.0 * static_cast<double>(rows));
-  return program + bytes_of_point * static_cast<double>(study::point_count(study)) + 3.0 * records +
-         std::min(record_bytes, 4.0 * workers * block_traces) +
+  return program + lanes * workers + bytes_of_point * static_cast<double>(study::point_count(study)) +
+         3.0 * records + std::min(record_bytes, 4.0 * workers * block_traces) +
          std::max(running, memory_of_statistics(study));
 }
 

@@ -24,14 +24,19 @@ inline double coupling_torque(const Load& load, double rotor_omega) {
   return load.parameters.stiffness * load.twist + load.parameters.damping * (rotor_omega - load.omega);
 }
 
+/// √(kL·J·JL/(J + JL)) + dL, N m s/rad: the largest coupling torque of an oscillation by its largest relative
+/// velocity. @param inertia J of the rotor, kg m².
+inline double torque_by_velocity(const LoadParameters& load, double inertia) {
+  const double reduced = inertia * load.inertia / (inertia + load.inertia);
+  return std::sqrt(load.stiffness * reduced) + load.damping;
+}
+
 /// Whether the coupling torque of any oscillation between load and rotor stays below `torque` (N m).
 /// @param inertia J of the rotor, kg m². @param steady coupling torque of the motion without the oscillation,
 /// N m.
 inline bool is_quiet(const Load& load, double rotor_omega, double inertia, double torque, double steady) {
-  const auto& [load_inertia, stiffness, damping, encoder] = load.parameters;
-  const double reduced = inertia * load_inertia / (inertia + load_inertia);
-  return std::abs(stiffness * load.twist - steady) +
-             (std::sqrt(stiffness * reduced) + damping) * std::abs(rotor_omega - load.omega) <
+  return std::abs(load.parameters.stiffness * load.twist - steady) +
+             torque_by_velocity(load.parameters, inertia) * std::abs(rotor_omega - load.omega) <
          torque;
 }
 

@@ -67,6 +67,7 @@ class PlantWith : public Law {
   bool finite() const { return finite_; }
   /// The second mass; empty without one.
   const std::optional<motion::Load>& load() const { return load_; }
+  std::optional<motion::Load>& load() { return load_; }
 
  private:
   /// @returns the time used, at most `duration`.

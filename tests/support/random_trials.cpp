@@ -192,6 +192,21 @@ trial::TrialParameters remembering(Draws& draws) {
   return p;
 }
 
+trial::TrialParameters loaded(Draws& draws) {
+  trial::TrialParameters p = draws.chance(0.2) ? arriving(draws) : any_rig(draws);
+  if (p.friction.model != friction::FrictionModel::spring && draws.chance(0.2))
+    p.friction.model = friction::FrictionModel::spring;
+  if (draws.chance(0.2)) p.amplifier.bandwidth = p.controller.sample_rate * draws.log_uniform(0.05, 2.0);
+  motion::LoadParameters& load = p.plant.load;
+  load.inertia = p.plant.inertia * draws.log_uniform(0.02, 5.0);
+  const double reduced = p.plant.inertia * load.inertia / (p.plant.inertia + load.inertia);
+  const double resonance = 2.0 * std::numbers::pi * p.controller.sample_rate * draws.log_uniform(0.02, 2.0);
+  load.stiffness = reduced * resonance * resonance;
+  load.damping = 2.0 * reduced * resonance * draws.log_uniform(0.003, 0.5);
+  load.encoder = draws.chance(0.5) ? motion::EncoderPlace::load : motion::EncoderPlace::motor;
+  return p;
+}
+
 }  // namespace
 
 trial::TrialParameters random_trial(TrialKind kind, std::uint64_t index) {
@@ -216,6 +231,8 @@ trial::TrialParameters random_trial(TrialKind kind, std::uint64_t index) {
       return arriving(draws);
     case TrialKind::remembering:
       return remembering(draws);
+    case TrialKind::loaded:
+      return loaded(draws);
   }
   return {};
 }

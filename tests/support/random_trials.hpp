@@ -16,7 +16,8 @@ enum class TrialKind {
   coulomb,           ///< Amonton–Coulomb friction, which hunts under integral control
   amplified,         ///< an amplifier of finite bandwidth, with each of the friction models
   arriving,          ///< a rotor that moves at the start, with the hook sticking or sliding
-  remembering        ///< a random history of the spring before the start
+  remembering,       ///< a random history of the spring before the start
+  loaded             ///< a second mass, the encoder at either; some with an amplifier or arriving
 };
 
 /// The parameters of random trial `index` of a kind: always the same for the same arguments. All parameters

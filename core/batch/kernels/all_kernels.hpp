@@ -14,10 +14,21 @@ namespace zerocount::batch {
 
 template <class V, class E, bool Varies>
 inline constexpr MotionKernels motion_kernels_with{
-    stick_start_kernel<V, Varies>,      stick_step_kernel<V, false, Varies>,
-    stick_step_kernel<E, true, Varies>, slide_kernel<V, true, Varies>,
-    slide_kernel<V, false, Varies>,     bristle_kernel<V, true, Varies>,
-    bristle_kernel<V, false, Varies>,   free_kernel<V, Varies>};
+    stick_start_kernel<V, Varies, false>,      stick_step_kernel<V, false, Varies, false>,
+    stick_step_kernel<E, true, Varies, false>, slide_kernel<V, true, Varies, false>,
+    slide_kernel<V, false, Varies, false>,     bristle_kernel<V, true, Varies>,
+    bristle_kernel<V, false, Varies>,          free_kernel<V, Varies>};
+
+/// The same of lanes with a second mass. Their slides are never fast.
+template <class V, class E, bool Varies>
+inline constexpr MotionKernels loaded_kernels_with{stick_start_kernel<V, Varies, true>,
+                                                   stick_step_kernel<V, false, Varies, true>,
+                                                   stick_step_kernel<E, true, Varies, true>,
+                                                   slide_kernel<V, false, Varies, true>,
+                                                   slide_kernel<V, false, Varies, true>,
+                                                   nullptr,
+                                                   nullptr,
+                                                   nullptr};
 
 /// All kernels. @tparam V their vectors. @tparam E those of steps that locate events. @tparam P the vector of
 /// those that go over all lanes.
@@ -29,6 +40,8 @@ inline constexpr Kernels kernels_with{lanes_at_stop_kernel<P>,
                                       sample_kernel<V, Decider::lane_loop>,
                                       motion_kernels_with<V, E, false>,
                                       motion_kernels_with<V, E, true>,
+                                      loaded_kernels_with<V, E, false>,
+                                      loaded_kernels_with<V, E, true>,
                                       course_kernel<V>,
                                       bristle_rest_kernel<P>};
 

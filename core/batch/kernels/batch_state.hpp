@@ -117,6 +117,7 @@ struct alignas(64) LoopLanes {
   Lanes steady;       ///< the torque will stay as long as the count does
   Lanes driven;       ///< a LaneDrive lies between the decided torque and the rotor
   Lanes disturbance;  ///< constant torque on the rotor beside the motor's, N m
+  Lanes read_twist;   ///< θ less the angle that the encoder reads, of a load; else 0, rad
   // Decided by the LaneLoop at this sample; other lanes do not use it:
   Lanes given_count;
   Lanes given_code;
@@ -185,6 +186,18 @@ struct alignas(64) CourseLanes {
   Lanes applied[batch_order];  ///< without ripples, about the present instant, coefficients ≥ 1 in t/T, N m
 };
 
+/// The second mass (motion::Load). Lanes without one do not use it.
+struct alignas(64) LoadLanes {
+  Lanes inertia;             ///< JL, kg m²
+  Lanes per_inertia;         ///< 1/JL
+  Lanes stiffness;           ///< kL, N m/rad
+  Lanes damping;             ///< dL, N m s/rad
+  Lanes torque_by_velocity;  ///< largest torque of an oscillation by its relative velocity, N m s/rad
+  Lanes reads;               ///< the encoder reads the load
+  Lanes twist;               ///< δ, rad
+  Lanes omega;               ///< ωL, rad/s
+};
+
 /// One error band of the lanes.
 struct BandLanes : trial::BandMeasures<Lanes> {
   Lanes limit;  ///< b, counts; infinite in lanes without this band
@@ -200,6 +213,7 @@ struct alignas(64) MeasureLanes : trial::RunningMeasures<Lanes> {
   Lanes first_error;  ///< |e_0|, counts
   Lanes max_error;    ///< beyond |e_0|, with which the move is ended, counts; infinite: never
   Lanes theta;        ///< at the last sample, rad
+  Lanes read_angle;   ///< that the encoder read at the last sample, of rotor or load, rad
   Lanes extension;    ///< at the last sample, rad
   Lanes slid;         ///< a bristle slid at a sampling instant of the move
 };
@@ -262,6 +276,7 @@ struct BatchState : LaneNumbers {
   // Last and apart, since fewer studies use them.
   BlockLanes blocks;
   CourseLanes course;
+  LoadLanes load;
 };
 
 }  // namespace zerocount::batch

@@ -25,6 +25,8 @@ struct Kernels {
   void (*sample_given)(BatchState&, const LaneSet&);   ///< what LaneLoop has decided
   MotionKernels constant;                              ///< of lanes whose torque stays
   MotionKernels varying;                               ///< of lanes whose torque varies
+  MotionKernels loaded;                                ///< the same two of lanes with a second mass
+  MotionKernels loaded_varying;
   void (*course)(BatchState&, const LaneSet&);
   LaneSet (*bristle_rest)(BatchState&, const LaneSet&);
 };

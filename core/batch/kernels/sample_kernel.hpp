@@ -45,13 +45,14 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   const P extension = at.load(m.extension);
   const Mask hook_slides = to_mask(at.load(m.slide_direction));
   const P theta = select(hook_slides, at.load(m.theta), at.load(m.hook) + at.load(m.elongation) + extension);
+  const P angle = theta - at.load(l.read_twist);
   const P resolution = at.load(l.resolution);
   const Mask unreadable = ~(abs(theta / resolution) < P(0x1p50));
   P count;
   if constexpr (decider == Decider::lane_loop) {
     count = at.load(l.given_count);
   } else {
-    count = loop::ideal_count(theta, resolution, at.load(l.phase));
+    count = loop::ideal_count(angle, resolution, at.load(l.phase));
   }
   const Mask counted = to_mask(at.load(l.counted));
   const P last_count = select(counted, at.load(l.count), count);
@@ -110,6 +111,7 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   measure_bands(q, at, samples, size);
   at.store(q.first_error, first_error);
   at.store(q.theta, theta);
+  at.store(q.read_angle, angle);
   at.store(q.extension, extension);
   at.store(q.change, change);
 

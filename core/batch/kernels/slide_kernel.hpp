@@ -1,11 +1,12 @@
 #pragma once
 
+#include "core/batch/kernels/coupled_torque.hpp"
 #include "core/batch/kernels/velocity_step.hpp"
 
 namespace zerocount::batch {
 
 /// The step of one vector; see slide_kernel.
-template <bool Fast, bool Varies, class At>
+template <bool Fast, bool Varies, bool Loaded, class At>
 __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   using P = typename At::Vector;
   using Mask = typename P::Mask;
@@ -23,7 +24,7 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   const P per_inertia = at.load(c.per_inertia);
   const P damping = at.load(c.sliding_damping);
   const P per_velocity_squared = at.load(c.per_velocity_squared);
-  const P torque = at.load(m.torque);
+  const P torque = torque_on_rotor<Loaded>(batch, at, omega);
   const P driving = torque - direction * coulomb;
 
   const P stribeck_velocity = one / sqrt(per_velocity_squared);
@@ -54,13 +55,14 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   friction::StribeckSeriesOf<P[batch_order + 1]> curve;
   theta[0] = at.load(m.theta);
   velocity[0] = omega * h;
-  [[maybe_unused]] VaryingTorque<P> applied;
-  if constexpr (Varies) load_torque(batch, at, h, one, one, applied);
+  typename TorqueOf<P, Varies, Loaded>::Type applied;
+  constexpr bool varies = Varies || Loaded;
+  load_torque(batch, at, h, one, one, applied);
   curve.decay[0] = decay_start;
 #pragma GCC unroll 1
   for (int k = 0; k < batch_order; ++k) {
     P force = k == 0 ? driving : zero;
-    if constexpr (Varies) {
+    if constexpr (varies) {
       const P torque_k = applied.coefficient(k, velocity[k]);
       if (k > 0) force = torque_k;
     }
@@ -72,8 +74,9 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
     velocity[k + 1] = (force_scale * force - damping_scale * velocity[k]) * P(numerics::reciprocal.of[k + 1]);
   }
 
-  VelocityStep<P> step =
-      velocity_step(batch, at, time_to_stop, h, last_terms_of(theta) + last_terms_of(velocity));
+  P last_terms = last_terms_of(theta) + last_terms_of(velocity);
+  if constexpr (Loaded) last_terms = last_terms + last_terms_of_load(applied);
+  VelocityStep<P> step = velocity_step(batch, at, time_to_stop, h, last_terms);
   const P velocity_end = sum_of(velocity, batch_order);
   step.halts = velocity[0] * velocity_end < zero;
   Mask unfit = one < zero;
@@ -81,7 +84,7 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
     const P curvature = curvature_bound(velocity, batch_order);
     unfit = grows_too_much(curve.exponent) |
             (~step.halts & ~keeps_sign(velocity[0], velocity_end, velocity[1], curvature));
-    if constexpr (Varies) unfit = unfit | (step.halts & ~crosses_once(velocity, batch_order));
+    if constexpr (varies) unfit = unfit | (step.halts & ~crosses_once(velocity, batch_order));
   }
   const Mask beyond = omega * direction <= zero;
   step.too_long = (step.inexact | unfit) & ~beyond;
@@ -94,6 +97,7 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   store_time(batch, at, step);
   at.store(m.theta, select(step.done, value_of(theta, batch_order, step.x), theta[0]));
   at.store(m.omega, omega_after(step, velocity, omega));
+  if constexpr (Loaded) store_load(batch, at, applied, step.x, step.h, step.done);
   add_events(batch, at,
              events_where<P>(step.done & step.halts, velocity_zero) +
                  events_where<P>(beyond | (at.load(time.steps) > P(max_steps_to_stop)), beyond_kernel));
@@ -103,11 +107,11 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
 /// Reports velocity_zero, and beyond_kernel where the slide starts at ω = 0. See PreslidingFriction::slide.
 ///
 /// `Fast` is for lanes far above the Stribeck velocity, where (ω/ωs)² > 64 and friction is that of Coulomb to
-/// the last bit. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19.
-template <class V, bool Fast, bool Varies>
+/// the last bit. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19. With `Loaded` there is a second mass.
+template <class V, bool Fast, bool Varies, bool Loaded>
 void slide_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
-  for_each_vector<V>(lanes, [&](const auto& at) { slide<Fast, Varies>(batch, at); });
+  for_each_vector<V>(lanes, [&](const auto& at) { slide<Fast, Varies, Loaded>(batch, at); });
 }
 
 }  // namespace zerocount::batch

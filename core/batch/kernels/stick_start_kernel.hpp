@@ -1,13 +1,13 @@
 #pragma once
 
-#include "core/batch/kernels/applied_torque.hpp"
+#include "core/batch/kernels/coupled_torque.hpp"
 #include "core/batch/kernels/torque_power.hpp"
 #include "core/friction/presliding/spring_branch.hpp"
 
 namespace zerocount::batch {
 
 /// The start of a step of one vector; see stick_start_kernel.
-template <bool Varies, class At>
+template <bool Varies, bool Loaded, class At>
 __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
   using P = typename At::Vector;
   using Mask = typename P::Mask;
@@ -44,7 +44,8 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
   const P extension_rate = select(creeping, torque_sign * rate, zero);
   const P omega = select(to_mask(at.load(m.at_reversal)), extension_rate, at.load(m.omega));
   const P elongation_rate = omega - extension_rate;
-  const P unbalanced = torque - damping * omega - spring_torque;
+  const P applied = torque_on_rotor<Loaded>(batch, at, omega);
+  const P unbalanced = applied - damping * omega - spring_torque;
   const P acceleration = unbalanced * per_inertia + alpha * extension_rate;
 
   const P per_time_squared = stiffest * per_inertia;
@@ -70,16 +71,18 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
     const P torque_excess = torque_sign * spring_torque - (balance - damping * slow_rate);
     const P velocity_excess = torque_sign * omega - slow_rate * (P(1.0) + alpha * damping / stiffest);
     const P acceleration_excess = (torque_excess + damping * velocity_excess) * per_inertia;
-    const P amplitude = select(at_reversal, at.load(c.max_oscillation), at.load(batch.time.rest));
+    P amplitude = at.load(batch.time.rest);
+    if constexpr (!Loaded) amplitude = select(at_reversal, at.load(c.max_oscillation), amplitude);
     const P limit = P(2.0) * amplitude * per_time_squared;
     at_rest = torque == at.load(m.rest_torque);
-    rests = at_rest | (acceleration_excess * acceleration_excess +
-                           per_time_squared * velocity_excess * velocity_excess <
-                       limit * limit);
+    rests = acceleration_excess * acceleration_excess + per_time_squared * velocity_excess * velocity_excess <
+            limit * limit;
+    if constexpr (Loaded) rests = rests & load_may_be_quiet(batch, at, omega, extension_rate);
+    rests = rests | at_rest;
   }
 
   const P hook_torque = spring_torque + damping * omega;
-  const P motion = select(omega != zero, omega, torque - spring_torque);
+  const P motion = select(omega != zero, omega, applied - spring_torque);
   const Mask breaks_away =
       ~rests & (abs(hook_torque) >= at.load(c.breakaway)) & (hook_torque * motion > zero);
   P direction = sign(select(elongation_rate != zero, elongation_rate, acceleration));
@@ -106,11 +109,11 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
 /// Prepares the step of a lane whose hook sticks: evaluates the branch, and reports the events at its start:
 /// creep_off, and one of may_rest, breakaway and reversal. See PreslidingFriction::stick.
 /// With `Varies` the torque is that of course_kernel, and may_rest is that of the reference under such a
-/// torque.
-template <class V, bool Varies>
+/// torque. With `Loaded` there is a second mass.
+template <class V, bool Varies, bool Loaded>
 void stick_start_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
-  for_each_stretch<V>(lanes, [&](const auto& at) { start_step<Varies>(batch, at); });
+  for_each_stretch<V>(lanes, [&](const auto& at) { start_step<Varies, Loaded>(batch, at); });
 }
 
 }  // namespace zerocount::batch

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/batch/kernels/coupled_torque.hpp"
 #include "core/batch/kernels/lane_group.hpp"
 #include "core/batch/kernels/step_control.hpp"
 #include "core/batch/kernels/stick_series.hpp"
@@ -99,8 +100,9 @@ ZEROCOUNT_ALWAYS_INLINE void begin_step(const BatchState& batch, const At& at, S
   step.per_h = P(1.0) / step.h;
 }
 
-template <bool Varies, class P, class At>
-ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, StickStep<P>& step) {
+template <bool Loaded, class P, class At, class Applied>
+ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, StickStep<P>& step,
+                                         Applied& applied) {
   const MotionLanes& m = batch.motion;
   const ContactLanes& c = batch.contact;
   const P zero(0.0);
@@ -120,7 +122,7 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, 
   const P acceleration = h * h * per_inertia;
   const P per_torque = exponent * acceleration;
   law.damping = damping * h * per_inertia;
-  law.applied = per_torque * at.load(m.torque);
+  law.applied = per_torque * torque_on_rotor<Loaded>(batch, at, at.load(m.omega));
   law.stiffness = acceleration * at.load(c.k1);
   law.softening = per_torque * (branch_sign * at.load(m.branch_softening_torque));
   law.creep_recovery = select(step.creeping, at.load(c.alpha) * h, zero);
@@ -140,15 +142,9 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, 
   start.torque_power = at.load(m.torque_power);
   start.at_reversal = step.at_reversal;
   start.creeping = step.creeping & step.here;
-  if constexpr (Varies) {
-    VaryingTorque<P> applied;
-    load_torque(batch, at, h, per_torque, step.length, applied);
-    expand(law, start, applied, step.series);
-    step.forced_rate = P(4.0) * applied.change / law.stiffness;
-  } else {
-    ConstantTorque applied;
-    expand(law, start, applied, step.series);
-  }
+  load_torque(batch, at, h, per_torque, step.length, applied);
+  expand(law, start, applied, step.series);
+  if constexpr (Applied::varies) step.forced_rate = P(4.0) * applied.change / law.stiffness;
 
   step.breakaway_torque = at.load(c.breakaway);
   step.per_step = damping * step.per_h;
@@ -212,8 +208,9 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_reverse_twice(const BatchState& bat
 }
 
 /// Locates the reversal, if any, and decides whether the step is short enough.
-template <bool Varies, class P, class At>
-ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at, StickStep<P>& step) {
+template <bool Loaded, class P, class At, class Applied>
+ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at,
+                                           [[maybe_unused]] const Applied& applied, StickStep<P>& step) {
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
   // Where dxs/dt is zero at the start, its next zero is that of (dxs/dt)/t.
@@ -221,8 +218,9 @@ ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at
   step.rate_start = select(step.at_reversal, s.rate[1], s.rate[0]);
   step.reverses = step.rate_start * step.rate_end < P(0.0);
   step.last_terms = abs(step.length) * s.last_terms;
+  if constexpr (Loaded) step.last_terms = step.last_terms + last_terms_of_load(applied);
   step.allowed = allowed_error(batch, at, step);
-  step.too_long = grows_too_much(batch, at, step) | may_reverse_twice<Varies>(batch, at, step);
+  step.too_long = grows_too_much(batch, at, step) | may_reverse_twice<Applied::varies>(batch, at, step);
   const Mask seeks = step.here & step.reverses & ~step.too_long;
   step.x = P(1.0);
   // The series must be accurate only up to the reversal.

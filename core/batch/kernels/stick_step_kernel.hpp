@@ -130,14 +130,15 @@ ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const At& at, cons
 }
 
 /// The step of one vector; see stick_step_kernel. Not inlined: a function of its own for each kind of vector.
-template <bool Events, bool Varies, class At>
+template <bool Events, bool Varies, bool Loaded, class At>
 __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
   using P = typename At::Vector;
   const P zero(0.0);
   StickStep<P> step;
   begin_step(batch, at, step);
-  expand_step<Varies>(batch, at, step);
-  find_reversal<Varies>(batch, at, step);
+  typename TorqueOf<P, Varies, Loaded>::Type applied;
+  expand_step<Loaded>(batch, at, step, applied);
+  find_reversal<Loaded>(batch, at, applied, step);
   evaluate_end(step);
   step.event = events_where<P>(step.reverses, reversal);
   if constexpr (Events) {
@@ -150,6 +151,7 @@ __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
   const P passed = select(done, timing.passed, zero);
   store_time(batch, at, step, timing, done);
   store_motion_of(batch, at, step, timing, done);
+  if constexpr (Loaded) store_load(batch, at, applied, step.x, step.h, done);
   store_measures(batch, at, passed);
   const typename P::Mask lost = step.beyond | (at.load(batch.time.steps) > P(max_steps_to_stop));
   const P event = select(done & (step.event != P(reversal)), step.event, zero);
@@ -162,12 +164,12 @@ __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
 /// first event, or as far as the series converge. Where the step was too long, only TimeLanes::next_step
 /// changes. Reports events other than a reversal. With `Events` the step ends at the first of them; without,
 /// a step that has one is not made but reported as meets_event. With `Varies` the torque is that of
-/// course_kernel.
-template <class V, bool Events, bool Varies>
+/// course_kernel. With `Loaded` there is a second mass.
+template <class V, bool Events, bool Varies, bool Loaded>
 void stick_step_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
   batch.passed_count = 0;
-  for_each_vector<V>(lanes, [&](const auto& at) { step_of<Events, Varies>(batch, at); });
+  for_each_vector<V>(lanes, [&](const auto& at) { step_of<Events, Varies, Loaded>(batch, at); });
 }
 
 }  // namespace zerocount::batch

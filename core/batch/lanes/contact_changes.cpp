@@ -62,14 +62,13 @@ void remember_depth(LaneTrial& trial) {
   trial.deepest = std::max(trial.deepest, static_cast<std::int64_t>(trial.plant->spring().depth()));
 }
 
-/// Makes the next sampling instant the next stop.
+}  // namespace
+
 void stop_at_next_sample(BatchState& batch, int lane) {
   TimeLanes& time = batch.time;
   time.time_to_stop[lane] -= (time.samples_to_stop[lane] - 1.0) * time.sample_time[lane];
   time.samples_to_stop[lane] = 1.0;
 }
-
-}  // namespace
 
 void load_motion(const BatchState& batch, int lane, LaneTrial& trial) {
   const MotionLanes& m = batch.motion;
@@ -85,6 +84,10 @@ void load_motion(const BatchState& batch, int lane, LaneTrial& trial) {
   motion.slide_direction = m.slide_direction[lane];
   motion.breakaway_spring_torque = trial.breakaway_spring_torque;
   trial.plant->set_motion(motion);
+  if (std::optional<motion::Load>& load = trial.plant->load()) {
+    load->twist = batch.load.twist[lane];
+    load->omega = batch.load.omega[lane];
+  }
 }
 
 void store_motion(BatchState& batch, int lane, LaneTrial& trial) {
@@ -102,6 +105,11 @@ void store_motion(BatchState& batch, int lane, LaneTrial& trial) {
   m.at_reversal[lane] = 0.0;
   m.rest_torque[lane] = std::numeric_limits<double>::quiet_NaN();
   trial.breakaway_spring_torque = motion.breakaway_spring_torque;
+  if (const std::optional<motion::Load>& load = trial.plant->load()) {
+    batch.load.twist[lane] = load->twist;
+    batch.load.omega[lane] = load->omega;
+    batch.loop.read_twist[lane] = load->twist * batch.load.reads[lane];
+  }
   store_branch(batch, lane, trial.plant->spring());
   remember_depth(trial);
 }

@@ -46,7 +46,7 @@ trial::MoveOutcome outcome_of(const BatchState& batch, int lane, LaneTrial& tria
   trial::MoveOutcome outcome = trial::outcome_of_move(trial::move_timing(p, trial.move), measures_of(q, lane),
                                                       bands_of(q, lane), trial.jerks, trial.last_half, end);
   const std::int64_t reference = end.last.target + (trial.loop ? trial.loop->reference_offset() : 0);
-  outcome.true_error = trial::true_error(reference, end.last.theta, l.resolution[lane], l.phase[lane]);
+  outcome.true_error = trial::true_error(reference, q.read_angle[lane], l.resolution[lane], l.phase[lane]);
   if (trial.loop) trial.loop->finish(outcome);
   if (trial.position) trial.position->finish(outcome);
   return outcome;
@@ -76,6 +76,7 @@ void move_lane(RunningBatch& run, int from, int to) {
   copy_lane(static_cast<LaneNumbers&>(run.state), from, to);
   if (run.lanes.with_blocks.contains(from)) copy_lane(run.state.blocks, from, to);
   if (run.state.loop.driven[from] != 0.0) copy_lane(run.state.course, from, to);
+  if (run.lanes.loaded.contains(from)) copy_lane(run.state.load, from, to);
   std::swap(run.trial_index[to], run.trial_index[from]);
   for (LaneSet* of : run.lanes.all()) {
     if (of->contains(from)) of->insert(to);

@@ -193,7 +193,8 @@ bool rest(RunningBatch& run, int lane) {
   if (batch.motion.rest_torque[lane] != torque) {
     if (!is_unmoved(batch, lane, plant)) load_motion(batch, lane, trial);
     plant.forget_deepest();
-    if (!plant.come_to_rest(torque, batch.motion.at_reversal[lane] != 0.0)) return false;
+    motion::Load* const load = plant.load() ? &*plant.load() : nullptr;
+    if (!plant.come_to_rest(torque, batch.motion.at_reversal[lane] != 0.0, load)) return false;
     trial.deepest = std::max(trial.deepest, plant.deepest());
     trial.ahead = {};
   }
@@ -239,6 +240,7 @@ bool rest(RunningBatch& run, int lane) {
     before->advance(motion::constant_torque(torque), j == 1.0 ? to_first : sample_time);
     report_sample_at_rest(run, lane, j, before->theta(), before->creep());
   }
+  if (plant.load()) motion::follow_rotor(*plant.load(), plant.omega());
   pass_samples(batch, lane, i - 1.0);
   store_motion(batch, lane, trial);
   batch.motion.rest_torque[lane] = torque;

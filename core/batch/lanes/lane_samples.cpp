@@ -64,7 +64,8 @@ LaneSet decide_in_loops(RunningBatch& run, const LaneSet& due) {
   LoopLanes& l = run.state.loop;
   LaneSet decided = due;
   for_each_lane(due, [&](int lane) {
-    const auto decision = run.trial_of(lane).loop->sample(run.samples_of(lane), theta_of(run.state, lane));
+    const auto decision =
+        run.trial_of(lane).loop->sample(run.samples_of(lane), theta_of(run.state, lane) - l.read_twist[lane]);
     if (!decision) {
       decided.erase(lane);
       fall_back_to_scalar(run, lane);
@@ -86,7 +87,7 @@ void measure_position(RunningBatch& run, const LaneSet& due) {
   for_each_lane(due.in_both(run.lanes.with_position), [&](int lane) {
     if (run.samples_of(lane) == 0) return;  // a new trial
     trial::PositionError& position = *run.trial_of(lane).position;
-    position.add_at_target(run.samples_of(lane) - 1, run.state.measures.theta[lane]);
+    position.add_at_target(run.samples_of(lane) - 1, run.state.measures.read_angle[lane]);
     const trial::PositionError::Range quiet = position.quiet_range();
     const auto in_counts = [&](double theta) {
       return theta / l.resolution[lane] + l.phase[lane] - l.count[lane];

@@ -43,6 +43,7 @@ void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
   l.steady[lane] = 0.0;
   l.driven[lane] = needs_lane_drive(p) ? 1.0 : 0.0;
   l.disturbance[lane] = p.disturbance.torque;
+  l.read_twist[lane] = 0.0;
 }
 
 /// Stores the fields of a struct, such as loop::IntegralConstants, in the lane.
@@ -143,6 +144,18 @@ void start_free(BatchState& batch, int lane, const trial::TrialParameters& p, do
   batch.free.lag_gain[lane] = by_lag.omega;
 }
 
+void start_load(LoadLanes& load, int lane, const trial::TrialParameters& p) {
+  const motion::LoadParameters& of = p.plant.load;
+  load.inertia[lane] = of.inertia;
+  load.per_inertia[lane] = 1.0 / of.inertia;
+  load.stiffness[lane] = of.stiffness;
+  load.damping[lane] = of.damping;
+  load.torque_by_velocity[lane] = motion::torque_by_velocity(of, p.plant.inertia);
+  load.reads[lane] = of.encoder == motion::EncoderPlace::load ? 1.0 : 0.0;
+  load.twist[lane] = 0.0;
+  load.omega[lane] = p.initial.velocity;
+}
+
 void start_motion(BatchState& batch, int lane, LaneTrial& trial, double resolution) {
   const trial::TrialParameters& p = *trial.parameters;
   const motion::MotionTolerance tolerance = trial::motion_tolerance(resolution);
@@ -180,6 +193,7 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial) {
   batch.contact.per_inertia[lane] = 1.0 / p.plant.inertia;
   batch.contact.damping[lane] = p.plant.presliding_damping;
   batch.contact.sliding_damping[lane] = p.plant.sliding_damping;
+  if (motion::has_load(p.plant)) start_load(batch.load, lane, p);
   start_motion(batch, lane, trial, resolution);
   trial.loop.reset();
   trial.position.reset();
@@ -210,7 +224,7 @@ void start_move(BatchState& batch, int lane, LaneTrial& trial) {
     band.entry[lane] = trial::no_samples_of_band.entry;
     band.exits[lane] = trial::no_samples_of_band.exits;
   }
-  for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension, &q.slid})
+  for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.read_angle, &q.extension, &q.slid})
     (*of)[lane] = 0.0;
   q.max_error[lane] = p.verdict.stop ? p.verdict.limit : infinity;
   if (trial.loop) trial.loop->start_move(trial.move, p.command.targets[trial.move], trial.first_sample);
@@ -244,6 +258,7 @@ void start_next_trial(RunningBatch& run, int lane) {
       run.lanes.with_blocks.insert(lane);
     }
     if (trial.position) run.lanes.with_position.insert(lane);
+    if (motion::has_load(trial.parameters->plant)) run.lanes.loaded.insert(lane);
     set_motion(run, lane);
     if (trial.drive && trial.drive->jitters()) begin_piece(run, lane);
     return;

@@ -1,4 +1,5 @@
 // Steps of the lanes from one sampling instant to the next.
+#include <array>
 #include <utility>
 
 #include "core/batch/lanes/running_batch.hpp"
@@ -79,10 +80,30 @@ void end_sticking_steps(RunningBatch& run) {
   }
 }
 
+/// Lanes that a kind of kernels moves.
+struct KernelLanes {
+  const MotionKernels& kernels;
+  LaneSet lanes;
+};
+
+/// Divides lanes by the kernels that move them.
+std::array<KernelLanes, 4> by_kernels(const RunningBatch& run, const LaneSet& lanes) {
+  const Kernels& k = run.kernels;
+  const LaneSet loaded = lanes.in_both(run.lanes.loaded);
+  const LaneSet alone = lanes.without(loaded);
+  const LaneSet& varying = run.lanes.varying;
+  return {{{k.constant, alone.without(varying)},
+           {k.varying, alone.in_both(varying)},
+           {k.loaded, loaded.without(varying)},
+           {k.loaded_varying, loaded.in_both(varying)}}};
+}
+
 /// @returns the number of lanes that took a step.
 int step_sticking(RunningBatch& run, LaneSet lanes, const MotionKernels& kernels) {
   kernels.stick_start(run.state, lanes);
   start_sticking_steps(run, lanes);
+  // The path of a load between samples is not monotonic.
+  for_each_lane(lanes.in_both(run.lanes.loaded), [&](int lane) { stop_at_next_sample(run.state, lane); });
   kernels.stick_step(run.state, lanes);
   end_sticking_steps(run);
   return lanes.count();
@@ -90,14 +111,13 @@ int step_sticking(RunningBatch& run, LaneSet lanes, const MotionKernels& kernels
 
 /// Takes the steps of the waiting lanes up to their events.
 void locate_events(RunningBatch& run) {
-  const LaneSet lanes = std::exchange(run.lanes.waiting, {});
-  for_each_lane(lanes, [&](int lane) { run.lanes.sticking.insert(lane); });
-  const LaneSet varying = lanes.in_both(run.lanes.varying);
-  run.kernels.constant.stick_event(run.state, lanes.without(varying));
-  end_sticking_steps(run);
-  if (varying.empty()) return;
-  run.kernels.varying.stick_event(run.state, varying);
-  end_sticking_steps(run);
+  const LaneSet waiting = std::exchange(run.lanes.waiting, {});
+  for_each_lane(waiting, [&](int lane) { run.lanes.sticking.insert(lane); });
+  for (const auto& [kernels, lanes] : by_kernels(run, waiting)) {
+    if (lanes.empty()) continue;
+    kernels.stick_event(run.state, lanes);
+    end_sticking_steps(run);
+  }
 }
 
 void end_sliding_steps(RunningBatch& run) {
@@ -156,10 +176,10 @@ void move_sticking(RunningBatch& run) {
   if (lanes.empty() && run.lanes.waiting.empty()) return;
   wake_ahead(run, lanes);
   const LaneSet varying = lanes.in_both(run.lanes.varying);
-  int stepped = step_sticking(run, lanes.without(varying), run.kernels.constant);
-  if (!varying.empty()) {
-    follow_torques(run, varying);
-    stepped += step_sticking(run, varying, run.kernels.varying);
+  if (!varying.empty()) follow_torques(run, varying);
+  int stepped = 0;
+  for (const auto& [kernels, some] : by_kernels(run, lanes)) {
+    if (!some.empty()) stepped += step_sticking(run, some, kernels);
   }
   // Few lanes at a time meet an event: they wait until there are enough of them, or no others to move.
   constexpr int enough = 16;
@@ -171,10 +191,10 @@ void move_sliding(RunningBatch& run) {
   const LaneSet lanes = between_stops(run, run.lanes.sliding);
   if (lanes.empty()) return;
   const LaneSet varying = lanes.in_both(run.lanes.varying);
-  step_sliding(run, lanes.without(varying), run.kernels.constant);
-  if (varying.empty()) return;
-  follow_torques(run, varying);
-  step_sliding(run, varying, run.kernels.varying);
+  if (!varying.empty()) follow_torques(run, varying);
+  for (const auto& [kernels, some] : by_kernels(run, lanes)) {
+    if (!some.empty()) step_sliding(run, some, kernels);
+  }
 }
 
 void move_bristles(RunningBatch& run) {

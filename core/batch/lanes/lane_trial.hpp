@@ -73,6 +73,9 @@ void store_motion(BatchState& batch, int lane, LaneTrial& trial);
 /// store_motion(), and the contact's parameters, which a slide or a scalar step may have changed.
 void store_contact(BatchState& batch, int lane, LaneTrial& trial);
 
+/// Makes the next sampling instant the next stop.
+void stop_at_next_sample(BatchState& batch, int lane);
+
 // Changes of the contact, as PreslidingFriction makes them. (contact_changes.cpp)
 void reverse(BatchState& batch, int lane, LaneTrial& trial);
 void close_loop(BatchState& batch, int lane, LaneTrial& trial);

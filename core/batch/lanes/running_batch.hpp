@@ -34,11 +34,13 @@ struct LaneStates {
   LaneSet part;      ///< the stop ends only a part of a sample
   LaneSet changing;  ///< the stop lies within a sample, and the torque changes there
 
+  LaneSet loaded;  ///< with a second mass
+
   LaneSet ahead;  ///< at rest, with a plant that lags behind (CreepAhead)
 
-  std::array<LaneSet*, 13> all() {
-    return {&active,    &sticking,      &waiting, &sliding, &bristles, &free, &with_blocks,
-            &with_loop, &with_position, &varying, &part,    &changing, &ahead};
+  std::array<LaneSet*, 14> all() {
+    return {&active,    &sticking,      &waiting, &sliding, &bristles, &free,   &with_blocks,
+            &with_loop, &with_position, &varying, &part,    &changing, &loaded, &ahead};
   }
 };
 

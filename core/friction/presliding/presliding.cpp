@@ -109,9 +109,7 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
   const double torque_now = motion::torque_on_rotor(torque, omega_);
   const Elongation elongation = elongation_under(torque_now, creep_rate_now);
   if (constant) {
-    const bool quiet =
-        motion::load_is_quiet(torque, omega_, plant_.inertia, 0.5 * contact_.k1 * tolerance_.rest,
-                              -contact_.alpha * creep_rate_now);
+    const bool quiet = load_is_quiet(torque, creep_rate_now);
     if (quiet && begin_rest(torque.now, elongation, was_at_rest, torque.load == nullptr)) {
       go_to(point_at_rest(duration));
       motion::let_load_follow(torque, omega_);

@@ -97,8 +97,8 @@ class PreslidingFriction {
 
   /// Applies the rest rule under the constant torque `torque` (N m). If it returns true, step() with that
   /// torque takes the whole duration at once.
-  /// @param at_reversal dxs/dt is exactly zero.
-  bool come_to_rest(double torque, bool at_reversal);
+  /// @param at_reversal dxs/dt is exactly zero. @param load the second mass; null without one
+  bool come_to_rest(double torque, bool at_reversal, motion::Load* load = nullptr);
   /// Empty while the rotor is not at rest.
   const std::optional<Rest>& rest() const { return rest_; }
   /// The motion at rest at a later time.
@@ -155,6 +155,7 @@ class PreslidingFriction {
   double stick(const motion::TorqueCourse& torque, double duration);
   double slide(const motion::TorqueCourse& torque, double duration);
 
+  bool load_is_quiet(const motion::TorqueCourse& torque, double creep_rate_now) const;
   Elongation elongation_under(double torque, double creep_rate_now) const;
   bool begin_rest(double torque, const Elongation& elongation, bool was_at_rest, bool may_oscillate);
   std::optional<Excess> excess_over_rest(double torque, const Elongation& elongation,

@@ -6,11 +6,20 @@
 
 namespace zerocount::friction {
 
-bool PreslidingFriction::come_to_rest(double torque, bool at_reversal) {
+bool PreslidingFriction::come_to_rest(double torque, bool at_reversal, motion::Load* load) {
   const bool was_at_rest = leave_rest();
   const double creep_rate_now = switch_creep();
   if (at_reversal) omega_ = creep_rate_now;
-  return begin_rest(torque, elongation_under(torque, creep_rate_now), was_at_rest, true);
+  const motion::TorqueCourse course{.now = torque, .settled = torque, .load = load};
+  if (!load_is_quiet(course, creep_rate_now)) return false;
+  const double torque_now = motion::torque_on_rotor(course, omega_);
+  return begin_rest(torque, elongation_under(torque_now, creep_rate_now), was_at_rest, load == nullptr);
+}
+
+/// Whether the load, if any, does not keep the rotor from rest.
+bool PreslidingFriction::load_is_quiet(const motion::TorqueCourse& torque, double creep_rate_now) const {
+  return motion::load_is_quiet(torque, omega_, plant_.inertia, 0.5 * contact_.k1 * tolerance_.rest,
+                               -contact_.alpha * creep_rate_now);
 }
 
 /// @returns whether the rotor was at rest and its residual oscillation had ended.

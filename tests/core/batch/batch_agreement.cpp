@@ -36,7 +36,7 @@ class Comparison {
   void compare_after_slide(const trial::SampleRecord& a, const batch::BatchSample& b, double difference);
   void compare_move(std::size_t number, const trial::MoveOutcome& a, const trial::MoveOutcome& b);
   void compare_jerks(std::int64_t moves, const std::vector<trial::Jerk>& jerks);
-  double edge_distance(double theta) const;
+  double edge_distance(const trial::SampleRecord& sample) const;
   /// Accuracy of θ at the sample taken last, counts.
   double allowed() const { return slid_ ? 1e-3 + 1e-7 * travel_ / resolution_ : accuracy; }
 
@@ -58,8 +58,10 @@ void Comparison::fail(std::int64_t BatchAgreement::*what, const std::string& tex
   result_.failures.push_back(fmt::format("{}: {}", name_, text));
 }
 
-double Comparison::edge_distance(double theta) const {
-  const double position = theta / resolution_ + parameters_.initial.encoder_phase;
+double Comparison::edge_distance(const trial::SampleRecord& sample) const {
+  const bool at_load = parameters_.plant.load.encoder == motion::EncoderPlace::load;
+  const double position =
+      (at_load ? sample.load_theta : sample.theta) / resolution_ + parameters_.initial.encoder_phase;
   return std::abs(position - std::round(position));
 }
 
@@ -87,7 +89,7 @@ void Comparison::take(const trial::SampleRecord& sample) {
 void Comparison::compare_before_slide(const trial::SampleRecord& a, const batch::BatchSample& b,
                                       double difference) {
   if (a.count != b.count && std::abs(a.count - b.count) == 1 && difference < accuracy &&
-      edge_distance(a.theta) < accuracy) {
+      edge_distance(a) < accuracy) {
     result_.on_edge = 1;
     return;
   }
@@ -105,7 +107,7 @@ void Comparison::compare_before_slide(const trial::SampleRecord& a, const batch:
 void Comparison::compare_after_slide(const trial::SampleRecord& a, const batch::BatchSample& b,
                                      double difference) {
   const bool differ = a.count != b.count || a.code != b.code;
-  const bool on_an_edge = difference < allowed() && edge_distance(a.theta) < allowed();
+  const bool on_an_edge = difference < allowed() && edge_distance(a) < allowed();
   if (result_.stray == 0 && (!(difference < allowed()) || (differ && !on_an_edge))) {
     fail(&BatchAgreement::stray,
          fmt::format("sample {}, after a slide: theta {:.2g} count apart", a.k, difference));

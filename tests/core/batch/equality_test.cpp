@@ -28,7 +28,8 @@ INSTANTIATE_TEST_SUITE_P(
                       NamedKind{"spring_alone", TrialKind::spring_alone},
                       NamedKind{"coulomb", TrialKind::coulomb}, NamedKind{"amplified", TrialKind::amplified},
                       NamedKind{"arriving", TrialKind::arriving},
-                      NamedKind{"remembering", TrialKind::remembering}),
+                      NamedKind{"remembering", TrialKind::remembering},
+                      NamedKind{"loaded", TrialKind::loaded}),
     [](const ::testing::TestParamInfo<NamedKind>& kind) { return std::string(kind.param.name); });
 
 /// Random trials as they are: some run in lanes, and others go to the reference by themselves.

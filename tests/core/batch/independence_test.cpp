@@ -16,7 +16,8 @@ namespace {
 
 constexpr TrialKind kinds[] = {TrialKind::calm,         TrialKind::ringing,          TrialKind::breaking_away,
                                TrialKind::spring_alone, TrialKind::unlike_the_paper, TrialKind::arriving,
-                               TrialKind::remembering,  TrialKind::coulomb,          TrialKind::amplified};
+                               TrialKind::remembering,  TrialKind::coulomb,          TrialKind::amplified,
+                               TrialKind::loaded};
 
 /// Trials that have little in common: calm and ringing ones, creep, slides, other rigs, and some that lanes
 /// do not run.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/batch/kernels/coupled_torque.hpp"
 #include "core/batch/kernels/velocity_step.hpp"
 #include "core/friction/bristles/bristle_formulas.hpp"
 
@@ -21,14 +22,19 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask rests_on_bristle(const BatchState& batc
 }
 
 /// Moves the lanes that are at rest to their next stop. @returns the others.
-template <class P>
+template <class P, bool Loaded>
 LaneSet bristle_rest_kernel(BatchState& batch, const LaneSet& lanes) {
   MotionLanes& m = batch.motion;
   LaneSet moving = lanes;
   for (int base = 0; base < max_lanes; base += P::lanes) {
     const unsigned here = lanes.stretch(base, P::lanes);
     if (here == 0) continue;
-    const typename P::Mask rests = rests_on_bristle<P>(batch, LaneStretch<P>(base, here));
+    const LaneStretch<P> all(base, here);
+    typename P::Mask rests = rests_on_bristle<P>(batch, all);
+    if constexpr (Loaded) {
+      const P quiet = all.load(batch.contact.bristle_stiffness) * all.load(batch.time.rest);
+      rests = rests & load_is_quiet(batch, all, all.load(m.omega), quiet, P(0.0));
+    }
     const unsigned resting = rests.bits() & here;
     if (resting == 0) continue;
     moving.erase_stretch(base, resting);
@@ -36,13 +42,18 @@ LaneSet bristle_rest_kernel(BatchState& batch, const LaneSet& lanes) {
     at.store(m.elongation, at.load(m.torque) / at.load(batch.contact.bristle_stiffness));
     at.store(m.omega, P(0.0));
     at.store(m.gradual_slide, P(0.0));
+    if constexpr (Loaded) {
+      at.store(batch.load.twist, P(0.0));
+      at.store(batch.load.omega, P(0.0));
+      at.store(batch.loop.read_twist, P(0.0));
+    }
     at.store(batch.time.time_to_stop, P(0.0));
   }
   return moving;
 }
 
 /// The step of one vector; see bristle_kernel.
-template <bool Fast, bool Varies, class At>
+template <bool Fast, bool Varies, bool Loaded, class At>
 __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   using P = typename At::Vector;
   using Mask = typename P::Mask;
@@ -54,7 +65,7 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   const P time_to_stop = at.load(time.time_to_stop);
   const P omega = at.load(m.omega);
   const P deflection_start = at.load(m.elongation);
-  const P torque = at.load(m.torque);
+  const P torque = torque_on_rotor<Loaded>(batch, at, omega);
   const P stiffness = at.load(c.bristle_stiffness);
   const P bristle_damping = at.load(c.bristle_damping);
   const P damping = at.load(c.sliding_damping);
@@ -104,8 +115,9 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   velocity[0] = omega * h;
   deflection[0] = Fast ? select(saturated, end_of_bristle, deflection_start) : deflection_start;
   curve.decay[0] = decay_start;
-  [[maybe_unused]] VaryingTorque<P> applied;
-  if constexpr (Varies) load_torque(batch, at, h, one, one, applied);
+  typename TorqueOf<P, Varies, Loaded>::Type applied;
+  constexpr bool varies = Varies || Loaded;
+  load_torque(batch, at, h, one, one, applied);
 #pragma GCC unroll 1
   for (int k = 0; k < batch_order; ++k) {
     const auto order = static_cast<std::size_t>(k);
@@ -120,7 +132,10 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
     if constexpr (Fast) rate = select(saturated, zero, rate);
     const P per_order = P(numerics::reciprocal.of[k + 1]);
     P torque_k = k == 0 ? torque : zero;
-    if constexpr (Varies) torque_k = applied.coefficient(k, velocity[k]);
+    if constexpr (varies) {
+      const P coefficient = applied.coefficient(k, velocity[k]);
+      if (k > 0) torque_k = coefficient;
+    }
     const P force = torque_k - stiffness * deflection[k];
     travel[k + 1] = velocity[k] * per_order;
     deflection[k + 1] = rate * per_order;
@@ -128,9 +143,9 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
         (force_scale * force - damping_scale * (bristle_damping * rate + damping * velocity[k])) * per_order;
   }
 
-  VelocityStep<P> step =
-      velocity_step(batch, at, time_to_stop, h,
-                    (last_terms_of(travel) + last_terms_of(velocity)) + last_terms_of(deflection));
+  P last_terms = (last_terms_of(travel) + last_terms_of(velocity)) + last_terms_of(deflection);
+  if constexpr (Loaded) last_terms = last_terms + last_terms_of_load(applied);
+  VelocityStep<P> step = velocity_step(batch, at, time_to_stop, h, last_terms);
   const P velocity_start = select(from_zero, velocity[1], velocity[0]);
   const P velocity_end = sum_of(velocity, batch_order);
   step.halts = velocity_start * velocity_end < zero;
@@ -140,7 +155,7 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   signed_part[batch_order] = select(from_zero, zero, velocity[batch_order]);
   Mask unfit = ~step.halts & ~keeps_sign(signed_part[0], velocity_end, signed_part[1],
                                          curvature_bound(signed_part, batch_order));
-  if constexpr (Varies) {
+  if constexpr (varies) {
     unfit = unfit | (step.halts & ~crosses_once(signed_part, batch_order));
     // A rotor that nothing moves keeps still.
     unfit = unfit & ((curvature_bound(signed_part, batch_order) > zero) | (signed_part[1] != zero));
@@ -163,6 +178,7 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   at.store(m.elongation, deflection_end);
   at.store(m.gradual_slide, to_number<P>(friction::bristle_slides(deflection_end, omega_end, stiffness,
                                                                   bristle_damping, level_end)));
+  if constexpr (Loaded) store_load(batch, at, applied, step.x, step.h, step.done);
   add_events(batch, at, events_where<P>(at.load(time.steps) > P(max_steps_to_stop), beyond_kernel));
 }
 
@@ -171,10 +187,10 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
 ///
 /// `Fast` is for lanes whose level is that of Coulomb to the last bit: with Dahl's law, and far above the
 /// Stribeck velocity, where (ω/ωs)² > 64. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19.
-template <class V, bool Fast, bool Varies>
+template <class V, bool Fast, bool Varies, bool Loaded>
 void bristle_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
-  for_each_vector<V>(lanes, [&](const auto& at) { bristle<Fast, Varies>(batch, at); });
+  for_each_vector<V>(lanes, [&](const auto& at) { bristle<Fast, Varies, Loaded>(batch, at); });
 }
 
 }  // namespace zerocount::batch

@@ -83,16 +83,14 @@ ZEROCOUNT_ALWAYS_INLINE P torque_on_rotor(const BatchState& batch, const At& at,
   return torque - (at.load(l.stiffness) * at.load(l.twist) + at.load(l.damping) * (omega - at.load(l.omega)));
 }
 
-/// Whether motion::is_quiet may hold of the load, with a margin of two. @param extension_rate dxp/dt, rad/s.
+/// motion::is_quiet of the loads of the lanes.
 template <class P, class At>
-ZEROCOUNT_ALWAYS_INLINE typename P::Mask load_may_be_quiet(const BatchState& batch, const At& at,
-                                                           const P& omega, const P& extension_rate) {
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask load_is_quiet(const BatchState& batch, const At& at, const P& omega,
+                                                       const P& torque, const P& steady) {
   const LoadLanes& l = batch.load;
-  const P steady = -at.load(l.inertia) * at.load(batch.contact.alpha) * extension_rate;
-  const P torque = P(0.5) * at.load(batch.contact.k1) * at.load(batch.time.rest) + P(0.1) * abs(steady);
   return abs(at.load(l.stiffness) * at.load(l.twist) - steady) +
              at.load(l.torque_by_velocity) * abs(omega - at.load(l.omega)) <
-         P(2.0) * torque;
+         torque;
 }
 
 /// The last two terms of the series of the load at the end of a step, rad.

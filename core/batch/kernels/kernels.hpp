@@ -11,6 +11,7 @@ struct MotionKernels {
   void (*stick_event)(BatchState&, const LaneSet&);  ///< a step that locates its events
   void (*slide_fast)(BatchState&, const LaneSet&);
   void (*slide_slow)(BatchState&, const LaneSet&);
+  LaneSet (*bristle_rest)(BatchState&, const LaneSet&);  ///< null where the torque varies: without rest
   void (*bristle_fast)(BatchState&, const LaneSet&);
   void (*bristle_slow)(BatchState&, const LaneSet&);
   void (*free)(BatchState&, const LaneSet&);
@@ -28,7 +29,6 @@ struct Kernels {
   MotionKernels loaded;                                ///< the same two of lanes with a second mass
   MotionKernels loaded_varying;
   void (*course)(BatchState&, const LaneSet&);
-  LaneSet (*bristle_rest)(BatchState&, const LaneSet&);
 };
 
 enum class InstructionSet;

@@ -77,7 +77,11 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
     at_rest = torque == at.load(m.rest_torque);
     rests = acceleration_excess * acceleration_excess + per_time_squared * velocity_excess * velocity_excess <
             limit * limit;
-    if constexpr (Loaded) rests = rests & load_may_be_quiet(batch, at, omega, extension_rate);
+    if constexpr (Loaded) {
+      const P steady = -at.load(batch.load.inertia) * alpha * extension_rate;
+      const P quiet = P(0.5) * at.load(c.k1) * at.load(batch.time.rest) + P(0.1) * abs(steady);
+      rests = rests & load_is_quiet(batch, at, omega, P(2.0) * quiet, steady);
+    }
     rests = rests | at_rest;
   }
 

@@ -32,18 +32,36 @@ double error_decay(const ContactLanes& c, int lane, double k1) {
   return discriminant > 0.0 ? k1 * c.per_inertia[lane] / (gamma + std::sqrt(discriminant)) : gamma;
 }
 
+/// The same with a load. An oscillating mode with the shape φ decays at the rate ½·φᵀCφ/φᵀMφ, which is at
+/// least half of the lowest eigenvalue of the dampers C by the masses M; a mode that only creeps decays at
+/// least as fast as the slower of the two springs relaxes against its damper.
+double error_decay(const ContactLanes& c, int lane, double k1, const motion::LoadParameters& load) {
+  const double by_rotor = (c.damping[lane] + load.damping) * c.per_inertia[lane];
+  const double by_load = load.damping / load.inertia;
+  const double trace = by_rotor + by_load;
+  const double determinant = c.damping[lane] * c.per_inertia[lane] * by_load;
+  if (!(trace > 0.0)) return 0.0;
+  const double oscillating =
+      determinant / (trace + std::sqrt(std::max(trace * trace - 4.0 * determinant, 0.0)));
+  const double creeping = std::min(k1 / c.damping[lane], load.stiffness / load.damping);
+  return std::min(oscillating, creeping);
+}
+
 /// Truncation error (rad) allowed per torque step, so that the errors of all steps add up to about 1e-7
 /// count, their sum being that of one step over 1 − exp(−decay·T). The loop does not amplify them, because
 /// equal counts give equal torques. At least the tolerance of the reference, `reference` (rad).
-double step_tolerance(const BatchState& batch, int lane, double k1, double reference) {
-  const double decay = error_decay(batch.contact, lane, k1) * batch.time.sample_time[lane];
-  return std::max(-1e-7 * numerics::expm1(-decay) * batch.loop.resolution[lane], reference);
+double step_tolerance(const BatchState& batch, int lane, double decay, double reference) {
+  const double in_sample = decay * batch.time.sample_time[lane];
+  return std::max(-1e-7 * numerics::expm1(-in_sample) * batch.loop.resolution[lane], reference);
 }
 
-void store_contact_parameters(BatchState& batch, int lane, const friction::FrictionParameters& contact,
-                              double reference_tolerance) {
+void store_contact_parameters(BatchState& batch, int lane, const LaneTrial& trial) {
+  const friction::FrictionParameters& contact = trial.plant->contact();
+  const std::optional<motion::Load>& load = trial.plant->load();
   ContactLanes& c = batch.contact;
-  batch.time.tolerance[lane] = step_tolerance(batch, lane, contact.k1, reference_tolerance);
+  const double decay =
+      load ? error_decay(c, lane, contact.k1, load->parameters) : error_decay(c, lane, contact.k1);
+  batch.time.tolerance[lane] = step_tolerance(batch, lane, decay, trial.elongation_tolerance);
   c.k1[lane] = contact.k1;
   c.stiffest[lane] = contact.k1 + contact.k2;
   batch.time.time_scale[lane] = 1.0 / std::sqrt(c.stiffest[lane] * c.per_inertia[lane]);
@@ -116,7 +134,7 @@ void store_motion(BatchState& batch, int lane, LaneTrial& trial) {
 
 void store_contact(BatchState& batch, int lane, LaneTrial& trial) {
   store_motion(batch, lane, trial);
-  store_contact_parameters(batch, lane, trial.plant->contact(), trial.elongation_tolerance);
+  store_contact_parameters(batch, lane, trial);
 }
 
 void reverse(BatchState& batch, int lane, LaneTrial& trial) {

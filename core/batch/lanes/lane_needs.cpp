@@ -90,8 +90,6 @@ std::string_view lacking(const trial::CommandParameters& command) {
 std::string_view lacking(const trial::TrialParameters& p, LaneMotion motion) {
   [[maybe_unused]] const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial,
                                 verdict, randomness, disturbance] = p;
-  [[maybe_unused]] const auto& [inertia, presliding_damping, sliding_damping, load] = plant;
-  if (motion::has_load(plant) && motion != LaneMotion::contact) return "a second mass without a hook";
   // After a late sample the series must reach up to the next one.
   const double max_frequency = 0.5 / (1.0 / controller.sample_rate + controller.jitter);
   for (const std::string_view feature :

@@ -134,6 +134,7 @@ void start_free(BatchState& batch, int lane, const trial::TrialParameters& p, do
       friction::free_motion(p.plant, {0.0, 1.0}, motion::constant_torque(0.0), sample_time);
   const friction::FreeMotion by_torque =
       friction::free_motion(p.plant, {}, motion::constant_torque(1.0), sample_time);
+  batch.time.tolerance[lane] = trial::motion_tolerance(batch.loop.resolution[lane]).elongation;
   batch.free.travel[lane] = by_velocity.theta;
   batch.free.decay[lane] = by_velocity.omega;
   batch.free.push[lane] = by_torque.theta;

@@ -165,6 +165,17 @@ void move_free_part(RunningBatch& run, const LaneSet& lanes) {
   });
 }
 
+/// Moves lanes without friction and with a second mass.
+void move_loaded_free(RunningBatch& run, const LaneSet& lanes) {
+  const LaneSet varying = lanes.in_both(run.lanes.varying);
+  if (!varying.empty()) follow_torques(run, varying);
+  for (const auto& [kernels, some] : by_kernels(run, lanes)) {
+    if (some.empty()) continue;
+    kernels.free(run.state, some);
+    rerun_lost_lanes(run);
+  }
+}
+
 LaneSet between_stops(const RunningBatch& run, const LaneSet& lanes) {
   return lanes.without(run.kernels.lanes_at_stop(run.state));
 }
@@ -201,20 +212,24 @@ void move_bristles(RunningBatch& run) {
   if (run.lanes.bristles.empty()) return;
   const LaneSet lanes = between_stops(run, run.lanes.bristles);
   const LaneSet varying = lanes.in_both(run.lanes.varying);
-  step_bristles(run, run.kernels.bristle_rest(run.state, lanes.without(varying)), run.kernels.constant);
-  if (varying.empty()) return;
-  follow_torques(run, varying);
-  step_bristles(run, varying, run.kernels.varying);
+  if (!varying.empty()) follow_torques(run, varying);
+  for (const auto& [kernels, some] : by_kernels(run, lanes)) {
+    if (some.empty()) continue;
+    step_bristles(run, kernels.bristle_rest == nullptr ? some : kernels.bristle_rest(run.state, some),
+                  kernels);
+  }
 }
 
 void move_free(RunningBatch& run) {
   if (run.lanes.free.empty()) return;
   const LaneSet lanes = between_stops(run, run.lanes.free);
-  const LaneSet part = lanes.in_both(run.lanes.part);
-  const LaneSet varying = lanes.in_both(run.lanes.varying).without(part);
-  run.kernels.constant.free(run.state, lanes.without(part).without(varying));
+  const LaneSet loaded = lanes.in_both(run.lanes.loaded);
+  const LaneSet part = lanes.in_both(run.lanes.part).without(loaded);
+  const LaneSet varying = lanes.in_both(run.lanes.varying).without(part).without(loaded);
+  run.kernels.constant.free(run.state, lanes.without(loaded).without(part).without(varying));
   if (!varying.empty()) run.kernels.varying.free(run.state, varying);
   move_free_part(run, part);
+  if (!loaded.empty()) move_loaded_free(run, loaded);
 }
 
 void set_motion(RunningBatch& run, int lane) {

@@ -32,8 +32,9 @@ INSTANTIATE_TEST_SUITE_P(Random, LawsWithoutHook,
                            return std::string(law.param.name);
                          });
 
-constexpr TrialKind kinds_under_laws[] = {TrialKind::calm, TrialKind::ringing, TrialKind::breaking_away,
-                                          TrialKind::unlike_the_paper, TrialKind::arriving};
+constexpr TrialKind kinds_under_laws[] = {TrialKind::calm,          TrialKind::ringing,
+                                          TrialKind::breaking_away, TrialKind::unlike_the_paper,
+                                          TrialKind::arriving,      TrialKind::loaded};
 
 /// A random trial under this law, with bristles about as stiff and as damped as its spring and its contact.
 trial::TrialParameters trial_under(friction::FrictionModel model, TrialKind kind, std::uint64_t index) {

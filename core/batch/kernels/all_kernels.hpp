@@ -13,28 +13,32 @@
 namespace zerocount::batch {
 
 template <class V, class E, class P, bool Varies>
-inline constexpr MotionKernels motion_kernels_with{stick_start_kernel<V, Varies, false>,
-                                                   stick_step_kernel<V, false, Varies, false>,
-                                                   stick_step_kernel<E, true, Varies, false>,
-                                                   slide_kernel<V, true, Varies, false>,
-                                                   slide_kernel<V, false, Varies, false>,
-                                                   Varies ? nullptr : bristle_rest_kernel<P, false>,
-                                                   bristle_kernel<V, true, Varies, false>,
-                                                   bristle_kernel<V, false, Varies, false>,
-                                                   free_kernel<V, Varies>};
+inline constexpr MotionKernels motion_kernels_with{
+    .stick_start = Varies ? nullptr : stick_start_kernel<V, false, false>,
+    .stick_start_varying = Varies ? stick_start_kernel<V, true, false> : nullptr,
+    .stick_step = stick_step_kernel<V, false, Varies, false>,
+    .stick_event = stick_step_kernel<E, true, Varies, false>,
+    .slide_fast = slide_kernel<V, true, Varies, false>,
+    .slide_slow = slide_kernel<V, false, Varies, false>,
+    .bristle_rest = Varies ? nullptr : bristle_rest_kernel<P, false>,
+    .bristle_fast = bristle_kernel<V, true, Varies, false>,
+    .bristle_slow = bristle_kernel<V, false, Varies, false>,
+    .free = free_kernel<V, Varies>};
 
-/// The same of lanes with a second mass. The torque of its coupling has no bound ahead, so that none of them
-/// counts as fast.
-template <class V, class E, class P, bool Varies>
-inline constexpr MotionKernels loaded_kernels_with{stick_start_kernel<V, Varies, true>,
-                                                   stick_step_kernel<V, false, Varies, true>,
-                                                   stick_step_kernel<E, true, Varies, true>,
-                                                   slide_kernel<V, false, Varies, true>,
-                                                   slide_kernel<V, false, Varies, true>,
-                                                   Varies ? nullptr : bristle_rest_kernel<P, true>,
-                                                   bristle_kernel<V, false, Varies, true>,
-                                                   bristle_kernel<V, false, Varies, true>,
-                                                   loaded_free_kernel<V, Varies>};
+/// The same of lanes with a second mass, whose torque may vary with `Driven`. The torque of its coupling has
+/// no bound ahead, so that none of them counts as fast.
+template <class V, class E, class P, bool Driven>
+inline constexpr MotionKernels loaded_kernels_with{
+    .stick_start = stick_start_kernel<V, false, true>,
+    .stick_start_varying = Driven ? stick_start_kernel<V, true, true> : nullptr,
+    .stick_step = stick_step_kernel<V, false, Driven, true>,
+    .stick_event = stick_step_kernel<E, true, Driven, true>,
+    .slide_fast = slide_kernel<V, false, Driven, true>,
+    .slide_slow = slide_kernel<V, false, Driven, true>,
+    .bristle_rest = bristle_rest_kernel<P, true>,
+    .bristle_fast = bristle_kernel<V, false, Driven, true>,
+    .bristle_slow = bristle_kernel<V, false, Driven, true>,
+    .free = loaded_free_kernel<V, Driven>};
 
 /// All kernels. @tparam V their vectors. @tparam E those of steps that locate events. @tparam P the vector of
 /// those that go over all lanes.

@@ -6,12 +6,13 @@ namespace zerocount::batch {
 
 /// The kernels that move the lanes.
 struct MotionKernels {
-  void (*stick_start)(BatchState&, const LaneSet&);
+  void (*stick_start)(BatchState&, const LaneSet&);          ///< null where all torques vary
+  void (*stick_start_varying)(BatchState&, const LaneSet&);  ///< null where none varies
   void (*stick_step)(BatchState&, const LaneSet&);
   void (*stick_event)(BatchState&, const LaneSet&);  ///< a step that locates its events
   void (*slide_fast)(BatchState&, const LaneSet&);
   void (*slide_slow)(BatchState&, const LaneSet&);
-  LaneSet (*bristle_rest)(BatchState&, const LaneSet&);  ///< null where the torque varies: without rest
+  LaneSet (*bristle_rest)(BatchState&, const LaneSet&);  ///< null where all torques vary
   void (*bristle_fast)(BatchState&, const LaneSet&);
   void (*bristle_slow)(BatchState&, const LaneSet&);
   void (*free)(BatchState&, const LaneSet&);
@@ -26,8 +27,8 @@ struct Kernels {
   void (*sample_given)(BatchState&, const LaneSet&);   ///< what LaneLoop has decided
   MotionKernels constant;                              ///< of lanes whose torque stays
   MotionKernels varying;                               ///< of lanes whose torque varies
-  MotionKernels loaded;                                ///< the same two of lanes with a second mass
-  MotionKernels loaded_varying;
+  MotionKernels loaded;                                ///< of those with a second mass: whose torque stays
+  MotionKernels loaded_driven;                         ///< and whose torque may vary
   void (*course)(BatchState&, const LaneSet&);
 };
 

@@ -60,6 +60,7 @@ VibrationSeries::Coefficients VibrationSeries::about_sample(std::int64_t k) {
 LaneDrive::LaneDrive(const trial::TrialParameters& p)
     : sample_time_(1.0 / p.controller.sample_rate),
       jitters_(p.controller.jitter > 0.0),
+      lags_(p.amplifier.bandwidth > 0.0),
       delayed_(static_cast<std::int64_t>(std::ceil(p.controller.delay))),
       clock_(p.controller, p.randomness),
       drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness, jitters_),

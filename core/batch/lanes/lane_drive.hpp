@@ -58,6 +58,8 @@ class LaneDrive {
 
   /// Without its constant part.
   const motion::Disturbance& disturbance() const { return disturbance_; }
+  /// Whether the torque ever varies between two stops.
+  bool may_vary() const { return lags_ || disturbance_varies(); }
   bool disturbance_varies() const { return motion::varies(disturbance_); }
   VibrationSeries::Coefficients vibration() { return vibration_.about_sample(sample_); }
   bool jitters() const { return jitters_; }
@@ -69,6 +71,7 @@ class LaneDrive {
 
   double sample_time_;
   bool jitters_;
+  bool lags_;             // by an amplifier
   std::int64_t delayed_;  // samples on their way
   loop::SampleClock clock_;
   loop::Drive drive_;

@@ -259,7 +259,10 @@ void start_next_trial(RunningBatch& run, int lane) {
       run.lanes.with_blocks.insert(lane);
     }
     if (trial.position) run.lanes.with_position.insert(lane);
-    if (motion::has_load(trial.parameters->plant)) run.lanes.loaded.insert(lane);
+    if (motion::has_load(trial.parameters->plant)) {
+      run.lanes.loaded.insert(lane);
+      if (trial.drive && trial.drive->may_vary()) run.lanes.loaded_driven.insert(lane);
+    }
     set_motion(run, lane);
     if (trial.drive && trial.drive->jitters()) begin_piece(run, lane);
     return;

@@ -92,16 +92,24 @@ std::array<KernelLanes, 4> by_kernels(const RunningBatch& run, const LaneSet& la
   const LaneSet loaded = lanes.in_both(run.lanes.loaded);
   const LaneSet alone = lanes.without(loaded);
   const LaneSet& varying = run.lanes.varying;
+  const LaneSet& driven = run.lanes.loaded_driven;
   return {{{k.constant, alone.without(varying)},
            {k.varying, alone.in_both(varying)},
-           {k.loaded, loaded.without(varying)},
-           {k.loaded_varying, loaded.in_both(varying)}}};
+           {k.loaded, loaded.without(driven)},
+           {k.loaded_driven, loaded.in_both(driven)}}};
 }
 
 /// @returns the number of lanes that took a step.
 int step_sticking(RunningBatch& run, LaneSet lanes, const MotionKernels& kernels) {
-  kernels.stick_start(run.state, lanes);
-  start_sticking_steps(run, lanes);
+  const LaneSet varying = lanes.in_both(run.lanes.varying);
+  if (const LaneSet steady = lanes.without(varying); !steady.empty()) {
+    kernels.stick_start(run.state, steady);
+    start_sticking_steps(run, lanes);
+  }
+  if (!varying.empty()) {
+    kernels.stick_start_varying(run.state, varying);
+    start_sticking_steps(run, lanes);
+  }
   // The path of a load between samples is not monotonic.
   for_each_lane(lanes.in_both(run.lanes.loaded), [&](int lane) { stop_at_next_sample(run.state, lane); });
   kernels.stick_step(run.state, lanes);
@@ -151,6 +159,18 @@ void step_bristles(RunningBatch& run, const LaneSet& lanes, const MotionKernels&
   rerun_lost_lanes(run);
 }
 
+LaneSet between_stops(const RunningBatch& run, const LaneSet& lanes) {
+  return lanes.without(run.kernels.lanes_at_stop(run.state));
+}
+
+/// Computes the torques whose series the steps of these lanes follow.
+void follow_torques_of(RunningBatch& run, const LaneSet& lanes) {
+  for (const LaneSet& set : {run.lanes.varying.without(run.lanes.loaded), run.lanes.loaded_driven}) {
+    const LaneSet some = lanes.in_both(set);
+    if (!some.empty()) follow_torques(run, some);
+  }
+}
+
 /// Moves lanes without friction through a part of a sample.
 void move_free_part(RunningBatch& run, const LaneSet& lanes) {
   MotionLanes& m = run.state.motion;
@@ -167,17 +187,12 @@ void move_free_part(RunningBatch& run, const LaneSet& lanes) {
 
 /// Moves lanes without friction and with a second mass.
 void move_loaded_free(RunningBatch& run, const LaneSet& lanes) {
-  const LaneSet varying = lanes.in_both(run.lanes.varying);
-  if (!varying.empty()) follow_torques(run, varying);
+  follow_torques_of(run, lanes);
   for (const auto& [kernels, some] : by_kernels(run, lanes)) {
     if (some.empty()) continue;
     kernels.free(run.state, some);
     rerun_lost_lanes(run);
   }
-}
-
-LaneSet between_stops(const RunningBatch& run, const LaneSet& lanes) {
-  return lanes.without(run.kernels.lanes_at_stop(run.state));
 }
 
 }  // namespace
@@ -186,8 +201,7 @@ void move_sticking(RunningBatch& run) {
   const LaneSet lanes = between_stops(run, run.lanes.sticking);
   if (lanes.empty() && run.lanes.waiting.empty()) return;
   wake_ahead(run, lanes);
-  const LaneSet varying = lanes.in_both(run.lanes.varying);
-  if (!varying.empty()) follow_torques(run, varying);
+  follow_torques_of(run, lanes);
   int stepped = 0;
   for (const auto& [kernels, some] : by_kernels(run, lanes)) {
     if (!some.empty()) stepped += step_sticking(run, some, kernels);
@@ -201,8 +215,7 @@ void move_sticking(RunningBatch& run) {
 void move_sliding(RunningBatch& run) {
   const LaneSet lanes = between_stops(run, run.lanes.sliding);
   if (lanes.empty()) return;
-  const LaneSet varying = lanes.in_both(run.lanes.varying);
-  if (!varying.empty()) follow_torques(run, varying);
+  follow_torques_of(run, lanes);
   for (const auto& [kernels, some] : by_kernels(run, lanes)) {
     if (!some.empty()) step_sliding(run, some, kernels);
   }
@@ -211,12 +224,13 @@ void move_sliding(RunningBatch& run) {
 void move_bristles(RunningBatch& run) {
   if (run.lanes.bristles.empty()) return;
   const LaneSet lanes = between_stops(run, run.lanes.bristles);
-  const LaneSet varying = lanes.in_both(run.lanes.varying);
-  if (!varying.empty()) follow_torques(run, varying);
+  follow_torques_of(run, lanes);
   for (const auto& [kernels, some] : by_kernels(run, lanes)) {
     if (some.empty()) continue;
-    step_bristles(run, kernels.bristle_rest == nullptr ? some : kernels.bristle_rest(run.state, some),
-                  kernels);
+    const LaneSet steady = some.without(run.lanes.varying);
+    LaneSet moving = some;
+    if (!steady.empty()) moving = moving.without(steady.without(kernels.bristle_rest(run.state, steady)));
+    step_bristles(run, moving, kernels);
   }
 }
 

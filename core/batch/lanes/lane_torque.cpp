@@ -11,6 +11,14 @@ void store_vibration(BatchState& batch, int lane, LaneDrive& drive) {
   for (std::size_t j = 0; j < vibration.size(); ++j) batch.course.vibration[j][lane] = vibration[j];
 }
 
+/// Sets the torque of the lane to `torque` (N m), which stays.
+void hold_torque(BatchState& batch, int lane, double torque) {
+  batch.motion.torque[lane] = torque;
+  batch.course.settled[lane] = torque;
+  batch.course.lag[lane] = 0.0;
+  batch.course.decay[lane] = 0.0;
+}
+
 /// Sets the torque of the lane to the present piece of its drive, and its next stop to the end of the piece.
 void store_piece(BatchState& batch, int lane, const LaneDrive& drive) {
   const loop::TorquePiece& piece = drive.piece();
@@ -63,7 +71,7 @@ void drive_torque(RunningBatch& run, int lane) {
   if (drive.stays()) {
     run.lanes.varying.erase(lane);
     run.lanes.part.erase(lane);
-    run.state.motion.torque[lane] = drive.piece().course.now + l.disturbance[lane];
+    hold_torque(run.state, lane, drive.piece().course.now + l.disturbance[lane]);
     return;
   }
   if (run.state.course.vibrates[lane] != 0.0) store_vibration(run.state, lane, drive);

@@ -34,13 +34,15 @@ struct LaneStates {
   LaneSet part;      ///< the stop ends only a part of a sample
   LaneSet changing;  ///< the stop lies within a sample, and the torque changes there
 
-  LaneSet loaded;  ///< with a second mass
+  LaneSet loaded;         ///< with a second mass
+  LaneSet loaded_driven;  ///< of them, those whose torque may vary: their steps always follow CourseLanes
 
   LaneSet ahead;  ///< at rest, with a plant that lags behind (CreepAhead)
 
-  std::array<LaneSet*, 14> all() {
-    return {&active,    &sticking,      &waiting, &sliding, &bristles, &free,   &with_blocks,
-            &with_loop, &with_position, &varying, &part,    &changing, &loaded, &ahead};
+  std::array<LaneSet*, 15> all() {
+    return {&active, &sticking,    &waiting,   &sliding,       &bristles,
+            &free,   &with_blocks, &with_loop, &with_position, &varying,
+            &part,   &changing,    &loaded,    &loaded_driven, &ahead};
   }
 };
 

@@ -73,7 +73,11 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
     const P acceleration_excess = (torque_excess + damping * velocity_excess) * per_inertia;
     P amplitude = at.load(batch.time.rest);
     if constexpr (!Loaded) amplitude = select(at_reversal, at.load(c.max_oscillation), amplitude);
-    const P limit = P(2.0) * amplitude * per_time_squared;
+    P limit = P(2.0) * amplitude * per_time_squared;
+    if constexpr (Loaded) {
+      // What the leading terms leave out of quasi-static creep: the inertia of both masses.
+      limit = limit + P(2.0) * alpha * slow_rate * (P(1.0) + at.load(batch.load.inertia) * per_inertia);
+    }
     at_rest = torque == at.load(m.rest_torque);
     rests = acceleration_excess * acceleration_excess + per_time_squared * velocity_excess * velocity_excess <
             limit * limit;

@@ -56,8 +56,8 @@ struct BatchSettings {
 };
 
 /// The first feature of a trial that lanes lack, as a noun phrase; empty if lanes run the trial. The engine
-/// runs such trials by run_trial: torque levels, the friction laws coulomb and gms, more than eight ripples, a
-/// vibration above half the sample rate, or a disturbance that varies without friction.
+/// runs such trials by run_trial: torque levels, the friction laws coulomb and gms, more than eight ripples,
+/// a vibration above half the sample rate, or a disturbance that varies without friction.
 std::string lacking_in_lanes(const trial::TrialParameters& parameters);
 
 /// Whether the lanes run such a trial.

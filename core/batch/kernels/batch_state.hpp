@@ -213,7 +213,6 @@ struct alignas(64) MeasureLanes : trial::RunningMeasures<Lanes> {
   Lanes first_error;  ///< |e_0|, counts
   Lanes max_error;    ///< beyond |e_0|, with which the move is ended, counts; infinite: never
   Lanes theta;        ///< at the last sample, rad
-  Lanes read_angle;   ///< that the encoder read at the last sample, of rotor or load, rad
   Lanes extension;    ///< at the last sample, rad
   Lanes slid;         ///< a bristle slid at a sampling instant of the move
 };

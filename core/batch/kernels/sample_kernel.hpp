@@ -111,7 +111,6 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   measure_bands(q, at, samples, size);
   at.store(q.first_error, first_error);
   at.store(q.theta, theta);
-  at.store(q.read_angle, angle);
   at.store(q.extension, extension);
   at.store(q.change, change);
 

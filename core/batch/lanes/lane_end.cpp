@@ -46,7 +46,8 @@ trial::MoveOutcome outcome_of(const BatchState& batch, int lane, LaneTrial& tria
   trial::MoveOutcome outcome = trial::outcome_of_move(trial::move_timing(p, trial.move), measures_of(q, lane),
                                                       bands_of(q, lane), trial.jerks, trial.last_half, end);
   const std::int64_t reference = end.last.target + (trial.loop ? trial.loop->reference_offset() : 0);
-  outcome.true_error = trial::true_error(reference, q.read_angle[lane], l.resolution[lane], l.phase[lane]);
+  outcome.true_error =
+      trial::true_error(reference, q.theta[lane] - trial.read_twist, l.resolution[lane], l.phase[lane]);
   if (trial.loop) trial.loop->finish(outcome);
   if (trial.position) trial.position->finish(outcome);
   return outcome;

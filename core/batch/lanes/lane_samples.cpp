@@ -87,7 +87,8 @@ void measure_position(RunningBatch& run, const LaneSet& due) {
   for_each_lane(due.in_both(run.lanes.with_position), [&](int lane) {
     if (run.samples_of(lane) == 0) return;  // a new trial
     trial::PositionError& position = *run.trial_of(lane).position;
-    position.add_at_target(run.samples_of(lane) - 1, run.state.measures.read_angle[lane]);
+    const double angle = run.state.measures.theta[lane] - run.trial_of(lane).read_twist;
+    position.add_at_target(run.samples_of(lane) - 1, angle);
     const trial::PositionError::Range quiet = position.quiet_range();
     const auto in_counts = [&](double theta) {
       return theta / l.resolution[lane] + l.phase[lane] - l.count[lane];
@@ -100,6 +101,8 @@ void measure_position(RunningBatch& run, const LaneSet& due) {
 }  // namespace
 
 void take_samples(RunningBatch& run, const LaneSet& due) {
+  for_each_lane(due.in_both(run.lanes.loaded),
+                [&](int lane) { run.trial_of(lane).read_twist = run.state.loop.read_twist[lane]; });
   const LaneSet with_blocks = due.in_both(run.lanes.with_blocks);
   const LaneSet with_loop = due.in_both(run.lanes.with_loop);
   sample(run, run.kernels.sample, due.without(with_blocks).without(with_loop));

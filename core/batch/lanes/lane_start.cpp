@@ -182,6 +182,7 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial) {
   trial.move = 0;
   trial.first_sample = 0;
   trial.reported_jerks = 0;
+  trial.read_twist = 0.0;
   trial.breakaway_spring_torque = 0.0;
   trial.ahead = {};
 
@@ -225,7 +226,7 @@ void start_move(BatchState& batch, int lane, LaneTrial& trial) {
     band.entry[lane] = trial::no_samples_of_band.entry;
     band.exits[lane] = trial::no_samples_of_band.exits;
   }
-  for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.read_angle, &q.extension, &q.slid})
+  for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension, &q.slid})
     (*of)[lane] = 0.0;
   q.max_error[lane] = p.verdict.stop ? p.verdict.limit : infinity;
   if (trial.loop) trial.loop->start_move(trial.move, p.command.targets[trial.move], trial.first_sample);

@@ -49,6 +49,7 @@ struct LaneTrial {
   CreepAhead ahead;
   double elongation_tolerance{0.0};     ///< MotionTolerance::elongation, rad
   double breakaway_spring_torque{0.0};  ///< σb of the slide, N m
+  double read_twist{0.0};               ///< LoopLanes::read_twist at the last sample, rad
 
   std::int64_t breakaways{0};  ///< in this move
   bool slid_at_start{false};   ///< of this move

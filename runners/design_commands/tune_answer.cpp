@@ -106,6 +106,8 @@ void add_extra(Description<Tuning>& items, Extra extra) {
   switch (extra) {
     case Extra::margins:
       return add_delay(items);
+    case Extra::ages:
+      return add_lost_ages(items);
     case Extra::room:
       return add_room(items);
     case Extra::robustness:

@@ -56,9 +56,10 @@ constexpr const char* tune_help =
     "\n"
     "The proven answer is printed at once, when FILE is complete: what the values do (overshoot, peak\n"
     "torque, saturation, torque at rest), and their margins. Then the extras follow, each as it is\n"
-    "ready: margins (what more delay loses), room (of each parameter), controls (others, each at its\n"
-    "own best values), limits (what stands in the way), maps (on a page). --extras chooses them: none,\n"
-    "all, or names such as room,limits. `tune FILE --extras …` makes them for a FILE that is there.\n"
+    "ready: margins (what more delay loses), ages (at which each goal is lost, of a study with ages),\n"
+    "room (of each parameter), controls (others, each at its own best values), limits (what stands in\n"
+    "the way), maps (on a page). --extras chooses them: none, all, or names such as room,limits.\n"
+    "`tune FILE --extras …` makes them for a FILE that is there.\n"
     "\n"
     "--budget bounds all together: the search, which takes half, the proof, and the extras. It is a\n"
     "number of trials, with which the answer depends on the seed alone, or a time such as 60s or\n"
@@ -99,6 +100,14 @@ std::string tuned_manifest(const study::Study& study, const tuning::TuneAnswer& 
   return manifest_text::manifest_of_point(tuned, 0, {.folder = "."});
 }
 
+/// "margins,ages,room,…".
+std::string names_of_extras() {
+  std::string names;
+  for (const tuning::Extra extra : tuning::all_extras)
+    names += fmt::format("{}{}", names.empty() ? "" : ",", tuning::name_of(extra));
+  return names;
+}
+
 /// `--extras`. @param with_page a page is made, which has maps
 std::vector<tuning::Extra> extras_option(const command_line::Arguments& arguments, bool with_page) {
   std::vector<tuning::Extra> all(tuning::all_extras.begin(), tuning::all_extras.end());
@@ -112,9 +121,8 @@ std::vector<tuning::Extra> extras_option(const command_line::Arguments& argument
     const std::optional<tuning::Extra> extra = tuning::extra_named(name);
     if (!extra)
       arguments.refuse(
-          fmt::format("option '--extras': '{}' is not an extra; expected none, all, or some of "
-                      "margins,room,robustness,controls,limits,maps",
-                      name));
+          fmt::format("option '--extras': '{}' is not an extra; expected none, all, or some of {}", name,
+                      names_of_extras()));
     if (extra == tuning::Extra::maps && !with_page)
       arguments.refuse(
           "option '--extras': maps are drawn on a page; expected --report PAGE or --watch PAGE with them");
@@ -300,7 +308,7 @@ commands::Command tune_command() {
             answers::format_option(tune_answer().complete_type()),
             {"budget", "B", "of all: a number of trials, or a time such as 60s or 5min"},
             {"manifest,m", "TUNED", "write the manifest with the tuned values"},
-            {"extras", "E", "none, all (default), or some of margins,room,robustness,controls,limits,maps"},
+            {"extras", "E", "none, all (default), or some of " + names_of_extras()},
             {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"},
             commands::watch_option(),
             {"threads", "N", "threads to use; default: all cores"},

@@ -101,6 +101,36 @@ FigureData points_data(std::string name, const TuneAnswer& answer, const std::ve
         [](const TriedPoint& one) { return ordered_json(one.estimate.units); }}});
 }
 
+Figure lost_ages_figure(const tuning::LostAges& life, const study::Study& study) {
+  FigureData data{"ages",
+                  {{"series", "of", ""},
+                   {"age", "age", study.ages.unit},
+                   {"rate", "proportion", "1"},
+                   {"low", "lower bound", "1"},
+                   {"high", "upper bound", "1"},
+                   {"asked", "asked", "1"}}};
+  for (std::size_t i = 0; i < life.claims.size(); ++i) {
+    const tuning::ClaimOfLife& claim = life.claims[i].claim;
+    const study::Goal& goal = study.goals[claim.goal];
+    const std::string name =
+        (goal.machines ? "machines in the goal" : "moves in the goal") + tuning::text_of(study, claim);
+    for (const tuning::AgeVerdict& at : life.tried)
+      data.rows.push_back({name, datum(at.age), datum(at.rates[i].value), datum(at.rates[i].low),
+                           datum(at.rates[i].high), datum(goal.machines.value_or(goal.moves))});
+  }
+  Figure figure = report::figure_of(
+      "ages", "tuning-ages", "How long do the tuned values hold?",
+      fmt::format("Proportions at each age that was tried, by {} machines that the search did not use, with "
+                  "one-sided bounds at the goal's confidence. Dashed: what is asked. Beyond {}, the last age "
+                  "of the study, the laws of aging are extrapolated.",
+                  life.units, study::age_text(study.ages, study.ages.at.back())),
+      {std::move(data)});
+  std::vector<double> ages;
+  for (const tuning::AgeVerdict& at : life.tried) ages.push_back(at.age);
+  report::scale_ages(figure, ages, study.ages.unit);
+  return figure;
+}
+
 /// The proportion that the worst goal of the proof asks for.
 double asked_of(const TuneAnswer& answer, const study::Study& study) {
   const study::Goal& goal = study.goals[answer.proof->verdict.goal];
@@ -186,6 +216,11 @@ std::vector<Figure> map_figures(const Tuning& tuning) {
 std::vector<Figure> frontier_figures(const Tuning& tuning) {
   if (!is_drawn(tuning) || tuning.answer.tried.empty()) return {};
   return {frontier_figure(tuning.answer, tuning.study)};
+}
+
+std::vector<Figure> lost_ages_figures(const Tuning& tuning) {
+  if (!is_drawn(tuning) || !tuning.answer.lost_ages) return {};
+  return {lost_ages_figure(*tuning.answer.lost_ages, tuning.study)};
 }
 
 std::vector<Figure> room_figures(const Tuning& tuning) {

@@ -11,6 +11,7 @@ namespace zerocount::design_commands {
 
 std::vector<document::Figure> map_figures(const Tuning& tuning);
 std::vector<document::Figure> frontier_figures(const Tuning& tuning);
+std::vector<document::Figure> lost_ages_figures(const Tuning& tuning);
 std::vector<document::Figure> room_figures(const Tuning& tuning);
 
 }  // namespace zerocount::design_commands

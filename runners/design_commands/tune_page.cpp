@@ -54,6 +54,8 @@ const char* question_of(Extra extra) {
   switch (extra) {
     case Extra::margins:
       return "How much more delay does it bear?";
+    case Extra::ages:
+      return "How long does it hold?";
     case Extra::room:
       return "How much may each value change?";
     case Extra::robustness:

@@ -44,6 +44,7 @@ void add_margins(document::Description<Tuning>& items);
 void add_margin_table(document::Description<Tuning>& items);
 void add_nearest(document::Description<Tuning>& items);
 void add_delay(document::Description<Tuning>& items);
+void add_lost_ages(document::Description<Tuning>& items);
 void add_room(document::Description<Tuning>& items);
 void add_robustness(document::Description<Tuning>& items);
 void add_controls(document::Description<Tuning>& items);

@@ -23,6 +23,7 @@ constexpr std::int64_t trials_of_control = 125'000;
 
 constexpr std::array<std::pair<Extra, std::string_view>, all_extras.size()> names{
     {{Extra::margins, "margins"},
+     {Extra::ages, "ages"},
      {Extra::room, "room"},
      {Extra::robustness, "robustness"},
      {Extra::controls, "controls"},
@@ -63,7 +64,7 @@ ExtrasMaker::ExtrasMaker(const Context& context, TuneAnswer& answer)
       details_{tuned_, answer.free, answer.gains, of_.search.units(), 0, of_.effort} {
   const auto points_if = [&](Extra extra, std::int64_t points) { return wants(extra) ? points : 0; };
   const std::int64_t points =
-      points_if(Extra::limits, points_of_limits) +
+      points_if(Extra::limits, points_of_limits) + points_if(Extra::ages, points_of_ages()) +
       (is_met()
            ? points_if(Extra::margins, points_of_delay) + points_if(Extra::robustness, points_of_robustness) +
                  points_if(Extra::room, points_of_room * std::ssize(answer_.free))
@@ -76,7 +77,22 @@ ExtrasMaker::ExtrasMaker(const Context& context, TuneAnswer& answer)
 }
 
 bool ExtrasMaker::wants(Extra extra) const {
+  if (extra == Extra::ages && of_.study.ages.at.empty()) return false;
   return std::ranges::find(of_.settings.extras, extra) != of_.settings.extras.end();
+}
+
+/// Points under all conditions at all ages that take as long as the ages at which claims are lost.
+std::int64_t ExtrasMaker::points_of_ages() const {
+  const std::int64_t ages = std::ssize(of_.study.ages.at);
+  return ages == 0 ? 0 : (points_of_lost_ages(of_.study) + ages - 1) / ages;
+}
+
+/// Machines of one age, as many as take the trials of the planned units.
+trials::Replicates ExtrasMaker::units_of_ages() const {
+  const std::int64_t each = trials_of_machine(of_.study);
+  const std::int64_t units = plan_.units * of_.search.units().trials_each / each;
+  return {trials::in_equal_worlds(of_.study, std::max<std::int64_t>(units, 1)),
+          trials_at_one_age(of_.study, each)};
 }
 
 /// What an extra takes, at most.
@@ -85,6 +101,8 @@ std::int64_t ExtrasMaker::trials_of(Extra extra) const {
   switch (extra) {
     case Extra::margins:
       return is_met() ? points_of_delay * each : units_of_limits().trials();
+    case Extra::ages:
+      return points_of_lost_ages(of_.study) * units_of_ages().trials();
     case Extra::room:
       return is_met() ? points_of_room * std::ssize(answer_.free) * each : 0;
     case Extra::robustness:
@@ -174,6 +192,11 @@ void ExtrasMaker::make(Extra extra) {
   switch (extra) {
     case Extra::margins:
       return try_to([&] { find_delay(); });
+    case Extra::ages:
+      return try_to([&] {
+        answer_.lost_ages = lost_ages(AgeRuns(of_.study, units_of_ages(), "tuning, ages", of_.effort),
+                                      answer_.free, answer_.gains);
+      });
     case Extra::room:
       if (is_met()) try_to([&] { answer_.room = room_of(details_); });
       return;

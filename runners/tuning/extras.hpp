@@ -63,6 +63,8 @@ class ExtrasMaker {
   bool has_budget() const { return of_.settings.budget.trials || of_.settings.budget.seconds; }
   bool is_met() const { return answer_.status == goal::Status::met; }
   bool wants(Extra extra) const;
+  std::int64_t points_of_ages() const;
+  trials::Replicates units_of_ages() const;
 
   Context of_;
   TuneAnswer& answer_;

@@ -20,6 +20,7 @@
 #include "runners/tuning/behaviour.hpp"
 #include "runners/tuning/limits.hpp"
 #include "runners/tuning/loop_examiner.hpp"
+#include "runners/tuning/lost_ages.hpp"
 #include "runners/tuning/nearest_point.hpp"
 #include "runners/tuning/race/frontier.hpp"
 #include "runners/tuning/race/search.hpp"
@@ -35,13 +36,14 @@ struct TuneAnswer;
 /// What follows the proof, in the order of what it tells.
 enum class Extra {
   margins,     ///< what more delay loses; of a goal that is missed, what a wider band would change
+  ages,        ///< at which each claim is lost, of a study with ages
   room,        ///< of each free parameter
   robustness,  ///< with other seeds, spreads and delays
   controls,    ///< others, each at its own best values
   limits,      ///< what stands between the values and the goal
   maps         ///< over pairs of free parameters, for a page
 };
-inline constexpr std::array all_extras{Extra::margins,  Extra::room,   Extra::robustness,
+inline constexpr std::array all_extras{Extra::margins,  Extra::ages,   Extra::room, Extra::robustness,
                                        Extra::controls, Extra::limits, Extra::maps};
 
 /// "margins", "room", …
@@ -105,6 +107,7 @@ struct TuneAnswer {
   bool delay_sought{false};             ///< whether up to 5 samples more were tried
   std::vector<double> delays;           ///< [condition] controller.delay of the tuned study, samples
   std::vector<std::string> at_edges;    ///< free parameters at an end of their range, "controller.ki = 5000"
+  std::optional<LostAges> lost_ages;    ///< of a study with ages
   std::vector<Room> room;
   std::vector<Variation> robustness;
   std::vector<Alternative> alternatives;

@@ -22,6 +22,7 @@
 #include "experiments/study/machine_inputs.hpp"
 #include "experiments/study/measured_machines.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/point_limits.hpp"
 #include "runners/trials/trial_set.hpp"
 #include "runners/tuning/race/search_space.hpp"
 

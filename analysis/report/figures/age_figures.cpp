@@ -42,18 +42,6 @@ FigureData data_of_ages(const ReportedStudy& reported, const std::vector<summary
   return data;
 }
 
-/// A logarithmic axis where the ages span decades; linear below the first age above 0.
-void scale_ages(Figure& figure, const study::Ages& ages) {
-  ordered_json& x = figure.specification["encoding"]["x"];
-  x["title"] = fmt::format("age ({})", ages.unit);
-  const std::size_t first = ages.at.front() > 0.0 ? 0 : 1;
-  constexpr double decade = 10.0;
-  if (first >= ages.at.size() || ages.at.back() < decade * ages.at[first]) return;
-  x["scale"] = first == 0 ? ordered_json{{"type", "log"}, {"nice", false}}
-                          : ordered_json{{"type", "symlog"}, {"constant", ages.at[first]}, {"nice", false}};
-  x["axis"] = {{"values", ages.at}};
-}
-
 std::string bounds_text(const ReportedStudy& reported) {
   return fmt::format("one-sided bounds with {:.4g} % confidence each",
                      100.0 * goal::confidence_of(question_of(reported), reported.summary.confidence));
@@ -78,7 +66,7 @@ Figure rates_figure(const ReportedStudy& reported, const std::vector<summary::Ag
           question.claim() ? "; of machines those that meet every goal under every condition" : "",
           bounds_text(reported)),
       {data_of_ages(reported, ages, series)});
-  scale_ages(figure, question.ages);
+  scale_ages(figure, question.ages.at, question.ages.unit);
   return figure;
 }
 
@@ -92,7 +80,8 @@ Figure lives_figure(const ReportedStudy& reported, const std::vector<summary::Ag
       {data_of_ages(
           reported, ages,
           {{"machines", [](const summary::AgeOfPoint& age) { return age.living; }, std::nullopt}})});
-  scale_ages(figure, question_of(reported).ages);
+  const study::Ages& of_study = question_of(reported).ages;
+  scale_ages(figure, of_study.at, of_study.unit);
   ordered_json& layers = figure.specification["layer"];
   for (const int layer : {0, 2}) layers[layer]["mark"]["interpolate"] = "step-after";
   layers.erase(1);  // nothing is asked

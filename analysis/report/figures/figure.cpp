@@ -180,6 +180,17 @@ nlohmann::ordered_json round_numbers(double low, double high, double smallest) {
   return numbers;
 }
 
+void scale_ages(Figure& figure, const std::vector<double>& ages, const std::string& unit) {
+  ordered_json& x = figure.specification["encoding"]["x"];
+  x["title"] = fmt::format("age ({})", unit);
+  const std::size_t first = ages.front() > 0.0 ? 0 : 1;
+  constexpr double decade = 10.0;
+  if (first >= ages.size() || ages.back() < decade * ages[first]) return;
+  x["scale"] = first == 0 ? ordered_json{{"type", "log"}, {"nice", false}}
+                          : ordered_json{{"type", "symlog"}, {"constant", ages[first]}, {"nice", false}};
+  x["axis"] = {{"values", ages}};
+}
+
 bool spaced_by_ratio(const std::vector<double>& sorted) {
   if (sorted.size() < 3 || sorted.front() <= 0.0) return false;
   const double steps = static_cast<double>(sorted.size() - 1);

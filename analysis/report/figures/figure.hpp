@@ -72,6 +72,10 @@ nlohmann::ordered_json datum(double value, int digits = 6);
 /// not positive.
 nlohmann::ordered_json round_numbers(double low, double high, double smallest);
 
+/// The horizontal axis of figures of the specification `ages`: logarithmic where the ages span decades, and
+/// linear below the first age above 0. @param ages rising
+void scale_ages(Figure& figure, const std::vector<double>& ages, const std::string& unit);
+
 /// Whether sorted positive numbers are closer to equal ratios than to equal differences.
 bool spaced_by_ratio(const std::vector<double>& sorted);
 

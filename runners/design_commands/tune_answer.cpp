@@ -112,6 +112,8 @@ void add_extra(Description<Tuning>& items, Extra extra) {
       return add_room(items);
     case Extra::robustness:
       return add_robustness(items);
+    case Extra::retuning:
+      return add_retuning(items);
     case Extra::controls:
       return add_controls(items);
     case Extra::limits:

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -60,6 +61,8 @@ constexpr const char* tune_help =
     "room (of each parameter), controls (others, each at its own best values), limits (what stands in\n"
     "the way), maps (on a page). --extras chooses them: none, all, or names such as room,limits.\n"
     "`tune FILE --extras …` makes them for a FILE that is there.\n"
+    "--retune-every 1e5 tunes anew for each interval of that length in a life with ages, and tells\n"
+    "beside the one set of values what that buys.\n"
     "\n"
     "--budget bounds all together: the search, which takes half, the proof, and the extras. It is a\n"
     "number of trials, with which the answer depends on the seed alone, or a time such as 60s or\n"
@@ -108,28 +111,55 @@ std::string names_of_extras() {
   return names;
 }
 
+/// An extra of `--extras`, which the study and the other options allow.
+/// @param with_page a page is made, which has maps
+tuning::Extra allowed_extra(const command_line::Arguments& arguments, const std::string& name,
+                            const study::Study& study, bool with_page) {
+  const std::optional<tuning::Extra> extra = tuning::extra_named(name);
+  if (!extra)
+    arguments.refuse(fmt::format("option '--extras': '{}' is not an extra; expected none, all, or some of {}",
+                                 name, names_of_extras()));
+  if (extra == tuning::Extra::maps && !with_page)
+    arguments.refuse(
+        "option '--extras': maps are drawn on a page; expected --report PAGE or --watch PAGE with them");
+  if (extra == tuning::Extra::ages && study.ages.at.empty())
+    arguments.refuse("option '--extras': the study has no ages; expected other extras");
+  if (extra == tuning::Extra::retuning && !arguments.has("retune-every"))
+    arguments.refuse("option '--extras': retuning needs its interval; expected --retune-every AGE with it");
+  return *extra;
+}
+
 /// `--extras`. @param with_page a page is made, which has maps
-std::vector<tuning::Extra> extras_option(const command_line::Arguments& arguments, bool with_page) {
-  std::vector<tuning::Extra> all(tuning::all_extras.begin(), tuning::all_extras.end());
-  if (!with_page) std::erase(all, tuning::Extra::maps);
-  const std::string text = arguments.value("extras").value_or("all");
-  if (text == "all") return all;
+std::vector<tuning::Extra> extras_option(const command_line::Arguments& arguments, const study::Study& study,
+                                         bool with_page) {
   std::vector<tuning::Extra> wanted;
-  if (text == "none") return wanted;
-  std::istringstream names(text);
-  for (std::string name; std::getline(names, name, ',');) {
-    const std::optional<tuning::Extra> extra = tuning::extra_named(name);
-    if (!extra)
-      arguments.refuse(
-          fmt::format("option '--extras': '{}' is not an extra; expected none, all, or some of {}", name,
-                      names_of_extras()));
-    if (extra == tuning::Extra::maps && !with_page)
-      arguments.refuse(
-          "option '--extras': maps are drawn on a page; expected --report PAGE or --watch PAGE with them");
-    wanted.push_back(*extra);
+  const std::string text = arguments.value("extras").value_or("all");
+  const bool retunes = arguments.has("retune-every");
+  if (text == "all") {
+    wanted.assign(tuning::all_extras.begin(), tuning::all_extras.end());
+    if (!with_page) std::erase(wanted, tuning::Extra::maps);
+    if (study.ages.at.empty()) std::erase(wanted, tuning::Extra::ages);
+    if (!retunes) std::erase(wanted, tuning::Extra::retuning);
+  } else if (text != "none") {
+    std::istringstream names(text);
+    for (std::string name; std::getline(names, name, ',');)
+      wanted.push_back(allowed_extra(arguments, name, study, with_page));
+    if (wanted.empty()) arguments.refuse("option '--extras': expected none, all, or names");
   }
-  if (wanted.empty()) arguments.refuse("option '--extras': expected none, all, or names");
+  if (retunes && std::ranges::find(wanted, tuning::Extra::retuning) == wanted.end())
+    arguments.refuse("option '--retune-every': --extras leaves it out; expected retuning among its names");
   return wanted;
+}
+
+/// `--retune-every`, in the unit of the study's ages.
+std::optional<double> retuning_option(const command_line::Arguments& arguments, const study::Study& study) {
+  const std::optional<double> every = command_line::number_option(arguments, "retune-every", 0.0);
+  if (!every) return every;
+  if (study.ages.at.empty())
+    arguments.refuse("option '--retune-every': the study has no ages; expected the key ages in its manifest");
+  if (*every == 0.0) arguments.refuse("option '--retune-every': expected an age above 0");
+  tuning::intervals_of_life(study.ages, *every);  // refuses too many and too few
+  return every;
 }
 
 tuning::TuneSettings tune_settings(const command_line::Arguments& arguments) {
@@ -211,7 +241,8 @@ void take_pages(const command_line::Arguments& arguments, std::vector<std::files
 ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
   const bool in_html = arguments.choice("format") == "html";
   task.settings.page = !task.pages.empty() || task.watched || in_html;
-  task.settings.extras = extras_option(arguments, task.settings.page);
+  task.settings.extras = extras_option(arguments, task.study, task.settings.page);
+  task.settings.retune_every = retuning_option(arguments, task.study);
   if (task.settings.page) report::require_drawing_libraries();
   const parallel::ThreadLimit limit(trials::threads_to_use(task.settings.threads));
   commands::print_warnings(task.study);
@@ -309,6 +340,7 @@ commands::Command tune_command() {
             {"budget", "B", "of all: a number of trials, or a time such as 60s or 5min"},
             {"manifest,m", "TUNED", "write the manifest with the tuned values"},
             {"extras", "E", "none, all (default), or some of " + names_of_extras()},
+            {"retune-every", "AGE", "tune again at these intervals of life, and tell what that buys"},
             {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"},
             commands::watch_option(),
             {"threads", "N", "threads to use; default: all cores"},

@@ -60,6 +60,8 @@ const char* question_of(Extra extra) {
       return "How much may each value change?";
     case Extra::robustness:
       return "Does it hold under other premises?";
+    case Extra::retuning:
+      return "What does tuning again buy?";
     case Extra::controls:
       return "Would another control do?";
     case Extra::limits:

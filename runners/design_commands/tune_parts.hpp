@@ -47,6 +47,7 @@ void add_delay(document::Description<Tuning>& items);
 void add_lost_ages(document::Description<Tuning>& items);
 void add_room(document::Description<Tuning>& items);
 void add_robustness(document::Description<Tuning>& items);
+void add_retuning(document::Description<Tuning>& items);
 void add_controls(document::Description<Tuning>& items);
 void add_limits(document::Description<Tuning>& items);
 void add_frontier(document::Description<Tuning>& items);

@@ -26,6 +26,7 @@ constexpr std::array<std::pair<Extra, std::string_view>, all_extras.size()> name
      {Extra::ages, "ages"},
      {Extra::room, "room"},
      {Extra::robustness, "robustness"},
+     {Extra::retuning, "retuning"},
      {Extra::controls, "controls"},
      {Extra::limits, "limits"},
      {Extra::maps, "maps"}}};
@@ -70,14 +71,16 @@ ExtrasMaker::ExtrasMaker(const Context& context, TuneAnswer& answer)
                  points_if(Extra::room, points_of_room * std::ssize(answer_.free))
            : 0);
   if (!wants(Extra::controls)) controls_.clear();
+  if (wants(Extra::retuning)) intervals_ = intervals_of_life(of_.study.ages, *of_.settings.retune_every);
+  std::vector<OtherControl> searches = controls_;
+  searches.resize(controls_.size() + intervals_.size(), {"", {}, {}, answer_.free});
   plan_ = plan_rest(of_.study, points,
                     wants(Extra::maps) ? trials_of_maps(of_.search.units(), answer_.free.size()) : 0,
-                    controls_, of_.effort, of_.speed);
+                    searches, of_.effort, of_.speed);
   details_.count = plan_.units;
 }
 
 bool ExtrasMaker::wants(Extra extra) const {
-  if (extra == Extra::ages && of_.study.ages.at.empty()) return false;
   return std::ranges::find(of_.settings.extras, extra) != of_.settings.extras.end();
 }
 
@@ -107,9 +110,13 @@ std::int64_t ExtrasMaker::trials_of(Extra extra) const {
       return is_met() ? points_of_room * std::ssize(answer_.free) * each : 0;
     case Extra::robustness:
       return is_met() ? points_of_robustness * units_of_limits().trials() : 0;
-    case Extra::controls:
-      return std::ssize(controls_) *
-             std::min(trials_of_control, affordable_trials(one_of_shares(std::ssize(controls_)), of_.speed));
+    case Extra::retuning:
+    case Extra::controls: {
+      const std::int64_t later = std::ssize(controls_);
+      const std::int64_t searches = extra == Extra::controls ? later : std::ssize(intervals_);
+      const std::int64_t shares = extra == Extra::controls ? later : searches + later;
+      return searches * std::min(trials_of_control, affordable_trials(one_of_shares(shares), of_.speed));
+    }
     case Extra::limits:
       return points_of_limits * units_of_limits().trials();
     case Extra::maps:
@@ -123,10 +130,11 @@ double ExtrasMaker::seconds_of(Extra extra) const {
       0.0, std::min(static_cast<double>(trials_of(extra)) / of_.measured_speed, of_.effort.seconds_left()));
 }
 
-/// The room usually takes half of its points; controls are searched with what there is.
+/// The room usually takes half of its points; searches take what there is.
 bool ExtrasMaker::fits(Extra extra) const {
   const std::int64_t usual = trials_of(extra) / (extra == Extra::room ? 2 : 1);
-  return extra == Extra::controls || usual <= affordable_trials(of_.effort, of_.speed);
+  return extra == Extra::controls || extra == Extra::retuning ||
+         usual <= affordable_trials(of_.effort, of_.speed);
 }
 
 void ExtrasMaker::make() {
@@ -209,6 +217,8 @@ void ExtrasMaker::make(Extra extra) {
             EffectRuns(tuned, units, of_.effort), units,
             [&](std::uint64_t seed) { return tuned_for_limits({fmt::format("seed={}", seed)}); }, of_.effort);
       });
+    case Extra::retuning:
+      return add_retuning();
     case Extra::controls:
       return add_controls();
     case Extra::limits:
@@ -272,20 +282,58 @@ trials::Effort ExtrasMaker::one_of_shares(std::int64_t parts) const {
       {}, (of_.effort.seconds_left() - static_cast<double>(later) / of_.speed) / static_cast<double>(parts));
 }
 
-/// @param tuned controls that are tuned already; gets this one
-void ExtrasMaker::add_control(const OtherControl& control, const trials::Effort& effort,
-                              std::vector<TunedValues>& tuned) {
-  const study::Study study = trials::variant_of(of_.study, control.overrides);
-  const SearchPlan plan = plan_other_search(study, control.free, effort, of_.speed);
-  StudySearch search(study, control.free, plan.size, of_.journal, of_.elapsed, effort);
+SearchResult ExtrasMaker::search_from(const study::Study& study,
+                                      const std::vector<study::FreeParameter>& free,
+                                      const trials::Effort& effort, std::vector<Values> starts) {
+  const SearchPlan plan = plan_other_search(study, free, effort, of_.speed);
+  StudySearch search(study, free, plan.size, of_.journal, of_.elapsed, effort);
   SearchSettings limits;
   limits.seed = study.seed;
   limits.begins_anew = has_budget();
   limits.effort = plan.effort;
-  const SearchResult found = search.run(limits, starts_from(tuned, control.free));
+  SearchResult found = search.run(limits, std::move(starts));
   answer_.points += found.points;
   answer_.trials += found.trials;
   if (found.finalists.empty() && found.cut) throw trials::Spent{};
+  return found;
+}
+
+void ExtrasMaker::add_retuning() {
+  answer_.retuning = Retuning{*of_.settings.retune_every, {}};
+  std::vector<TunedValues> tuned{named_values(answer_.free, answer_.gains)};
+  const std::int64_t searches = std::ssize(intervals_) + std::ssize(controls_);
+  for (std::int64_t i = 0; i < std::ssize(intervals_); ++i) {
+    const LifeInterval& interval = intervals_[static_cast<std::size_t>(i)];
+    if (!ended([&] { retune(interval, one_of_shares(searches - i), tuned); }))
+      leave_out(Extra::retuning, fmt::format("retuning ({} to {})", interval.from(),
+                                             study::age_text(of_.study.ages, interval.to())));
+  }
+}
+
+/// Tunes for an interval, and runs the values beside those of the whole life on fresh machines.
+/// @param tuned the values for the whole life, and those of other intervals; gets those of this one
+void ExtrasMaker::retune(const LifeInterval& interval, const trials::Effort& effort,
+                         std::vector<TunedValues>& tuned) {
+  const study::Study study = study_in(of_.study, interval);
+  const SearchResult found = search_from(study, answer_.free, effort, starts_from(tuned, answer_.free));
+  RetunedInterval one{interval, {}, {}, {}};
+  one.units = units_of_judgement(study, effort.part(2), of_.speed);
+  const AgeRuns runs(of_.study, {one.units, trials_at_one_age(study, trials_of_machine(study))},
+                     "tuning, retuning", effort);
+  if (!found.finalists.empty()) one.gains = found.finalists.front().values;
+  for (const double age : interval.ages) {
+    one.one_set.push_back(runs.at(age, answer_.free, answer_.gains));
+    if (!one.gains.empty()) one.retuned.push_back(runs.at(age, answer_.free, one.gains));
+  }
+  if (!one.gains.empty()) tuned.push_back(named_values(answer_.free, one.gains));
+  answer_.retuning->intervals.push_back(std::move(one));
+}
+
+/// @param tuned controls that are tuned already; gets this one
+void ExtrasMaker::add_control(const OtherControl& control, const trials::Effort& effort,
+                              std::vector<TunedValues>& tuned) {
+  const study::Study study = trials::variant_of(of_.study, control.overrides);
+  const SearchResult found = search_from(study, control.free, effort, starts_from(tuned, control.free));
   Alternative alternative;
   alternative.name = control.name;
   for (const std::string& name : control.zero) alternative.fixed.emplace_back(name, 0.0);

@@ -47,6 +47,10 @@ class ExtrasMaker {
  private:
   void make(Extra extra);
   void find_delay();
+  void add_retuning();
+  void retune(const LifeInterval& interval, const trials::Effort& effort, std::vector<TunedValues>& tuned);
+  SearchResult search_from(const study::Study& study, const std::vector<study::FreeParameter>& free,
+                           const trials::Effort& effort, std::vector<Values> starts);
   void add_controls();
   void add_control(const OtherControl& control, const trials::Effort& effort,
                    std::vector<TunedValues>& tuned);
@@ -69,6 +73,7 @@ class ExtrasMaker {
   Context of_;
   TuneAnswer& answer_;
   std::vector<OtherControl> controls_;
+  std::vector<LifeInterval> intervals_;  ///< for which values are tuned again
   study::Study tuned_;
   RestPlan plan_;
   TunedStudy details_;

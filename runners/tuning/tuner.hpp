@@ -24,6 +24,7 @@
 #include "runners/tuning/nearest_point.hpp"
 #include "runners/tuning/race/frontier.hpp"
 #include "runners/tuning/race/search.hpp"
+#include "runners/tuning/retuning.hpp"
 #include "runners/tuning/robustness.hpp"
 #include "runners/tuning/tune_plan.hpp"
 #include "runners/tuning/tuning_map.hpp"
@@ -39,12 +40,13 @@ enum class Extra {
   ages,        ///< at which each claim is lost, of a study with ages
   room,        ///< of each free parameter
   robustness,  ///< with other seeds, spreads and delays
+  retuning,    ///< gains per interval of a life, with TuneSettings::retune_every
   controls,    ///< others, each at its own best values
   limits,      ///< what stands between the values and the goal
   maps         ///< over pairs of free parameters, for a page
 };
-inline constexpr std::array all_extras{Extra::margins,  Extra::ages,   Extra::room, Extra::robustness,
-                                       Extra::controls, Extra::limits, Extra::maps};
+inline constexpr std::array all_extras{Extra::margins,  Extra::ages,     Extra::room,   Extra::robustness,
+                                       Extra::retuning, Extra::controls, Extra::limits, Extra::maps};
 
 /// "margins", "room", …
 std::string_view name_of(Extra extra);
@@ -57,7 +59,8 @@ struct TuneSettings {
   bool quiet{false};
   bool page{false};  ///< a page is written afterwards, for which some of the time is kept
   std::vector<Extra> extras{};
-  bool force{false};  ///< replace the output, and unfinished runs of other studies
+  std::optional<double> retune_every{};  ///< in the unit of the study's ages
+  bool force{false};                     ///< replace the output, and unfinished runs of other studies
   status::Listener listener{};
   std::function<void(const SearchProgress&)> searching{};  ///< called after each generation of the search
   /// Called before the proof, with what the values that are to be proven do.
@@ -110,6 +113,7 @@ struct TuneAnswer {
   std::optional<LostAges> lost_ages;    ///< of a study with ages
   std::vector<Room> room;
   std::vector<Variation> robustness;
+  std::optional<Retuning> retuning;  ///< with TuneSettings::retune_every
   std::vector<Alternative> alternatives;
   std::vector<Limit> limits;
   std::vector<TriedPoint> tried;     ///< by the search

@@ -1610,6 +1610,20 @@ class TuneAnswer(Answer):
         first, samples.
     delay_lost_condition : str or None
         That condition, with conditions.
+    lost_ages : pandas.DataFrame
+        Age at which each goal is lost under each condition, of a study with ages.
+
+        - ``goal``: name of the goal, of several
+        - ``condition``: name of the condition, with conditions
+        - ``lost``: youngest age that was tried at which less than asked for meets the goal, to 10 %; null: none; in the
+          unit of ages
+        - ``met_until``: age up to and including which the goal is shown to be met, at its confidence; null: not at the
+          first
+        - ``missed_from``: age from which on the goal is shown to be missed, at its confidence; null: none
+        - ````: unit
+
+    ages_tried_to : float or None
+        Oldest age that was tried, of a study with ages, in the unit of ages.
     room : dict[str, list[float or None]]
         Range of each parameter in which the goal seems met, the others as tuned.
     robustness : pandas.DataFrame
@@ -1619,6 +1633,35 @@ class TuneAnswer(Answer):
         - ``holds``: whether every goal is met under every condition
         - ``rate``: proportion of moves, or of machines, that meet the worst goal; of seeds the lowest
         - ``note``: what stayed, or why there is no rate
+
+    retune_every : float or None
+        Interval of life at which it was tuned again, in the unit of ages.
+    retuning : pandas.DataFrame
+        Values for each interval of life, with --retune-every.
+
+        - ``from``: beginning of the interval, in the unit of ages
+        - ``to``: its end
+        - ``gains``: values for the interval by parameter; none if none keep the margins
+        - ``criterion_one_set``: quantity that is minimised, the largest of the interval, with the values for the whole
+          life; unknown for never
+        - ``criterion``: the same with the values of the interval
+        - ``machines``: fresh machines, or draws, that it was simulated on
+
+    retuned_ages : pandas.DataFrame
+        Rates of each goal under each condition at the ages of each interval, on fresh machines that are the same for
+        both sets of values.
+
+        - ``from``: beginning of the interval, in the unit of ages
+        - ``age``: age of the interval, up to its end
+        - ``goal``: name of the goal, of several
+        - ``condition``: name of the condition, with conditions
+        - ``one_set``: proportion of moves, or of machines, that meet the goal with the values for the whole life, with
+          one-sided bounds
+        - ``one_set_low``: lower bound
+        - ``one_set_high``: upper bound
+        - ``retuned``: the same with the values of the interval; null: none keep the margins
+        - ``retuned_low``: lower bound
+        - ``retuned_high``: upper bound
 
     alternatives : pandas.DataFrame
         Simpler and other controls at their own best values.
@@ -1683,8 +1726,13 @@ class TuneAnswer(Answer):
     wider_band_rate: float | None
     delay_lost: float | None
     delay_lost_condition: str | None
+    lost_ages: pandas.DataFrame
+    ages_tried_to: float | None
     room: dict[str, list[float | None]]
     robustness: pandas.DataFrame
+    retune_every: float | None
+    retuning: pandas.DataFrame
+    retuned_ages: pandas.DataFrame
     alternatives: pandas.DataFrame
     limits: pandas.DataFrame
     frontier: pandas.DataFrame

@@ -1,0 +1,68 @@
+// Intervals of a life between two tunings.
+#include "runners/tuning/retuning.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/failure/failure.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using tuning::intervals_of_life;
+using tuning::LifeInterval;
+
+TEST(Retuning, IntervalsEndAtMultiplesAndHaveTheAgesBetween) {
+  const std::vector<LifeInterval> found = intervals_of_life({{0.0, 1.0e5, 1.2e5, 3.5e5}, "cycles"}, 1.0e5);
+  ASSERT_EQ(found.size(), 4U);
+  EXPECT_EQ(found[0].ages, (std::vector{0.0, 1.0e5}));
+  EXPECT_EQ(found[1].ages, (std::vector{1.0e5, 1.2e5, 2.0e5}));
+  EXPECT_EQ(found[2].ages, (std::vector{2.0e5, 3.0e5}));
+  EXPECT_EQ(found[3].ages, (std::vector{3.0e5, 3.5e5}));
+}
+
+TEST(Retuning, IntervalsCoverTheLifeOnce) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int i = 0; i < 500; ++i) {
+    study::Ages ages;
+    for (double age = uniform(random) < 0.5 ? 0.0 : uniform(random); std::ssize(ages.at) < 5;
+         age += 0.01 + uniform(random))
+      ages.at.push_back(age);
+    const double life = ages.at.back() - ages.at.front();
+    const double every = life * (0.05 + 0.9 * uniform(random));
+    std::vector<LifeInterval> found;
+    try {
+      found = intervals_of_life(ages, every);
+    } catch (const Failure&) {  // no multiple lies within the life
+      EXPECT_GT(std::floor(ages.at.front() / every) + 1.0, ages.at.back() / every - 1.0);
+      continue;
+    }
+    EXPECT_EQ(found.front().from(), ages.at.front());
+    EXPECT_EQ(found.back().to(), ages.at.back());
+    std::size_t inner = 0;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_TRUE(std::ranges::is_sorted(found[k].ages));
+      EXPECT_LE(found[k].to() - found[k].from(), every * (1.0 + 1e-12));
+      inner += found[k].ages.size() - 2;
+      if (k > 0) {
+        EXPECT_EQ(found[k].from(), found[k - 1].to());
+        EXPECT_NEAR(std::remainder(found[k].from(), every), 0.0, 1e-9);
+      }
+    }
+    EXPECT_EQ(inner, ages.at.size() - 2);
+  }
+}
+
+TEST(Retuning, RefusesOneIntervalAndVeryMany) {
+  const study::Ages ages{{0.0, 1.0e6}, "cycles"};
+  for (const double every : {1.0e6, 2.0e6, 1.0})
+    EXPECT_THROW(intervals_of_life(ages, every), Failure) << every;
+  EXPECT_EQ(intervals_of_life(ages, 2.0e4).size(), 50U);
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -161,6 +161,36 @@ bool has_value_at(const yaml::YamlNode& root, std::string_view path) {
   return dot == std::string_view::npos || has_value_at(*entry->value, path.substr(dot + 1));
 }
 
+const yaml::YamlNode* node_at(const yaml::YamlNode& root, std::string_view path) {
+  const yaml::YamlNode* node = &root;
+  while (node != nullptr) {
+    const auto dot = path.find('.');
+    const yaml::YamlEntry* const entry =
+        node->kind == yaml::YamlNode::Kind::map ? yaml::find_entry(*node, path.substr(0, dot)) : nullptr;
+    node = entry == nullptr ? nullptr : entry->value.get();
+    if (dot == std::string_view::npos) break;
+    path.remove_prefix(dot + 1);
+  }
+  return node;
+}
+
+yaml::YamlPointer aging_like(const yaml::YamlNode* before, const yaml::YamlPointer& value) {
+  using yaml::YamlNode;
+  const bool is_map = value->kind == YamlNode::Kind::map;
+  if (!is_map && value->kind != YamlNode::Kind::scalar) return value;
+  const yaml::YamlEntry* const aging =
+      before != nullptr && before->kind == YamlNode::Kind::map ? yaml::find_entry(*before, "aging") : nullptr;
+  if (aging == nullptr || (is_map && yaml::find_entry(*value, "aging") != nullptr)) return value;
+  auto map = is_map ? std::make_shared<YamlNode>(*value) : std::make_shared<YamlNode>();
+  if (!is_map) {
+    map->kind = YamlNode::Kind::map;
+    map->place = value->place;
+    map->entries.push_back({"value", value->place, value});
+  }
+  map->entries.push_back(*aging);
+  return map;
+}
+
 yaml::YamlPointer apply_overrides(yaml::YamlPointer root, const std::vector<std::string>& overrides,
                                   std::deque<std::string>& sources, yaml::Problems& problems) {
   for (const std::string& text : overrides) {
@@ -183,6 +213,7 @@ yaml::YamlPointer apply_overrides(yaml::YamlPointer root, const std::vector<std:
       value = null;
     }
     if (!value) continue;
+    value = aging_like(node_at(*root, key), value);
     if (const yaml::YamlPointer changed = with_value(root, key, value, {source}, problems)) root = changed;
   }
   return root;

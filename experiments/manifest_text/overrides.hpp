@@ -10,10 +10,17 @@
 
 namespace zerocount::manifest_text {
 
+/// The node at the path of keys; null if there is none.
+const yaml::YamlNode* node_at(const yaml::YamlNode& root, std::string_view path);
+
+/// The value in place of the one before, with whose `aging` it changes with age unless it says how itself.
+/// @param before null: there was none
+yaml::YamlPointer aging_like(const yaml::YamlNode* before, const yaml::YamlPointer& value);
+
 /// Applies `overrides` ("key=value", with the value as YAML) to the tree `root`, in order. Keys are dotted
 /// paths, with an index for lists: trials, plant.inertia, command.targets.0, sweep.grid.controller.kp.
-/// Missing maps are created; `zerocount` cannot be overridden. `sources` gets the names under which the
-/// overrides appear in messages, and must outlive the result.
+/// Missing maps are created; `zerocount` cannot be overridden. A value with `aging` keeps it (aging_like()).
+/// `sources` gets the names under which the overrides appear in messages, and must outlive the result.
 yaml::YamlPointer apply_overrides(yaml::YamlPointer root, const std::vector<std::string>& overrides,
                                   std::deque<std::string>& sources, yaml::Problems& problems);
 

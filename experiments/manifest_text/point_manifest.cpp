@@ -77,18 +77,6 @@ YamlPointer without(const YamlPointer& root, std::string_view path) {
   return copy;
 }
 
-/// The node at the path of keys; null if there is none.
-const YamlNode* node_at(const YamlNode& root, std::string_view path) {
-  const YamlNode* node = &root;
-  while (node != nullptr) {
-    const auto dot = path.find('.');
-    node = node->kind == YamlNode::Kind::map ? child(*node, path.substr(0, dot)) : nullptr;
-    if (dot == std::string_view::npos) break;
-    path.remove_prefix(dot + 1);
-  }
-  return node;
-}
-
 /// Where the number of the path stands: that of a rate, "friction.k1.aging", at the key of its law.
 std::string number_path(const YamlNode& root, std::string_view path) {
   const YamlNode* const aging = path.ends_with(study::suffix_of_rate) ? node_at(root, path) : nullptr;
@@ -96,21 +84,6 @@ std::string number_path(const YamlNode& root, std::string_view path) {
   const auto law =
       std::ranges::find_if(aging->entries, [](const yaml::YamlEntry& entry) { return entry.key != "scale"; });
   return law == aging->entries.end() ? std::string(path) : fmt::format("{}.{}", path, law->key);
-}
-
-/// The value, which changes with age as `before` does unless it says how itself.
-YamlPointer aging_like(const YamlNode* before, const YamlPointer& value) {
-  const bool is_map = value->kind == YamlNode::Kind::map;
-  const yaml::YamlEntry* const aging =
-      before != nullptr && before->kind == YamlNode::Kind::map ? yaml::find_entry(*before, "aging") : nullptr;
-  if (aging == nullptr || (is_map && child(*value, "aging") != nullptr)) return value;
-  auto map = is_map ? std::make_shared<YamlNode>(*value) : std::make_shared<YamlNode>();
-  if (!is_map) {
-    map->kind = YamlNode::Kind::map;
-    map->entries.push_back({"value", value->place, value});
-  }
-  map->entries.push_back(*aging);
-  return map;
 }
 
 /// A manifest that is changed, key by key.
@@ -158,6 +131,11 @@ class ManifestTree {
   }
 
   void remove(std::string_view path) { root_ = without(root_, path); }
+
+  /// The overrides of a condition, as YAML.
+  std::string overrides_of(std::string_view condition) const {
+    return yaml_text(*child(*child(*root_, "conditions"), condition));
+  }
 
   void put(std::string_view path, const YamlPointer& value) {
     root_ = with_value(root_, path, value, {study_.name}, problems_);
@@ -223,6 +201,11 @@ std::string manifest_of_point(const study::Study& study, std::int64_t point, con
   for (const auto& [key, text] : changes.keys) tree.put_text(key, text);
   tree.name_files_from(changes.folder);
   return tree.text();
+}
+
+std::string only_condition(const study::Study& study, const std::string& condition) {
+  return fmt::format("conditions={{{}: {}}}", nlohmann::json(condition).dump(),
+                     ManifestTree(study).overrides_of(condition));
 }
 
 }  // namespace zerocount::manifest_text

@@ -28,4 +28,7 @@ struct PointChanges {
 /// @throws Failure (bad_input) if a value has no place in it, or if it names a file that is not known
 std::string manifest_of_point(const study::Study& study, std::int64_t point, const PointChanges& changes);
 
+/// The override "conditions={…}" that leaves one of the study's conditions.
+std::string only_condition(const study::Study& study, const std::string& condition);
+
 }  // namespace zerocount::manifest_text

@@ -35,6 +35,13 @@ std::string names_like(const study::StudyTable& table, std::string_view pattern)
   return names.empty() ? "" : fmt::format("one of {}", fmt::join(names, ", "));
 }
 
+/// The parameter of which the key is the rate of aging; empty if it is not one.
+std::string aged_parameter(const study::StudyTable& table, std::string_view key) {
+  if (!key.ends_with(study::suffix_of_rate)) return "";
+  key.remove_suffix(study::suffix_of_rate.size());
+  return study::find_slots(key, table) ? std::string(key) : std::string();
+}
+
 }  // namespace
 
 std::optional<study::SlotRange> find_assigned(const yaml::Field& map, const yaml::YamlEntry& entry,
@@ -62,6 +69,9 @@ std::optional<study::SlotRange> find_assigned(const yaml::Field& map, const yaml
                        ? fmt::format("{}, which it has", table.rows[reading.plan.list.row].name)
                        : "the list in its section of the manifest");
     }
+  } else if (const std::string aged = aged_parameter(table, entry.key); !aged.empty()) {
+    problems.add(entry.place, path, fmt::format("{} does not change with age in its section", aged),
+                 fmt::format("{}: {{value: …, aging: {{exponential: -0.1, scale: 1.0e+6}}}} there", aged));
   } else if (keys::find_general_key(entry.key) != nullptr) {
     problems.add(entry.place, path, std::string(refusal),
                  "a dotted path of the table of parameters, such as controller.ki");

@@ -15,6 +15,11 @@ std::string condition_text(const Study& study, std::int64_t condition) {
          study.conditions[static_cast<std::size_t>(condition)];
 }
 
+std::string_view turn_word(const Study& study) {
+  if (study.ages.at.empty()) return "condition";
+  return study.condition_names.empty() ? "age" : "condition and age";
+}
+
 void refuse_conditions(const Study& study, std::string_view verb) {
   if (study.conditions.empty()) return;
   throw Failure(

@@ -1,5 +1,6 @@
 #include "runners/design_commands/examined_point.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -7,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "analysis/goal/question.hpp"
+#include "runners/command_line/option_values.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/trials/variant.hpp"
 
 namespace zerocount::design_commands {
 
@@ -24,7 +27,25 @@ ExaminedPoint point_to_examine(const command_line::Arguments& arguments) {
   study::Study study = commands::load_study(path, arguments);
   goal::require_targets(study, path);
   const std::int64_t point = named_point(arguments, study);
-  return {std::move(study), point};
+  study::Study one = trials::restricted_to(study, arguments.value("condition"),
+                                           command_line::number_option(arguments, "age", 0.0));
+  return {std::move(one), point, std::move(study)};
+}
+
+std::int64_t ExaminedPoint::trial_in_whole(std::int64_t trial) const {
+  const study::TrialTurns turns = study::turns_of(study);
+  const auto turn = static_cast<std::size_t>(turns.condition_of(trial));
+  if (whole.conditions.empty()) return trial;
+  const auto same = std::ranges::find(whole.conditions, study.conditions[turn]);
+  return study::turns_of(whole).trial_of(turns.draw_of(trial), same - whole.conditions.begin());
+}
+
+command_line::OptionSpec condition_option() {
+  return {"condition", "NAME", "under this condition alone"};
+}
+
+command_line::OptionSpec age_option() {
+  return {"age", "A", "at this age of the study alone"};
 }
 
 command_line::OptionSpec set_option() {

@@ -36,8 +36,9 @@ constexpr const char* limits_help =
     "none of them is simulated. Then with effects added that a study may assume away: encoder\n"
     "noise, a sample of delay, and the lowest mode of the load that costs at most 1 %. All are\n"
     "simulated with the same random numbers, on all machines; a mode, which takes long, on the first.\n"
-    "Without a goal the rate is that of moves that end at zero counts. Of several goals and\n"
-    "conditions each rate is that of the worst. Of several points --point chooses one.\n"
+    "Without a goal the rate is that of moves that end at zero counts. Of several goals, conditions\n"
+    "and ages each rate is that of the worst; --condition and --age choose one. Of several points\n"
+    "--point chooses one.\n"
     "\n"
     "Example: zerocount limits my-axis.yaml\n";
 
@@ -81,7 +82,7 @@ document::Description<LimitRow> limit_columns(const document::Item& effect) {
               .optional = true},
              [](Row row) { return row.limit.goal; })
       .value({.key = "condition",
-              .heading = "under condition",
+              .heading = "condition or age",
               .meaning = "the worst condition, which the rate is of",
               .optional = true},
              [](Row row) { return row.limit.condition; })
@@ -263,7 +264,8 @@ document::Description<std::vector<Limit>> limits_description(const std::string& 
 commands::Command limits_command() {
   return {{"limits",
            "MANIFEST|FILE",
-           {answers::format_option(limits_answer().complete_type()), named_point_option(), set_option()}},
+           {answers::format_option(limits_answer().complete_type()), named_point_option(), condition_option(),
+            age_option(), set_option()}},
           "what stands between a point and its goal",
           limits_help,
           limits,

@@ -66,10 +66,10 @@ std::string rates_sentence(Of tuning) {
     return fmt::format(
         "the rate of the goal, below, is of the worst goal{}{}: of machines where it is on machines, else of "
         "moves",
-        study.conditions.empty() ? "" : " under its worst condition",
+        study.conditions.empty() ? "" : fmt::format(" at its worst {}", study::turn_word(study)),
         study.worlds > 0 ? " in the worst world" : "");
   return fmt::format("the rate of the goal, below, is of {}{}{}", on_machines ? "machines" : "moves",
-                     study.conditions.empty() ? "" : " under the worst condition",
+                     study.conditions.empty() ? "" : fmt::format(" at the worst {}", study::turn_word(study)),
                      study.worlds > 0 ? " in the worst world" : "");
 }
 
@@ -149,7 +149,7 @@ Description<Alternative> alternative_columns() {
               .optional = true},
              &Alternative::worst_goal)
       .value({.key = "condition",
-              .heading = "worst condition",
+              .heading = "worst condition or age",
               .meaning = "name of the worst condition, with conditions",
               .optional = true},
              &Alternative::worst_condition)

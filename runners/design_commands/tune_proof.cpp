@@ -57,9 +57,9 @@ std::string met_headline(Of tuning) {
   if (study.goals.size() * static_cast<std::size_t>(study::condition_count(study)) < 2) return text;
   const tuning::ClaimPlace worst = worst_claim(tuning.answer.proof->verdict);
   if (study.conditions.size() > 1)
-    text += study.ages.at.empty()
-                ? fmt::format(" under each of {} conditions", study.conditions.size())
-                : fmt::format(" at each of {} conditions and ages", study.conditions.size());
+    text += study.ages.at.empty() ? fmt::format(" under each of {} conditions", study.conditions.size())
+                                  : fmt::format(" at each of {} {}ages", study.conditions.size(),
+                                                study.condition_names.empty() ? "" : "conditions and ");
   text += study.goals.size() > 1 ? fmt::format(", '{}'", *tuning::goal_name(study, worst)) : ", that";
   return text + study::condition_text(study, static_cast<std::int64_t>(worst.condition)) + " by the least";
 }
@@ -259,7 +259,7 @@ std::string page_headline(Of tuning) {
 void add_proof(Description<Tuning>& items) {
   items.sentence(proof_sentence)
       .table({.key = "claims",
-              .heading = "each goal under each condition, by the proof",
+              .heading = "each goal under each condition and at each age, by the proof",
               .meaning = "each goal under each condition, by the proof; the bounds allow for its attempts"},
              summary::claim_description(), proven_claims)
       .object(in_data("proof", "trials of the tuned values on machines that the search never saw"),

@@ -34,9 +34,9 @@ constexpr const char* worst_help =
     "worst of the study, from the corners, and from points between them; then among the likely\n"
     "machines, whose normal scores have a sum of squares within the 99.9 % quantile. Each is judged\n"
     "by 256 trials of its own. -o writes the manifest of the worst machine of the box: its values\n"
-    "are fixed, and `run` repeats these trials. With conditions the search is made under each, and\n"
-    "the answer is of the worst. Without a goal moves are to end at zero counts. Of several points\n"
-    "--point chooses one.\n"
+    "are fixed, and `run` repeats these trials. With conditions and ages the search is made under\n"
+    "each, and the answer is of the worst; --condition and --age choose one. Without a goal moves are\n"
+    "to end at zero counts. Of several points --point chooses one.\n"
     "\n"
     "Example: zerocount worst my-axis.yaml -o worst.yaml\n";
 
@@ -190,23 +190,34 @@ std::optional<std::filesystem::path> folder_of(const std::filesystem::path& oper
   return std::filesystem::absolute(yaml::is_stream(operand) ? "." : operand).parent_path();
 }
 
+[[noreturn]] void refuse_manifest(const std::filesystem::path& output, const std::string& why) {
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}: no manifest describes the worst machine: {}", output.string(), why));
+}
+
+/// @throws Failure (bad_input), before a search, where no machine that it may find has a manifest
+void require_manifest(const ExaminedPoint& examined, const std::filesystem::path& output) {
+  const std::string why = tuning::refusal_of_manifests(examined.study, examined.point);
+  if (!why.empty()) refuse_manifest(output, why);
+}
+
 ExitCode worst(const command_line::Arguments& arguments) {
   const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
   if (output) command_line::require_places(arguments, {arguments.operands()[0]}, {*output});
   const ExaminedPoint examined = point_to_examine(arguments);
+  if (output) require_manifest(examined, *output);
   const status::InterruptionWatch interruption;
-  const Search search{examined.study, unless_interrupted([&] {
-                        return tuning::worst_machines(
-                            examined.study, trials::replicates_of(examined.study, examined.point),
-                            folder_of(arguments.operands()[0]), interruption.token());
-                      }),
-                      output};
+  Search search{examined.study, unless_interrupted([&] {
+                  return tuning::worst_machines(examined.study,
+                                                trials::replicates_of(examined.study, examined.point),
+                                                folder_of(arguments.operands()[0]), interruption.token());
+                }),
+                output};
+  search.found.of_study.trial = examined.trial_in_whole(search.found.of_study.trial);
   const ExitCode code = answers::print(arguments, worst_answer(), search);
   if (!output) return code;
   const JudgedMachine& machine = search.found.in_box;
-  if (machine.manifest.empty())
-    throw Failure(ExitCode::bad_input, fmt::format("{}: no manifest describes the worst machine: {}",
-                                                   output->string(), machine.no_manifest));
+  if (machine.manifest.empty()) refuse_manifest(*output, machine.no_manifest);
   command_line::write_text(*output, machine.manifest);
   return code;
 }
@@ -264,6 +275,8 @@ commands::Command worst_command() {
            {answers::format_option(worst_answer().complete_type()),
             {"output,o", "MANIFEST", "write a manifest of the worst machine in the box"},
             named_point_option(),
+            condition_option(),
+            age_option(),
             set_option(),
             command_line::force_option()}},
           "the machine that a gain suits worst",

@@ -3,14 +3,31 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "core/failure/failure.hpp"
 #include "core/random/random_numbers.hpp"
 #include "experiments/designs/random_key.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/manifest_text/point_manifest.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/point_edit.hpp"
 
 namespace zerocount::trials {
+
+namespace {
+
+/// @throws Failure (bad_input) unless `wanted` is one of them
+void require_one_of(const study::Study& study, const auto& all, const auto& wanted, std::string_view noun,
+                    std::string_view option) {
+  if (std::ranges::find(all, wanted) != all.end()) return;
+  throw Failure(ExitCode::bad_input,
+                all.empty() ? fmt::format("{}: it has no {}s; expected no {}", study.name, noun, option)
+                            : fmt::format("option '{}': {} is not one of the {}s of {}; expected one of {}",
+                                          option, wanted, noun, study.name, fmt::join(all, ", ")));
+}
+
+}  // namespace
 
 std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose) {
   constexpr unsigned seed_bits = 52;
@@ -22,6 +39,28 @@ study::Study variant_of(const study::Study& study, const std::vector<std::string
   std::vector<std::string> all = study.manifest.overrides;
   all.insert(all.end(), overrides.begin(), overrides.end());
   return manifest::parse_study(study.manifest.text, study.name, all, sections::companions_of(study));
+}
+
+study::Study restricted_to(const study::Study& study, const std::optional<std::string>& condition,
+                           const std::optional<double>& age) {
+  std::vector<std::string> overrides;
+  std::int64_t turns = study::condition_count(study);
+  if (condition) {
+    require_one_of(study, study.condition_names, *condition, "condition", "--condition");
+    overrides.push_back(manifest_text::only_condition(study, *condition));
+    turns /= study::conditions_of_age(study);
+  }
+  if (age) {
+    require_one_of(study, study.ages.at, *age, "age", "--age");
+    overrides.push_back(fmt::format("ages.at=[{}]", *age));
+    turns /= std::ssize(study.ages.at);
+  }
+  if (overrides.empty()) return study;
+  overrides.push_back(fmt::format("trials={}", study::draw_count(study) * turns));
+  if (!study.retained_trials.empty()) overrides.emplace_back("retain={trials: []}");
+  study::Study restricted = variant_of(study, overrides);
+  restricted.engine = study.engine;
+  return restricted;
 }
 
 namespace {

@@ -20,6 +20,12 @@ std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose);
 /// @throws Failure (bad_input) as parse_study
 study::Study variant_of(const study::Study& study, const std::vector<std::string>& overrides);
 
+/// The study under one of its conditions, or at one of its ages, or both, as a study of its own with the same
+/// machines and draws. Without either it is the study itself.
+/// @throws Failure (bad_input) with the conditions and ages that there are
+study::Study restricted_to(const study::Study& study, const std::optional<std::string>& condition,
+                           const std::optional<double>& age);
+
 /// Why these values together are not allowed; empty if they are. @param parameters as with_values()
 std::string refusal_of_values(const study::Study& study, std::span<const std::string> parameters,
                               std::span<const double> values);

@@ -113,6 +113,10 @@ void name_claim(const study::Study& study, WorstMachine& machine) {
   machine.condition = condition_name(study, machine.claim);
 }
 
+std::string not_one_number(std::string_view name) {
+  return fmt::format("{} changes with age and is not one number of the machine", name);
+}
+
 /// The search under one condition.
 class MachineSearch {
  public:
@@ -460,8 +464,7 @@ class MachineSearch {
         if (const study::Rotors& rotors = *plan.profiles[value.index]; !rotors.drawn_mean())
           changes.values.emplace_back(name + ".profile.mean", factor * rotors.mean(0));
       } else {
-        throw Failure(ExitCode::bad_input,
-                      fmt::format("{} changes with age and is not one number of the machine", name));
+        throw Failure(ExitCode::bad_input, not_one_number(name));
       }
     }
   }
@@ -595,6 +598,21 @@ WorstMachine worst_machine(const study::Study& study, std::int64_t point,
   }
   name_claim(study, machine);
   return machine;
+}
+
+std::string refusal_of_manifests(const study::Study& study, std::int64_t point) {
+  const study::StudyPlan& plan = *study.plan;
+  for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
+    for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
+      const study::Value& value =
+          *study::value_at_point(plan, slot, study::plan_point(plan, point, condition));
+      const bool is_shared =
+          value.level == study::DrawLevel::contact || value.level == study::DrawLevel::study;
+      if (value.aging && value.kind == study::Value::Kind::distribution && is_shared)
+        return not_one_number(plan.table.rows[slot].name);
+    }
+  }
+  return "";
 }
 
 std::int64_t trials_of_worst_machines(const study::Study& study, const trials::Replicates& units) {

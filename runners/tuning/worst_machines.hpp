@@ -83,6 +83,10 @@ WorstMachines worst_machines(const study::Study& study, const trials::Replicates
                              const std::optional<std::filesystem::path>& folder,
                              const trials::Effort& effort);
 
+/// Why no manifest can describe a machine of the point at its age: a value with `aging` is drawn per contact
+/// or per study. Empty if it can.
+std::string refusal_of_manifests(const study::Study& study, std::int64_t point);
+
 /// Trials that worst_machines() runs, about.
 std::int64_t trials_of_worst_machines(const study::Study& study, const trials::Replicates& units);
 

@@ -295,6 +295,23 @@ TEST(Ages, AreInheritedByOverridesAndSweptValues) {
   EXPECT_EQ(input_of(cases, study_trial(cases, 1, 2), "friction.k2.aging"), 0.0);
 }
 
+TEST(Ages, AreKeptByOverridesOfTheCommandLine) {
+  const std::string text =
+      "zerocount: 1\nname: o\nseed: 3\nrigs: 2\ntrials: 4\nages: {at: [0, 10]}\n"
+      "friction: {k2: {value: 700, aging: {linear: -0.1, scale: 10}}}\n" +
+      command_of_ages;
+  const auto at_ten = [&](const std::string& override) {
+    const Study study = study_of(text, {override});
+    return input_of(study, study_trial(study, 0, 2), "friction.k2");
+  };
+  EXPECT_NEAR(at_ten("friction.k2=500"), 450, 1e-10);
+  const double drawn = at_ten("friction.k2={uniform: [500, 510]}");
+  EXPECT_GE(drawn, 450);
+  EXPECT_LE(drawn, 459);
+  EXPECT_NEAR(at_ten("friction.k2={value: 500, aging: {linear: 0.1, scale: 10}}"), 550, 1e-10);
+  EXPECT_NEAR(at_ten("friction.k2.aging={linear: 0, scale: 1}"), 700, 1e-10);
+}
+
 TEST(Ages, LeaveAStudyOfItsOwnAtEachTurn) {
   RandomShapes random;
   for (int n = 0; n < 10; ++n) {
@@ -346,6 +363,9 @@ TEST(Ages, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
        "ages.unit: the unit of ages is not one word; expected a word such as cycles"},
       {refusal_with(k2, "ages: {at: [0, 1], every: 2}\n"), "ages.every: unknown key"},
       {refusal_with(k2, "ages: [0, 1]\n"), "ages: found a list"},
+      {refusal_with(k2, "ages: {at: [0, 10]}\nsweep: {grid: {friction.k1.aging: [0, 1]}}\n"),
+       "sweep.grid.friction.k1.aging: friction.k1 does not change with age in its section; expected "
+       "friction.k1: {value: "},
       {refusal_with(k2, "ages: {at: [0, 1, 2, 3, 4]}\n"),
        "12 trials cannot be divided equally among 2 rigs at each of 5 ages; expected a multiple of 10"},
       {refusal_with("friction: {k2: {value: 700, aging: {linear: -0.05}}}\n"),

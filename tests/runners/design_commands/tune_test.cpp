@@ -561,5 +561,26 @@ TEST_F(Tune, WorstIsTheMachineWithTheFewestGoodMoves) {
   EXPECT_GT(of_manifest["inputs"]["friction.k1"], 0.0);
 }
 
+TEST_F(Tune, SaysWhenTheGoalIsLostAndWhatTuningAgainBuys) {
+  write_axis("ages: {at: [0, 1.0e+6]}\ngoal: {band: 1, within: 0.08, moves: 0.95}\n" +
+             std::string(two_gains));
+  const std::string growing =
+      "friction.k1={lognormal: {median: 130, cv: 0.2}, aging: {exponential: 0.5, scale: 1.0e+6}}";
+  const ProgramResult tuned =
+      tune({"--set", growing, "--extras", "ages,retuning", "--retune-every", "5e5"}, "120000");
+  ASSERT_EQ(tuned.code, 0) << tuned.err;
+  const auto answer = nlohmann::json::parse(tuned.out);
+  ASSERT_EQ(answer["lost_ages"].size(), 1U);
+  EXPECT_GT(answer["lost_ages"][0]["lost"], 1.0e6);
+  EXPECT_LE(answer["lost_ages"][0]["met_until"], answer["lost_ages"][0]["lost"]);
+  EXPECT_GE(answer["lost_ages"][0]["missed_from"], answer["lost_ages"][0]["lost"]);
+  ASSERT_EQ(answer["retuning"].size(), 2U);
+  EXPECT_EQ(answer["retuning"][0]["to"], 5.0e5);
+  EXPECT_EQ(answer["retuning"][1]["to"], 1.0e6);
+  ASSERT_EQ(answer["retuned_ages"].size(), 4U);
+  for (const auto& row : answer["retuned_ages"]) EXPECT_GT(row["retuned_low"], 0.9) << row;
+  EXPECT_EQ(tune({"--retune-every", "1e6"}).code, 2) << "one interval";
+}
+
 }  // namespace
 }  // namespace zerocount::testing

@@ -173,5 +173,41 @@ TEST_F(Worst, IsToldWhereNoManifestCanBeWritten) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "w.yaml"));
 }
 
+constexpr std::string_view aging_axis = R"(rigs: 8
+trials: 32
+ages: {at: [0, 1.0e+6]}
+conditions: {warm: {}, cold: {plant.presliding_damping: 0.3}}
+friction: {k1: {lognormal: {median: 130, cv: 0.2}, aging: {exponential: {normal: {mean: 0.4, sd: 0.1}}, scale: 1.0e+6}}}
+goal: {band: 1, within: 0.06, moves: 0.9}
+)";
+
+TEST_F(Worst, IsAskedAtOneAge) {
+  folder_.write("aging.yaml", std::string(common_part) + std::string(aging_axis));
+  const ProgramResult all = program({"worst", "aging.yaml", "--format", "json"});
+  ASSERT_EQ(all.code, 0) << all.err;
+  const ProgramResult one = program(
+      {"worst", "aging.yaml", "--age", "1e6", "--condition", "cold", "--format", "json", "-o", "w.yaml"});
+  ASSERT_EQ(one.code, 0) << one.err;
+  const Json found = Json::parse(one.out);
+  EXPECT_EQ(found["condition"], "cold, 1e+06 cycles");
+  // Trials of the last turn, of the whole study.
+  EXPECT_GE(found["trial"].get<int>() / 8 % 4, 3);
+  EXPECT_LE(Json::parse(all.out)["box"]["met"], found["box"]["met"]);
+  EXPECT_EQ(program({"limits", "aging.yaml", "--age", "2"}).code, 2);
+}
+
+TEST_F(Worst, RefusesAManifestBeforeTheSearch) {
+  folder_.write("aging.yaml",
+                std::string(common_part) + std::string(aging_axis) +
+                    "plant: {sliding_damping: {uniform: [1.0e-3, 2.0e-3], per: study, aging: {linear: 0.1, "
+                    "scale: 1.0e+6}}}\n");
+  const ProgramResult refused = program({"worst", "aging.yaml", "-o", "w.yaml"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.out, "");
+  EXPECT_NE(refused.err.find("plant.sliding_damping changes with age and is not one number"),
+            std::string::npos)
+      << refused.err;
+}
+
 }  // namespace
 }  // namespace zerocount::testing

@@ -65,7 +65,7 @@ Description<LostRow> lost_columns() {
       .value(age_item("missed_from", "shown to be missed from",
                       "age from which on the goal is shown to be missed, at its confidence; null: none"),
              [](Row row) { return row.claim.missed_from; })
-      .value({.heading = "unit"}, [](Row row) { return row.study.ages.unit; });
+      .value({.heading = "unit", .shown = Shown::to_people}, [](Row row) { return row.study.ages.unit; });
 }
 
 /// The claim that is lost first.

@@ -90,12 +90,13 @@ std::int64_t ExtrasMaker::points_of_ages() const {
   return ages == 0 ? 0 : (points_of_lost_ages(of_.study) + ages - 1) / ages;
 }
 
-/// Machines of one age, as many as take the trials of the planned units.
+/// Machines of one age, as many as take the trials of the planned units, and enough to show that the goals
+/// are met if no move misses them.
 trials::Replicates ExtrasMaker::units_of_ages() const {
   const std::int64_t each = trials_of_machine(of_.study);
   const std::int64_t units = plan_.units * of_.search.units().trials_each / each;
-  return {trials::in_equal_worlds(of_.study, std::max<std::int64_t>(units, 1)),
-          trials_at_one_age(of_.study, each)};
+  const std::int64_t least = min_proof_trials(of_.study, 1) / each;
+  return {trials::in_equal_worlds(of_.study, std::max(units, least)), trials_at_one_age(of_.study, each)};
 }
 
 /// What an extra takes, at most.
@@ -315,7 +316,11 @@ void ExtrasMaker::add_retuning() {
 void ExtrasMaker::retune(const LifeInterval& interval, const trials::Effort& effort,
                          std::vector<TunedValues>& tuned) {
   const study::Study study = study_in(of_.study, interval);
-  const SearchResult found = search_from(study, answer_.free, effort, starts_from(tuned, answer_.free));
+  // Two sets of values run at every age: that takes more than the judgement of a control.
+  const double seconds = effort.seconds_left();
+  const trials::Effort of_search = effort.share(
+      effort.trials_left() / 4 * 3, std::isinf(seconds) ? std::nullopt : std::optional(0.75 * seconds));
+  const SearchResult found = search_from(study, answer_.free, of_search, starts_from(tuned, answer_.free));
   RetunedInterval one{interval, {}, {}, {}};
   one.units = units_of_judgement(study, effort.part(2), of_.speed);
   const AgeRuns runs(of_.study, {one.units, trials_at_one_age(study, trials_of_machine(study))},

@@ -1,0 +1,169 @@
+// How often the bounds of machines at an age, and those of the survival curve, cover the truth.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include "analysis/goal/lives.hpp"
+#include "tests/support/draws.hpp"
+
+namespace zerocount::goal {
+namespace {
+
+constexpr std::array ages{0.0, 1.0, 2.0, 4.0};
+constexpr double asked_moves = 0.9;
+
+/// How the proportions of moves in which machines meet two claims, the same goal under two conditions, change
+/// over age.
+struct Machine {
+  std::function<double(double age, std::size_t condition)> proportion;
+};
+struct Aging {
+  std::string name;
+  std::function<Machine(testing::Draws&)> draw;
+};
+
+std::vector<Aging> aging_populations() {
+  return {{"all wear alike: the proportion falls slowly, at a rate of their own",
+           [](testing::Draws& draws) {
+             const double first = draws.uniform(0.93, 1.0);
+             const double rate = draws.uniform(0.0, 0.03);
+             return Machine{[=](double age, std::size_t condition) {
+               return std::max(first - rate * age * (condition == 0 ? 1.0 : 1.2), 0.0);
+             }};
+           }},
+          {"sudden: good until a lifetime (exponential), then half of the moves miss",
+           [](testing::Draws& draws) {
+             const double life = -6.0 * std::log(draws.uniform(1e-12, 1.0));
+             return Machine{[=](double age, std::size_t) { return age <= life ? 0.995 : 0.5; }};
+           }},
+          {"two kinds: a tenth is bad from the beginning, the others lose one condition late",
+           [](testing::Draws& draws) {
+             const bool is_bad = draws.chance(0.1);
+             const double life = draws.uniform(0.0, 12.0);
+             return Machine{[=](double age, std::size_t condition) {
+               return is_bad ? 0.7 : condition == 1 && age > life ? 0.8 : 0.98;
+             }};
+           }}};
+}
+
+bool meets(const Machine& machine, double age, std::size_t conditions) {
+  for (std::size_t condition = 0; condition < conditions; ++condition)
+    if (machine.proportion(age, condition) < asked_moves) return false;
+  return true;
+}
+
+struct LifeCase {
+  std::size_t conditions;
+  std::int64_t rigs;
+  std::int64_t moves;  ///< of a rig under each condition at each age
+};
+
+Question question_over(const LifeCase& one) {
+  Question question;
+  question.parts = {{0, study::Goal{.within = 0.05, .moves = asked_moves, .machines = {}}, {}}};
+  question.ages.at.assign(ages.begin(), ages.end());
+  question.conditions.assign(one.conditions * ages.size(), "");
+  return question;
+}
+
+measures::MoveCounts counts_over(testing::Draws& draws, const Aging& aging, const LifeCase& one) {
+  measures::MoveCounts counts;
+  counts.tell_apart(0, static_cast<std::int64_t>(one.conditions * ages.size()));
+  for (std::int64_t rig = 0; rig < one.rigs; ++rig) {
+    const Machine machine = aging.draw(draws);
+    for (std::size_t turn = 0; turn < one.conditions * ages.size(); ++turn) {
+      const double chance = machine.proportion(ages[turn / one.conditions], turn % one.conditions);
+      std::int64_t met = 0;
+      for (std::int64_t move = 0; move < one.moves; ++move) met += draws.chance(chance) ? 1 : 0;
+      counts.add_rig(static_cast<std::size_t>(rig), turn, {one.moves, one.moves, met});
+    }
+  }
+  return counts;
+}
+
+/// [age] what a very large study of the population shows: machines by their true proportions, and those that
+/// met the goal, as observed in these moves, at every age so far.
+struct Truth {
+  std::vector<double> machines, living;
+};
+
+Truth truth_of(const Aging& aging, const LifeCase& one) {
+  constexpr std::int64_t many = 30'000;
+  testing::Draws draws(71);
+  Truth truth{std::vector<double>(ages.size()), std::vector<double>(ages.size())};
+  for (std::int64_t i = 0; i < many; ++i) {
+    const Machine machine = aging.draw(draws);
+    double alive = 1.0;
+    for (std::size_t age = 0; age < ages.size(); ++age) {
+      truth.machines[age] += meets(machine, ages[age], one.conditions) ? 1.0 / many : 0.0;
+      for (std::size_t condition = 0; condition < one.conditions; ++condition) {
+        std::int64_t met = 0;
+        for (std::int64_t move = 0; move < one.moves; ++move)
+          met += draws.chance(machine.proportion(ages[age], condition)) ? 1 : 0;
+        if (static_cast<double>(met) < asked_moves * static_cast<double>(one.moves)) alive = 0.0;
+      }
+      truth.living[age] += alive / many;
+    }
+  }
+  return truth;
+}
+
+/// Misses of bounds at each age, of all studies.
+struct Misses {
+  std::array<int, ages.size()> low{}, high{};
+  void count(std::size_t age, const BoundedProportion& bounds, double truth) {
+    low[age] += bounds.low > truth ? 1 : 0;
+    high[age] += bounds.high < truth ? 1 : 0;
+  }
+  double most(int studies) const {
+    return 100.0 * std::max(std::ranges::max(low), std::ranges::max(high)) / studies;
+  }
+};
+
+void expect_bounds_cover(int studies) {
+  // The nominal 5 %, three standard errors, and half a percent for the truth by simulation.
+  const double limit = 5.5 + 300.0 * std::sqrt(0.05 * 0.95 / studies);
+  for (const LifeCase& one :
+       {LifeCase{1, 40, 20}, LifeCase{1, 200, 20}, LifeCase{2, 40, 20}, LifeCase{2, 100, 60}}) {
+    std::string row = fmt::format("| {} condition{}, {} rigs, {} moves |", one.conditions,
+                                  one.conditions == 1 ? "" : "s", one.rigs, one.moves);
+    const Question question = question_over(one);
+    for (const Aging& aging : aging_populations()) {
+      const Truth truth = truth_of(aging, one);
+      testing::Draws draws(29);
+      Misses machines, living;
+      for (int study = 0; study < studies; ++study) {
+        const std::vector<measures::MoveCounts> counts{counts_over(draws, aging, one)};
+        const std::vector<BoundedProportion> at = machines_at_ages(question, counts);
+        const std::vector<Survival> curve =
+            survival_of(lives_of_rigs(question, counts), question.ages.at, 0.95);
+        for (std::size_t age = 0; age < ages.size(); ++age) {
+          machines.count(age, at[age], truth.machines[age]);
+          living.count(age, curve[age].living, truth.living[age]);
+        }
+      }
+      row += fmt::format(" {:.1f}, {:.1f} |", machines.most(studies), living.most(studies));
+      EXPECT_LE(machines.most(studies), limit) << aging.name << ": " << row;
+      EXPECT_LE(living.most(studies), limit) << aging.name << ": " << row;
+    }
+    fmt::print("{}\n", row);
+  }
+}
+
+TEST(LifeCoverage, BoundsAreRarelyWrong) {
+  expect_bounds_cover(50);
+}
+
+TEST(LifeCoverage, DISABLED_BoundsAreRarelyWrongInManyStudies) {
+  expect_bounds_cover(1000);
+}
+
+}  // namespace
+}  // namespace zerocount::goal

@@ -1620,7 +1620,6 @@ class TuneAnswer(Answer):
         - ``met_until``: age up to and including which the goal is shown to be met, at its confidence; null: not at the
           first
         - ``missed_from``: age from which on the goal is shown to be missed, at its confidence; null: none
-        - ````: unit
 
     ages_tried_to : float or None
         Oldest age that was tried, of a study with ages, in the unit of ages.

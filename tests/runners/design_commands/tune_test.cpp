@@ -567,7 +567,7 @@ TEST_F(Tune, SaysWhenTheGoalIsLostAndWhatTuningAgainBuys) {
   const std::string growing =
       "friction.k1={lognormal: {median: 130, cv: 0.2}, aging: {exponential: 0.5, scale: 1.0e+6}}";
   const ProgramResult tuned =
-      tune({"--set", growing, "--extras", "ages,retuning", "--retune-every", "5e5"}, "120000");
+      tune({"--set", growing, "--extras", "ages,retuning", "--retune-every", "5e5"}, "40000");
   ASSERT_EQ(tuned.code, 0) << tuned.err;
   const auto answer = nlohmann::json::parse(tuned.out);
   ASSERT_EQ(answer["lost_ages"].size(), 1U);
@@ -578,7 +578,7 @@ TEST_F(Tune, SaysWhenTheGoalIsLostAndWhatTuningAgainBuys) {
   EXPECT_EQ(answer["retuning"][0]["to"], 5.0e5);
   EXPECT_EQ(answer["retuning"][1]["to"], 1.0e6);
   ASSERT_EQ(answer["retuned_ages"].size(), 4U);
-  for (const auto& row : answer["retuned_ages"]) EXPECT_GT(row["retuned_low"], 0.9) << row;
+  for (const auto& row : answer["retuned_ages"]) EXPECT_GT(row["retuned_low"], 0.8) << row;
   EXPECT_EQ(tune({"--retune-every", "1e6"}).code, 2) << "one interval";
 }
 

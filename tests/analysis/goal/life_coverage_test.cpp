@@ -173,7 +173,7 @@ TEST(LifeCoverage, BoundsAreRarelyWrong) {
 }
 
 TEST(LifeCoverage, DISABLED_BoundsAreRarelyWrongInManyStudies) {
-  expect_bounds_cover(400);
+  expect_bounds_cover(2000);
 }
 
 }  // namespace

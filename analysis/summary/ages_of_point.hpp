@@ -38,7 +38,7 @@ std::optional<double> met_until(const std::vector<AgeOfPoint>& ages);
 /// The first age at which the goal is missed; none where that is not shown.
 std::optional<double> missed_from(const std::vector<AgeOfPoint>& ages);
 
-/// "the goal is met up to 100000 cycles, and missed from 1e+06 cycles on"; without a goal, or ages, empty.
+/// "the goal is met up to 100000 cycles, and missed from 1000000 cycles on"; without a goal, or ages, empty.
 std::string ages_sentence(const goal::Question& question, const std::vector<AgeOfPoint>& ages);
 
 }  // namespace zerocount::summary

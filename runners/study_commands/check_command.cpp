@@ -106,7 +106,7 @@ std::string plan_headline(const Plan& plan) {
                      counted(study.moves, "move"), status::duration_text(plan.cost.seconds()));
 }
 
-/// "0 cycles, 100000 cycles, 1e+06 cycles".
+/// "0 cycles, 100000 cycles, 1000000 cycles".
 std::string ages_text(const study::Ages& ages) {
   std::vector<std::string> texts;
   for (const double age : ages.at) texts.push_back(study::age_text(ages, age));

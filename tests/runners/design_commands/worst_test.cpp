@@ -189,7 +189,7 @@ TEST_F(Worst, IsAskedAtOneAge) {
       {"worst", "aging.yaml", "--age", "1e6", "--condition", "cold", "--format", "json", "-o", "w.yaml"});
   ASSERT_EQ(one.code, 0) << one.err;
   const Json found = Json::parse(one.out);
-  EXPECT_EQ(found["condition"], "cold, 1e+06 cycles");
+  EXPECT_EQ(found["condition"], "cold, 1000000 cycles");
   // Trials of the last turn, of the whole study.
   EXPECT_GE(found["trial"].get<int>() / 8 % 4, 3);
   EXPECT_LE(Json::parse(all.out)["box"]["met"], found["box"]["met"]);

@@ -146,8 +146,10 @@ std::string left_out_sentence(Of tuning) {
   if (answer.interrupted && !tuning.is_of_file) return line + "; the same command goes on with them";
   std::vector<std::string_view> names;
   for (const Extra extra : answer.left_extras) names.push_back(tuning::name_of(extra));
-  return line + fmt::format("; zerocount tune {} --extras {} makes them", tuning.output.string(),
-                            fmt::join(names, ","));
+  const std::string interval =
+      answer.retuning ? fmt::format(" --retune-every {}", answer.retuning->every) : std::string();
+  return line + fmt::format("; zerocount tune {} --extras {}{} makes them", tuning.output.string(),
+                            fmt::join(names, ","), interval);
 }
 
 std::string effort_sentence(Of tuning) {

@@ -159,25 +159,27 @@ Description<Alternative> alternative_columns() {
 
 /// Whether the control does clearly better than the proven values, which could be the same: its other
 /// parameters are 0 in their ranges.
-bool is_better_within_ranges(const Alternative& one, const TuneAnswer& answer) {
+bool is_better_within_ranges(const Alternative& one, const TuneAnswer& answer, bool on_machines) {
   constexpr double clearly = 0.95;
   if (one.fixed.empty() || !one.verdict || !answer.proof) return false;
   const goal::Verdict& proven = answer.proof->verdict;
   if (one.verdict->status == goal::Status::met && proven.status == goal::Status::met)
     return one.criterion < clearly * answer.criterion;
-  return one.verdict->status == goal::Status::met || one.verdict->moves.low > proven.moves.high;
+  if (one.verdict->status == goal::Status::met) return true;
+  return on_machines ? one.verdict->machines.low > proven.machines.high
+                     : one.verdict->moves.low > proven.moves.high;
 }
 
 std::string better_control_sentence(Of tuning) {
   std::string lines;
+  const bool on_machines = worst_goal(tuning).machines.has_value();
   for (const Alternative& one : tuning.answer.alternatives) {
-    if (!is_better_within_ranges(one, tuning.answer)) continue;
+    if (!is_better_within_ranges(one, tuning.answer, on_machines)) continue;
     std::string settings;
     for (const auto& [name, value] : one.fixed) settings += fmt::format(" --set {}={}", name, value);
     for (const auto& [name, value] : one.gains) settings += fmt::format(" --set {}={}", name, value);
-    lines += fmt::format(
-        "{}{} does better, and lies in the ranges too, where the search missed it; begin there:{}",
-        lines.empty() ? "" : "\n", one.name, settings);
+    lines += fmt::format("{}{} seems to do better, and lies in the ranges too; begin there:{}",
+                         lines.empty() ? "" : "\n", one.name, settings);
   }
   return lines;
 }

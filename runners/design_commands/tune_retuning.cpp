@@ -166,14 +166,27 @@ MetAges met_ages(const Retuning& retuning) {
   return met;
 }
 
+/// Intervals in which the values of the whole life do better on the fresh machines than those of the search.
+std::size_t intervals_for_one_set(const Retuning& retuning) {
+  return static_cast<std::size_t>(std::ranges::count_if(retuning.intervals, [](const RetunedInterval& one) {
+    return !one.retuned.empty() && latest_of(one.one_set) < latest_of(one.retuned);
+  }));
+}
+
 std::string retuning_sentence(Of tuning) {
   if (!tuning.answer.retuning || tuning.answer.retuning->intervals.empty()) return "";
-  const MetAges met = met_ages(*tuning.answer.retuning);
-  return fmt::format(
-      "tuned again every {}, {} shown to be met at {} of {} ages, at the beginning and the end of each "
-      "interval and between them; with the one set of values for the whole life at {}",
-      study::age_text(tuning.study.ages, tuning.answer.retuning->every),
+  const Retuning& retuning = *tuning.answer.retuning;
+  const MetAges met = met_ages(retuning);
+  std::string text = fmt::format(
+      "tuned again every {}, in {} of {} intervals: {} shown to be met at {} of {} ages, at the beginning "
+      "and "
+      "the end of each interval and between them; with the one set of values for the whole life at {}",
+      study::age_text(tuning.study.ages, retuning.every), retuning.intervals.size(), retuning.wanted,
       tuning.study.goals.size() > 1 ? "all goals are" : "the goal is", met.retuned, met.ages, met.one_set);
+  if (const std::size_t better = intervals_for_one_set(retuning); better > 0)
+    text +=
+        fmt::format("; in {} of the intervals the one set has the better criterion: keep it there", better);
+  return text;
 }
 
 }  // namespace

@@ -300,7 +300,7 @@ SearchResult ExtrasMaker::search_from(const study::Study& study,
 }
 
 void ExtrasMaker::add_retuning() {
-  answer_.retuning = Retuning{*of_.settings.retune_every, {}};
+  answer_.retuning = Retuning{*of_.settings.retune_every, intervals_.size(), {}};
   std::vector<TunedValues> tuned{named_values(answer_.free, answer_.gains)};
   const std::int64_t searches = std::ssize(intervals_) + std::ssize(controls_);
   for (std::int64_t i = 0; i < std::ssize(intervals_); ++i) {

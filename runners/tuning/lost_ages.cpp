@@ -79,7 +79,8 @@ class LifeOfClaims {
   }
 
   void run_decades() {
-    double age = std::max(runs_.study().ages.at.back(), 1.0);
+    const double last = runs_.study().ages.at.back();
+    double age = last > 0.0 ? last : 1.0;
     for (int i = 0; i < max_decades && !all_are_missed(); ++i) {
       const double younger = age;
       age = short_age(decade * age);
@@ -112,13 +113,15 @@ class LifeOfClaims {
 
   /// Simulates ages between the last at which it holds and the next one.
   void refine(const Holds& holds) {
-    for (int step = 0; step < max_steps; ++step) {
+    int steps = 0;
+    for (int from_zero = 0; steps < max_steps && from_zero < max_decades;) {
       const auto lost = std::ranges::find_if_not(tried_, holds);
       if (lost == tried_.begin() || lost == tried_.end()) return;
       const double younger = std::prev(lost)->age;
       const double middle = age_between(younger, lost->age);
       if (lost->age <= precision_of_age * younger || middle <= younger || middle >= lost->age) return;
       run(middle);
+      ++(younger == 0.0 ? from_zero : steps);
     }
   }
 
@@ -149,7 +152,7 @@ LostAges lost_ages(const AgeRuns& runs, const std::vector<study::FreeParameter>&
 }
 
 std::int64_t points_of_lost_ages(const study::Study& study) {
-  constexpr std::int64_t of_claim = 12;
+  constexpr std::int64_t of_claim = 14;
   return 2 * std::ssize(study.ages.at) + max_decades + of_claim * std::ssize(claims_of_life(study));
 }
 

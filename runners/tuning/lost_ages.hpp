@@ -10,8 +10,8 @@
 /// The age at which tuned values lose each of their claims.
 namespace zerocount::tuning {
 
-/// A claim over age. The ages assume that a claim which is lost stays lost: they are the first of those that
-/// were tried, to 10 %.
+/// A claim over age. The ages assume that a machine which misses a claim goes on missing it: they are the
+/// first of those that were tried, to 10 %, and which ones are tried depends on what the machines did.
 struct LostClaim {
   ClaimOfLife claim;
   /// The youngest age at which fewer machines, or moves, than asked for meet the goal; nothing up to the

@@ -10,10 +10,28 @@
 
 namespace zerocount::tuning {
 
+namespace {
+
+constexpr double rounding = 1e-9;  // relative, of a multiple
+
+/// The multiple as a user would write it: 3 times 0.1 is 0.3. An age of the study that is as near is it.
+double multiple_of(double every, double times, const std::vector<double>& ages) {
+  const double product = times * every;
+  for (const double age : ages) {
+    if (std::abs(age - product) <= rounding * product) return age;
+  }
+  const double unit = std::pow(10.0, 11.0 - std::floor(std::log10(product)));
+  const double digits = std::round(product * unit);
+  return std::isfinite(digits / unit) ? digits / unit : product;
+}
+
+}  // namespace
+
 std::vector<LifeInterval> intervals_of_life(const study::Ages& ages, double every) {
   const double last = ages.at.back();
-  const double first_cut = std::floor(ages.at.front() / every) + 1.0;  // in multiples of `every`
-  const double cuts = std::max(std::ceil(last / every) - first_cut, 0.0);
+  // In multiples of `every`; those that are an end of the life are no cuts.
+  const double first_cut = std::floor(ages.at.front() / every * (1.0 + rounding)) + 1.0;
+  const double cuts = std::max(std::ceil(last / every * (1.0 - rounding)) - first_cut, 0.0);
   if (cuts < 1.0 || cuts >= static_cast<double>(max_life_intervals))
     throw Failure(ExitCode::bad_input,
                   fmt::format("option '--retune-every': the ages from {} to {} have {} interval{} of {}; "
@@ -22,8 +40,8 @@ std::vector<LifeInterval> intervals_of_life(const study::Ages& ages, double ever
                               cuts < 1.0 ? "" : "s", study::age_text(ages, every), max_life_intervals));
   std::vector<LifeInterval> intervals;
   for (double cut = 0.0; cut <= cuts; cut += 1.0) {
-    const double from = cut == 0.0 ? ages.at.front() : (first_cut + cut - 1.0) * every;
-    const double to = cut == cuts ? last : (first_cut + cut) * every;
+    const double from = cut == 0.0 ? ages.at.front() : multiple_of(every, first_cut + cut - 1.0, ages.at);
+    const double to = cut == cuts ? last : multiple_of(every, first_cut + cut, ages.at);
     LifeInterval interval{{from}};
     for (const double age : ages.at) {
       if (age > from && age < to) interval.ages.push_back(age);

@@ -39,7 +39,8 @@ struct RetunedInterval {
 };
 
 struct Retuning {
-  double every{0.0};  ///< in the unit of ages
+  double every{0.0};      ///< in the unit of ages
+  std::size_t wanted{0};  ///< intervals; the budget may leave some out
   std::vector<RetunedInterval> intervals;
 };
 

@@ -114,7 +114,10 @@ void name_claim(const study::Study& study, WorstMachine& machine) {
 }
 
 std::string not_one_number(std::string_view name) {
-  return fmt::format("{} changes with age and is not one number of the machine", name);
+  return fmt::format(
+      "{} changes with age, and is drawn per study or contact: the manifest of a machine cannot hold its "
+      "aged value",
+      name);
 }
 
 /// The search under one condition.

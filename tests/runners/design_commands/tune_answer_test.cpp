@@ -325,14 +325,14 @@ TEST(TuneAnswer, NamesASimplerControlInTheRangesThatDoesBetter) {
   met.status = goal::Status::met;
   answer.alternatives = {
       {"controller.kp = 0", {{"controller.kp", 0.0}}, {{"controller.ki", 3e-5}}, met, 0.0195}};
-  EXPECT_THAT(text_of(answer, study), Not(HasSubstr("does better")));
+  EXPECT_THAT(text_of(answer, study), Not(HasSubstr("to do better")));
   answer.alternatives[0].criterion = 0.015;
   EXPECT_THAT(text_of(answer, study),
-              HasSubstr("controller.kp = 0 does better, and lies in the ranges too, where "
-                        "the search missed it; begin there: --set controller.kp=0 --set "
+              HasSubstr("controller.kp = 0 seems to do better, and lies in the ranges too; "
+                        "begin there: --set controller.kp=0 --set "
                         "controller.ki=3e-05"));
   answer.alternatives[0].fixed.clear();  // a block is added
-  EXPECT_THAT(text_of(answer, study), Not(HasSubstr("does better")));
+  EXPECT_THAT(text_of(answer, study), Not(HasSubstr("to do better")));
 }
 
 }  // namespace

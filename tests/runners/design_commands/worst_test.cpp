@@ -204,7 +204,7 @@ TEST_F(Worst, RefusesAManifestBeforeTheSearch) {
   const ProgramResult refused = program({"worst", "aging.yaml", "-o", "w.yaml"});
   EXPECT_EQ(refused.code, 2);
   EXPECT_EQ(refused.out, "");
-  EXPECT_NE(refused.err.find("plant.sliding_damping changes with age and is not one number"),
+  EXPECT_NE(refused.err.find("plant.sliding_damping changes with age, and is drawn per study"),
             std::string::npos)
       << refused.err;
 }

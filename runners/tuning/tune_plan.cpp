@@ -128,7 +128,7 @@ SearchPlan plan_other_search(const study::Study& study, std::span<const study::F
 RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t trials_of_maps,
                    std::span<const OtherControl> controls, const trials::Effort& effort, double speed) {
   constexpr std::int64_t most = 1024;
-  constexpr std::int64_t least = 64;
+  constexpr std::int64_t least = 32;
   double others = 0.0;
   for (const OtherControl& one : controls)
     others += static_cast<double>(min_search_trials(study, one.free)) / (1.0 - judgement_part);

@@ -234,6 +234,9 @@ class Tuner {
       });
       if (settings_.searching) settings_.searching(progress);
     };
+    line_.show([] {
+      return std::string("first generation: the margins of points over the ranges, then their moves");
+    });
     result_ = search_.run(search);
     answer_.examined = std::ssize(search_.examined());
     answer_.points = result_.points;

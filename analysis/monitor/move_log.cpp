@@ -149,6 +149,10 @@ void MoveLog::require_line_feeds(std::string_view line) const {
                             name_, line_));
 }
 
+void MoveLog::refuse_twice(std::string_view column) const {
+  throw Failure(ExitCode::bad_input, fmt::format("{}:{}: two columns are named '{}'", name_, line_, column));
+}
+
 void MoveLog::read_header(std::string_view line) {
   separator_ = ',';
   for (const char candidate : {'\t', ';', ','})
@@ -164,12 +168,12 @@ void MoveLog::read_header(std::string_view line) {
     if (!measure) {
       column_at_.back() = std::string::npos;
       if (!cell.empty()) others_.emplace_back(cell);
-      if (head.name == "move") number_cell_ = column_at_.size() - 1;
+      if (head.name != "move") continue;
+      if (number_cell_) refuse_twice(head.name);
+      number_cell_ = column_at_.size() - 1;
       continue;
     }
-    if (find(measure->name) != nullptr)
-      throw Failure(ExitCode::bad_input,
-                    fmt::format("{}:{}: two columns are named '{}'", name_, line_, measure->name));
+    if (find(measure->name) != nullptr) refuse_twice(measure->name);
     if (!can_be_in(*measure, head.unit))
       throw Failure(ExitCode::bad_input,
                     fmt::format("{}:{}: {} is in '{}'; expected '{}', or a unit of the same dimension", name_,

@@ -54,6 +54,7 @@ class MoveLog {
   void read_line(std::string_view line);
   void require_line_feeds(std::string_view line) const;
   void read_header(std::string_view line);
+  [[noreturn]] void refuse_twice(std::string_view column) const;
   void read_row(std::string_view line);
 
   std::string name_;

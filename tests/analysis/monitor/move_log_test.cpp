@@ -97,6 +97,8 @@ TEST(MoveLog, NamesThePlaceOfWhatItCannotRead) {
             std::string::npos);
   EXPECT_EQ(refusal("settling_time,settling_time [ms]\n1,2\n"),
             "2 moves.csv:1: two columns are named 'settling_time'");
+  EXPECT_EQ(refusal("move,settling_time,move\n0,1,0\n"), "2 moves.csv:1: two columns are named 'move'");
+  EXPECT_EQ(refusal("t,settling_time,t\n0,1,0\n"), "") << "other columns are not read";
   EXPECT_NE(refusal("settling_time [N]\n1\n").find("2 moves.csv:1: settling_time is in 'N'"),
             std::string::npos);
   EXPECT_NE(refusal("overshoot [%]\n1\n").find("2 moves.csv:1: overshoot is in '%'"), std::string::npos);

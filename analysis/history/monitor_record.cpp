@@ -46,7 +46,9 @@ RunValue value_of(const MonitorJson& answer, const MonitorJson& measure) {
   comparison.verdict = measure.at("alarm_at").is_null() ? "no alarm" : "changed";
   comparison.baseline = number_or_unknown(measure.at("baseline"));
   comparison.effect = value.value - comparison.baseline;
-  // Valid at every time: an e-value of E has a probability of at most 1/E. With it K measures are tested.
+  // Valid at every time: without a change the evidence is ever E or more with a probability of at most 1/E.
+  // It is the capital over the number of measures that are watched, so that this holds for the largest of
+  // them.
   const double evidence = measure.at("evidence").get<double>();
   comparison.p = evidence > 1.0 ? 1.0 / evidence : 1.0;
   value.comparison = comparison;

@@ -72,9 +72,11 @@ void complete_moves(SectionReading& s) {
   if (s.plan().common.command.torque.record) s.plan().base[list.first] = study::Value{};
 }
 
-// Reads the torque that command.torque.file has in place of levels.
+// Reads the torque that command.torque.file has in place of levels. A name that is still there is that of a
+// table whose problems are reported already; see torque_record_overrides().
 void read_recorded_torque(SectionReading& s, const yaml::Field& field) {
-  s.plan().common.command.torque.record = read_torque_record(field, s.problems());
+  if (field.node->kind != yaml::YamlNode::Kind::scalar || s.problems().empty())
+    s.plan().common.command.torque.record = read_torque_record(field, s.problems());
   const auto torque = yaml::find_field(yaml::find_field(s.root, "command").value(), "torque").value();
   if (const auto levels = yaml::find_field(torque, "levels"))
     s.problems().add(*levels, "it has no effect: command.torque.file defines the torque",
@@ -323,9 +325,9 @@ void check_units_of_targets(SectionReading& s, const yaml::Field& command) {
 // Reports the keys of the form chosen that are missing.
 void check_form_complete(SectionReading& s, const yaml::Field& command) {
   if (!s.plan().open_loop && !s.plan().sequence) return;
-  if (s.plan().common.command.torque.record) return;
   const auto form = yaml::find_field(command, s.plan().open_loop ? "torque" : "sequence");
   if (!form || form->node->kind != yaml::YamlNode::Kind::map) return;
+  if (s.plan().open_loop && yaml::find_field(*form, "file")) return;  // in place of levels
   for (const std::string& key : keys::keys_below(form->path)) {
     const std::string name = fmt::format("{}.{}", form->path, key);
     const auto row = parameters::find_parameter(name);

@@ -99,7 +99,8 @@ TEST(TorqueOfAFile, FaultsHaveTheirPlace) {
   };
   for (const Case& one : cases) {
     const std::string found = refusal_of_replay(replay("{file: record.csv}"), {{"record.csv", one.text}});
-    EXPECT_NE(found.find(one.expected), std::string::npos) << found << "\n" << one.expected;
+    EXPECT_EQ(found.find(one.expected), 0) << found << "\n" << one.expected;
+    EXPECT_EQ(found.find('\n'), std::string::npos) << "nothing follows from it: " << found;
   }
   const std::string longer = refusal_of_replay(replay("{file: record.csv}", ", hold: 0.008"), table);
   EXPECT_NE(
@@ -115,6 +116,15 @@ TEST(TorqueOfAFile, FaultsHaveTheirPlace) {
             std::string::npos);
   EXPECT_NE(refusal_of_replay(replay("{file: [[0.5, 1], [1, 2]]}")).find("found the time 0.5 s; expected 0"),
             std::string::npos);
+}
+
+TEST(TorqueOfAFile, OneFaultIsOneMessage) {
+  for (const std::string file : {"[[0, 1]]", "[[0, 1], [1, .inf]]", "[[0, 1, 2], [1, 2, 3]]", "[[0, 1], 2]",
+                                 "7", "{}", "[]", "[[0, 1], [0, 1]]"}) {
+    const std::string found = refusal_of_replay(replay("{file: " + file + "}"));
+    EXPECT_NE(found.find("command.torque.file"), std::string::npos) << file << ": " << found;
+    EXPECT_EQ(found.find('\n'), std::string::npos) << file << ": " << found;
+  }
 }
 
 }  // namespace

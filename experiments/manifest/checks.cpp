@@ -72,9 +72,8 @@ struct Checking {
   const study::StudyPlan& plan() const { return reading.plan; }
 };
 
-void tell(Checking& c, const yaml::Place& place, std::size_t slot, const std::string& what,
+void tell(Checking& c, const yaml::Place& place, std::string_view path, const std::string& what,
           std::string_view expected, bool warn_only) {
-  const std::string path(c.plan().table.rows[slot].name);
   const std::string text = parameters::text_on(c.plan().units.axis, what);
   if (warn_only) {
     c.reading.warnings.push_back(yaml::at_place(
@@ -128,7 +127,8 @@ void check_values(Checking& c) {
         const std::vector<std::size_t> slots = slots_of(fault, listed, involved);
         if (reported.size() < max_reported && reported.insert({slots.front(), fault.what}).second) {
           const FaultPlace at = place_of_fault(c.places, c.plan(), slots, point);
-          tell(c, at.place, rule.once ? at.slot : slots.front(), fault.what, fault.expected, rule.warn_only);
+          const std::string_view name = c.plan().table.rows[rule.once ? at.slot : slots.front()].name;
+          tell(c, at.place, rule.path.empty() ? name : rule.path, fault.what, fault.expected, rule.warn_only);
           if (rule.once) return false;
         }
       }
@@ -169,7 +169,7 @@ void check_effects(Checking& c) {
       if (!has_effect) has_effect = rules::can_have_effect(c.plan(), rule);
       if (*has_effect) continue;
       reported_rows.insert(reported_row(table, slot));
-      tell(c, *place, slot, rule.what, rule.expected, rule.warn_only);
+      tell(c, *place, table.rows[slot].name, rule.what, rule.expected, rule.warn_only);
     }
   }
 }

@@ -166,8 +166,13 @@ ValueRule range_for_the_record(const trial::TorqueRecord& record, const std::str
   const auto [lowest, highest] = std::minmax_element(record.torque.begin(), record.torque.end());
   const std::vector<study::ValueLimits> levels{{.low = *lowest, .high = *highest}};
   ValueRule rule = range_of_the_converter(unit);
-  const auto of_levels = rule.find_faults;
-  rule.find_faults = [levels, of_levels](Limits l, Limits) { return of_levels(l, levels); };
+  rule.whole_list = false;
+  rule.path = "command.torque.file";
+  rule.find_faults = [levels, of_levels = rule.find_faults](Limits l, Limits) {
+    Faults faults = of_levels(l, levels);
+    for (ValueFault& fault : faults) fault.listed.clear();
+    return faults;
+  };
   return rule;
 }
 

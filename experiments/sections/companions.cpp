@@ -12,7 +12,7 @@ namespace zerocount::sections {
 Companions known_companions(std::shared_ptr<const plugin::ControllerPlugin> plugin,
                             std::optional<std::string> samples) {
   return {.plugin = known_plugin(std::move(plugin)),
-          .samples = [samples = std::move(samples)](const std::string& path) {
+          .samples = [samples = std::move(samples)](const std::string& path, std::string_view) {
             if (samples) return *samples;
             throw Failure(ExitCode::bad_data,
                           fmt::format("{}: this table of samples was not recorded", path));

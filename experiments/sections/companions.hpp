@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/sections/plugin_loader.hpp"
@@ -12,9 +13,10 @@
 
 namespace zerocount::sections {
 
-/// Reads the text of the file that the key `samples` names.
+/// Reads the text of a table that a manifest names.
+/// @param what "a table of samples", expected where it cannot be read
 /// @throws Failure if it cannot be read
-using SamplesReader = std::function<std::string(const std::string& path)>;
+using SamplesReader = std::function<std::string(const std::string& path, std::string_view what)>;
 
 /// Access to what a manifest names and does not contain. A key whose member is empty is refused.
 struct Companions {

@@ -148,7 +148,7 @@ std::optional<std::string> read_table(const yaml::Field& file, const SamplesRead
     problems.add(file, "this command does not read samples", "the command check, run or trace");
     return std::nullopt;
   }
-  std::string text = read(*path);
+  std::string text = read(*path, "a table of samples");
   const bool zero = text.find('\0') != std::string::npos;
   if (!zero && text.size() <= max_samples_size) return text;
   problems.add(file, zero ? "the file contains a zero byte" : "the file is too large",

@@ -75,7 +75,8 @@ std::vector<std::string> spectrum_overrides(const yaml::YamlNode& root, const Sa
       problems.add(*spectrum, "this command does not read files of spectra", "a list of pairs");
       continue;
     }
-    if (const auto table = list_of(read(*file), spectrum->node->text, spectrum->path, problems))
+    if (const auto table =
+            list_of(read(*file, "a table of a spectrum"), spectrum->node->text, spectrum->path, problems))
       overrides.push_back(spectrum->path + "=" + *table);
   }
   return overrides;

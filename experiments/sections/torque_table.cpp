@@ -180,7 +180,8 @@ std::vector<std::string> torque_record_overrides(const yaml::YamlNode& root, con
     problems.add(*file, "this command does not read files of torques", "a list of pairs");
     return {};
   }
-  const TorqueTable table(read(*name), file->node->text, is_linear_axis(root), problems);
+  const TorqueTable table(read(*name, "a table of torques"), file->node->text, is_linear_axis(root),
+                          problems);
   if (table.rows().empty()) return {};
   std::string list = fmt::format("{}=[", torque_path);
   for (const auto& [time, value] : table.rows()) {

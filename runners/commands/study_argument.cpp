@@ -72,11 +72,11 @@ study::Study load_study(const fs::path& operand, const command_line::Arguments& 
   const auto load_plugin = [&](const std::string& path) {
     return plugins::load_plugin(input(folder / path));
   };
-  const auto read_samples = [&](const std::string& path) {
-    return yaml::read_text(input(folder / path), sections::max_samples_size, "a table of samples");
+  const auto read_table = [&](const std::string& path, std::string_view what) {
+    return yaml::read_text(input(folder / path), sections::max_samples_size, what);
   };
   return manifest::load_study(input(operand), arguments.values("set"),
-                              {.plugin = load_plugin, .samples = read_samples});
+                              {.plugin = load_plugin, .samples = read_table});
 }
 
 std::optional<std::int64_t> study_point(const command_line::Arguments& arguments, const study::Study& study) {

@@ -43,8 +43,8 @@ StudyPointer parsed(std::string text, const std::string& source, const fs::path&
   const sections::Companions companions{
       .plugin = [&](const std::string& path) { return plugins::load_plugin(folder / path); },
       .samples =
-          [&](const std::string& path) {
-            return yaml::read_text(folder / path, sections::max_samples_size, "a table of samples");
+          [&](const std::string& path, std::string_view what) {
+            return yaml::read_text(folder / path, sections::max_samples_size, what);
           }};
   return std::make_shared<const study::Study>(
       manifest::new_study(std::move(text), source, overrides, companions));

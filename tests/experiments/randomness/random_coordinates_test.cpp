@@ -138,7 +138,7 @@ command: {targets: [10], hold: 0.1}
 // Joint draws are one coordinate, which chooses the row.
 TEST(RandomCoordinates, RowsOfJointDrawsAreOneCoordinate) {
   sections::Companions companions;
-  companions.samples = [](const std::string&) {
+  companions.samples = [](const std::string&, std::string_view) {
     return std::string("friction.k1,friction.k2\n100,700\n110,710\n120,720\n130,730\n");
   };
   const study::Study study = manifest::parse_study(

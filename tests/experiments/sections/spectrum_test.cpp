@@ -20,7 +20,7 @@ std::string with_spectrum(const std::string& spectrum) {
 
 study::Study study_with(const std::string& spectrum, const std::map<std::string, std::string>& files = {}) {
   Companions companions;
-  companions.samples = [&files](const std::string& path) { return files.at(path); };
+  companions.samples = [&files](const std::string& path, std::string_view) { return files.at(path); };
   return manifest::parse_study(with_spectrum(spectrum), "floor.yaml", {}, companions);
 }
 

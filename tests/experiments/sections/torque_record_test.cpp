@@ -20,7 +20,7 @@ std::string replay(const std::string& torque, const std::string& more = "") {
 
 study::Study replayed_study(const std::string& manifest, const Files& files = {}) {
   Companions companions;
-  companions.samples = [&files](const std::string& path) { return files.at(path); };
+  companions.samples = [&files](const std::string& path, std::string_view) { return files.at(path); };
   return manifest::parse_study(manifest, "replay.yaml", {}, companions);
 }
 
@@ -125,6 +125,28 @@ TEST(TorqueOfAFile, OneFaultIsOneMessage) {
     EXPECT_NE(found.find("command.torque.file"), std::string::npos) << file << ": " << found;
     EXPECT_EQ(found.find('\n'), std::string::npos) << file << ": " << found;
   }
+}
+
+TEST(TorqueOfAFile, BeyondTheConverterHasItsWarning) {
+  for (const std::string file : {"record.csv", "[[0, 1], [0.1, 1.0e6]]"}) {
+    const study::Study study = replayed_study(replay("{file: " + file + "}", ", hold: 0.1"),
+                                              {{"record.csv", "t,torque\n0,1\n0.1,1e6\n"}});
+    ASSERT_EQ(study.warnings.size(), 1u) << file;
+    EXPECT_NE(study.warnings[0].find("command.torque.file: 1000000 N m can be outside the converter's range"),
+              std::string::npos)
+        << study.warnings[0];
+  }
+}
+
+TEST(TorqueOfAFile, SaysWhatIsExpectedInIt) {
+  Companions companions;
+  std::string expected;
+  companions.samples = [&](const std::string&, std::string_view what) {
+    expected = what;
+    return table.begin()->second;
+  };
+  manifest::parse_study(replay("{file: record.csv}"), "replay.yaml", {}, companions);
+  EXPECT_EQ(expected, "a table of torques");
 }
 
 }  // namespace

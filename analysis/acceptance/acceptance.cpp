@@ -198,13 +198,14 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
     if (log.moves() == 0)
       throw Failure(ExitCode::bad_data,
                     fmt::format("{}: has no moves; expected a row for each move of the machine", log.name()));
-    acceptance.machines.push_back({.name = log.name(), .moves = log.moves()});
+    acceptance.machines.push_back({.name = log.name()});
   }
   const std::vector<measures::MoveCounts> simulated = simulated_counts(file, point);
   for (std::size_t i = 0; i < study.goals.size(); ++i) {
     std::vector<std::vector<bool>> met;
     for (std::size_t machine = 0; machine < logs.size(); ++machine) {
       met.push_back(met_moves(study.goals[i], logs[machine], file));
+      acceptance.machines[machine].moves.push_back(std::ssize(met.back()));
       acceptance.machines[machine].met.push_back(std::ranges::count(met.back(), true));
     }
     acceptance.claims.push_back(

@@ -36,11 +36,11 @@ struct Claim {
   std::optional<std::int64_t> like_worlds{};
 };
 
-/// The moves of one machine that meet a goal.
+/// The moves of one machine, by goal.
 struct MeasuredMachine {
   std::string name;
-  std::int64_t moves{0};
-  std::vector<std::int64_t> met{};  ///< [goal]
+  std::vector<std::int64_t> moves{};  ///< [goal] that the goal is about
+  std::vector<std::int64_t> met{};    ///< [goal] of these, that meet it
 };
 
 struct Acceptance {

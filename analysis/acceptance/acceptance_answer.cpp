@@ -43,12 +43,17 @@ std::string_view agreement_word(const JudgedClaim& c) {
   return c.claim.agreement.lowest_p <= c.significance ? "consistent" : "too_few";
 }
 
+/// "20 moves of 1 machine"; "20 to 40 moves" where the goals are about different moves.
+std::string judged_text(const Acceptance& a) {
+  const auto [least, most] = std::ranges::minmax(a.claims, {}, &Claim::moves);
+  const std::string moves = least.moves == most.moves ? fmt::format("{}", most.moves)
+                                                      : fmt::format("{} to {}", least.moves, most.moves);
+  return fmt::format("{} moves of {} machine{}", moves, a.machines.size(), a.machines.size() == 1 ? "" : "s");
+}
+
 std::string headline_of(const AcceptanceReading& r) {
   const Acceptance& a = r.acceptance;
-  std::int64_t moves = 0;
-  for (const MeasuredMachine& machine : a.machines) moves += machine.moves;
-  const std::string of =
-      fmt::format("{} moves of {} machine{}", moves, a.machines.size(), a.machines.size() == 1 ? "" : "s");
+  const std::string of = judged_text(a);
   switch (status_of(a)) {
     case Status::accepted:
       return fmt::format("accepted: {} show the goal, and are not fewer than predicted", of);
@@ -138,13 +143,21 @@ document::Description<JudgedClaim> claim_rows() {
              [](Of c) { return of_machines(c, c.claim.measured); });
 }
 
-/// A machine, and the first goal that it is shown by.
+/// "20 of 20" for each goal.
+std::string met_text(const MeasuredMachine& machine) {
+  std::vector<std::string> goals;
+  for (std::size_t goal = 0; goal < machine.met.size(); ++goal)
+    goals.push_back(fmt::format("{} of {}", machine.met[goal], machine.moves[goal]));
+  return fmt::format("{}", fmt::join(goals, ", "));
+}
+
 document::Description<MeasuredMachine> machine_rows() {
   return document::Description<MeasuredMachine>()
       .value({"machine", "machine", "its log"}, [](const MeasuredMachine& m) { return m.name; })
-      .value({"moves", "moves", "its moves"}, [](const MeasuredMachine& m) { return m.moves; })
-      .value({"met", "meet the goal", "its moves that meet each goal, in the order of the goals"},
-             [](const MeasuredMachine& m) { return m.met; });
+      .value(document::in_data("moves", "its moves that each goal is about, in the order of the goals"),
+             &MeasuredMachine::moves)
+      .value(document::in_data("met", "of these, those that meet it"), &MeasuredMachine::met)
+      .value({.heading = "meet the goal", .shown = document::Shown::to_people, .numeric = true}, met_text);
 }
 
 /// "3 to 5", or one number.

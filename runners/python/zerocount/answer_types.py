@@ -2617,8 +2617,8 @@ class AcceptAnswer(Answer):
         Each machine that was measured.
 
         - ``machine``: its log
-        - ``moves``: its moves
-        - ``met``: its moves that meet each goal, in the order of the goals
+        - ``moves``: its moves that each goal is about, in the order of the goals
+        - ``met``: of these, those that meet it
 
     assumed : list[str]
         Effects that the prediction is without, which its manifest does not name.

@@ -157,6 +157,12 @@ goals: {back: {on: [1], band: 1, within: 0.03, moves: 0.9}}
   const Json numbered = json_of({"numbered.csv"}, 0);
   EXPECT_EQ(numbered["goals"][0]["moves"], 100) << "the late ones are not asked";
   EXPECT_EQ(numbered["goals"][0]["met"], 100);
+  EXPECT_EQ(numbered["machines"][0]["moves"], Json({100}));
+  EXPECT_EQ(numbered["machines"][0]["met"], Json({100}));
+  const std::string page = program({"accept", "study.h5", "numbered.csv"}).out;
+  EXPECT_NE(page.find("accepted: 100 moves of 1 machine show the goal"), std::string::npos) << page;
+  EXPECT_NE(page.find("100 of 100"), std::string::npos) << page;
+  EXPECT_EQ(page.find("200"), std::string::npos) << page;
 }
 
 // Machines of an unknown world differ where they are like those of none.

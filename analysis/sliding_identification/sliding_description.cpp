@@ -120,11 +120,11 @@ document::Description<ReversalFriction> reversal_description() {
 document::Description<RepeatingForce> force_description() {
   return document::Description<RepeatingForce>()
       .value({"with", "with", "what the unexplained torque may repeat with"}, &RepeatingForce::with)
-      .value({"foretold", "foretold",
-              "part of its variance that the means over other strokes foretell; 0 or "
+      .value({"predicted", "predicted",
+              "part of its variance that the means over other strokes predict; 0 or "
               "less: it does not repeat",
               "1"},
-             &RepeatingForce::foretold)
+             &RepeatingForce::predicted)
       .value({"low", "least mean", "smallest mean over a tenth of the range, N m or N"}, &RepeatingForce::low)
       .value({"high", "largest mean", "largest mean over a tenth of the range, N m or N"},
              &RepeatingForce::high);

@@ -94,16 +94,16 @@ RepeatingForce repeats_with(std::string name, const std::vector<Residual>& resid
     const Sum& own = by_both[{of_class[i], one.stroke}];
     const Sum& whole = by_class[of_class[i]];
     const double mean = (all.torque - stroke.torque) / (all.windows - stroke.windows);
-    double foretold = mean;
+    double predicted = mean;
     if (whole.windows > own.windows) {
-      foretold = (whole.torque - own.torque) / (whole.windows - own.windows);
+      predicted = (whole.torque - own.torque) / (whole.windows - own.windows);
       force.low = std::min(force.low, whole.torque / whole.windows);
       force.high = std::max(force.high, whole.torque / whole.windows);
     }
-    left += (one.torque - foretold) * (one.torque - foretold);
+    left += (one.torque - predicted) * (one.torque - predicted);
     total += (one.torque - mean) * (one.torque - mean);
   }
-  force.foretold = total > 0.0 ? 1.0 - left / total : 0.0;
+  force.predicted = total > 0.0 ? 1.0 - left / total : 0.0;
   return force;
 }
 

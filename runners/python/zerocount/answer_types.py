@@ -948,7 +948,7 @@ class IdentifySlidingAnswer(Answer):
         cross-validated over strokes; empty with fewer than 4 strokes.
 
         - ``with``: what the unexplained torque may repeat with
-        - ``foretold``: part of its variance that the means over other strokes foretell; 0 or less: it does not repeat
+        - ``predicted``: part of its variance that the means over other strokes predict; 0 or less: it does not repeat
         - ``low``: smallest mean over a tenth of the range, N m or N
         - ``high``: largest mean over a tenth of the range, N m or N
 

@@ -24,8 +24,8 @@ SlidingIdentification identify(const records::RawSeries& series) {
   return sliding_identification::identify_sliding({sliding_identification::sliding_record(series)});
 }
 
-double foretold_by(const SlidingIdentification& found, const std::string& with) {
-  return std::ranges::find(found.forces, with, &RepeatingForce::with)->foretold;
+double predicted_by(const SlidingIdentification& found, const std::string& with) {
+  return std::ranges::find(found.forces, with, &RepeatingForce::with)->predicted;
 }
 
 // Where the law is that of the axis only the errors of its parameters add up.
@@ -82,9 +82,9 @@ records::RawSeries with_force_along_travel(double amplitude, double direction_pa
 TEST(UnexplainedForce, RepeatsWithThePosition) {
   std::mt19937_64 random(13);
   const SlidingIdentification found = identify(with_force_along_travel(2.0, 0.0, random));
-  EXPECT_GT(foretold_by(found, "position"), 0.7);
-  EXPECT_GT(foretold_by(found, "position and direction"), 0.7);
-  EXPECT_LT(foretold_by(found, "acceleration"), 0.3);
+  EXPECT_GT(predicted_by(found, "position"), 0.7);
+  EXPECT_GT(predicted_by(found, "position and direction"), 0.7);
+  EXPECT_LT(predicted_by(found, "acceleration"), 0.3);
   const auto& force = *std::ranges::find(found.forces, std::string("position"), &RepeatingForce::with);
   EXPECT_NEAR(force.high, 2.0, 0.4);
   EXPECT_NEAR(force.low, -2.0, 0.4);
@@ -93,7 +93,7 @@ TEST(UnexplainedForce, RepeatsWithThePosition) {
 TEST(UnexplainedForce, RepeatsWithPositionAndDirection) {
   std::mt19937_64 random(14);
   const SlidingIdentification found = identify(with_force_along_travel(1.5, 1.0, random));
-  EXPECT_GT(foretold_by(found, "position and direction"), foretold_by(found, "position") + 0.2);
+  EXPECT_GT(predicted_by(found, "position and direction"), predicted_by(found, "position") + 0.2);
 }
 
 TEST(UnexplainedForce, ThatIsRandomRepeatsWithNothing) {
@@ -101,7 +101,7 @@ TEST(UnexplainedForce, ThatIsRandomRepeatsWithNothing) {
   SlidingAxis shaken;
   shaken.friction_noise = 1.0;
   const SlidingIdentification found = identify(closed_loop_record(shaken, {}, emps_lap(), 2, random));
-  for (const RepeatingForce& force : found.forces) EXPECT_LT(force.foretold, 0.15) << force.with;
+  for (const RepeatingForce& force : found.forces) EXPECT_LT(force.predicted, 0.15) << force.with;
 }
 
 TEST(UnexplainedForce, NeedsStrokes) {

@@ -48,7 +48,7 @@ class NormalScores {
   std::vector<std::vector<double>> sorted_;
 };
 
-/// What machines have in common, and how they differ.
+/// Mean of machines, and the covariances between and within them.
 struct Spread {
   Vector mean;
   Matrix between;  ///< covariance of the machines' means, less what their few moves add

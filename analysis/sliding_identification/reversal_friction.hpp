@@ -15,7 +15,7 @@ struct Reversal {
   std::size_t samples{0};  ///< in that travel
 };
 
-/// What the reversals of all records show of the friction before sliding.
+/// The friction before sliding, by the reversals of all records.
 struct ReversalFriction {
   std::vector<Reversal> reversals{};
   double swing{0.0};  ///< medians

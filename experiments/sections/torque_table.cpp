@@ -54,7 +54,7 @@ std::vector<std::string_view> cells_in(std::string_view line, char separator) {
   }
 }
 
-/// What a column may be called, and what its numbers are.
+/// The name that a column may have, and the unit of its numbers.
 struct WantedColumn {
   std::vector<std::string_view> names;
   text::Dimension dimension;

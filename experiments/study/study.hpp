@@ -327,7 +327,7 @@ inline std::int64_t conditions_of_age(const Study& study) {
 
 /// " under condition loaded"; empty without conditions.
 std::string condition_text(const Study& study, std::int64_t condition);
-/// What the names of Study::conditions are of: "condition", "age", "condition and age".
+/// The noun for an entry of Study::conditions: "condition", "age", "condition and age".
 std::string_view turn_word(const Study& study);
 /// For what does not tell conditions apart. @param verb of the program
 /// @throws Failure (bad_input) for a study with conditions

@@ -26,14 +26,14 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
 
 @pytest.fixture(scope="session")
 def axis(folder: pathlib.Path) -> zc.Study:
-    """The first study of the README."""
+    """The first study of the README, with a fifth of its trials."""
     first_study(ROOT, folder / "my-axis.yaml")
-    return zc.study(folder / "my-axis.yaml")
+    return zc.study(folder / "my-axis.yaml").set(rigs=200, trials=400)
 
 
 @pytest.fixture(scope="session")
 def first(axis: zc.Study, folder: pathlib.Path) -> zc.Results:
-    """The results of the README's first study."""
+    """The results of that study."""
     return axis.run(folder / "my-axis.h5")
 
 

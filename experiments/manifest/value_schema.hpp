@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include "core/numerics/interval.hpp"
+#include "experiments/parameters/parameter_table.hpp"
+
+/// JSON Schemas of the values of parameters. Those of maps and lists are made of them.
+namespace zerocount::manifest {
+
+using Json = nlohmann::ordered_json;
+
+/// The dotted path of the rate of an aging, as a regular expression: "friction.k1.aging".
+constexpr std::string_view rate_pattern = R"(^[a-z_0-9.]+\.aging$)";
+
+/// A map of these keys only.
+Json object_of(Json properties, Json required = Json::array());
+
+/// A list of at least `min_items`.
+Json list_of(Json item, std::size_t min_items);
+
+/// Adds the limits of a number to its schema.
+void limit(Json& schema, const numerics::Interval& range, bool whole);
+
+/// A number in an interval.
+Json number_in(const numerics::Interval& range);
+
+/// The rate of an aging: a number or a distribution.
+Json rate_schema();
+
+/// One definition for each distribution: `{"uniform": [low, high]}`, with or without `per` beside it.
+Json definitions();
+
+/// One value of the parameter.
+Json value_schema(const parameters::Parameter& parameter);
+
+/// The row of the parameter in the units that allow most. The schema of a section does not know the keys of
+/// others.
+parameters::Parameter in_widest_units(const parameters::Parameter& parameter);
+
+/// The schema does not know a plugin's parameters: each may be any number.
+parameters::Parameter plugin_value();
+
+/// The values of a key, with its description and default.
+Json key_schema(const parameters::Parameter& parameter);
+
+}  // namespace zerocount::manifest

@@ -19,9 +19,10 @@ struct AnswerType {
   std::string name;     ///< "answer" in JSON: the command
   std::string meaning;  ///< a phrase without a full stop
   int version{1};       ///< in JSON: counts changes that a reader of the JSON notices
-  /// Key of the table that CSV has; empty: there is no CSV. "points.rates" are the tables `rates` of all rows
-  /// of `points`: a line begins with the values of the row of `points`, without its lists, objects and
-  /// tables.
+  /// Key of the table that CSV has; empty: CSV has one line, the
+  /// values of the answer and the members of its objects. "points.rates" are the
+  /// tables `rates` of all rows of `points`: a line begins with the values of the row of `points`, without
+  /// its lists, objects and tables.
   std::string csv_table{};
   std::vector<Item> items{};
 };

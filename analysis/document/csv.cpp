@@ -45,6 +45,15 @@ class CsvLine {
     outer_tables_.resize(names_.size(), table);
   }
 
+  /// The values of an answer, and the members of its objects.
+  void add_answer(const Answer& answer) {
+    for (std::size_t i = 0; i < answer.type.items.size(); ++i) {
+      const Item& item = answer.type.items[i];
+      if (is_data(item) && (is_one_value(item.kind) || item.kind == Kind::object))
+        add(item, answer.contents.contents[i], item.key);
+    }
+  }
+
   /// A column of an outer table that is named like a later one has the name of its table before its own.
   std::string names() const {
     std::vector<std::string> names = names_;
@@ -139,7 +148,11 @@ std::vector<std::pair<std::string, std::string>> csv_cells(const Item& item, con
 
 std::string csv(const Answer& answer) {
   std::string csv;
-  if (answer.type.csv_table.empty()) return csv;
+  if (answer.type.csv_table.empty()) {
+    CsvLine line;
+    line.add_answer(answer);
+    return line.names() + line.cells();
+  }
   add_lines(csv, answer.type.items, nullptr, answer.type.csv_table);
   add_lines(csv, answer.type.items, &answer.contents, answer.type.csv_table);
   return csv;

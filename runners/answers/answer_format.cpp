@@ -18,9 +18,8 @@ nlohmann::ordered_json notebook_json(const document::Answer& answer) {
 
 }  // namespace
 
-command_line::OptionSpec format_option(const document::AnswerType& type, std::vector<std::string> more) {
-  std::vector<std::string> formats{"text", "json", "markdown", "html"};
-  if (!type.csv_table.empty()) formats.emplace_back("csv");
+command_line::OptionSpec format_option(std::vector<std::string> more) {
+  std::vector<std::string> formats{"text", "json", "markdown", "html", "csv"};
   formats.insert(formats.end(), more.begin(), more.end());
   command_line::OptionSpec option = command_line::format_option(std::move(formats));
   option.other_names = {{"table", "text"}, {"notebook", "notebook"}};

@@ -9,10 +9,10 @@
 /// The formats in which commands answer.
 namespace zerocount::answers {
 
-/// `--format` of a command whose answers are of the type: text, json, markdown, html, csv where the type has
-/// a table for it, then `more`. `table` is another name of `text`. `notebook` is for the Python package: JSON
-/// with the members "answer" (the JSON), "schema" (its schema), "text" and "html".
-command_line::OptionSpec format_option(const document::AnswerType& type, std::vector<std::string> more = {});
+/// `--format` of a command that answers: text, json, markdown, html, csv, then `more`. `table` is another
+/// name of `text`. `notebook` is for the Python package: JSON with the members "answer" (the JSON), "schema"
+/// (its schema), "text" and "html".
+command_line::OptionSpec format_option(std::vector<std::string> more = {});
 
 /// The format JSON on one line, for commands that answer again and again.
 inline constexpr std::string_view json_line = "json_line";

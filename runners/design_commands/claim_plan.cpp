@@ -304,8 +304,10 @@ void add_halfwidth(Description<Plans>& items) {
 }
 
 document::AnswerDescription<Plans> success_answer() {
-  document::AnswerDescription<Plans> answer{
-      {.name = "plan-success", .meaning = "trials that show a proportion of successful axes"}, {}};
+  document::AnswerDescription<Plans> answer{{.name = "plan-success",
+                                             .meaning = "trials that show a proportion of successful axes",
+                                             .csv_table = "plans"},
+                                            {}};
   const auto asked =
       confidence_item()
           .value(in_data("success", "proportion of axes to be shown to succeed", "1"), &PlanRequest::success)
@@ -322,7 +324,10 @@ document::AnswerDescription<Plans> success_answer() {
 
 document::AnswerDescription<Plans> rigs_answer() {
   document::AnswerDescription<Plans> answer{
-      {.name = "plan-rigs", .meaning = "rigs and trials that show a proportion of successful rigs"}, {}};
+      {.name = "plan-rigs",
+       .meaning = "rigs and trials that show a proportion of successful rigs",
+       .csv_table = "rig_plans"},
+      {}};
   const auto asked = confidence_item()
                          .value(in_data("success", "proportion of its moves in which a rig holds zero", "1"),
                                 &PlanRequest::success)

@@ -248,7 +248,10 @@ std::string aim_sentence(const EquivalencePlan& plan) {
 document::AnswerDescription<EquivalencePlan> equivalence_answer() {
   using Of = const EquivalencePlan&;
   document::AnswerDescription<EquivalencePlan> answer{
-      {.name = "plan-equivalence", .meaning = "trials that show that two equal studies are equivalent"}, {}};
+      {.name = "plan-equivalence",
+       .meaning = "trials that show that two equal studies are equivalent",
+       .csv_table = "measures"},
+      {}};
   answer.items.headline(equivalence_headline)
       .sentence(aim_sentence)
       .value(in_data("confidence", "confidence of each bound", "1"),

@@ -120,7 +120,10 @@ std::vector<PlannedStudy> smallest_on_rigs(const GoalPlans& plans) {
 
 document::AnswerDescription<GoalPlans> goal_answer() {
   document::AnswerDescription<GoalPlans> answer{
-      {.name = "plan-goal", .meaning = "the smallest studies that can meet the goal of a manifest"}, {}};
+      {.name = "plan-goal",
+       .meaning = "the smallest studies that can meet the goal of a manifest",
+       .csv_table = "plans"},
+      {}};
   answer.items.headline(smallest_headline)
       .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
              [](const GoalPlans& plans) { return goal::claim_sentence(goal::question_of(plans.study)); })
@@ -144,7 +147,9 @@ struct Pilot {
 /// @param leaves_choice between rigs and trials on each
 document::AnswerDescription<Pilot> pilot_answer(bool leaves_choice = true) {
   document::AnswerDescription<Pilot> answer{
-      {.name = "plan-pilot", .meaning = "the study that decides the goal, by the results of a small one"},
+      {.name = "plan-pilot",
+       .meaning = "the study that decides the goal, by the results of a small one",
+       .csv_table = "studies"},
       {}};
   answer.items.headline([](const Pilot& p) { return summary::judgement_headline(p.summary, p.judged); })
       .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},

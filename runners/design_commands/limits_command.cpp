@@ -264,8 +264,7 @@ document::Description<std::vector<Limit>> limits_description(const std::string& 
 commands::Command limits_command() {
   return {{"limits",
            "MANIFEST|FILE",
-           {answers::format_option(limits_answer().complete_type()), named_point_option(), condition_option(),
-            age_option(), set_option()}},
+           {answers::format_option(), named_point_option(), condition_option(), age_option(), set_option()}},
           "what stands between a point and its goal",
           limits_help,
           limits,

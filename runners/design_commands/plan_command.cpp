@@ -102,7 +102,7 @@ commands::Command plan_command() {
         {"rig-sd", "SD", "standard deviation of the success probability between rigs"},
         {"margin", "MEASURE=M", "largest accepted difference of two equal studies; may be repeated", true},
         {"set", "KEY=VALUE", "with a MANIFEST: override a manifest key; may be repeated", true},
-        answers::format_option(plan_types().front())},
+        answers::format_option()},
        0,
        1},
       "print how many trials a claim needs",

@@ -180,7 +180,7 @@ commands::Command rare_command() {
   return {{"rare",
            "MANIFEST -o FILE",
            {{"output,o", "FILE", "the file of the weighted trials (required)"},
-            answers::format_option(rare_answer().complete_type()),
+            answers::format_option(),
             {"event", "EVENT", "in place of a missed goal: MEASURE > x, with > >= < or <="},
             named_point_option(),
             {"world", "W", "the world, of a study with worlds"},

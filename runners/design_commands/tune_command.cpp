@@ -336,7 +336,7 @@ commands::Command tune_command() {
   return {{"tune",
            "MANIFEST -o FILE | FILE",
            {{"output,o", "FILE", "the results file of the proof (required with a manifest)"},
-            answers::format_option(tune_answer().complete_type()),
+            answers::format_option(),
             {"budget", "B", "of all: a number of trials, or a time such as 60s or 5min"},
             {"manifest,m", "TUNED", "write the manifest with the tuned values"},
             {"extras", "E", "none, all (default), or some of " + names_of_extras()},

@@ -272,7 +272,7 @@ document::Description<WorstMachine> worst_description() {
 commands::Command worst_command() {
   return {{"worst",
            "MANIFEST|FILE",
-           {answers::format_option(worst_answer().complete_type()),
+           {answers::format_option(),
             {"output,o", "MANIFEST", "write a manifest of the worst machine in the box"},
             named_point_option(),
             condition_option(),

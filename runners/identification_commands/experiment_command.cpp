@@ -185,7 +185,7 @@ commands::Command experiment_command() {
             {"condition", "NAME", "condition of the manifest under which the record is made"},
             {"age", "A", "age of the manifest at which the record is made"},
             {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
-            answers::format_option(experiment_answer().complete_type()),
+            answers::format_option(),
             {"quiet,q", "", "print no progress"},
             command_line::needing({"output", "streamer", "record", "plot"}, command_line::force_option())}},
           "design the torque over time from which identify tells the friction",

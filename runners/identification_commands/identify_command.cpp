@@ -446,7 +446,7 @@ std::vector<command_line::OptionSpec> identify_options() {
         "design point in a results file, by label or number (default: all with a trace); may be repeated",
         true},
        {"trial", "I", "trial of the point (default 0)"},
-       answers::format_option(identification::identification_answer().complete_type(), {"yaml"}),
+       answers::format_option({"yaml"}),
        {"output,o", "FILE", "write there instead of to standard output"},
        {"quiet,q", "", "print no progress"},
        command_line::needing({"output", "posterior", "plot"}, command_line::force_option())});

@@ -67,7 +67,7 @@ commands::Command accept_command() {
   constexpr std::size_t max_machines = 10'000;
   return {{"accept",
            "STUDY.h5 MOVES.csv...",
-           {answers::format_option(acceptance::acceptance_answer().complete_type()),
+           {answers::format_option(),
             {"point", "P", "design point of the machines"},
             {"condition", "NAME", "condition under which they moved"},
             {"age", "A", "age at which they moved, of a study with ages"}},

@@ -133,7 +133,7 @@ commands::Command compare_command() {
             {"changed-fails", "", "a change for the better fails too, not only one for the worse"},
             {"max-trials", "N",
              "judge the first N trials of each point, at least one of every rig (default: a million moves)"},
-            answers::format_option(report::comparison_answer().complete_type(), {"junit"}),
+            answers::format_option({"junit"}),
             {"json", "FILE", "write the JSON there too"},
             {"junit", "FILE", "write JUnit XML there too"},
             {"markdown", "FILE", "write the Markdown summary there too"},

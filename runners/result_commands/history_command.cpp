@@ -143,29 +143,28 @@ ExitCode run_history(const command_line::Arguments& arguments) {
 }  // namespace
 
 commands::Command history_command() {
-  return {
-      {"history",
-       "add FILE | show | plot -o PLOT",
-       {{"database", "DB", "the history (default: history.sqlite)"},
-        command_line::of_operands(
-            {"add"},
-            {"compare", "FILE", "add: the output of 'zerocount compare --json FILE' for the results file"}),
-        command_line::of_operands({"show", "plot"}, {"study", "NAME", "only this study"}),
-        command_line::of_operands({"show", "plot"}, {"point", "LABEL", "only this design point"}),
-        command_line::of_operands({"show", "plot"},
-                                  {"measure", "NAME", "only this measure, such as success_rate"}),
-        command_line::of_operands({"show"}, answers::format_option(report::history_answer().complete_type())),
-        command_line::of_operands(
-            {"plot"},
-            {"output,o", "PLOT", "plot: a page of all series (*.html), or one series as *.svg or *.png"}),
-        command_line::of_operands({"plot"}, command_line::force_option())},
-       1,
-       2,
-       names_of(actions())},
-      "results over time, with the runs at which they changed",
-      history_help,
-      run_history,
-      {report::history_answer().complete_type()}};
+  return {{"history",
+           "add FILE | show | plot -o PLOT",
+           {{"database", "DB", "the history (default: history.sqlite)"},
+            command_line::of_operands(
+                {"add"}, {"compare", "FILE",
+                          "add: the output of 'zerocount compare --json FILE' for the results file"}),
+            command_line::of_operands({"show", "plot"}, {"study", "NAME", "only this study"}),
+            command_line::of_operands({"show", "plot"}, {"point", "LABEL", "only this design point"}),
+            command_line::of_operands({"show", "plot"},
+                                      {"measure", "NAME", "only this measure, such as success_rate"}),
+            command_line::of_operands({"show"}, answers::format_option()),
+            command_line::of_operands(
+                {"plot"},
+                {"output,o", "PLOT", "plot: a page of all series (*.html), or one series as *.svg or *.png"}),
+            command_line::of_operands({"plot"}, command_line::force_option())},
+           1,
+           2,
+           names_of(actions())},
+          "results over time, with the runs at which they changed",
+          history_help,
+          run_history,
+          {report::history_answer().complete_type()}};
 }
 
 }  // namespace zerocount::result_commands

@@ -42,7 +42,7 @@ commands::Command jerks_command() {
            {{"point", "P", "design point, by label or number; may be repeated (default: all)", true},
             {"confidence", "LEVEL", "confidence of all bounds, between 0 and 1 (default 0.95)"},
             {"creep-trials", "N", "trials per point to compare with creep (default 20)"},
-            answers::format_option(jerks::jerk_answer().complete_type())}},
+            answers::format_option()}},
           "print the rate, intervals and trend of jerks",
           jerks_help,
           print_jerks,

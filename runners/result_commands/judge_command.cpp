@@ -77,7 +77,7 @@ document::AnswerDescription<Judgement> judge_answer(const goal::Question& questi
   using document::Shown;
   using Of = const Judgement&;
   document::AnswerDescription<Judgement> answer{
-      {.name = "judge", .meaning = "whether a study meets its goal"}, {}};
+      {.name = "judge", .meaning = "whether a study meets its goal", .csv_table = "claims"}, {}};
   answer.items.headline([](Of j) { return summary::judgement_headline(j.summary, j.judged); })
       .value({.key = "point", .meaning = "number of the design point", .shown = Shown::in_data},
              [](Of j) { return j.judged.chosen.point; })
@@ -182,7 +182,7 @@ ExitCode judge(const command_line::Arguments& arguments) {
 commands::Command judge_command() {
   return {{"judge",
            "FILE",
-           {answers::format_option(judge_answer(any_claim()).complete_type()),
+           {answers::format_option(),
             {"point", "P", "the design point to judge (default: the best by the goal)"}}},
           "judge a study by the goal in its manifest",
           judge_help,

@@ -343,7 +343,7 @@ document::Answer learned_of(const std::string& name, const summary::StudySummary
 commands::Command learn_command() {
   return {{"learn",
            "FILE",
-           {answers::format_option(learn_answer().complete_type()),
+           {answers::format_option(),
             {"point", "P", "the design point (default: the best)"},
             {"precision", "R", "relative error of the measurement, 0 to 1 (default 0.1)"}}},
           "say which unknown to measure next",

@@ -217,7 +217,7 @@ commands::Command monitor_command() {
   using command_line::needing;
   return {{"monitor",
            "BASELINE MOVES.csv",
-           {excluding({"follow"}, answers::format_option(monitor::monitor_answer().complete_type())),
+           {excluding({"follow"}, answers::format_option()),
             {"alarm", "A", "largest probability of a false alarm, ever (default 0.001)"},
             {"change", "C",
              "change to be seen: so many times the median, or so much of a proportion (default 0.2, of "

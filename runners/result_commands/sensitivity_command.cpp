@@ -68,7 +68,7 @@ commands::Command sensitivity_command() {
             {"confidence", "C", "confidence of the bounds, above 0 and up to 0.999 (default 0.95)"},
             {"max-trials", "N",
              "use the first N trials of each point (default 100000; of a saltelli design all are used)"},
-            answers::format_option(report::sensitivity_answer().complete_type())}},
+            answers::format_option()}},
           "print which random parameters influence the outputs of the trials",
           full_help(),
           print_sensitivity,

@@ -166,7 +166,7 @@ ExitCode summarise_file(const command_line::Arguments& arguments) {
 commands::Command summary_command() {
   return {{"summary",
            "FILE",
-           {answers::format_option(summary_answer::summary_type()),
+           {answers::format_option(),
             {"point", "P", "the design point that the headline speaks of (default: the best)"},
             {"sort", "NAME", "order rows by a value, with -NAME from the largest on, or by 'best'"},
             {"where", "CONDITION", "rows that meet it, such as 'ki < 2e4'; may be repeated", true},

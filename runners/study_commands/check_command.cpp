@@ -406,7 +406,7 @@ ExitCode check(const command_line::Arguments& arguments) {
 commands::Command check_command() {
   return {{"check",
            "MANIFEST|FILE",
-           {answers::format_option(check_answer().complete_type()),
+           {answers::format_option(),
             {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
             {"all-points", "", "print the theory of every design point, not only of the first 20"}}},
           "validate a manifest; print its plan and the theory of its points",

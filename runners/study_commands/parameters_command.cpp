@@ -167,7 +167,7 @@ commands::Command parameters_command() {
   return {
       {"parameters",
        "",
-       {answers::format_option(parameters_answer().complete_type()),
+       {answers::format_option(),
         command_line::excluding({"guides"}, {"manifest", "FILE",
                                              "list the parameters of this study, which decides the units, "
                                              "including each value of its lists"}),

@@ -212,7 +212,7 @@ commands::Command status_command() {
   return {{"status",
            "FILE",
            {{"watch", "S", "print again every S seconds until FILE is complete or its run has stopped"},
-            answers::format_option(status_answer().complete_type())}},
+            answers::format_option()}},
           "print the progress of a run or an array job, with the summary so far",
           status_help,
           print_statuses,

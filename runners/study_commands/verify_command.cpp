@@ -97,7 +97,10 @@ document::Description<verification::Check> check_description() {
 document::AnswerDescription<Reports> verify_answer() {
   using document::in_data;
   document::AnswerDescription<Reports> answer{
-      {.name = "verify", .meaning = "whether results files hold what their manifests say"}, {}};
+      {.name = "verify",
+       .meaning = "whether results files hold what their manifests say",
+       .csv_table = "files.checks"},
+      {}};
   answer.items.headline(headline_of)
       .value(in_data("ok", "whether all checks hold"),
              [](const Reports& reports) { return code_of(reports) == ExitCode::success; })
@@ -142,7 +145,7 @@ commands::Command verify_command() {
             {"seed", "S", "seed of the choice of these trials (default 1)"},
             {"plugin", "LIBRARY", "the controller plugin of the study"},
             {"reseal", "", "make a checksum again that does not hold, if everything else does"},
-            answers::format_option(verify_answer().complete_type())},
+            answers::format_option()},
            1,
            100000},
           "check results files, and run a sample of their trials again",

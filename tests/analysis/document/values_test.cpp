@@ -44,6 +44,18 @@ TEST(Values, WithoutBoundsAreShownWithoutThem) {
   EXPECT_EQ(text(answer_with(Bounded{unknown, unknown, unknown})), "");
 }
 
+// An answer without a table in CSV has one line there: its values, and those of its objects.
+TEST(Values, AreALineOfCsvWhereNoTableIs) {
+  using Inner = Holder<double>;
+  AnswerDescription<Inner> description{{.name = "holder", .meaning = "a number"}, {}};
+  description.items.value({.key = "number", .heading = "number"}, &Inner::number)
+      .object({.key = "part", .heading = "part"},
+              Description<Inner>().value({.key = "twice", .heading = "twice"},
+                                         [](const Inner& inner) { return 2.0 * inner.number; }),
+              [](const Inner& inner) { return inner; });
+  EXPECT_EQ(csv(description.of({0.1})), "number,part_twice\n0.1,0.2\n");
+}
+
 // The schema lets be null what may be missing, and nothing else.
 TEST(Values, OfAPartAreNullableWhereThePartMayBeMissing) {
   using Part = Holder<double>;

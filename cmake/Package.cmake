@@ -28,7 +28,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "chromium, librsvg2-bin, fonts-dejavu-
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME zerocount-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "zerocount (= ${PROJECT_VERSION}), libboost-dev, libeigen3-dev, libfmt-dev, librandom123-dev, libsleef-dev, libssl-dev")
+  "zerocount (= ${PROJECT_VERSION}), libboost-dev, libeigen3-dev, libfmt-dev, librandom123-dev, libsleef-dev, nettle-dev")
 if(ZEROCOUNT_PYTHON_PACKAGE)
   include(PythonPackage)
 endif()

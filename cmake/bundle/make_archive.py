@@ -28,9 +28,9 @@ def main(build):
     shutil.rmtree(root, ignore_errors=True)
     subprocess.run(["cmake", "--install", build, "--prefix", root, "--component", "program"], check=True, stdout=subprocess.DEVNULL)
     program = root / "bin/zerocount"
-    libraries = bundle.libraries_of([program], bundle.OF_C_LIBRARY | {bundle.NETWORK})
+    libraries, unused = bundle.libraries_of([program], bundle.OF_C_LIBRARY)
     bundle.place(program, root / "lib/zerocount", "$ORIGIN")
-    bundle.place_libraries(libraries, root / "lib")
+    bundle.place_libraries(libraries, unused, root / "lib")
     place_c_library(root / "lib/libc")
     shutil.copyfile(bundle.HERE / "launcher", program)
     c_library = {"libc.so.6": pathlib.Path("/lib/x86_64-linux-gnu/libc.so.6").resolve()}

@@ -7,6 +7,7 @@ BUILD is a build for any machine of the architecture, such as build/portable, wi
 the folder for the wheel.
 """
 
+import hashlib
 import os
 import pathlib
 import platform
@@ -20,6 +21,12 @@ import bundle
 LIBRARIES = "zerocount.libs"
 # The newest symbols of libstdc++ on systems with this version of glibc, by PEP 600's profiles as auditwheel has them.
 COMPILER_OF = {(2, 34): (3, 4, 29), (2, 35): (3, 4, 30), (2, 38): (3, 4, 32)}
+
+
+def own_name(name, path):
+    """The name of a library in the wheel: a process that has loaded another of its name still loads this one."""
+    stem, _, rest = name.partition(".so")
+    return f"{stem}-{hashlib.sha256(path.read_bytes()).hexdigest()[:8]}.so{rest}"
 
 
 def platform_tag(files):
@@ -36,11 +43,12 @@ def main(build, target):
     with tempfile.TemporaryDirectory() as temporary:
         content = pathlib.Path(temporary)
         extension = next((build / "python").glob("_zerocount.*.so"))
-        without = bundle.OF_C_LIBRARY | bundle.OF_COMPILER | {bundle.NETWORK}  # a system with Python has those of the compiler
-        libraries = bundle.libraries_of([build / "zerocount", extension], without)
-        bundle.place(build / "zerocount", content / "zerocount/bin/zerocount", f"$ORIGIN/../../{LIBRARIES}")
-        bundle.place(extension, content / extension.name, f"$ORIGIN/{LIBRARIES}")
-        bundle.place_libraries(libraries, content / LIBRARIES)
+        without = bundle.OF_C_LIBRARY | bundle.OF_COMPILER  # a system with Python has those of the compiler
+        libraries, unused = bundle.libraries_of([build / "zerocount", extension], without)
+        names = {name: own_name(name, path) for name, path in libraries.items()}
+        bundle.place(build / "zerocount", content / "zerocount/bin/zerocount", f"$ORIGIN/../../{LIBRARIES}", names)
+        bundle.place(extension, content / extension.name, f"$ORIGIN/{LIBRARIES}", names)
+        bundle.place_libraries(libraries, unused, content / LIBRARIES, names)
         shutil.copyfile(bundle.HERE / "_zerocount_program.py", content / "_zerocount_program.py")
         bundle.place_licences(libraries, content / LIBRARIES / "licences")
         tag = platform_tag([file for file in content.rglob("*") if file.is_file() and file.read_bytes()[:4] == b"\x7fELF"])

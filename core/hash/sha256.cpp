@@ -1,32 +1,21 @@
 #include "core/hash/sha256.hpp"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
-
-#include "core/failure/failure.hpp"
+#include <nettle/base64.h>
 
 namespace zerocount::hash {
-namespace {
 
-void require(bool success) {
-  if (!success) {
-    throw Failure(ExitCode::machine_failed, "the cryptography library cannot compute SHA-256");
-  }
-}
-
-}  // namespace
-
-Sha256Hash::Sha256Hash() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-  require(context_ != nullptr && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
+Sha256Hash::Sha256Hash() {
+  sha256_init(&context_);
 }
 
 void Sha256Hash::add(std::span<const std::byte> bytes) {
-  require(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1);
+  sha256_update(&context_, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
 }
 
 Sha256 Sha256Hash::digest() {
   Sha256 digest{};
-  require(EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr) == 1);
+  sha256_digest(&context_, digest.size(), digest.data());
   return digest;
 }
 
@@ -43,9 +32,9 @@ std::string hexadecimal(const Sha256& digest) {
 }
 
 std::string base64(const Sha256& digest) {
-  std::array<unsigned char, 45> text{};  // with the zero that the library appends
-  const int size = EVP_EncodeBlock(text.data(), digest.data(), static_cast<int>(digest.size()));
-  return {text.begin(), text.begin() + size};
+  std::string text(BASE64_ENCODE_RAW_LENGTH(digest.size()), '\0');
+  base64_encode_raw(text.data(), digest.size(), digest.data());
+  return text;
 }
 
 std::string sha256_hex(std::string_view text) {

@@ -3,19 +3,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 
-struct evp_md_ctx_st;
+#include <nettle/sha2.h>
 
 namespace zerocount::hash {
 
 using Sha256 = std::array<std::uint8_t, 32>;
 
 /// SHA-256 (FIPS 180-4) of bytes that come piece by piece.
-/// @throws Failure (machine_failed), from every function, if the cryptography library lacks SHA-256.
 class Sha256Hash {
  public:
   Sha256Hash();
@@ -25,7 +23,7 @@ class Sha256Hash {
   Sha256 digest();
 
  private:
-  std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> context_;
+  sha256_ctx context_{};
 };
 
 /// SHA-256 of the bytes of `text`.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <numbers>
 
+#include "core/numerics/elementary_functions.hpp"
 #include "tests/support/draws.hpp"
 
 namespace zerocount::testing {
@@ -21,7 +22,7 @@ std::shared_ptr<const friction::Profile> random_profile(Draws& draws, double mea
     profile->sine.push_back(size * draws.uniform(-1.0, 1.0));
   }
   profile->marginal = friction::Marginal::lognormal;
-  profile->location = std::log(mean);
+  profile->location = numerics::log(mean);
   profile->scale = variation;
   return profile;
 }
@@ -37,7 +38,7 @@ friction::FrictionAlongRotor random_friction(Draws& draws) {
   f.n = exponents[draws.integer(0, 3)];
   // At 0.02 N m, the torque of a move of some tens of counts, the creep limit is then around that of n = 2, λ
   // = 10.
-  f.lambda = std::pow(0.02, f.n) / draws.log_uniform(1e-5, 1.6e-4);
+  f.lambda = numerics::pow(0.02, f.n) / draws.log_uniform(1e-5, 1.6e-4);
   f.breakaway = draws.uniform(0.15, 0.35);
   f.coulomb_ratio = draws.chance(0.1) ? 1.0 : draws.uniform(0.5, 1.0);
   f.stribeck_velocity = draws.log_uniform(3e-3, 3e-2);

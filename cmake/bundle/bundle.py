@@ -10,7 +10,7 @@ import subprocess
 
 HERE = pathlib.Path(__file__).parent
 ROOT = HERE.parent.parent
-OF_C_LIBRARY = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1", "ld-linux-x86-64.so.2"}
+OF_C_LIBRARY = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
 OF_COMPILER = {"libstdc++.so.6", "libgcc_s.so.1"}
 # What the libraries can call and zerocount never does: HDF5's driver for files on remote servers, Ceres Solver's sparse and LAPACK solvers.
 UNUSED = ("libcurl.so.4", "libcrypto.so.3", "libcholmod.so.3", "libspqr.so.2", "libcxsparse.so.3", "liblapack.so.3", "libf77blas.so.3")
@@ -53,9 +53,11 @@ def place(file, target, libraries, names=()):
     target.chmod(0o755)
     subprocess.run(["strip", "--strip-unneeded", target], check=True)
     others = dict(names) | dict.fromkeys(UNUSED, STAND_IN)
-    renamed = [word for name in needed_by(target) if name in others for word in ("--replace-needed", name, others[name])]
+    for name in needed_by(target):
+        if name in others:
+            subprocess.run(["patchelf", "--replace-needed", name, others[name], target], check=True)
     # Not the newer RUNPATH: LD_LIBRARY_PATH, which modules of clusters set, comes before that.
-    subprocess.run(["patchelf", *renamed, "--force-rpath", "--set-rpath", libraries, target], check=True)
+    subprocess.run(["patchelf", "--force-rpath", "--set-rpath", libraries, target], check=True)
 
 
 def functions(file, which):

@@ -14,12 +14,14 @@ import sys
 
 import bundle
 
+C_LIBRARY = pathlib.Path(f"/lib/{platform.machine()}-linux-gnu")
 
 def place_c_library(folder):
     """The C library, for systems with an older one; its loader finds it there."""
     folder.mkdir(parents=True)
     for name in sorted(bundle.OF_C_LIBRARY):
-        shutil.copy2(pathlib.Path("/lib/x86_64-linux-gnu", name).resolve(), folder / name)
+        if (C_LIBRARY / name).exists():
+            shutil.copy2((C_LIBRARY / name).resolve(), folder / name)
 
 
 def main(build):
@@ -33,7 +35,7 @@ def main(build):
     bundle.place_libraries(libraries, unused, root / "lib")
     place_c_library(root / "lib/libc")
     shutil.copyfile(bundle.HERE / "launcher", program)
-    c_library = {"libc.so.6": pathlib.Path("/lib/x86_64-linux-gnu/libc.so.6").resolve()}
+    c_library = {"libc.so.6": (C_LIBRARY / "libc.so.6").resolve()}
     bundle.place_licences(libraries | c_library, root / "share/doc/zerocount/licences")
     archive = build / f"{name}.tar.xz"
     subprocess.run(["tar", "--create", "--sort=name", "--owner=0", "--group=0", "--numeric-owner", "--mtime=@0", "-C", build,

@@ -152,13 +152,24 @@ std::int64_t max_array(const command_line::Arguments& arguments, std::int64_t pa
                 "this Slurm has no array jobs (MaxArraySize is 0 in its configuration); use --tasks 1");
 }
 
+/// This program as nodes are to start it. That of an archive is `lib/zerocount`, or a loader in `lib/libc`,
+/// and its launcher chooses the C library by the node.
+fs::path program_for_nodes() {
+  const fs::path program = fs::read_symlink("/proc/self/exe");
+  for (const fs::path& folder : {program.parent_path(), program.parent_path().parent_path()}) {
+    const fs::path launcher = folder.parent_path() / "bin" / "zerocount";
+    if (folder.filename() == "lib" && fs::exists(launcher)) return launcher;
+  }
+  return program;
+}
+
 /// The request of the options; its elements are added when the missing parts are known.
 cluster::BatchRequest batch_request(const command_line::Arguments& arguments, const fs::path& output,
                                     const study::Study& study) {
   cluster::BatchRequest request;
   request.name = study.name;
   request.study_sha256 = study.study_sha256;
-  request.program = fs::read_symlink("/proc/self/exe");
+  request.program = program_for_nodes();
   request.folder = current_folder(arguments, output);
   request.manifest = arguments.operands()[0];
   request.overrides = arguments.values("set");

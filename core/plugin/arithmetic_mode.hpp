@@ -1,24 +1,48 @@
 #pragma once
 
+#ifdef __aarch64__
+#include <cstdint>
+#else
 #include <xmmintrin.h>
+#endif
 
 namespace zerocount::plugin {
+
+#ifdef __aarch64__
+/// Register FPCR (Arm Architecture Reference Manual, C5.2.8). The flags of exceptions are in another.
+inline std::uint64_t arithmetic_control() {
+  std::uint64_t bits = 0;
+  asm volatile("mrs %0, fpcr" : "=r"(bits));
+  return bits;
+}
+inline void set_arithmetic_control(std::uint64_t bits) {
+  asm volatile("msr fpcr, %0" : : "r"(bits));
+}
+#else
+/// Register MXCSR, except the flags of exceptions that have occurred.
+inline unsigned arithmetic_control() {
+  constexpr unsigned flags = 0x3f;
+  return _mm_getcsr() & ~flags;
+}
+inline void set_arithmetic_control(unsigned bits) {
+  _mm_setcsr(bits);
+}
+#endif
 
 /// The mode of floating-point arithmetic (rounding, denormal numbers, masks) of this thread. A library
 /// compiled with -ffast-math, or code that sets the mode, would change everything computed after it.
 class ArithmeticMode {
  public:
   /// Saves the present mode.
-  ArithmeticMode() : mode_(_mm_getcsr()) {}
+  ArithmeticMode() : mode_(arithmetic_control()) {}
 
-  /// Restores the saved mode, except the flags of exceptions that have occurred.
+  /// Restores the saved mode.
   void restore() const {
-    constexpr unsigned flags = 0x3f;
-    if (((_mm_getcsr() ^ mode_) & ~flags) != 0) _mm_setcsr(mode_);
+    if (arithmetic_control() != mode_) set_arithmetic_control(mode_);
   }
 
  private:
-  unsigned mode_;
+  decltype(arithmetic_control()) mode_;
 };
 
 }  // namespace zerocount::plugin

@@ -1,7 +1,9 @@
 """The site: what stage.py lays together, as pages. `./quickstart docs` calls it."""
 
+import json
 import os
 import pathlib
+import re
 import sys
 
 from pygments.lexers.special import TextLexer
@@ -32,6 +34,27 @@ breathe_default_members = ("members", "undoc-members")
 breathe_domain_by_extension = {"h": "c", "hpp": "cpp"}
 
 html_theme = "furo"
+
+
+def like_reports(mode):
+    """The variables of furo for the colours and fonts of the reports that the program writes."""
+    colours = json.loads((REPOSITORY / "analysis/report/colours.json").read_text())[mode]
+    style = (REPOSITORY / "analysis/report/page.css").read_text()
+    names = {
+        "paper": ["background-primary"],
+        "panel": ["background-secondary", "background-hover", "code-background", "admonition-background", "card-background"],
+        "rule": ["background-border", "background-item", "foreground-border"],
+        "ink": ["foreground-primary", "code-foreground", "api-keyword"],
+        "muted": ["foreground-secondary", "foreground-muted"],
+        "link": ["brand-primary", "brand-content"],
+        "bad": ["problematic"],
+    }
+    variables = {f"color-{name}": colours[f"--{its}"] for its, all_names in names.items() for name in all_names}
+    fonts = {"font-stack": r"^body\{.*?font:\S+ ([^;}]*)", "font-stack--monospace": r"^pre\{.*?font:\S+ ([^;}]*)"}
+    return variables | {name: re.search(place, style, re.MULTILINE)[1] for name, place in fonts.items()}
+
+
+html_theme_options = {"light_css_variables": like_reports("light"), "dark_css_variables": like_reports("dark")}
 html_static_path = ["static"]
 html_css_files = ["site.css"]
 html_search_scorer = str(pathlib.Path(__file__).with_name("static") / "scorer.js")

@@ -90,7 +90,7 @@ ConverterErrors::ConverterErrors(const DacParameters& dac, const random::TrialRa
 double ConverterErrors::with_errors(std::int64_t k, std::int64_t code) const {
   const double torque = torque_with_errors(dac_, code);
   if (dac_.noise == 0.0) return torque;
-  return torque + dac_.noise * random::standard_normal(
+  return torque + dac_.noise * random::standard_normal_noise(
                                    random::random_bits_at(noise_, trial_, static_cast<std::uint64_t>(k)));
 }
 

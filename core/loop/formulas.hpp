@@ -12,6 +12,30 @@ ZEROCOUNT_ALWAYS_INLINE Number ideal_count(const Number& theta, const Number& re
   return floor(theta / resolution + phase);
 }
 
+/// Noise of an encoder (ImperfectEncoder).
+template <class Number>
+struct NoiseConstants {
+  Number deviation;  ///< sd, counts
+  Number retention;  ///< a
+  Number renewal;    ///< √(1 − a²)
+};
+
+/// w_k = a·w_{k−1} + √(1 − a²)·z_k, w_0 = z_0. @param first whether k = 0. @param drawn z_k.
+template <class Number, class Mask>
+ZEROCOUNT_ALWAYS_INLINE Number next_noise(const NoiseConstants<Number>& c, const Number& last,
+                                          const Mask& first, const Number& drawn) {
+  return select(first, drawn, c.retention * last + c.renewal * drawn);
+}
+
+/// Whether two ideal encoders show these counts at one and the same rotor angle (counts_agree).
+/// @param from where the fine count begins, (c − phase)·q + phase, in coarse counts. @param ratio q.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE auto counts_may_coincide(const Number& from, const Number& ratio,
+                                                 const Number& coarse) {
+  const Number rounding = Number(0x1p-48) * (Number(1.0) + abs(coarse));
+  return (coarse + rounding < from + ratio) & (from + rounding < coarse + Number(1.0));
+}
+
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number clamped(const Number& value, const Number& lowest, const Number& highest) {
   return min(max(value, lowest), highest);

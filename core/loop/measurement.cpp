@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <numbers>
 
 #include "core/numerics/elementary_functions.hpp"
@@ -23,12 +22,15 @@ bool has_errors(const EncoderErrors& errors) {
   return eccentricity != 0.0 || interpolation != 0.0 || noise != 0.0 || missed != 0.0;
 }
 
+NoiseConstants<double> noise_constants(const EncoderErrors& errors, double sample_time) {
+  const double a = numerics::exp(-2.0 * std::numbers::pi * errors.noise_bandwidth * sample_time);
+  return {errors.noise, a, std::sqrt(1.0 - a * a)};
+}
+
 bool counts_agree(const Encoder& fine, const Encoder& coarse, const EncoderReading& reading) {
   const double ratio = fine.resolution / coarse.resolution;
   const double from = (static_cast<double>(reading.fine) - fine.phase) * ratio + coarse.phase;
-  const double count = static_cast<double>(reading.coarse);
-  const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * (1.0 + std::abs(count));
-  return count + rounding < from + ratio && from + rounding < count + 1.0;
+  return counts_may_coincide(from, ratio, static_cast<double>(reading.coarse));
 }
 
 ImperfectEncoder::ImperfectEncoder(const Encoder& encoder, const EncoderErrors& errors, double position,
@@ -42,7 +44,7 @@ ImperfectEncoder::ImperfectEncoder(const Encoder& encoder, const EncoderErrors& 
       missed_(missed),
       start_eccentricity_(numerics::sin(position - errors.eccentricity_angle)),
       start_count_(std::floor(position / encoder.resolution)),
-      noise_retention_(numerics::exp(-2.0 * std::numbers::pi * errors.noise_bandwidth * sample_time)) {
+      constants_(noise_constants(errors, sample_time)) {
   if (errors.interpolation != 0.0) start_interpolation_ = interpolation_error(encoder.phase);
 }
 
@@ -60,7 +62,7 @@ std::int64_t ImperfectEncoder::read(std::int64_t k, double theta) {
   }
   double x = theta / encoder_.resolution + encoder_.phase;
   if (errors_.interpolation != 0.0) x += interpolation_error(x) - start_interpolation_;
-  if (errors_.noise != 0.0) x += errors_.noise * next_noise(k);
+  if (errors_.noise != 0.0) x += next_noise(k);
   // fmin and fmax pass over what is not a number.
   const auto raw =
       static_cast<std::int64_t>(std::floor(std::fmin(std::fmax(x, -farthest_count), farthest_count)));
@@ -69,11 +71,10 @@ std::int64_t ImperfectEncoder::read(std::int64_t k, double theta) {
 }
 
 double ImperfectEncoder::next_noise(std::int64_t k) {
-  const double fresh =
-      random::standard_normal(random::random_bits_at(noise_, trial_, static_cast<std::uint64_t>(k)));
-  const double a = k == 0 ? 0.0 : noise_retention_;
-  noise_state_ = a * noise_state_ + std::sqrt(1.0 - a * a) * fresh;
-  return noise_state_;
+  const double drawn =
+      random::standard_normal_noise(random::random_bits_at(noise_, trial_, static_cast<std::uint64_t>(k)));
+  noise_state_ = loop::next_noise(constants_, noise_state_, k == 0, drawn);
+  return constants_.deviation * noise_state_;
 }
 
 void ImperfectEncoder::miss_counts(std::int64_t k, std::int64_t raw) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/loop/encoder.hpp"
+#include "core/loop/formulas.hpp"
 #include "core/loop/parameters.hpp"
 #include "core/random/random_numbers.hpp"
 #include "core/random/trial_randomness.hpp"
@@ -11,6 +12,9 @@ namespace zerocount::loop {
 
 /// Whether the encoder reads anything else than an ideal one.
 bool has_errors(const EncoderErrors& errors);
+
+/// @param sample_time T, s.
+NoiseConstants<double> noise_constants(const EncoderErrors& errors, double sample_time);
 
 /// Whether the two counts are possible at one and the same rotor angle: whether two ideal encoders show them
 /// anywhere. In coarse counts, the fine count c stands for the range [(c − phase)·q + phase, that + q) with q
@@ -45,7 +49,7 @@ class ImperfectEncoder {
 
  private:
   double interpolation_error(double x) const;
-  double next_noise(std::int64_t k);
+  double next_noise(std::int64_t k);  ///< sd·w_k, counts
   void miss_counts(std::int64_t k, std::int64_t raw);
 
   Encoder encoder_;
@@ -56,8 +60,8 @@ class ImperfectEncoder {
   random::RandomStream missed_;
   double start_eccentricity_;  // sin(p − γ)
   double start_count_;         // m
-  double noise_retention_;     // a
-  double noise_state_{0.0};    // w of the last sample
+  NoiseConstants<double> constants_;
+  double noise_state_{0.0};  // w of the last sample
   double start_interpolation_{0.0};
   bool first_{true};
   std::int64_t last_raw_{0};  // r of the sample before

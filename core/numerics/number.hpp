@@ -11,6 +11,10 @@ namespace zerocount {
 
 #define ZEROCOUNT_ALWAYS_INLINE __attribute__((always_inline)) inline
 
+/// Whether the mask is set in any lane.
+ZEROCOUNT_ALWAYS_INLINE bool any(bool mask) {
+  return mask;
+}
 /// a where `mask`, else b.
 ZEROCOUNT_ALWAYS_INLINE double select(bool mask, double a, double b) {
   return mask ? a : b;
@@ -37,6 +41,17 @@ ZEROCOUNT_ALWAYS_INLINE double rint(double a) {
 }
 ZEROCOUNT_ALWAYS_INLINE double floor(double a) {
   return __builtin_floor(a);
+}
+/// The factors of a = m·2ᵉ, 1 ≤ m < 2, for a normal a > 0.
+ZEROCOUNT_ALWAYS_INLINE void split(double a, double& m, double& e) {
+  constexpr int stored_bits = 52;
+  constexpr long long of_one = 1023LL << stored_bits;  // bits of 1.0
+  long long bits;
+  static_assert(sizeof bits == sizeof a);
+  __builtin_memcpy(&bits, &a, sizeof bits);
+  e = static_cast<double>((bits >> stored_bits) - 1023);
+  bits = (bits & ((1LL << stored_bits) - 1)) | of_one;
+  __builtin_memcpy(&m, &bits, sizeof m);
 }
 
 }  // namespace zerocount

@@ -4,12 +4,18 @@
 
 #include "core/numerics/elementary_functions.hpp"
 #include "core/numerics/normal_distribution.hpp"
+#include "core/numerics/normal_quantile_formula.hpp"
 #include "core/numerics/real.hpp"
 #include "core/random/random_numbers.hpp"
 
 namespace zerocount::random {
+
 double standard_normal(std::uint64_t bits) {
   return numerics::normal_quantile(open_uniform(bits));
+}
+
+double standard_normal_noise(std::uint64_t bits) {
+  return numerics::standard_normal_quantile(open_uniform(bits));
 }
 
 std::int64_t binomial_number(std::int64_t n, double probability, std::uint64_t bits) {

@@ -2,6 +2,7 @@
 
 #include "core/batch/kernels/applied_torque.hpp"
 #include "core/batch/kernels/bristle_kernel.hpp"
+#include "core/batch/kernels/creep_ahead_kernel.hpp"
 #include "core/batch/kernels/free_kernel.hpp"
 #include "core/batch/kernels/kernels.hpp"
 #include "core/batch/kernels/lane_sets_kernel.hpp"
@@ -45,9 +46,12 @@ inline constexpr MotionKernels loaded_kernels_with{
 template <class V, class E, class P>
 inline constexpr Kernels kernels_with{lanes_at_stop_kernel<P>,
                                       fast_lanes_kernel<P>,
-                                      sample_kernel<V, Decider::pid>,
-                                      sample_kernel<V, Decider::blocks>,
-                                      sample_kernel<V, Decider::lane_loop>,
+                                      creep_ahead_kernel<V>,
+                                      sample_kernel<V, Decider::pid, false>,
+                                      sample_kernel<V, Decider::blocks, false>,
+                                      sample_kernel<V, Decider::pid, true>,
+                                      sample_kernel<V, Decider::blocks, true>,
+                                      sample_kernel<V, Decider::lane_loop, false>,
                                       motion_kernels_with<V, E, P, false>,
                                       motion_kernels_with<V, E, P, true>,
                                       loaded_kernels_with<V, E, P, false>,

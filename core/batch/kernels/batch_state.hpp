@@ -1,7 +1,9 @@
 #pragma once
 
 #include "core/batch/kernels/lane_set.hpp"
+#include "core/friction/presliding/oscillation_formulas.hpp"
 #include "core/loop/controller/block_formulas.hpp"
+#include "core/loop/formulas.hpp"
 #include "core/trial/running_measures.hpp"
 
 /// The trials that a batch engine has in work, one a lane: plain arrays, one quantity each, so that a kernel
@@ -83,6 +85,21 @@ struct alignas(64) FreeLanes {
   Lanes lag_gain;  ///< rad/(N m s)
 };
 
+/// The motion of a lane that creeps at rest and is sampled all the time, over some samples ahead. Only lanes
+/// in LaneStates::ahead use it; their plant stands where the description begins.
+struct alignas(64) CreepAheadLanes {
+  Lanes elapsed;   ///< time since its start, by which the plant lags behind the lane, s
+  Lanes duration;  ///< s; 0 if there is no description
+  // Without the oscillation, coefficients in elapsed/duration, rad.
+  Lanes elongation[4];
+  Lanes extension[4];
+  Lanes hardening[4];
+  friction::OscillationConstants<Lanes> oscillation;
+  Lanes oscillation_end;  ///< ResidualOscillation::end, s
+  Lanes start;            ///< of the description, in the time of the oscillation, s
+  Lanes creep_sign;       ///< sgn(σ)
+};
+
 /// Time and step control of a lane.
 struct alignas(64) TimeLanes {
   Lanes time_to_stop;     ///< to the next stop, s
@@ -124,6 +141,23 @@ struct alignas(64) LoopLanes {
   Lanes given_torque;   ///< of the converter, N m
   Lanes given_clipped;  ///< the converter was out of range
   Lanes given_may_stay;
+};
+
+/// One of the streams of random numbers (random::random_bits_at), as whole numbers below 2³².
+struct RandomLanes {
+  Lanes trial_low, trial_high;
+  Lanes stream;
+  Lanes key[2];
+};
+
+/// The noise of the fine encoder, and the coarse encoder beside it. Lanes without noise do not use it.
+struct alignas(64) NoiseLanes {
+  RandomLanes random;
+  loop::NoiseConstants<Lanes> constants;
+  Lanes sample;             ///< k, from the start of the trial
+  Lanes state;              ///< w of the last sample
+  Lanes coarse_resolution;  ///< rad
+  Lanes disagreements;      ///< samples of the move with readings of no single angle
 };
 
 inline constexpr int max_lane_filters = 4;
@@ -273,6 +307,8 @@ struct BatchState : LaneNumbers {
   int passed_count;       ///< at most one a lane and kernel call
 
   // Last and apart, since fewer studies use them.
+  CreepAheadLanes ahead;
+  NoiseLanes noise;
   BlockLanes blocks;
   CourseLanes course;
   LoadLanes load;

@@ -20,15 +20,18 @@ struct MotionKernels {
 
 /// The kernels, compiled for one instruction set.
 struct Kernels {
-  LaneSet (*lanes_at_stop)(const BatchState&);         ///< and those without a trial
-  LaneSet (*fast_lanes)(const BatchState&);            ///< faster than ContactLanes::fast_velocity
+  LaneSet (*lanes_at_stop)(const BatchState&);  ///< and those without a trial
+  LaneSet (*fast_lanes)(const BatchState&);     ///< faster than ContactLanes::fast_velocity
+  LaneSet (*creep_ahead)(BatchState&, const LaneSet&);
   void (*sample)(BatchState&, const LaneSet&);         ///< with the PID law alone
   void (*sample_blocks)(BatchState&, const LaneSet&);  ///< with the blocks of the controller
-  void (*sample_given)(BatchState&, const LaneSet&);   ///< what LaneLoop has decided
-  MotionKernels constant;                              ///< of lanes whose torque stays
-  MotionKernels varying;                               ///< of lanes whose torque varies
-  MotionKernels loaded;                                ///< of those with a second mass: whose torque stays
-  MotionKernels loaded_driven;                         ///< and whose torque may vary
+  void (*sample_noisy)(BatchState&, const LaneSet&);   ///< the same with a noisy encoder
+  void (*sample_noisy_blocks)(BatchState&, const LaneSet&);
+  void (*sample_given)(BatchState&, const LaneSet&);  ///< what LaneLoop has decided
+  MotionKernels constant;                             ///< of lanes whose torque stays
+  MotionKernels varying;                              ///< of lanes whose torque varies
+  MotionKernels loaded;                               ///< of those with a second mass: whose torque stays
+  MotionKernels loaded_driven;                        ///< and whose torque may vary
   void (*course)(BatchState&, const LaneSet&);
 };
 

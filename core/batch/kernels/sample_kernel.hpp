@@ -2,7 +2,9 @@
 
 #include "core/batch/kernels/lane_blocks.hpp"
 #include "core/batch/kernels/lane_group.hpp"
+#include "core/batch/kernels/random_numbers.hpp"
 #include "core/loop/formulas.hpp"
+#include "core/numerics/normal_quantile_formula.hpp"
 
 namespace zerocount::batch {
 
@@ -33,8 +35,33 @@ ZEROCOUNT_ALWAYS_INLINE void measure_bands(MeasureLanes& q, const At& at, const 
   }
 }
 
+/// The count of an encoder with noise. @param angle that it reads, rad.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE P noisy_count(BatchState& batch, const At& at, const P& angle) {
+  NoiseLanes& n = batch.noise;
+  const P k = at.load(n.sample);
+  at.store(n.sample, k + P(1.0));
+  P uniform;
+  set_uniform_at(n.random, at, k, uniform);
+  const P state = loop::next_noise(load_struct(at, n.constants), at.load(n.state), k == P(0.0),
+                                   numerics::standard_normal_quantile(uniform));
+  at.store(n.state, state);
+
+  const P phase = at.load(batch.loop.phase);
+  const P resolution = at.load(batch.loop.resolution);
+  const P position = angle / resolution + phase;
+  const P count = floor(position + at.load(n.constants.deviation) * state);
+  const P coarse_resolution = at.load(n.coarse_resolution);
+  const P coarse = loop::ideal_count(angle, coarse_resolution, phase);
+  const P ratio = resolution / coarse_resolution;
+  const typename P::Mask possible =
+      loop::counts_may_coincide((count - phase) * ratio + phase, ratio, coarse) | (count == floor(position));
+  at.store(n.disagreements, at.load(n.disagreements) + select(possible, P(0.0), P(1.0)));
+  return count;
+}
+
 /// One sampling instant of one vector; see sample_kernel.
-template <Decider decider, class At>
+template <Decider decider, bool noisy, class At>
 __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   using P = typename At::Vector;
   using Mask = typename P::Mask;
@@ -47,10 +74,13 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   const P theta = select(hook_slides, at.load(m.theta), at.load(m.hook) + at.load(m.elongation) + extension);
   const P angle = theta - at.load(l.read_twist);
   const P resolution = at.load(l.resolution);
-  const Mask unreadable = ~(abs(theta / resolution) < P(0x1p50));
+  Mask unreadable = ~(abs(theta / resolution) < P(0x1p50));
   P count;
   if constexpr (decider == Decider::lane_loop) {
     count = at.load(l.given_count);
+  } else if constexpr (noisy) {
+    count = noisy_count(batch, at, angle);
+    unreadable = unreadable | ~(abs(count) < P(0x1p50));
   } else {
     count = loop::ideal_count(angle, resolution, at.load(l.phase));
   }
@@ -90,6 +120,7 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   at.store(l.code, code);
   at.store(m.torque, applied + at.load(l.disturbance));
   Mask steady = (error == P(0.0)) & (last_error == P(0.0)) & (change == P(0.0));
+  if constexpr (noisy) steady = Mask::of_bits(0);
   if constexpr (decider == Decider::blocks) steady = steady & ~has_memory<P>(batch, at);
   if constexpr (decider == Decider::lane_loop) steady = steady & to_mask(at.load(l.given_may_stay));
   at.store(l.steady, to_number<P>(steady));
@@ -130,12 +161,13 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
                  events_where<P>(to_mask(at.load(l.driven)), driven));
 }
 
-/// One sampling instant of each lane: encoder, control, converter, measures. Reports jerk_changes,
-/// count_changes, diverges and driven, and beyond_kernel where the encoder cannot count θ.
-template <class V, Decider decider>
+/// One sampling instant of each lane: encoder, control, converter, measures. With `noisy` the fine encoder
+/// has noise. Reports jerk_changes, count_changes, diverges and driven, and beyond_kernel where the encoder
+/// cannot count θ.
+template <class V, Decider decider, bool noisy>
 void sample_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
-  for_each_stretch<V>(lanes, [&](const auto& at) { sample<decider>(batch, at); });
+  for_each_stretch<V>(lanes, [&](const auto& at) { sample<decider, noisy>(batch, at); });
 }
 
 }  // namespace zerocount::batch

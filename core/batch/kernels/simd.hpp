@@ -8,6 +8,7 @@
 #endif
 
 #include "core/numerics/ln2.hpp"
+#include "core/numerics/logarithm_by_series.hpp"
 #include "core/numerics/number.hpp"
 
 /// Vectors of doubles for the kernels of the batch engine, by the vector extension of GCC and Clang.
@@ -32,6 +33,29 @@ struct VectorOf {
   static ZEROCOUNT_ALWAYS_INLINE Mask less_or_equal(Real a, Real b) { return a <= b; }
   static ZEROCOUNT_ALWAYS_INLINE Mask equal(Real a, Real b) { return a == b; }
   static ZEROCOUNT_ALWAYS_INLINE Real select(Mask mask, Real a, Real b) { return mask ? a : b; }
+  static ZEROCOUNT_ALWAYS_INLINE Real sqrt(Real a) {
+#ifdef __AVX__
+    if constexpr (Width == 4) return (Real)_mm256_sqrt_pd((__m256d)a);
+#endif
+#ifdef __SSE2__
+    if constexpr (Width == 2) return (Real)_mm_sqrt_pd((__m128d)a);
+#endif
+    double lane[Width];
+    __builtin_memcpy(lane, &a, sizeof lane);
+    for (int j = 0; j < Width; ++j) lane[j] = __builtin_sqrt(lane[j]);
+    __builtin_memcpy(&a, lane, sizeof lane);
+    return a;
+  }
+  /// The products of the lower 32 bits of each lane.
+  static ZEROCOUNT_ALWAYS_INLINE Bits product_of_words(Bits a, Bits b) {
+#ifdef __AVX2__
+    if constexpr (Width == 4) return (Bits)_mm256_mul_epu32((__m256i)a, (__m256i)b);
+#endif
+#ifdef __SSE2__
+    if constexpr (Width == 2) return (Bits)_mm_mul_epu32((__m128i)a, (__m128i)b);
+#endif
+    return (a & UINT32_MAX) * (b & UINT32_MAX);
+  }
   static ZEROCOUNT_ALWAYS_INLINE void store(double* to, Mask mask, Real value) {
     Real kept;
     __builtin_memcpy(&kept, to, sizeof kept);
@@ -80,6 +104,11 @@ struct VectorOf<8> {
   }
   static ZEROCOUNT_ALWAYS_INLINE Real select(Mask mask, Real a, Real b) {
     return (Real)_mm512_mask_blend_pd(mask, (__m512d)b, (__m512d)a);
+  }
+  static ZEROCOUNT_ALWAYS_INLINE Real sqrt(Real a) { return (Real)_mm512_sqrt_pd((__m512d)a); }
+  /// The products of the lower 32 bits of each lane.
+  static ZEROCOUNT_ALWAYS_INLINE Bits product_of_words(Bits a, Bits b) {
+    return (Bits)_mm512_mul_epu32((__m512i)a, (__m512i)b);
   }
   static ZEROCOUNT_ALWAYS_INLINE void store(double* to, Mask mask, Real value) {
     _mm512_mask_storeu_pd(to, mask, (__m512d)value);
@@ -134,6 +163,11 @@ struct SimdMask {
     return r;
   }
 };
+
+template <int Width, int Chains>
+ZEROCOUNT_ALWAYS_INLINE bool any(const SimdMask<Width, Chains>& mask) {
+  return mask.any();
+}
 
 template <int Width, int Chains>
 struct Simd {
@@ -218,9 +252,7 @@ struct Simd {
   /// √a.
   friend ZEROCOUNT_ALWAYS_INLINE Simd sqrt(const Simd& a) {
     Simd r;
-    for (int i = 0; i < Chains; ++i) {
-      for (int j = 0; j < Width; ++j) r.part[i][j] = __builtin_sqrt(a.part[i][j]);
-    }
+    for (int i = 0; i < Chains; ++i) r.part[i] = Vector::sqrt(a.part[i]);
     return r;
   }
 
@@ -288,28 +320,12 @@ ZEROCOUNT_ALWAYS_INLINE P exp(const P& a) {
   return (P(1.0) + (r + (r * r) * sum)) * exp2(n);
 }
 
-/// ln a of a normal a > 0, to some 2e-16 relative: a = m·2ᵉ with m from √½ to √2, and with s = (m − 1)/(m +
-/// 1) ln m = 2·(s + s³/3 + s⁵/5 + …).
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE P log(const P& a) {
-  P m, e;
-  split(a, m, e);
-  const typename P::Mask large = m > P(0x1.6a09e667f3bcdp0);  // √2
-  m = select(large, P(0.5) * m, m);
-  e = select(large, e + P(1.0), e);
-  const P s = (m - P(1.0)) / (m + P(1.0));
-  const P square = s * s;
-  P sum(1.0 / 21.0);
-  for (int odd = 19; odd >= 3; odd -= 2) sum = sum * square + P(1.0 / odd);
-  return e * P(numerics::ln2_high) + (e * P(numerics::ln2_low) + P(2.0) * (s + s * (square * sum)));
-}
-
 /// aⁿ for a ≥ 0 and n > 0, to about 2e-16·(1 + |n·ln a|) relative. Results from e⁷⁰⁰ on are infinite, those
 /// below e⁻⁷⁰⁰ are e⁻⁷⁰⁰, except 0ⁿ = 0. NaN if a is NaN or infinite.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P pow(const P& a, const P& n) {
   constexpr double infinite = __builtin_inf();
-  const P logarithm = n * log(max(a, P(0x1p-1022)));
+  const P logarithm = n * numerics::logarithm_by_series(max(a, P(0x1p-1022)));
   const P power = select(logarithm < P(700.0), exp(min(logarithm, P(700.0))), P(infinite));
   return select(a == P(0.0), P(0.0), power) + (a - a);
 }

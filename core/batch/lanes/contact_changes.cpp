@@ -192,7 +192,7 @@ bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const m
   store_contact(batch, lane, trial);
   if (trial.plant->rest()) {
     batch.motion.rest_torque[lane] = trial.plant->rest()->torque;
-    trial.ahead = {};
+    forget_ahead(batch, lane, trial);
   }
   batch.time.next_step[lane] = batch.time.sample_time[lane];
   batch.time.time_to_stop[lane] = 0.0;

@@ -48,6 +48,8 @@ trial::MoveOutcome outcome_of(const BatchState& batch, int lane, LaneTrial& tria
   const std::int64_t reference = end.last.target + (trial.loop ? trial.loop->reference_offset() : 0);
   outcome.true_error =
       trial::true_error(reference, q.theta[lane] - trial.read_twist, l.resolution[lane], l.phase[lane]);
+  if (needs_lane_noise(p))
+    outcome.encoder_disagreement = static_cast<std::int64_t>(batch.noise.disagreements[lane]);
   if (trial.loop) trial.loop->finish(outcome);
   if (trial.position) trial.position->finish(outcome);
   return outcome;
@@ -75,6 +77,8 @@ void copy_lane(Numbers& numbers, int from, int to) {
 
 void move_lane(RunningBatch& run, int from, int to) {
   copy_lane(static_cast<LaneNumbers&>(run.state), from, to);
+  copy_lane(run.state.ahead, from, to);
+  if (run.lanes.noisy.contains(from)) copy_lane(run.state.noise, from, to);
   if (run.lanes.with_blocks.contains(from)) copy_lane(run.state.blocks, from, to);
   if (run.state.loop.driven[from] != 0.0) copy_lane(run.state.course, from, to);
   if (run.lanes.loaded.contains(from)) copy_lane(run.state.load, from, to);

@@ -33,6 +33,14 @@ bool is_certain(const trial::TrialParameters& p) {
          p.dac.noise == 0.0;
 }
 
+/// Whether noise of the fine encoder is the only error of encoders and converter that is drawn.
+bool has_noise_alone(const trial::TrialParameters& p) {
+  const loop::EncoderErrors& e = p.encoder.fine_errors;
+  return e.noise != 0.0 && e.eccentricity == 0.0 && e.interpolation == 0.0 && e.missed == 0.0 &&
+         !loop::has_errors(p.encoder.coarse_errors) && p.dac.noise == 0.0 &&
+         loop::coarse_resolution(p.encoder) >= loop::fine_resolution(p.encoder);
+}
+
 // Each overload returns the feature that the lanes lack, empty if they have all. Each switch lists all
 // enumerators and each structured binding all members, so that the compiler demands a decision for one that
 // is added later.
@@ -137,9 +145,14 @@ bool needs_lane_drive(const trial::TrialParameters& p) {
          !d.ripple.empty() || !d.vibration.empty() || !d.spectra.empty();
 }
 
+bool needs_lane_noise(const trial::TrialParameters& p) {
+  return has_noise_alone(p) && !needs_lane_loop(p);
+}
+
 bool needs_lane_loop(const trial::TrialParameters& p) {
-  return !is_certain(p) || p.verdict.motion || p.controller.missed > 0.0 || loop::has_errors(p.dac) ||
-         loop::has_coarse_phase(p.controller) || p.controller.encoder != loop::EncoderChoice::fine ||
+  return !(is_certain(p) || has_noise_alone(p)) || p.verdict.motion || p.controller.missed > 0.0 ||
+         loop::has_errors(p.dac) || loop::has_coarse_phase(p.controller) ||
+         p.controller.encoder != loop::EncoderChoice::fine ||
          p.command.profile.shape != loop::ReferenceShape::step || p.controller.user.plugin ||
          p.controller.blocks.filters.size() > max_lane_filters;
 }

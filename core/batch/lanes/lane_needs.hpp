@@ -21,9 +21,12 @@ bool has_blocks(const trial::TrialParameters& parameters);
 /// remainder.
 bool remembers(const trial::TrialParameters& parameters);
 
+/// Whether the fine encoder has noise that the sampling kernels read.
+bool needs_lane_noise(const trial::TrialParameters& parameters);
+
 /// Whether the sampled loop of the trial has a feature that the sampling kernels lack: errors of an encoder
-/// or of the converter, missed samples, two phases, the coarse encoder, a reference with a profile, a plugin,
-/// measures of the true motion, or more filters than they have.
+/// other than noise of the fine one, errors of the converter, missed samples, two phases, the coarse encoder,
+/// a reference with a profile, a plugin, measures of the true motion, or more filters than they have.
 bool needs_lane_loop(const trial::TrialParameters& parameters);
 
 /// Whether the torque of a LaneLoop stays while count and error stay 0, the controller having run at this

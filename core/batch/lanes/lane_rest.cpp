@@ -1,6 +1,5 @@
 // Lanes at rest: creep moves the rotor, and an oscillation has decayed or is known in closed form.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/batch/lanes/running_batch.hpp"
@@ -93,17 +92,15 @@ constexpr int samples_one_by_one = 4;
 constexpr double max_span = 256.0;  // samples
 constexpr double min_span = 8.0;    // fewer are not worth the description
 
-/// The cubic through values at 0, 1/3, 2/3 and 1.
-std::array<double, 4> cubic_through(double a, double b, double c, double d) {
+/// Stores the cubic through values at 0, 1/3, 2/3 and 1 in the lane. @returns its value at ½.
+double store_cubic(Lanes (&to)[4], int lane, double a, double b, double c, double d) {
   const double first = b - a;
   const double second = (c - b) - first;
   const double third = ((d - c) - (c - b)) - second;
   // Newton's form in 3x, expanded.
-  return {a, 3.0 * (first - 0.5 * second + third / 3.0), 4.5 * (second - third), 4.5 * third};
-}
-
-double value_of(const std::array<double, 4>& c, double x) {
-  return c[0] + x * (c[1] + x * (c[2] + x * c[3]));
+  const double cubic[] = {a, 3.0 * (first - 0.5 * second + third / 3.0), 4.5 * (second - third), 4.5 * third};
+  for (std::size_t i = 0; i < 4; ++i) to[i][lane] = cubic[i];
+  return cubic[0] + 0.5 * (cubic[1] + 0.5 * (cubic[2] + 0.5 * cubic[3]));
 }
 
 /// The motion at rest without its residual oscillation.
@@ -121,8 +118,8 @@ SlowMotion slow_motion(const LanePlant& plant) {
           motion.creep.hardening - rest.creep.sign * oscillation.extension};
 }
 
-/// Describes the slow motion at rest over the next samples. @returns whether cubics do so to 1e-9 count.
-bool describe_ahead(const BatchState& batch, int lane, LaneTrial& trial, double torque) {
+/// Describes the motion at rest over the next samples. @returns whether cubics do so to 1e-9 count.
+bool describe_ahead(BatchState& batch, int lane, LaneTrial& trial, double torque) {
   CreepAhead& ahead = trial.ahead;
   if (ahead.span < min_span) return false;
   const double duration = ahead.span * batch.time.sample_time[lane];
@@ -134,43 +131,39 @@ bool describe_ahead(const BatchState& batch, int lane, LaneTrial& trial, double 
     probe.advance(motion::constant_torque(torque), parts[i] * duration);
     at[i + 1] = slow_motion(probe);
   }
-  const auto cubic = [&](double SlowMotion::*of) {
-    return cubic_through(at[0].*of, at[1].*of, at[3].*of, at[4].*of);
+  CreepAheadLanes& to = batch.ahead;
+  const auto store = [&](Lanes(&cubic)[4], double SlowMotion::*of) {
+    return store_cubic(cubic, lane, at[0].*of, at[1].*of, at[3].*of, at[4].*of);
   };
-  ahead.elongation = cubic(&SlowMotion::elongation);
-  ahead.extension = cubic(&SlowMotion::extension);
-  ahead.hardening = cubic(&SlowMotion::hardening);
-  const double missed = std::abs(value_of(ahead.elongation, 0.5) - at[2].elongation) +
-                        std::abs(value_of(ahead.extension, 0.5) - at[2].extension);
+  const double missed = std::abs(store(to.elongation, &SlowMotion::elongation) - at[2].elongation) +
+                        std::abs(store(to.extension, &SlowMotion::extension) - at[2].extension);
+  store(to.hardening, &SlowMotion::hardening);
   // The error of a cubic grows with the fourth power of its span.
   const double allowed = 1e-9 * batch.loop.resolution[lane];
   const double factor = std::min(2.0, 0.9 * std::sqrt(std::sqrt(allowed / missed)));
   ahead.span = std::min(max_span, std::floor(ahead.span * factor));
   if (!(missed < allowed)) return false;
-  ahead.duration = duration;
+  const LanePlant::Rest& rest = *trial.plant->rest();
+  store_constants(to.oscillation, lane,
+                  static_cast<const friction::OscillationConstants<double>&>(rest.oscillation));
+  to.oscillation_end[lane] = rest.oscillation.end;
+  to.start[lane] = rest.time;
+  to.creep_sign[lane] = rest.creep.sign;
+  to.duration[lane] = duration;
   return true;
 }
 
-/// Goes on at rest to the next stop, one sample ahead, by the description of the motion. @returns whether
-/// there is one.
-bool follow_creep(BatchState& batch, int lane, LaneTrial& trial, double torque) {
-  CreepAhead& ahead = trial.ahead;
-  const double step = batch.time.time_to_stop[lane];
-  if (ahead.elapsed + step > ahead.duration) {
-    bring_up_to_date(batch, lane, trial);
-    if (ahead.samples++ < samples_one_by_one || !describe_ahead(batch, lane, trial, torque)) return false;
-  }
-  ahead.elapsed += step;
-  const double x = ahead.elapsed / ahead.duration;
-  MotionLanes& m = batch.motion;
-  const LanePlant::Rest& rest = *trial.plant->rest();
-  const friction::ResidualOscillation::State oscillation =
-      friction::oscillation_at(rest.oscillation, rest.time + ahead.elapsed);
-  m.elongation[lane] = value_of(ahead.elongation, x) + oscillation.elongation;
-  m.extension[lane] = value_of(ahead.extension, x) + oscillation.extension;
-  m.hardening[lane] = value_of(ahead.hardening, x) + rest.creep.sign * oscillation.extension;
-  m.rest_torque[lane] = torque;
-  batch.time.time_to_stop[lane] = 0.0;
+/// Describes the motion of the lane at rest from now on, and follows it to the next stop, one sample ahead.
+/// @returns whether there is a description.
+bool follow_ahead(RunningBatch& run, int lane, double torque) {
+  BatchState& batch = run.state;
+  LaneTrial& trial = run.trial_of(lane);
+  bring_up_to_date(batch, lane, trial);
+  if (trial.ahead.samples++ < samples_one_by_one || !describe_ahead(batch, lane, trial, torque)) return false;
+  batch.motion.rest_torque[lane] = torque;
+  LaneSet alone;
+  alone.insert(lane);
+  run.kernels.creep_ahead(batch, alone);
   return true;
 }
 
@@ -196,11 +189,11 @@ bool rest(RunningBatch& run, int lane) {
     motion::Load* const load = plant.load() ? &*plant.load() : nullptr;
     if (!plant.come_to_rest(torque, batch.motion.at_reversal[lane] != 0.0, load)) return false;
     trial.deepest = std::max(trial.deepest, plant.deepest());
-    trial.ahead = {};
+    forget_ahead(batch, lane, trial);
   }
   if (time.samples_to_stop[lane] > 1.0) {
     bring_up_to_date(batch, lane, trial);
-  } else if (follow_creep(batch, lane, trial, torque)) {
+  } else if (follow_ahead(run, lane, torque)) {
     return true;
   }
   std::optional<LanePlant> before;
@@ -254,19 +247,24 @@ bool rest(RunningBatch& run, int lane) {
 bool come_to_rest(RunningBatch& run, int lane) {
   const bool rests = rest(run, lane);
   run.lanes.ahead.erase(lane);
-  if (rests && run.trial_of(lane).ahead.elapsed > 0.0) run.lanes.ahead.insert(lane);
+  if (rests && run.state.ahead.elapsed[lane] > 0.0) run.lanes.ahead.insert(lane);
   return rests;
 }
 
+void forget_ahead(BatchState& batch, int lane, LaneTrial& trial) {
+  trial.ahead = {};
+  batch.ahead.elapsed[lane] = batch.ahead.duration[lane] = 0.0;
+}
+
 void bring_up_to_date(BatchState& batch, int lane, LaneTrial& trial) {
-  CreepAhead& ahead = trial.ahead;
-  if (ahead.elapsed > 0.0) {
+  CreepAheadLanes& ahead = batch.ahead;
+  if (ahead.elapsed[lane] > 0.0) {
     const double torque = trial.plant->rest()->torque;
-    trial.plant->advance(motion::constant_torque(torque), ahead.elapsed);
+    trial.plant->advance(motion::constant_torque(torque), ahead.elapsed[lane]);
     store_motion(batch, lane, trial);
     batch.motion.rest_torque[lane] = torque;
   }
-  ahead.elapsed = ahead.duration = 0.0;
+  ahead.elapsed[lane] = ahead.duration[lane] = 0.0;
 }
 
 }  // namespace zerocount::batch

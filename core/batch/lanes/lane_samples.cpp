@@ -105,8 +105,12 @@ void take_samples(RunningBatch& run, const LaneSet& due) {
                 [&](int lane) { run.trial_of(lane).read_twist = run.state.loop.read_twist[lane]; });
   const LaneSet with_blocks = due.in_both(run.lanes.with_blocks);
   const LaneSet with_loop = due.in_both(run.lanes.with_loop);
-  sample(run, run.kernels.sample, due.without(with_blocks).without(with_loop));
-  sample(run, run.kernels.sample_blocks, with_blocks);
+  const LaneSet plain = due.without(with_blocks).without(with_loop);
+  const LaneSet& noisy = run.lanes.noisy;
+  sample(run, run.kernels.sample, plain.without(noisy));
+  sample(run, run.kernels.sample_blocks, with_blocks.without(noisy));
+  sample(run, run.kernels.sample_noisy, plain.in_both(noisy));
+  sample(run, run.kernels.sample_noisy_blocks, with_blocks.in_both(noisy));
   if (!with_loop.empty()) sample(run, run.kernels.sample_given, decide_in_loops(run, with_loop));
   if (!run.lanes.with_position.empty()) measure_position(run, due);
 }

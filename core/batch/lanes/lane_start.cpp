@@ -1,5 +1,4 @@
 // Start of the trials and moves of lanes.
-#include <cstring>
 #include <limits>
 
 #include "core/batch/lanes/running_batch.hpp"
@@ -10,6 +9,7 @@
 #include "core/loop/dac.hpp"
 #include "core/loop/drive.hpp"
 #include "core/loop/encoder.hpp"
+#include "core/loop/measurement.hpp"
 #include "core/trial/move_measures.hpp"
 #include "core/trial/rig.hpp"
 
@@ -46,14 +46,22 @@ void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
   l.read_twist[lane] = 0.0;
 }
 
-/// Stores the fields of a struct, such as loop::IntegralConstants, in the lane.
-template <template <class> class Struct>
-void store(Struct<Lanes>& to, int lane, const Struct<double>& from) {
-  double fields[sizeof to / sizeof(Lanes)];
-  static_assert(sizeof fields == sizeof from);
-  std::memcpy(fields, &from, sizeof from);
-  const double* field = fields;
-  for_each_quantity(to, [&](Lanes& quantity) { quantity[lane] = *field++; });
+/// Stores a whole number as two words of 32 bits.
+void store_words(std::uint64_t number, double& low, double& high) {
+  low = static_cast<double>(static_cast<std::uint32_t>(number));
+  high = static_cast<double>(number >> 32);
+}
+
+void start_noise(NoiseLanes& n, int lane, const trial::TrialParameters& p) {
+  const random::TrialRandomness& randomness = p.randomness;
+  store_words(randomness.trial, n.random.trial_low[lane], n.random.trial_high[lane]);
+  n.random.stream[lane] = randomness.stream;
+  for (std::size_t i = 0; i < std::size(n.random.key); ++i) n.random.key[i][lane] = randomness.fine_noise[i];
+  store_constants(n.constants, lane,
+                  loop::noise_constants(p.encoder.fine_errors, 1.0 / p.controller.sample_rate));
+  n.sample[lane] = 0.0;
+  n.state[lane] = 0.0;
+  n.coarse_resolution[lane] = loop::coarse_resolution(p.encoder);
 }
 
 void start_blocks(BlockLanes& b, int lane, const trial::TrialParameters& p, double resolution) {
@@ -61,24 +69,25 @@ void start_blocks(BlockLanes& b, int lane, const trial::TrialParameters& p, doub
   const loop::ControlBlocks& blocks = controller.blocks;
   const double sample_rate = controller.sample_rate;
   for_each_quantity(b, [&](Lanes& quantity) { quantity[lane] = 0.0; });  // as all states start
-  store(b.integral, lane,
-        loop::integral_constants(blocks, sample_rate,
-                                 loop::integral_range(controller.anti_windup, loop::lowest_torque(p.dac),
-                                                      loop::highest_torque(p.dac))));
+  store_constants(
+      b.integral, lane,
+      loop::integral_constants(blocks, sample_rate,
+                               loop::integral_range(controller.anti_windup, loop::lowest_torque(p.dac),
+                                                    loop::highest_torque(p.dac))));
   b.is_cascade[lane] = blocks.structure == loop::ControlStructure::cascade ? 1.0 : 0.0;
-  store(b.cascade, lane, loop::cascade_constants(blocks.cascade, sample_rate, resolution));
+  store_constants(b.cascade, lane, loop::cascade_constants(blocks.cascade, sample_rate, resolution));
   b.pole[lane] = loop::derivative_pole(blocks, sample_rate);
   b.filter_count[lane] = static_cast<double>(blocks.filters.size());
   for (std::size_t i = 0; i < max_lane_filters; ++i) {
-    store(b.filters[i], lane,
-          i < blocks.filters.size() ? loop::discretised(blocks.filters[i], sample_rate)
-                                    : loop::BiquadConstants<double>{1.0, 0.0, 0.0, 0.0, 0.0});
+    store_constants(b.filters[i], lane,
+                    i < blocks.filters.size() ? loop::discretised(blocks.filters[i], sample_rate)
+                                              : loop::BiquadConstants<double>{1.0, 0.0, 0.0, 0.0, 0.0});
   }
   b.observes[lane] = blocks.observer.bandwidth > 0.0 ? 1.0 : 0.0;
-  store(b.observer, lane, loop::observer_constants(blocks.observer, sample_rate, resolution));
-  store(b.deadband, lane, loop::error_deadband_constants(blocks.error_deadband));
-  store(b.standstill, lane, loop::standstill_constants(blocks.standstill, sample_rate));
-  store(b.hold, lane, loop::hold_constants(blocks.hold, sample_rate));
+  store_constants(b.observer, lane, loop::observer_constants(blocks.observer, sample_rate, resolution));
+  store_constants(b.deadband, lane, loop::error_deadband_constants(blocks.error_deadband));
+  store_constants(b.standstill, lane, loop::standstill_constants(blocks.standstill, sample_rate));
+  store_constants(b.hold, lane, loop::hold_constants(blocks.hold, sample_rate));
   b.dither_amplitude[lane] = controller.dither.amplitude;
   b.dither_frequency[lane] = controller.dither.frequency;
   b.sigma_delta[lane] = p.dac.sigma_delta ? 1.0 : 0.0;
@@ -184,10 +193,11 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial) {
   trial.reported_jerks = 0;
   trial.read_twist = 0.0;
   trial.breakaway_spring_torque = 0.0;
-  trial.ahead = {};
+  forget_ahead(batch, lane, trial);
 
   start_loop(batch.loop, lane, p);
   const double resolution = batch.loop.resolution[lane];
+  if (needs_lane_noise(p)) start_noise(batch.noise, lane, p);
   if (has_blocks(p)) start_blocks(batch.blocks, lane, p, resolution);
   start_time(batch.time, lane, p, resolution);
   trial.elongation_tolerance = trial::motion_tolerance(resolution).elongation;
@@ -213,6 +223,7 @@ void start_move(BatchState& batch, int lane, LaneTrial& trial) {
   const trial::TrialParameters& p = *trial.parameters;
   const trial::MoveTiming timing = trial::move_timing(p, trial.move);
   MeasureLanes& q = batch.measures;
+  batch.noise.disagreements[lane] = 0.0;
   batch.loop.target[lane] = static_cast<double>(p.command.targets[trial.move]);
   q.limits.samples[lane] = static_cast<double>(timing.samples);
   q.limits.dwell[lane] = static_cast<double>(timing.dwell);
@@ -259,6 +270,7 @@ void start_next_trial(RunningBatch& run, int lane) {
     } else if (has_blocks(*trial.parameters)) {
       run.lanes.with_blocks.insert(lane);
     }
+    if (needs_lane_noise(*trial.parameters)) run.lanes.noisy.insert(lane);
     if (trial.position) run.lanes.with_position.insert(lane);
     if (motion::has_load(trial.parameters->plant)) {
       run.lanes.loaded.insert(lane);

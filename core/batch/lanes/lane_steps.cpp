@@ -198,8 +198,10 @@ void move_loaded_free(RunningBatch& run, const LaneSet& lanes) {
 }  // namespace
 
 void move_sticking(RunningBatch& run) {
-  const LaneSet lanes = between_stops(run, run.lanes.sticking);
+  LaneSet lanes = between_stops(run, run.lanes.sticking);
   if (lanes.empty() && run.lanes.waiting.empty()) return;
+  const LaneSet ahead = lanes.in_both(run.lanes.ahead).without(run.lanes.varying);
+  if (!ahead.empty()) lanes = lanes.without(run.kernels.creep_ahead(run.state, ahead));
   wake_ahead(run, lanes);
   follow_torques_of(run, lanes);
   int stepped = 0;

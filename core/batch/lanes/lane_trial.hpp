@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 
 #include "core/batch/kernels/batch_state.hpp"
@@ -21,15 +21,8 @@ namespace zerocount::batch {
 /// The scalar plant of a lane with a hook.
 using LanePlant = plant::PlantWith<friction::PreslidingFriction>;
 
-/// The motion of a lane that creeps at rest and is sampled all the time, over some samples ahead and without
-/// its residual oscillation. Its plant stands where they begin.
+/// How far ahead the motion of a lane at rest is described (CreepAheadLanes).
 struct CreepAhead {
-  double elapsed{0.0};   ///< time since its start, by which the plant lags behind the lane, s
-  double duration{0.0};  ///< s; 0 if there is no description
-  // Coefficients in elapsed/duration, rad.
-  std::array<double, 4> elongation{};
-  std::array<double, 4> extension{};
-  std::array<double, 4> hardening{};
   int samples{0};     ///< evaluated one by one since the lane came to rest
   double span{16.0};  ///< samples to describe next time
 };
@@ -97,6 +90,8 @@ void start_drive(BatchState& batch, int lane, LaneTrial& trial);
 /// (lane_torque.cpp)
 motion::TorqueCourse present_course(const BatchState& batch, int lane);
 
+/// Ends the description of the lane's motion ahead. (lane_rest.cpp)
+void forget_ahead(BatchState& batch, int lane, LaneTrial& trial);
 /// Advances the plant of a lane at rest to where the lane is. (lane_rest.cpp)
 void bring_up_to_date(BatchState& batch, int lane, LaneTrial& trial);
 
@@ -107,6 +102,16 @@ void for_each_quantity(Numbers& numbers, Visit visit) {
   static_assert(quantities * sizeof(Lanes) == sizeof(Numbers));
   auto* const first = reinterpret_cast<Lanes*>(&numbers);
   for (std::size_t i = 0; i < quantities; ++i) visit(first[i]);
+}
+
+/// Stores the fields of a struct, such as loop::IntegralConstants, in the lane.
+template <template <class> class Struct>
+void store_constants(Struct<Lanes>& to, int lane, const Struct<double>& from) {
+  double fields[sizeof to / sizeof(Lanes)];
+  static_assert(sizeof fields == sizeof from);
+  std::memcpy(fields, &from, sizeof from);
+  const double* field = fields;
+  for_each_quantity(to, [&](Lanes& quantity) { quantity[lane] = *field++; });
 }
 
 /// θ of the rotor, rad.

@@ -27,6 +27,8 @@ struct LaneStates {
   LaneSet with_blocks;  ///< the controller has blocks
   LaneSet with_loop;    ///< by a LaneLoop
 
+  LaneSet noisy;  ///< with a noisy encoder that the kernels read
+
   LaneSet with_position;  ///< the position error is measured, without a LaneLoop
 
   // Torque until the next stop: constant for a whole sample, if in none.
@@ -37,12 +39,11 @@ struct LaneStates {
   LaneSet loaded;         ///< with a second mass
   LaneSet loaded_driven;  ///< of them, those whose torque may vary: their steps always follow CourseLanes
 
-  LaneSet ahead;  ///< at rest, with a plant that lags behind (CreepAhead)
+  LaneSet ahead;  ///< at rest, with a plant that lags behind (CreepAheadLanes)
 
-  std::array<LaneSet*, 15> all() {
-    return {&active, &sticking,    &waiting,   &sliding,       &bristles,
-            &free,   &with_blocks, &with_loop, &with_position, &varying,
-            &part,   &changing,    &loaded,    &loaded_driven, &ahead};
+  std::array<LaneSet*, 16> all() {
+    return {&active, &sticking,      &waiting, &sliding, &bristles, &free,   &with_blocks,   &with_loop,
+            &noisy,  &with_position, &varying, &part,    &changing, &loaded, &loaded_driven, &ahead};
   }
 };
 

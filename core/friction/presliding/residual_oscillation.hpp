@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/friction/presliding/oscillation_formulas.hpp"
 #include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::friction {
@@ -23,22 +24,11 @@ namespace zerocount::friction {
 ///   dφ/dt = ν·(1 − κ·a),      κ = ½·k2·β/k.
 ///
 /// The truncation error is of the order β·a² and does not grow with the number of periods.
-struct ResidualOscillation {
-  double cosine{0.0};     ///< q₀, rad
-  double sine{0.0};       ///< (q₀′ + γq₀)/ν, rad
-  double decay{0.0};      ///< γ, 1/s
-  double frequency{0.0};  ///< ν, rad/s
-  double creep{0.0};      ///< ξ, 1/s
-  double loss{0.0};       ///< η·a₀, 1/s
-  double slowing{0.0};    ///< κ·a₀
+struct ResidualOscillation : OscillationConstants<double> {
   double end{0.0};        ///< time from which q counts as 0, s
   double amplitude{0.0};  ///< a₀, rad
 
-  struct State {
-    double elongation;  ///< q, rad
-    double extension;   ///< e, rad
-    double velocity;    ///< v, rad/s
-  };
+  using State = OscillationState<double>;
 };
 
 /// Coefficients of an underdamped oscillation: 0 < γ² < ω².
@@ -54,8 +44,8 @@ struct OscillationLaw {
 inline ResidualOscillation residual_oscillation(const OscillationLaw& law, double elongation, double velocity,
                                                 double min_amplitude) {
   const double rate = velocity - law.creep * elongation;
-  ResidualOscillation oscillation{elongation, (rate + law.decay * elongation) / law.frequency, law.decay,
-                                  law.frequency, law.creep};
+  ResidualOscillation oscillation{
+      {elongation, (rate + law.decay * elongation) / law.frequency, law.decay, law.frequency, law.creep}};
   const double amplitude =
       std::sqrt(oscillation.cosine * oscillation.cosine + oscillation.sine * oscillation.sine);
   oscillation.amplitude = amplitude;
@@ -74,21 +64,10 @@ inline double oscillation_bound(const ResidualOscillation& oscillation, double t
 
 inline ResidualOscillation::State oscillation_at(const ResidualOscillation& oscillation, double t) {
   if (!(t < oscillation.end)) return {0.0, 0.0, 0.0};
-  // a/a₀ = exp(−γt)/(1 + x) and ∫a/a₀ dt = log(1 + x)/(η·a₀), x = η·a₀·(1 − exp(−γt))/γ.
-  const double decayed = -numerics::expm1(-oscillation.decay * t);
-  const double elapsed = decayed / oscillation.decay;
-  const double x = oscillation.loss * elapsed;
-  const double amplitude = (1.0 - decayed) / (1.0 + x);
-  const double phase = oscillation.frequency * (t - oscillation.slowing * elapsed * (1.0 - 0.5 * x));
-  const auto [s, c] = numerics::sine_and_cosine(phase);
-  const double q = amplitude * (oscillation.cosine * c + oscillation.sine * s);
-  const double decay = oscillation.decay + oscillation.loss * amplitude;
-  const double frequency = oscillation.frequency * (1.0 - oscillation.slowing * amplitude);
-  const double rate = amplitude * frequency * (oscillation.sine * c - oscillation.cosine * s) - decay * q;
-  const double per_time_squared =
-      oscillation.frequency * oscillation.frequency + oscillation.decay * oscillation.decay;
-  const double extension = -oscillation.creep * (rate + 2.0 * oscillation.decay * q) / per_time_squared;
-  return {q, extension, rate + oscillation.creep * q};
+  const OscillationPhase<double> now =
+      oscillation_phase<double>(oscillation, -numerics::expm1(-oscillation.decay * t), t);
+  const auto [s, c] = numerics::sine_and_cosine(now.phase);
+  return oscillation_state<double>(oscillation, now.amplitude, s, c);
 }
 
 }  // namespace zerocount::friction

@@ -31,6 +31,11 @@ std::vector<trial::TrialParameters> different_trials() {
   for (const TrialKind kind : kinds) {
     for (std::uint64_t i = 0; i < 15; ++i) trials.push_back(trial_for_lanes(kind, 50000 + i));
     for (std::uint64_t i = 0; i < 3; ++i) trials.push_back(random_trial(kind, 50000 + i));
+    for (std::uint64_t i = 0; i < 3; ++i) {
+      trials.push_back(trial_for_lanes(kind, 51000 + i));
+      trials.back().encoder.fine_errors.noise = 0.3;
+      trials.back().randomness.trial = i;
+    }
   }
   return trials;
 }

@@ -37,26 +37,48 @@ std::vector<long double> binomial_probabilities(std::int64_t n, double p) {
   return sums;
 }
 
+using Normal = double (*)(std::uint64_t);
+constexpr Normal both[] = {standard_normal, standard_normal_noise};
+
 TEST(StandardNormal, IsTheInverseOfTheNormalDistribution) {
   std::mt19937_64 random(11);
   for (int i = 0; i < 20000; ++i) {
     const std::uint64_t bits = i % 2 == 0 ? random() : random() >> (random() % 64);  // also far down the tail
     const double u = open_uniform(bits);
     if (u > 0.5) continue;  // its probability is a difference from 1: see the symmetry
-    const double z = standard_normal(bits);
-    // A relative error of z of some 2⁻⁵² is one of about z² times that in Φ.
-    EXPECT_NEAR(static_cast<double>(normal_probability(z) / u), 1.0, 4e-16 * (4.0 + z * z)) << u;
+    for (const Normal normal : both) {
+      const double z = normal(bits);
+      // A relative error of z of some 2⁻⁵² is one of about z² times that in Φ.
+      const double error = normal == standard_normal ? 4e-16 : 8e-16;
+      EXPECT_NEAR(static_cast<double>(normal_probability(z) / u), 1.0, error * (4.0 + z * z)) << u;
+    }
+  }
+}
+
+/// At the ends of the three rational functions, too: u = 0.075 and e⁻²⁵.
+TEST(StandardNormal, IsTheSameForNoiseTo1e15) {
+  std::mt19937_64 random(16);
+  for (int i = 0; i < 200000; ++i) {
+    const std::uint64_t near_edge =
+        static_cast<std::uint64_t>(i % 2 == 0 ? 0.075 * 0x1p64 : 0x1p64 * std::exp(-25.0));
+    const std::uint64_t bits = i % 3 == 0   ? random()
+                               : i % 3 == 1 ? random() >> (random() % 64)
+                                            : near_edge ^ (random() >> 54);
+    const double exact = standard_normal(bits);
+    ASSERT_NEAR(standard_normal_noise(bits), exact, 1e-15 * std::abs(exact)) << open_uniform(bits);
   }
 }
 
 TEST(StandardNormal, IsExactlyAntisymmetricAndBounded) {
   std::mt19937_64 random(12);
-  for (int i = 0; i < 10000; ++i) {
-    const std::uint64_t bits = random();
-    ASSERT_EQ(standard_normal(bits), -standard_normal(~bits));
+  for (const Normal normal : both) {
+    for (int i = 0; i < 10000; ++i) {
+      const std::uint64_t bits = random();
+      ASSERT_EQ(normal(bits), -normal(~bits));
+    }
+    EXPECT_LT(normal(~std::uint64_t{0}), 8.21);
+    EXPECT_GT(normal(~std::uint64_t{0}), 8.20);
   }
-  EXPECT_LT(standard_normal(~std::uint64_t{0}), 8.21);
-  EXPECT_GT(standard_normal(~std::uint64_t{0}), 8.20);
 }
 
 TEST(BinomialNumber, IsTheSmallestWithEnoughProbability) {

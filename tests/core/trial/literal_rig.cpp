@@ -49,7 +49,7 @@ std::vector<std::int64_t> counts_of(Real counts, const loop::EncoderErrors& erro
   std::int64_t lost = 0;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     Real x = systematic_position(samples[k].theta, counts, errors, p.initial);
-    x += errors.noise * static_cast<Real>(random::standard_normal(
+    x += errors.noise * static_cast<Real>(random::standard_normal_noise(
                             random::random_bits_at({noise, random.stream}, random.trial, k)));
     rounded.push_back(static_cast<std::int64_t>(std::floor(x)));
     const std::int64_t passed = k == 0 ? 0 : rounded[k] - rounded[k - 1];
@@ -68,7 +68,7 @@ Real converted(const trial::TrialParameters& p, const Samples& samples, std::siz
   const Real half_range = (std::ldexp(Real{1}, dac.bits) - 1) / 2;
   const Real from_middle = (static_cast<Real>(samples[k].code) + Real{0.5}) / half_range;
   const Real bow = dac.nonlinearity * (1 - from_middle * from_middle);
-  const Real z = random::standard_normal(
+  const Real z = random::standard_normal_noise(
       random::random_bits_at({p.randomness.dac_noise, p.randomness.stream}, p.randomness.trial, k));
   return dac.resolution * (1 + Real{dac.gain_error}) * (static_cast<Real>(samples[k].code) + bow) +
          dac.offset + dac.noise * z;

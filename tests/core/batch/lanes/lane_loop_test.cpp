@@ -1,5 +1,5 @@
-// Sampled loops beyond the sampling kernels in the lanes: errors of encoders and converter, missed samples,
-// two phases, profiles, measures of the true motion; and all together.
+// Sampled loops beyond those of the ideal encoder in the lanes: noise, errors of encoders and converter,
+// missed samples, two phases, profiles, measures of the true motion; and all together.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -12,10 +12,10 @@
 namespace zerocount::testing {
 namespace {
 
-enum class LoopKind { encoder, converter, missed, phases, profile, motion, all };
-constexpr int loop_kinds = 7;
+enum class LoopKind { encoder, converter, missed, phases, profile, motion, all, noise };
+constexpr int loop_kinds = 8;
 constexpr const char* loop_kind_names[loop_kinds] = {
-    "encoder", "converter", "missed samples", "phases", "profile", "motion", "all"};
+    "encoder", "converter", "missed samples", "phases", "profile", "motion", "all", "noise"};
 
 loop::EncoderErrors random_errors(RandomBlocks& draw) {
   loop::EncoderErrors errors;
@@ -36,6 +36,14 @@ std::vector<trial::TrialParameters> trials_of(LoopKind kind, int count) {
     trials.push_back(trial_for_lanes(i % 4 == 0 ? TrialKind::ringing : TrialKind::calm, 87000 + number));
     trial::TrialParameters& p = trials.back();
     const auto has = [&](LoopKind one) { return kind == one || (kind == LoopKind::all && draw.chance(0.6)); };
+    if (kind == LoopKind::noise) {  // which the sampling kernels read
+      p.encoder.fine_errors.noise = draw.log_uniform(0.01, 3.0);
+      if (draw.chance(0.5)) p.encoder.fine_errors.noise_bandwidth = draw.log_uniform(10.0, 1000.0);
+      if (draw.chance(0.5)) p.controller.blocks = draw.blocks(BlockKind::all, p.controller.sample_rate);
+      if (draw.chance(0.3)) p.amplifier.bandwidth = 500.0;
+      if (draw.chance(0.3)) p.verdict.position_error = true;
+      p.randomness.stream = static_cast<std::uint32_t>(i % 3);
+    }
     if (has(LoopKind::encoder)) p.encoder.fine_errors = random_errors(draw);
     if (has(LoopKind::encoder)) p.encoder.coarse_errors = random_errors(draw);
     if (has(LoopKind::converter)) {
@@ -75,7 +83,7 @@ std::vector<trial::TrialParameters> trials_of(LoopKind kind, int count) {
     p.randomness.coarse_noise = {3, 4};
     p.randomness.dac_noise = {5, 6};
     p.randomness.missed_samples = {7, 8};
-    p.randomness.trial = number;
+    p.randomness.trial = number % 2 == 0 ? number : (number << 40) + number;
     if (i % 3 == 0) p.command.targets.push_back(p.command.targets.back() + 7);
     if (i % 2 == 0) {  // such that some arrive and rest
       p.controller.ki = 1e-5;

@@ -44,6 +44,7 @@ void BatchEngine::run(const TrialSource& source, std::span<trial::TrialOutcome> 
     take_samples(run, end_moves(run));
     move_sticking(run);
     move_sliding(run);
+    move_standing(run);
     move_bristles(run);
     move_free(run);
   }

@@ -45,7 +45,7 @@ Drive::Drive(const DacParameters& dac, const AmplifierParameters& amplifier, dou
       jitters_(jitter) {}
 
 Drive::Part Drive::part(double duration) const {
-  return {duration, numerics::exp(-rate_ * duration)};
+  return {duration, rate_ == 0.0 ? 1.0 : numerics::exp(-rate_ * duration)};
 }
 
 /// Between two samples, which are less than two sample times apart, at most three torques become due.

@@ -8,6 +8,7 @@
 #include "core/batch/kernels/lane_sets_kernel.hpp"
 #include "core/batch/kernels/sample_kernel.hpp"
 #include "core/batch/kernels/slide_kernel.hpp"
+#include "core/batch/kernels/stand_kernel.hpp"
 #include "core/batch/kernels/stick_start_kernel.hpp"
 #include "core/batch/kernels/stick_step_kernel.hpp"
 
@@ -47,6 +48,7 @@ template <class V, class E, class P>
 inline constexpr Kernels kernels_with{lanes_at_stop_kernel<P>,
                                       fast_lanes_kernel<P>,
                                       creep_ahead_kernel<V>,
+                                      stand_kernel<V>,
                                       sample_kernel<V, Decider::pid, false>,
                                       sample_kernel<V, Decider::blocks, false>,
                                       sample_kernel<V, Decider::pid, true>,

@@ -2,6 +2,7 @@
 
 #include "core/batch/kernels/lane_group.hpp"
 #include "core/batch/kernels/series.hpp"
+#include "core/batch/kernels/trigonometry.hpp"
 
 /// The torque on the rotor as a series in the fraction of a step.
 namespace zerocount::batch {
@@ -120,6 +121,14 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask crosses_once(const P* c, int order) {
   return (abs(c[1]) > curvature_bound(c, order)) | (P(2.0) * abs(c[2]) > third);
 }
 
+/// θ, rad.
+template <class At>
+ZEROCOUNT_ALWAYS_INLINE typename At::Vector theta_of(const BatchState& batch, const At& at) {
+  const MotionLanes& m = batch.motion;
+  return select(to_mask(at.load(m.slide_direction)), at.load(m.theta),
+                at.load(m.hook) + at.load(m.elongation) + at.load(m.extension));
+}
+
 /// The torque of one vector of lanes at the present instant; see course_kernel.
 template <class At>
 __attribute__((noinline)) void course_of(BatchState& batch, const At& at) {
@@ -129,23 +138,32 @@ __attribute__((noinline)) void course_of(BatchState& batch, const At& at) {
   const P decay = at.load(c.decay);
   const P lag = at.load(c.lag) * exp(-decay * (at.load(c.piece) - time_to_stop));
   P vibration[vibration_order + 1];
-  const bool vibrates = (to_mask(at.load(c.vibrates)) & at.taking_part()).any();
-  if (vibrates) {
+  // Terms beyond the order of a lane are 0, so that the largest order of all lanes serves each.
+  const P order = select(at.taking_part(), at.load(c.vibrates), P(0.0));
+  int terms = 0;
+  while ((order > P(static_cast<double>(terms))).any()) ++terms;
+  if (terms > 0) {
     const P elapsed = (at.load(c.piece_end) - time_to_stop) * at.load(batch.time.sample_rate);
-    for (int k = 0; k <= vibration_order; ++k) vibration[k] = at.load(c.vibration[k]);
+    for (int k = 0; k <= vibration_order; ++k) vibration[k] = k <= terms ? at.load(c.vibration[k]) : P(0.0);
       // The series about the present instant, by Horner's scheme.
 #pragma GCC unroll 1
     for (int j = 0; j < batch_order; ++j) {
 #pragma GCC unroll 1
-      for (int k = vibration_order - 1; k >= j; --k) vibration[k] = vibration[k] + elapsed * vibration[k + 1];
+      for (int k = terms - 1; k >= j; --k) vibration[k] = vibration[k] + elapsed * vibration[k + 1];
     }
   } else {
     for (int k = 0; k < batch_order; ++k) vibration[k] = P(0.0);
   }
   P torque = (at.load(c.settled) + lag) + vibration[0];
   const P count = at.load(c.ripple_count);
-  for (int i = 0; i < max_lane_ripples && (count > P(static_cast<double>(i))).any(); ++i)
-    torque = torque + at.load(c.ripples[i].amplitude) * at.load(c.ripples[i].sine);
+  for (int i = 0; i < max_lane_ripples && (count > P(static_cast<double>(i))).any(); ++i) {
+    RippleLanes& ripple = c.ripples[i];
+    P sine, cosine;
+    sine_and_cosine(at.load(ripple.per_angle) * theta_of(batch, at) + at.load(ripple.phase), sine, cosine);
+    at.store(ripple.sine, sine);
+    at.store(ripple.cosine, cosine);
+    torque = torque + at.load(ripple.amplitude) * sine;
+  }
   at.store(batch.motion.torque, torque);
   const P step = -decay * at.load(batch.time.sample_time);
   P term = lag;
@@ -157,7 +175,7 @@ __attribute__((noinline)) void course_of(BatchState& batch, const At& at) {
 }
 
 /// Computes the torque of each lane at the present instant, and its series: MotionLanes::torque and
-/// CourseLanes::applied. The sines of the ripples are given.
+/// CourseLanes::applied.
 template <class V>
 void course_kernel(BatchState& batch, const LaneSet& lanes) {
   for_each_stretch<V>(lanes, [&](const auto& at) { course_of(batch, at); });

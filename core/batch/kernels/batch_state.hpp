@@ -201,6 +201,7 @@ inline constexpr int vibration_order = 24;
 struct RippleLanes {
   Lanes amplitude;     ///< N m; 0 in lanes without this ripple
   Lanes per_angle;     ///< rad/rad
+  Lanes phase;         ///< rad
   Lanes sine, cosine;  ///< at the present θ
 };
 
@@ -213,7 +214,7 @@ struct alignas(64) CourseLanes {
   Lanes piece;      ///< duration of the piece, s
   Lanes piece_end;  ///< from the nominal instant k·T of the last sample, s
   Lanes tolerance;  ///< MotionTolerance::elongation, rad
-  Lanes vibrates;   ///< there is a vibration
+  Lanes vibrates;   ///< highest order of the vibration's series that is not 0; 0 without a vibration
   Lanes vibration[vibration_order + 1];  ///< about k·T, coefficients in t/T, N m
   Lanes ripple_count;
   RippleLanes ripples[max_lane_ripples];

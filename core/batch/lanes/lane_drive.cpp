@@ -1,5 +1,6 @@
 #include "core/batch/lanes/lane_drive.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -29,6 +30,14 @@ VibrationSeries::VibrationSeries(const std::vector<motion::Vibration>& lines, do
       line.weights[static_cast<std::size_t>(k)] = k % 4 < 2 ? weight : -weight;
       weight *= turn / (k + 1);
     }
+    // A late sample is less than two sample times away. What the rest adds is lost in rounding.
+    double power = std::abs(of.amplitude);
+    std::size_t terms = 2;
+    for (double k = 1.0; k <= vibration_order; k += 1.0) {
+      power *= 2.0 * turn / k;
+      if (power > 1e-18 * std::abs(of.amplitude)) terms = std::max(terms, static_cast<std::size_t>(k));
+    }
+    terms_ = std::max(terms_, std::min(terms + terms % 2, std::size_t{vibration_order}));
     lines_.push_back(line);
   }
 }
@@ -47,12 +56,12 @@ VibrationSeries::Coefficients VibrationSeries::about_sample(std::int64_t k) {
       line.cosine = line.cosine * line.turn_cosine - line.sine * line.turn_sine;
       line.sine = sine;
     }
-    for (std::size_t j = 0; j + 1 < sum.size(); j += 2) {
+    for (std::size_t j = 0; j < terms_; j += 2) {
       sum[j] += line.weights[j] * line.sine;
       sum[j + 1] += line.weights[j + 1] * line.cosine;
     }
     static_assert(vibration_order % 2 == 0);
-    sum.back() += line.weights.back() * line.sine;
+    sum[terms_] += line.weights[terms_] * line.sine;
   }
   return sum;
 }
@@ -61,6 +70,7 @@ LaneDrive::LaneDrive(const trial::TrialParameters& p)
     : sample_time_(1.0 / p.controller.sample_rate),
       jitters_(p.controller.jitter > 0.0),
       lags_(p.amplifier.bandwidth > 0.0),
+      passes_on_(!jitters_ && !lags_ && p.controller.delay == 0.0),
       delayed_(static_cast<std::int64_t>(std::ceil(p.controller.delay))),
       clock_(p.controller, p.randomness),
       drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness, jitters_),
@@ -79,9 +89,13 @@ void LaneDrive::send(std::int64_t k, double torque) {
   late_ = {late_.next, clock_.lateness(k + 1)};
   alike_ = torque == last_torque_ ? alike_ + 1 : 1;
   last_torque_ = torque;
-  drive_.send_exact(torque, late_);
   count_ = 0;
-  for (const loop::TorquePiece& piece : drive_.pieces()) add(piece);
+  if (passes_on_) {
+    pieces_[count_++] = {motion::constant_torque(torque), sample_time_, 1.0};
+  } else {
+    drive_.send_exact(torque, late_);
+    for (const loop::TorquePiece& piece : drive_.pieces()) add(piece);
+  }
   present_ = 0;
   piece_end_ = late_.now + pieces_[0].duration;
 }

@@ -22,7 +22,9 @@ class VibrationSeries {
 
   VibrationSeries(const std::vector<motion::Vibration>& lines, double sample_time);
 
-  /// Coefficients in (t − k·T)/T, N m, of sample k. Fastest with ascending k.
+  /// The highest order whose coefficient counts; 0 without lines.
+  std::size_t terms() const { return terms_; }
+  /// Coefficients in (t − k·T)/T, N m, of sample k, up to the order terms(). Fastest with ascending k.
   Coefficients about_sample(std::int64_t k);
 
  private:
@@ -36,6 +38,7 @@ class VibrationSeries {
   std::vector<Line> lines_;
   double sample_time_;
   std::int64_t last_{-1};
+  std::size_t terms_{0};
 };
 
 /// The torque on the rotor of a lane from one sample to the next, in pieces: the output of the
@@ -62,6 +65,7 @@ class LaneDrive {
   bool may_vary() const { return lags_ || disturbance_varies(); }
   bool disturbance_varies() const { return motion::varies(disturbance_); }
   VibrationSeries::Coefficients vibration() { return vibration_.about_sample(sample_); }
+  std::size_t vibration_terms() const { return vibration_.terms(); }
   bool jitters() const { return jitters_; }
   /// k·T of the last sample, s.
   double sample_instant() const { return static_cast<double>(sample_) * sample_time_; }
@@ -72,6 +76,7 @@ class LaneDrive {
   double sample_time_;
   bool jitters_;
   bool lags_;             // by an amplifier
+  bool passes_on_;        // the decided torque, at once
   std::int64_t delayed_;  // samples on their way
   loop::SampleClock clock_;
   loop::Drive drive_;

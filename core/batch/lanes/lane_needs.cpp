@@ -74,9 +74,19 @@ std::string_view lacking(const loop::ControllerParameters& controller) {
 std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMotion motion,
                          double max_frequency) {
   [[maybe_unused]] const auto& [torque, ripple, vibration, spectra] = disturbance;
-  if (motion == LaneMotion::free) {
-    if (!ripple.empty()) return "disturbance.ripple without friction";
-    return vibration.empty() && spectra.empty() ? "" : "disturbance.vibration without friction";
+  const bool vibrates = !vibration.empty() || !spectra.empty();
+  switch (motion) {
+    case LaneMotion::free:
+      if (!ripple.empty()) return "disturbance.ripple without friction";
+      if (vibrates) return "disturbance.vibration without friction";
+      break;
+    case LaneMotion::coulomb:
+      if (!ripple.empty()) return "disturbance.ripple with friction.model coulomb";
+      if (vibrates) return "disturbance.vibration with friction.model coulomb";
+      break;
+    case LaneMotion::contact:
+    case LaneMotion::bristle:
+      break;
   }
   const auto is_fast = [&](double frequency) { return frequency > max_frequency; };
   const bool fast_line = std::any_of(vibration.begin(), vibration.end(),
@@ -98,6 +108,8 @@ std::string_view lacking(const trial::CommandParameters& command) {
 std::string_view lacking(const trial::TrialParameters& p, LaneMotion motion) {
   [[maybe_unused]] const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial,
                                 verdict, randomness, disturbance] = p;
+  if (motion == LaneMotion::coulomb && motion::has_load(plant))
+    return "plant.load with friction.model coulomb";
   // After a late sample the series must reach up to the next one.
   const double max_frequency = 0.5 / (1.0 / controller.sample_rate + controller.jitter);
   for (const std::string_view feature :
@@ -120,6 +132,7 @@ std::optional<LaneMotion> lane_motion(friction::FrictionModel model) {
     case friction::FrictionModel::lugre:
       return LaneMotion::bristle;
     case friction::FrictionModel::coulomb:
+      return LaneMotion::coulomb;
     case friction::FrictionModel::gms:
       break;
   }

@@ -175,6 +175,9 @@ void start_motion(BatchState& batch, int lane, LaneTrial& trial, double resoluti
       trial.plant.emplace(p.plant, p.friction, trial::plant_start(p), tolerance);
       store_contact(batch, lane, trial);
       return;
+    case LaneMotion::coulomb:
+      start_coulomb(batch, lane, trial);
+      return;
     case LaneMotion::bristle:
       start_bristle(batch, lane, p, resolution);
       return;
@@ -244,7 +247,8 @@ void start_move(BatchState& batch, int lane, LaneTrial& trial) {
   if (trial.position) trial.position->start_move(trial.move);
   trial.breakaways = 0;
   const bool has_contact = trial.motion == LaneMotion::contact;
-  trial.slid_at_start = has_contact && batch.motion.slide_direction[lane] != 0.0;
+  trial.slid_at_start =
+      (has_contact || trial.motion == LaneMotion::coulomb) && batch.motion.slide_direction[lane] != 0.0;
   trial.deepest = has_contact ? static_cast<std::int64_t>(trial.plant->spring().depth()) : 0;
   trial.jerks = trial::Jerks(static_cast<std::int64_t>(trial.move), timing.sample_time);
   trial.last_half.start(timing.samples);

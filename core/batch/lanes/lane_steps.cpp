@@ -132,8 +132,16 @@ void end_sliding_steps(RunningBatch& run) {
   for (int i = 0; i < run.state.event_count; ++i) {
     const int lane = run.state.event_lanes[i];
     const int events = run.state.events[lane];
-    if ((events & velocity_zero) != 0) re_stick(run.state, lane, run.trial_of(lane));
-    if ((events & beyond_kernel) != 0 && !follow_reference(run, lane)) continue;
+    LaneTrial& trial = run.trial_of(lane);
+    const bool has_hook = trial.motion == LaneMotion::contact;
+    if ((events & velocity_zero) != 0) (has_hook ? re_stick : stand_still)(run.state, lane, trial);
+    if ((events & beyond_kernel) != 0) {
+      if (!has_hook) {
+        fall_back_to_scalar(run, lane);
+        continue;
+      }
+      if (!follow_reference(run, lane)) continue;
+    }
     set_motion(run, lane);
   }
 }
@@ -167,7 +175,7 @@ LaneSet between_stops(const RunningBatch& run, const LaneSet& lanes) {
 void follow_torques_of(RunningBatch& run, const LaneSet& lanes) {
   for (const LaneSet& set : {run.lanes.varying.without(run.lanes.loaded), run.lanes.loaded_driven}) {
     const LaneSet some = lanes.in_both(set);
-    if (!some.empty()) follow_torques(run, some);
+    if (!some.empty()) run.kernels.course(run.state, some);
   }
 }
 
@@ -255,10 +263,15 @@ void set_motion(RunningBatch& run, int lane) {
       return lanes.bristles.insert(lane);
     case LaneMotion::free:
       return lanes.free.insert(lane);
+    case LaneMotion::coulomb:
     case LaneMotion::contact:
       break;
   }
   const bool slides = run.state.motion.slide_direction[lane] != 0.0;
+  if (run.trial_of(lane).motion == LaneMotion::coulomb) {
+    (slides ? lanes.standing : lanes.sliding).erase(lane);
+    return (slides ? lanes.sliding : lanes.standing).insert(lane);
+  }
   lanes.waiting.erase(lane);
   (slides ? lanes.sticking : lanes.sliding).erase(lane);
   (slides ? lanes.sliding : lanes.sticking).insert(lane);

@@ -8,7 +8,7 @@ namespace {
 /// Sets the vibration of the lane's torque to its series about the last sample.
 void store_vibration(BatchState& batch, int lane, LaneDrive& drive) {
   const VibrationSeries::Coefficients vibration = drive.vibration();
-  for (std::size_t j = 0; j < vibration.size(); ++j) batch.course.vibration[j][lane] = vibration[j];
+  for (std::size_t j = 0; j <= drive.vibration_terms(); ++j) batch.course.vibration[j][lane] = vibration[j];
 }
 
 /// Sets the torque of the lane to `torque` (N m), which stays.
@@ -42,7 +42,8 @@ void start_drive(BatchState& batch, int lane, LaneTrial& trial) {
   const motion::Disturbance& varying = drive.disturbance();
   // Without a disturbance that varies the reference lets the rotor rest under a varying torque, too.
   c.tolerance[lane] = drive.disturbance_varies() ? 0.0 : trial.elongation_tolerance;
-  c.vibrates[lane] = varying.vibration.empty() ? 0.0 : 1.0;
+  c.vibrates[lane] = static_cast<double>(drive.vibration_terms());
+  for (Lanes& coefficient : c.vibration) coefficient[lane] = 0.0;
   store_vibration(batch, lane, drive);
   c.ripple_count[lane] = static_cast<double>(varying.ripple.size());
   for (std::size_t i = 0; i < std::size(c.ripples); ++i) {
@@ -50,6 +51,7 @@ void start_drive(BatchState& batch, int lane, LaneTrial& trial) {
     RippleLanes& to = c.ripples[i];
     to.amplitude[lane] = ripple.amplitude;
     to.per_angle[lane] = ripple.per_angle;
+    to.phase[lane] = ripple.phase;
     to.sine[lane] = to.cosine[lane] = 0.0;
   }
   if (trial.motion == LaneMotion::contact) trial.plant->disturb(varying);
@@ -96,20 +98,6 @@ void change_torques(RunningBatch& run) {
     begin_piece(run, lane);
     run.state.time.steps[lane] = 0.0;
   });
-}
-
-void follow_torques(RunningBatch& run, const LaneSet& lanes) {
-  CourseLanes& c = run.state.course;
-  for_each_lane(lanes, [&](int lane) {
-    const auto ripples = static_cast<std::size_t>(c.ripple_count[lane]);
-    for (std::size_t i = 0; i < ripples; ++i) {
-      const double angle = c.ripples[i].per_angle[lane] * theta_of(run.state, lane) +
-                           run.trial_of(lane).drive->disturbance().ripple[i].phase;
-      c.ripples[i].sine[lane] = numerics::sin(angle);
-      c.ripples[i].cosine[lane] = numerics::cos(angle);
-    }
-  });
-  run.kernels.course(run.state, lanes);
 }
 
 }  // namespace zerocount::batch

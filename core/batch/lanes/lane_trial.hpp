@@ -40,9 +40,11 @@ struct LaneTrial {
   /// before reading anything else.
   std::optional<LanePlant> plant;
   CreepAhead ahead;
-  double elongation_tolerance{0.0};     ///< MotionTolerance::elongation, rad
-  double breakaway_spring_torque{0.0};  ///< σb of the slide, N m
-  double read_twist{0.0};               ///< LoopLanes::read_twist at the last sample, rad
+  friction::FrictionParameters standing{};  ///< of the contact, in lanes with LaneMotion::coulomb
+  std::int64_t contacts{0};                 ///< since the start, in those lanes
+  double elongation_tolerance{0.0};         ///< MotionTolerance::elongation, rad
+  double breakaway_spring_torque{0.0};      ///< σb of the slide, N m
+  double read_twist{0.0};                   ///< LoopLanes::read_twist at the last sample, rad
 
   std::int64_t breakaways{0};  ///< in this move
   bool slid_at_start{false};   ///< of this move
@@ -83,6 +85,11 @@ bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const m
 /// Starts the trial that `trial` names, with its first move, in the lane. (lane_start.cpp)
 void start_trial(BatchState& batch, int lane, LaneTrial& trial);
 void start_move(BatchState& batch, int lane, LaneTrial& trial);
+
+// Lanes with LaneMotion::coulomb. (lane_coulomb.cpp)
+void start_coulomb(BatchState& batch, int lane, LaneTrial& trial);
+/// Ends the slide: a new contact forms at θ.
+void stand_still(BatchState& batch, int lane, LaneTrial& trial);
 
 /// Starts the drive of a trial that needs one. (lane_torque.cpp)
 void start_drive(BatchState& batch, int lane, LaneTrial& trial);

@@ -19,7 +19,8 @@ struct LaneStates {
   // Motion: each active lane is in one of these.
   LaneSet sticking;  ///< the hook sticks
   LaneSet waiting;   ///< the hook sticks, and an event lies in the step; located when enough lanes wait
-  LaneSet sliding;   ///< the hook slides
+  LaneSet standing;  ///< Coulomb's friction holds the rotor
+  LaneSet sliding;   ///< the hook slides, or the rotor against Coulomb's friction
   LaneSet bristles;  ///< with the friction of a bristle
   LaneSet free;      ///< without friction
 
@@ -41,9 +42,10 @@ struct LaneStates {
 
   LaneSet ahead;  ///< at rest, with a plant that lags behind (CreepAheadLanes)
 
-  std::array<LaneSet*, 16> all() {
-    return {&active, &sticking,      &waiting, &sliding, &bristles, &free,   &with_blocks,   &with_loop,
-            &noisy,  &with_position, &varying, &part,    &changing, &loaded, &loaded_driven, &ahead};
+  std::array<LaneSet*, 17> all() {
+    return {&active, &sticking,    &waiting,   &standing,      &sliding,       &bristles,
+            &free,   &with_blocks, &with_loop, &noisy,         &with_position, &varying,
+            &part,   &changing,    &loaded,    &loaded_driven, &ahead};
   }
 };
 
@@ -80,7 +82,7 @@ struct RunningBatch {
 //         move_sticking          one step; first end_creep, come_to_rest, break_away or reverse,
 //                                then close_loop, creep on, end_creep or break_away
 //         or move_sliding        one step; then re_stick
-//         or move_bristles, move_free
+//         or move_standing, move_bristles, move_free
 //     end_moves                  the outcome of the move
 //   start_next_trial
 
@@ -103,6 +105,7 @@ void take_samples(RunningBatch& run, const LaneSet& due);
 // (lane_steps.cpp)
 void move_sticking(RunningBatch& run);
 void move_sliding(RunningBatch& run);
+void move_standing(RunningBatch& run);  // (lane_coulomb.cpp)
 void move_bristles(RunningBatch& run);
 void move_free(RunningBatch& run);
 
@@ -116,8 +119,6 @@ void begin_piece(RunningBatch& run, int lane);
 /// Lets the lane's drive make the torque on the rotor from the torque decided at the last sample. If it does
 /// not stay, the next stop is the end of its first piece. (lane_torque.cpp)
 void drive_torque(RunningBatch& run, int lane);
-/// Computes the present torque of lanes in which it varies, and its series. (lane_torque.cpp)
-void follow_torques(RunningBatch& run, const LaneSet& lanes);
 
 /// Applies the rest rule. A lane at rest advances in closed form, by creep and residual oscillation, to the
 /// next stop or to the first sampling instant at which its count differs. @returns whether the lane was at

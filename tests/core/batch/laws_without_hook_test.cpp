@@ -1,5 +1,5 @@
-// The batch engine against the reference under the laws that have no hook: an air bearing, Dahl's and
-// LuGre's.
+// The batch engine against the reference under the laws that have no hook: an air bearing, Coulomb's, Dahl's
+// and LuGre's.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -26,6 +26,7 @@ class LawsWithoutHook : public ::testing::TestWithParam<LawCase> {};
 
 INSTANTIATE_TEST_SUITE_P(Random, LawsWithoutHook,
                          ::testing::Values(LawCase{friction::FrictionModel::none, "none"},
+                                           LawCase{friction::FrictionModel::coulomb, "coulomb"},
                                            LawCase{friction::FrictionModel::dahl, "dahl"},
                                            LawCase{friction::FrictionModel::lugre, "lugre"}),
                          [](const ::testing::TestParamInfo<LawCase>& law) {
@@ -43,6 +44,7 @@ trial::TrialParameters trial_under(friction::FrictionModel model, TrialKind kind
   p.friction.model = model;
   // Without friction the lanes know delays of whole samples.
   if (model == friction::FrictionModel::none) p.controller.delay = std::round(p.controller.delay);
+  if (model == friction::FrictionModel::coulomb) p.plant.load = {};
   friction::FrictionParameters& f = p.friction.uniform;
   f.sigma0 = f.k1 + static_cast<double>(index % 5) * 0.25 * f.k2;
   f.sigma1 = index % 4 == 0 ? 0.0 : 0.4 * static_cast<double>(index % 4) * p.plant.presliding_damping;

@@ -45,6 +45,7 @@ TEST(RunsInLanes, IsTrueOfAPlainTrialWithAnyPlainParameters) {
       {"the spring alone",
        [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::spring; }},
       {"no friction", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::none; }},
+      {"coulomb", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::coulomb; }},
       {"dahl", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::dahl; }},
       {"lugre", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::lugre; }},
       {"another exponent", [](trial::TrialParameters& p) { p.friction.uniform.n = 1.5; }},
@@ -108,7 +109,16 @@ TEST(RunsInLanes, IsFalseOfWhatLanesDoNotKnowWhichThenIsTheReferences) {
          p.friction.model = friction::FrictionModel::none;
          p.disturbance.ripple = {{1e-3, 10.0, 0.0, 0.0}};
        }},
-      {"coulomb", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::coulomb; }},
+      {"a ripple with coulomb",
+       [](trial::TrialParameters& p) {
+         p.friction.model = friction::FrictionModel::coulomb;
+         p.disturbance.ripple = {{1e-3, 10.0, 0.0, 0.0}};
+       }},
+      {"a load with coulomb",
+       [](trial::TrialParameters& p) {
+         p.friction.model = friction::FrictionModel::coulomb;
+         p.plant.load.inertia = 1e-4;
+       }},
       {"gms", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::gms; }},
   };
   std::vector<trial::TrialParameters> trials;

@@ -3,6 +3,7 @@
 #include "core/batch/kernels/applied_torque.hpp"
 #include "core/batch/kernels/bristle_kernel.hpp"
 #include "core/batch/kernels/creep_ahead_kernel.hpp"
+#include "core/batch/kernels/drive_kernel.hpp"
 #include "core/batch/kernels/free_kernel.hpp"
 #include "core/batch/kernels/kernels.hpp"
 #include "core/batch/kernels/lane_sets_kernel.hpp"
@@ -58,6 +59,7 @@ inline constexpr Kernels kernels_with{lanes_at_stop_kernel<P>,
                                       motion_kernels_with<V, E, P, true>,
                                       loaded_kernels_with<V, E, P, false>,
                                       loaded_kernels_with<V, E, P, true>,
+                                      drive_kernel<V>,
                                       course_kernel<V>};
 
 }  // namespace zerocount::batch

@@ -221,6 +221,21 @@ struct alignas(64) CourseLanes {
   Lanes applied[batch_order];  ///< without ripples, about the present instant, coefficients ≥ 1 in t/T, N m
 };
 
+inline constexpr int max_lane_delay = 4;  ///< samples
+
+/// Delay and amplifier between the decided torque and the rotor, where all pieces of the torque are whole
+/// samples (needs_drive_kernel). Lanes with a LaneDrive, or without any, do not use it.
+struct alignas(64) DriveLanes {
+  Lanes delay;                    ///< samples
+  Lanes rate;                     ///< of the amplifier, 1/s; 0 without one
+  Lanes decay;                    ///< exp(−rate·T)
+  Lanes now;                      ///< torque of the motor at the last sample, N m
+  Lanes settled;                  ///< that it approaches, N m
+  Lanes last;                     ///< torque decided at the last sample, N m
+  Lanes alike;                    ///< samples in a row with this torque
+  Lanes waiting[max_lane_delay];  ///< decided at the samples before, N m
+};
+
 /// The second mass (motion::Load). Lanes without one do not use it.
 struct alignas(64) LoadLanes {
   Lanes inertia;             ///< JL, kg m²
@@ -311,6 +326,7 @@ struct BatchState : LaneNumbers {
   CreepAheadLanes ahead;
   NoiseLanes noise;
   BlockLanes blocks;
+  DriveLanes drive;
   CourseLanes course;
   LoadLanes load;
 };

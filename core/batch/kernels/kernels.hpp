@@ -33,6 +33,7 @@ struct Kernels {
   MotionKernels varying;                              ///< of lanes whose torque varies
   MotionKernels loaded;                               ///< of those with a second mass: whose torque stays
   MotionKernels loaded_driven;                        ///< and whose torque may vary
+  LaneSet (*drive)(BatchState&, const LaneSet&);
   void (*course)(BatchState&, const LaneSet&);
 };
 

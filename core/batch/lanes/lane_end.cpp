@@ -80,7 +80,8 @@ void move_lane(RunningBatch& run, int from, int to) {
   copy_lane(run.state.ahead, from, to);
   if (run.lanes.noisy.contains(from)) copy_lane(run.state.noise, from, to);
   if (run.lanes.with_blocks.contains(from)) copy_lane(run.state.blocks, from, to);
-  if (run.state.loop.driven[from] != 0.0) copy_lane(run.state.course, from, to);
+  if (run.lanes.amplified.contains(from)) copy_lane(run.state.drive, from, to);
+  if (run.trial_of(from).drive) copy_lane(run.state.course, from, to);
   if (run.lanes.loaded.contains(from)) copy_lane(run.state.load, from, to);
   std::swap(run.trial_index[to], run.trial_index[from]);
   for (LaneSet* of : run.lanes.all()) {

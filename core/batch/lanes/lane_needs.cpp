@@ -11,6 +11,7 @@
 #include "core/loop/controller/control_chain.hpp"
 #include "core/loop/controller/controller.hpp"
 #include "core/loop/dac.hpp"
+#include "core/loop/drive.hpp"
 #include "core/loop/measurement.hpp"
 
 namespace zerocount::batch {
@@ -160,6 +161,16 @@ bool needs_lane_drive(const trial::TrialParameters& p) {
 
 bool needs_lane_noise(const trial::TrialParameters& p) {
   return has_noise_alone(p) && !needs_lane_loop(p);
+}
+
+bool needs_drive_kernel(const trial::TrialParameters& p) {
+  const trial::DisturbanceParameters& d = p.disturbance;
+  const bool varies = !d.ripple.empty() || !d.vibration.empty() || !d.spectra.empty();
+  const double delay = p.controller.delay;
+  const motion::TorqueCourse lag{1.0, 0.0, loop::lag_rate(p.amplifier)};
+  const bool is_slow = lag.rate == 0.0 || motion::time_to_settle(lag) >= 1.0 / p.controller.sample_rate;
+  return needs_lane_drive(p) && !needs_lane_loop(p) && !varies && p.controller.jitter == 0.0 &&
+         delay == std::floor(delay) && delay <= max_lane_delay && is_slow;
 }
 
 bool needs_lane_loop(const trial::TrialParameters& p) {

@@ -36,5 +36,8 @@ bool is_steady_at_zero(const trial::TrialParameters& parameters);
 /// Whether the torque on the rotor differs from the decided one: by a delay, an amplifier, jitter, or a
 /// disturbance that varies.
 bool needs_lane_drive(const trial::TrialParameters& parameters);
+/// Whether of these there are only a delay of few whole samples, and an amplifier slow enough that its lag
+/// lasts beyond a sample, which the drive kernel has. The decided torque must be that of an ideal converter.
+bool needs_drive_kernel(const trial::TrialParameters& parameters);
 
 }  // namespace zerocount::batch

@@ -41,6 +41,7 @@ void sample(RunningBatch& run, void (*kernel)(BatchState&, const LaneSet&), cons
     if (batch.motion.gradual_slide[lane] != 0.0) batch.measures.slid[lane] = 1.0;
   });
   kernel(batch, due);
+  if (const LaneSet amplified = due.in_both(run.lanes.amplified); !amplified.empty()) amplify(run, amplified);
   rerun_unreadable(run);
   if (run.observers->sample) {
     for_each_lane(due.in_both(run.lanes.active), [&](int lane) {

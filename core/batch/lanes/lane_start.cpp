@@ -41,7 +41,7 @@ void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
   l.decided[lane] = 0.0;
   l.code[lane] = 0.0;
   l.steady[lane] = 0.0;
-  l.driven[lane] = needs_lane_drive(p) ? 1.0 : 0.0;
+  l.driven[lane] = needs_lane_drive(p) && !needs_drive_kernel(p) ? 1.0 : 0.0;
   l.disturbance[lane] = p.disturbance.torque;
   l.read_twist[lane] = 0.0;
 }
@@ -275,6 +275,7 @@ void start_next_trial(RunningBatch& run, int lane) {
       run.lanes.with_blocks.insert(lane);
     }
     if (needs_lane_noise(*trial.parameters)) run.lanes.noisy.insert(lane);
+    if (needs_drive_kernel(*trial.parameters)) run.lanes.amplified.insert(lane);
     if (trial.position) run.lanes.with_position.insert(lane);
     if (motion::has_load(trial.parameters->plant)) {
       run.lanes.loaded.insert(lane);

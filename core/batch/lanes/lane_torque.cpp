@@ -45,6 +45,12 @@ void start_drive(BatchState& batch, int lane, LaneTrial& trial) {
   c.vibrates[lane] = static_cast<double>(drive.vibration_terms());
   for (Lanes& coefficient : c.vibration) coefficient[lane] = 0.0;
   store_vibration(batch, lane, drive);
+  DriveLanes& d = batch.drive;
+  const trial::TrialParameters& p = *trial.parameters;
+  for_each_quantity(d, [lane](Lanes& quantity) { quantity[lane] = 0.0; });
+  d.delay[lane] = d.alike[lane] = p.controller.delay;
+  d.rate[lane] = loop::lag_rate(p.amplifier);
+  d.decay[lane] = numerics::exp(-d.rate[lane] * batch.time.sample_time[lane]);
   c.ripple_count[lane] = static_cast<double>(varying.ripple.size());
   for (std::size_t i = 0; i < std::size(c.ripples); ++i) {
     const motion::Ripple ripple = i < varying.ripple.size() ? varying.ripple[i] : motion::Ripple{};
@@ -78,6 +84,12 @@ void drive_torque(RunningBatch& run, int lane) {
   }
   if (run.state.course.vibrates[lane] != 0.0) store_vibration(run.state, lane, drive);
   begin_piece(run, lane);
+}
+
+void amplify(RunningBatch& run, const LaneSet& lanes) {
+  const LaneSet varying = run.kernels.drive(run.state, lanes);
+  for_each_lane(lanes.without(varying), [&](int lane) { run.lanes.varying.erase(lane); });
+  for_each_lane(varying, [&](int lane) { run.lanes.varying.insert(lane); });
 }
 
 void begin_piece(RunningBatch& run, int lane) {

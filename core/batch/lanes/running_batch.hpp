@@ -32,6 +32,8 @@ struct LaneStates {
 
   LaneSet with_position;  ///< the position error is measured, without a LaneLoop
 
+  LaneSet amplified;  ///< with delay and amplifier by the drive kernel
+
   // Torque until the next stop: constant for a whole sample, if in none.
   LaneSet varying;   ///< it varies
   LaneSet part;      ///< the stop ends only a part of a sample
@@ -42,10 +44,10 @@ struct LaneStates {
 
   LaneSet ahead;  ///< at rest, with a plant that lags behind (CreepAheadLanes)
 
-  std::array<LaneSet*, 17> all() {
-    return {&active, &sticking,    &waiting,   &standing,      &sliding,       &bristles,
-            &free,   &with_blocks, &with_loop, &noisy,         &with_position, &varying,
-            &part,   &changing,    &loaded,    &loaded_driven, &ahead};
+  std::array<LaneSet*, 18> all() {
+    return {&active,  &sticking,    &waiting,   &standing, &sliding,       &bristles,
+            &free,    &with_blocks, &with_loop, &noisy,    &with_position, &amplified,
+            &varying, &part,        &changing,  &loaded,   &loaded_driven, &ahead};
   }
 };
 
@@ -114,6 +116,8 @@ void move_free(RunningBatch& run);
 /// Inserts the lane, which has a trial, into the set of its motion. (lane_steps.cpp)
 void set_motion(RunningBatch& run, int lane);
 
+/// Passes the torques decided at this sample through the drive kernel. (lane_torque.cpp)
+void amplify(RunningBatch& run, const LaneSet& lanes);
 /// Starts the present piece of the torque of the lane's drive. (lane_torque.cpp)
 void begin_piece(RunningBatch& run, int lane);
 /// Lets the lane's drive make the torque on the rotor from the torque decided at the last sample. If it does

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "core/batch/kernels/lane_group.hpp"
+
+namespace zerocount::batch {
+
+/// The next piece of the torque of one vector. @returns the lanes whose torque varies; see drive_kernel.
+template <class At>
+__attribute__((noinline)) typename At::Vector::Mask drive(BatchState& batch, const At& at) {
+  using P = typename At::Vector;
+  using Mask = typename P::Mask;
+  DriveLanes& d = batch.drive;
+  CourseLanes& c = batch.course;
+  TimeLanes& time = batch.time;
+  const P zero(0.0);
+  const P one(1.0);
+  const P input = at.load(batch.loop.decided);
+  const P delay = at.load(d.delay);
+  P leaving = input;
+  P waiting = input;
+  for (int i = 0; i < max_lane_delay; ++i) {
+    const P older = at.load(d.waiting[i]);
+    at.store(d.waiting[i], waiting);
+    leaving = select(delay == P(i + 1.0), older, leaving);
+    waiting = older;
+  }
+  const P alike = select(input == at.load(d.last), at.load(d.alike) + one, one);
+  at.store(d.last, input);
+  const P rate = at.load(d.rate);
+  // loop::Drive: a lag too small for a normal number counts as 0.
+  const P last_settled = at.load(d.settled);
+  P lag = (at.load(d.now) - last_settled) * at.load(d.decay);
+  lag = select(abs(lag) < P(0x1p-1022), zero, lag);
+  const P now = select(rate == zero, leaving, last_settled + lag);
+  const Mask varies = now != leaving;
+  const Mask stays = ~varies & (alike > delay);
+  at.store(d.alike, alike);
+  at.store(d.now, now);
+  at.store(d.settled, leaving);
+
+  const P disturbance = at.load(batch.loop.disturbance);
+  const P sample_time = at.load(time.sample_time);
+  at.store(batch.motion.torque, now + disturbance);
+  at.store(c.settled, leaving + disturbance);
+  at.store(c.lag, now - leaving);
+  at.store(c.decay, select(stays, zero, rate));
+  at.store(c.piece, sample_time);
+  at.store(c.piece_end, sample_time);
+  at.store(time.samples_to_stop, select(stays, at.load(time.samples_to_stop), one));
+  at.store(time.time_to_stop, select(stays, at.load(time.time_to_stop), sample_time));
+  return varies & at.taking_part();
+}
+
+/// Passes the torques decided at a sample through a delay of whole samples and through the amplifier, as
+/// loop::Drive does. The next stop of a lane whose torque may change is the next sample. @returns the lanes
+/// whose torque varies until then.
+template <class V>
+LaneSet drive_kernel(BatchState& batch, const LaneSet& lanes) {
+  LaneSet varying;
+  for_each_stretch<V>(lanes,
+                      [&](const auto& at) { varying.insert_stretch(at.lane(0), drive(batch, at).bits()); });
+  return varying;
+}
+
+}  // namespace zerocount::batch

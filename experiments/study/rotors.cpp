@@ -4,11 +4,20 @@
 #include <limits>
 #include <numbers>
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
 #include "core/numerics/elementary_functions.hpp"
 #include "experiments/designs/random_key.hpp"
 
 namespace zerocount::study {
 namespace {
+
+constexpr std::size_t rotors_of_task = 64;
+
+numerics::Interval hull(const numerics::Interval& a, const numerics::Interval& b) {
+  return numerics::closed(std::min(a.low, b.low), std::max(a.high, b.high));
+}
 
 std::size_t rotors_to_keep(std::size_t harmonics, std::int64_t count, std::size_t max_bytes) {
   const std::size_t bytes_of_rotor = sizeof(friction::Profile) + 2 * harmonics * sizeof(double) + 64;
@@ -111,15 +120,18 @@ numerics::Interval Rotors::all_limits() const {
     const std::scoped_lock lock(mutex_);
     if (limits_) return *limits_;
   }
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (std::int64_t i = 0; i < count_; ++i) {
-    const numerics::Interval of_rotor = distributions::limits(*rotor(i));
-    low = std::min(low, of_rotor.low);
-    high = std::max(high, of_rotor.high);
-  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  using Numbers = oneapi::tbb::blocked_range<std::int64_t>;
+  const numerics::Interval limits = oneapi::tbb::parallel_reduce(
+      Numbers(0, count_, rotors_of_task), numerics::closed(infinity, -infinity),
+      [&](const Numbers& numbers, numerics::Interval found) {
+        for (std::int64_t i = numbers.begin(); i < numbers.end(); ++i)
+          found = hull(found, distributions::limits(*rotor(i)));
+        return found;
+      },
+      hull);
   const std::scoped_lock lock(mutex_);
-  limits_ = numerics::closed(low, high);
+  limits_ = limits;
   return *limits_;
 }
 

@@ -4,16 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "runners/trials/trial_set.hpp"
 
 namespace zerocount::rare {
-namespace {
-
-constexpr std::int64_t trials_at_once = 128;  // by one thread
-
-}  // namespace
 
 Question question_of(study::Study study, const Population& of, measures::MoveEvent event) {
   study::Study alone = under_condition(study, of.condition.value_or(0));
@@ -57,14 +53,14 @@ std::vector<PointResult> run_trials(const Question& question, std::span<const st
     return study::study_trial(question.study, question.of.point, 0, given).parameters;
   };
   return trials::results_of(
-      std::ssize(draws), trials_at_once, draw, effort,
+      std::ssize(draws), trials::block_for_lanes(std::ssize(draws)), draw, effort,
       [&](const trial::TrialOutcome& outcome) { return result_of(question, outcome.moves); });
 }
 
 Simulation simulation_of(const Question& question, const trials::Effort& effort) {
   return [&question, effort](std::span<const TrialPoint> points) {
-    std::vector<study::GivenDraws> draws;
-    for (const TrialPoint& point : points) draws.push_back(draws_at(question, point));
+    std::vector<study::GivenDraws> draws(points.size());
+    parallel::for_each_index(points.size(), [&](std::size_t i) { draws[i] = draws_at(question, points[i]); });
     return run_trials(question, draws, effort);
   };
 }

@@ -12,6 +12,11 @@
 
 namespace zerocount::trials {
 
+std::int64_t block_for_lanes(std::int64_t all) {
+  constexpr std::int64_t blocks_of_thread = 2;  // at least
+  return std::clamp<std::int64_t>(all / (blocks_of_thread * parallel::threads()), 32, 256);
+}
+
 TrialSet numbered_trials(std::int64_t count, std::int64_t block,
                          std::function<trial::TrialParameters(std::int64_t number)> draw) {
   const auto draw_block = [count, block, draw = std::move(draw)](std::size_t number) {

@@ -22,6 +22,9 @@ struct TrialSet {
   study::Engine engine{study::Engine::batch};
 };
 
+/// Trials of a block: enough to fill the lanes, and few enough for all threads. @param all trials of the set
+std::int64_t block_for_lanes(std::int64_t all);
+
 /// The trials 0 to count − 1, each drawn by its number, in blocks of `block` trials.
 TrialSet numbered_trials(std::int64_t count, std::int64_t block,
                          std::function<trial::TrialParameters(std::int64_t number)> draw);

@@ -12,7 +12,6 @@
 #include "analysis/goal/question.hpp"
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/trial_value.hpp"
-#include "analysis/parallel/parallel.hpp"
 #include "core/batch/batch.hpp"
 #include "core/failure/failure.hpp"
 #include "runners/trials/trial_set.hpp"
@@ -20,11 +19,7 @@
 namespace zerocount::tuning {
 namespace {
 
-// One thread runs so many trials at once: enough to fill the lanes, and few enough for all threads.
-constexpr std::int64_t min_trials_in_lanes = 32;
-constexpr std::int64_t max_trials_in_lanes = 256;
-constexpr std::int64_t trials_of_reference = 8;  // where lanes do not run them
-constexpr std::int64_t parts_of_thread = 2;      // at least, where few trials are run
+constexpr std::int64_t trials_of_reference = 8;  // of a part that lanes do not run
 
 /// A part of an entry that one thread runs.
 struct Part {
@@ -87,9 +82,7 @@ std::vector<trial::TrialParameters> trials_of(const Part& part, const trials::Re
 /// Units that one thread runs at once. @param all trials that are run together
 std::int64_t units_of_part(const UnitsToRun& entry, const trials::Replicates& units, std::int64_t all) {
   const bool in_lanes = batch::runs_in_lanes(trial_of(entry, units, entry.from, 0));
-  const std::int64_t trials = in_lanes ? std::clamp(all / (parts_of_thread * parallel::threads()),
-                                                    min_trials_in_lanes, max_trials_in_lanes)
-                                       : trials_of_reference;
+  const std::int64_t trials = in_lanes ? trials::block_for_lanes(all) : trials_of_reference;
   return std::max<std::int64_t>(1, trials / units.trials_each);
 }
 

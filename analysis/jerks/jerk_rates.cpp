@@ -20,16 +20,20 @@ std::int64_t first_sample(std::int64_t j, double sample_time) {
   return static_cast<std::int64_t>(std::ceil(range_begin(j) / sample_time * (1.0 - rounding)));
 }
 
-/// The range that contains a sample.
-std::int64_t range_of(std::int64_t sample, double sample_time) {
-  auto j = static_cast<std::int64_t>(
-      std::floor(per_decade * std::log10(static_cast<double>(sample) * sample_time)));
-  while (sample < first_sample(j, sample_time)) --j;
-  while (sample >= first_sample(j + 1, sample_time)) ++j;
-  return j;
-}
-
 }  // namespace
+
+std::int64_t JerkRates::range_of(std::int64_t sample, double sample_time) {
+  if (sample_time != sample_time_) {
+    sample_time_ = sample_time;
+    first_range_ = static_cast<std::int64_t>(std::floor(per_decade * std::log10(sample_time)));
+    while (1 < first_sample(first_range_, sample_time)) --first_range_;
+    while (1 >= first_sample(first_range_ + 1, sample_time)) ++first_range_;
+    ends_.clear();
+  }
+  while (ends_.empty() || sample >= ends_.back())
+    ends_.push_back(first_sample(first_range_ + std::ssize(ends_) + 1, sample_time));
+  return first_range_ + (std::ranges::upper_bound(ends_, sample) - ends_.begin());
+}
 
 void JerkRates::Range::close_clusters() {
   for (const auto& [number, cluster] : open) {
@@ -50,8 +54,10 @@ JerkRates::Range& JerkRates::range_at(std::int64_t j, const ObservedMove& move) 
 }
 
 void JerkRates::add_exposure(const ObservedMove& move, std::int64_t first, std::int64_t end) {
+  if (first >= end) return;
+  range_of(end - 1, move.sample_time);  // so that ends_ has all ranges
   for (std::int64_t j = range_of(first, move.sample_time); first < end; ++j) {
-    const std::int64_t next = std::min(end, first_sample(j + 1, move.sample_time));
+    const std::int64_t next = std::min(end, ends_[static_cast<std::size_t>(j - first_range_)]);
     const double exposure = static_cast<double>(next - first) * move.sample_time;
     Range& range = range_at(j, move);
     range.exposure += exposure;

@@ -36,11 +36,16 @@ class JerkRates {
 
     void close_clusters();
   };
+  /// The range that contains a sample.
+  std::int64_t range_of(std::int64_t sample, double sample_time);
   Range& range_at(std::int64_t j, const ObservedMove& move);
   void add_exposure(const ObservedMove& move, std::int64_t first, std::int64_t end);
 
   bool clusters_return_;
   std::map<std::int64_t, Range> ranges_;
+  double sample_time_{0.0};         ///< s, of the last move
+  std::int64_t first_range_{0};     ///< with this sample time, that of sample 1
+  std::vector<std::int64_t> ends_;  ///< of the ranges from that one on, in samples
   std::int64_t moves_{0};
   double earliest_{std::numeric_limits<double>::infinity()};  ///< s
   double latest_{0.0};                                        ///< s

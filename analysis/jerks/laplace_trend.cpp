@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
 #include "analysis/statistics/distributions.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 constexpr std::size_t max_enumerated = 7;  // 5040 orders
 constexpr std::uint64_t permutations_of_move = 999;
+constexpr std::size_t moves_tested_at_once = 512;
 
 // Keys of the random orders: of one move, and of all together.
 constexpr random::RandomKey move_key{0x6a65726b, 1};
@@ -144,12 +146,24 @@ void TrendSum::add(std::span<const std::int64_t> intervals) {
   }
   if (term.intervals < min_trend_intervals) return;
   ++counted_.tested;
-  const TrendProbability p = trend_probability(intervals, number);
-  counted_.slowing += p.slowing <= level_;
-  counted_.quickening += p.quickening <= level_;
+  untested_.push_back({number, {intervals.begin(), intervals.end()}});
+  if (untested_.size() == moves_tested_at_once) test_moves();
 }
 
-TrendSummary TrendSum::summary() const {
+void TrendSum::test_moves() {
+  std::vector<TrendProbability> found(untested_.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+    found[i] = trend_probability(untested_[i].intervals, untested_[i].number);
+  });
+  for (const TrendProbability& p : found) {
+    counted_.slowing += p.slowing <= level_;
+    counted_.quickening += p.quickening <= level_;
+  }
+  untested_.clear();
+}
+
+TrendSummary TrendSum::summary() {
+  test_moves();
   TrendSummary result = counted_;
   if (result.moves == 0) return result;
   result.summed = excess_ / std::sqrt(variance_);

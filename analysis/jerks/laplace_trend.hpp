@@ -84,9 +84,16 @@ class TrendSum {
   /// @param intervals of one move, in the order of time, whole samples.
   void add(std::span<const std::int64_t> intervals);
   /// Deterministic; does not depend on the number of threads.
-  TrendSummary summary() const;
+  TrendSummary summary();
 
  private:
+  struct Move {
+    std::uint32_t number;
+    std::vector<std::int64_t> intervals;
+  };
+  /// Tests the moves that wait for it, in parallel.
+  void test_moves();
+
   double level_{0.0};  ///< p below which a single move has a trend
   TrendSummary counted_;
   double excess_{0.0};
@@ -94,6 +101,7 @@ class TrendSum {
   double scores_{0.0};
   std::int64_t intervals_{0};
   std::vector<std::vector<std::int64_t>> kept_;  ///< [move], while there are few enough to permute
+  std::vector<Move> untested_;
 };
 
 }  // namespace zerocount::jerks

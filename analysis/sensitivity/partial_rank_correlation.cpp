@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/sensitivity/factor_matrix.hpp"
 #include "analysis/sensitivity/rank_correlation.hpp"
 #include "core/numerics/dense.hpp"
@@ -12,10 +13,11 @@ namespace {
 
 Eigen::MatrixXd ranks_of_columns(const Eigen::MatrixXd& x) {
   Eigen::MatrixXd ranks(x.rows(), x.cols());
-  for (Eigen::Index j = 0; j < x.cols(); ++j) {
+  parallel::for_each_index(static_cast<std::size_t>(x.cols()), [&](std::size_t i) {
+    const auto j = static_cast<Eigen::Index>(i);
     const std::vector<double> f = mid_distribution({x.col(j).data(), static_cast<std::size_t>(x.rows())});
     ranks.col(j) = Eigen::VectorXd::Map(f.data(), x.rows());
-  }
+  });
   return ranks;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <exception>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
@@ -9,6 +10,8 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "core/numerics/bisection.hpp"
 #include "results/layout/measure_table.hpp"
@@ -176,19 +179,55 @@ std::vector<Record> records_at(const std::vector<layout::RecordField<Record>>& f
   return records;
 }
 
+constexpr std::int64_t moves_of_part = 1024;
+
+/// Calls work(part) for parts of the positions, several at a time. Throws what the first part throws that
+/// does, whatever ends first.
+template <class Work>
+void for_each_part(layout::RowRange positions, std::int64_t size, const Work& work) {
+  std::vector<std::exception_ptr> failures(static_cast<std::size_t>((positions.count + size - 1) / size));
+  const auto run = [&](std::size_t i) {
+    const std::int64_t first = positions.first + static_cast<std::int64_t>(i) * size;
+    try {
+      work(layout::RowRange{first, std::min(size, positions.end() - first)});
+    } catch (...) {
+      failures[i] = std::current_exception();
+    }
+  };
+  // A thread that waits here must not begin another task meanwhile.
+  if (failures.size() == 1) {
+    run(0);
+  } else {
+    oneapi::tbb::this_task_arena::isolate(
+        [&] { oneapi::tbb::parallel_for(std::size_t{0}, failures.size(), run); });
+  }
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
+
 }  // namespace
 
 std::vector<trial::MoveOutcome> TrialTables::outcomes(const OutcomeColumns& columns,
                                                       layout::RowRange positions) const {
-  std::vector<trial::MoveOutcome> moves =
-      records_at(move_fields_, columns.moves, positions.first - columns.positions.first, positions.count,
-                 outcomes_.width());
+  const std::int64_t width = outcomes_.width();
+  std::vector<trial::MoveOutcome> moves(static_cast<std::size_t>(positions.count * width));
+  for_each_part(positions, std::max<std::int64_t>(1, moves_of_part / width), [&](layout::RowRange part) {
+    take_moves(columns, part,
+               std::span(moves).subspan(static_cast<std::size_t>((part.first - positions.first) * width),
+                                        static_cast<std::size_t>(part.count * width)));
+  });
+  return moves;
+}
+
+void TrialTables::take_moves(const OutcomeColumns& columns, layout::RowRange positions,
+                             std::span<trial::MoveOutcome> moves) const {
+  const std::int64_t width = outcomes_.width();
+  layout::scatter_all(move_fields_, columns.moves,
+                      static_cast<std::size_t>((positions.first - columns.positions.first) * width), moves);
   validate_outcomes(outcomes_, move_fields_, number_of(positions.first), moves);
-  for (std::size_t i = 0; i < moves.size(); ++i)
-    moves[i].number = static_cast<std::int64_t>(i) % outcomes_.width();
+  for (std::size_t i = 0; i < moves.size(); ++i) moves[i].number = static_cast<std::int64_t>(i) % width;
   if (bands_) take_bands(columns, positions, moves);
   if (tolerances_) take_tolerances(columns, positions, moves);
-  return moves;
 }
 
 std::vector<std::int64_t> TrialTables::jerk_counts(const OutcomeColumns& columns,

@@ -92,6 +92,9 @@ class TrialTables {
   void require_valid_values() const;
 
  private:
+  /// Takes the measures of the moves at these positions, and checks them.
+  void take_moves(const OutcomeColumns& columns, layout::RowRange positions,
+                  std::span<trial::MoveOutcome> moves) const;
   /// Takes the measures of the error bands of the trials at these positions into their moves.
   void take_bands(const OutcomeColumns& columns, layout::RowRange positions,
                   std::span<trial::MoveOutcome> moves) const;

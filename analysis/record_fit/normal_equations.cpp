@@ -63,12 +63,13 @@ std::vector<FitResult> better_points(Records records, const Observations& observ
                                      const FittedModel& model, const FitSetting& setting,
                                      const std::vector<Point>& changes) {
   constexpr double chance = 6.0;  // about 95 % of a sum of squares with two degrees of freedom
-  std::vector<FitResult> points(changes.size());
-  parallel::for_each_index(changes.size(), [&](std::size_t i) {
-    points[i] = linear_fit(records, observations, model, setting, changes[i]);
+  std::vector<FitResult> points(changes.size() + 1);  // the last one is that without a change
+  parallel::for_each_index(points.size(), [&](std::size_t i) {
+    const Point change = i < changes.size() ? changes[i] : Point::Zero(dimension_of(setting.model));
+    points[i] = linear_fit(records, observations, model, setting, change);
   });
-  const double squares =
-      linear_fit(records, observations, model, setting, Point::Zero(dimension_of(setting.model))).squares;
+  const double squares = points.back().squares;
+  points.pop_back();
   std::erase_if(points, [&](const FitResult& point) { return !(point.squares < squares - chance); });
   std::stable_sort(points.begin(), points.end(),
                    [](const FitResult& one, const FitResult& other) { return one.squares < other.squares; });

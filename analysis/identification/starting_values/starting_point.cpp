@@ -53,11 +53,13 @@ double misfit(const ChosenRecords& records, const ContactPoint& point, double cr
 /// the fraction `proportion`.
 ContactPoint best_of(const ChosenRecords& records, const ContactPoint& point, double creep_torque,
                      std::span<const ContactPoint> changes, double proportion = 1.0) {
-  std::vector<double> left(changes.size());
-  parallel::for_each_index(
-      changes.size(), [&](std::size_t i) { left[i] = misfit(records, point + changes[i], creep_torque); });
+  const std::size_t unchanged = changes.size();
+  std::vector<double> left(unchanged + 1);
+  parallel::for_each_index(left.size(), [&](std::size_t i) {
+    left[i] = misfit(records, i == unchanged ? point : point + changes[i], creep_torque);
+  });
   ContactPoint best = point;
-  double least = proportion * misfit(records, point, creep_torque);
+  double least = proportion * left[unchanged];
   for (std::size_t i = 0; i < changes.size(); ++i) {
     if (left[i] >= least) continue;
     least = left[i];

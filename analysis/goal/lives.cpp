@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "analysis/statistics/clusters/rig_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
 
 namespace zerocount::goal {
@@ -52,13 +53,57 @@ double proportion_meeting(const std::vector<ClaimAtAge>& claims, std::int64_t wo
   return least;
 }
 
-/// Bounds of the machines that meet one claim, whatever proportion of them it is about.
-BoundedProportion machines_of(const ClaimAtAge& claim, std::size_t claims) {
+/// The upper bound of the machines that meet one of so many claims.
+double most_of(const ClaimAtAge& claim, std::size_t claims) {
   constexpr double usual = 0.9;
   study::Goal goal = *claim.goal;
   goal.machines = goal.machines.value_or(usual);
   goal.confidence = statistics::confidence_of_each(goal.confidence, claims);
-  return judge_goal(goal, *claim.counts, 1, 1).machines;
+  return judge_goal(goal, *claim.counts, 1, 1).machines.high;
+}
+
+/// The moves of a rig in which it meets one goal, under the condition where these are the fewest; as if the
+/// moves that it made under some conditions only met the goal, and were left out.
+statistics::RigMoves least_moves(const std::vector<ClaimAtAge>& claims, std::size_t rig) {
+  statistics::RigMoves least = claims.front().counts->rigs[rig];
+  for (const ClaimAtAge& claim : claims) {
+    const statistics::RigMoves& one = claim.counts->rigs[rig];
+    const std::int64_t missed = std::max(least.moves - least.met, one.moves - one.met);
+    least.trials = std::min(least.trials, one.trials);
+    least.moves = std::min(least.moves, one.moves);
+    least.met = least.moves - missed;
+  }
+  return least;
+}
+
+/// The lower bound of the machines that meet one goal under every condition, at this confidence; with worlds
+/// the least of them.
+double least_of(const std::vector<ClaimAtAge>& claims, std::int64_t worlds, double confidence) {
+  constexpr double usual = 0.9;
+  const study::Goal& goal = *claims.front().goal;
+  const statistics::RigClaim claim{.proportion = goal.moves,
+                                   .wanted = goal.machines.value_or(usual),
+                                   .confidence = confidence,
+                                   .of_least = claims.size() > 1};
+  const auto groups = static_cast<std::size_t>(std::max<std::int64_t>(worlds, 1));
+  double least = 1.0;
+  for (std::size_t world = 0; world < groups; ++world) {
+    std::vector<statistics::RigMoves> rigs;
+    for (std::size_t rig = world; rig < rig_count(claims); rig += groups)
+      rigs.push_back(least_moves(claims, rig));
+    least = std::min(least, statistics::rig_proportion(rigs, claim).low);
+  }
+  return least;
+}
+
+/// Of claims that are in the order of their goals, those of each goal.
+std::vector<std::vector<ClaimAtAge>> by_goals(const std::vector<ClaimAtAge>& claims) {
+  std::vector<std::vector<ClaimAtAge>> goals;
+  for (const ClaimAtAge& claim : claims) {
+    if (goals.empty() || goals.back().front().goal != claim.goal) goals.emplace_back();
+    goals.back().push_back(claim);
+  }
+  return goals;
 }
 
 }  // namespace
@@ -68,13 +113,15 @@ std::vector<BoundedProportion> machines_at_ages(const Question& question,
   std::vector<BoundedProportion> machines;
   for (std::size_t age = 0; age < question.ages.at.size(); ++age) {
     const std::vector<ClaimAtAge> claims = claims_at_age(question, counts, age);
+    const std::vector<std::vector<ClaimAtAge>> goals = by_goals(claims);
     BoundedProportion all{proportion_meeting(claims, question.worlds), 1.0, 1.0};
-    for (const ClaimAtAge& claim : claims) {
-      const BoundedProportion one = machines_of(claim, claims.size());
-      all.low -= 1.0 - one.low;
-      all.high = std::min(all.high, one.high);
+    double lost = 0.0;
+    for (const std::vector<ClaimAtAge>& goal : goals) {
+      const double confidence = statistics::confidence_of_each(goal.front().goal->confidence, goals.size());
+      lost += 1.0 - least_of(goal, question.worlds, confidence);
     }
-    all.low = claims.size() == 1 ? machines_of(claims.front(), 1).low : std::max(all.low, 0.0);
+    all.low = std::max(1.0 - lost, 0.0);
+    for (const ClaimAtAge& claim : claims) all.high = std::min(all.high, most_of(claim, claims.size()));
     machines.push_back(all);
   }
   return machines;

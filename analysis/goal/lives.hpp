@@ -11,9 +11,14 @@ namespace zerocount::goal {
 
 /// [age] the proportion of machines that meet the question at the age, with one-sided bounds.
 ///
-/// Of one goal under one condition the bounds are those of a claim on machines (judge_goal()). Of K goals and
-/// conditions together the lower one is 1 − Σ(1 − low of each), the upper one the least of theirs, each at
-/// the confidence 1 − (1 − γ)/K (Bonferroni). With worlds they are those of the worst of them.
+/// Of one goal under one condition the bounds are those of a claim on machines (judge_goal()).
+///
+/// A machine that misses a goal under some condition shows c or more good moves under all of them no more
+/// often than under that one. So the fewest good moves of a machine under any condition bound the machines
+/// that meet the goal under all, as its good moves bound those that meet it under one (statistics::RigClaim),
+/// however the moves under the conditions depend on each other. Of G goals the lower bound is 1 − Σ(1 − low
+/// of each), each at the confidence 1 − (1 − γ)/G. The upper bound is the least of the K goals and
+/// conditions, each at 1 − (1 − γ)/K (Bonferroni). With worlds they are those of the worst of them.
 /// @param counts [goal of the study] (PointSummary::goals)
 std::vector<BoundedProportion> machines_at_ages(const Question& question,
                                                 const std::vector<measures::MoveCounts>& counts);

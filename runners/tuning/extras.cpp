@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -35,6 +37,10 @@ TunedValues named_values(const std::vector<study::FreeParameter>& free, const Va
   TunedValues named;
   for (std::size_t i = 0; i < free.size(); ++i) named[free[i].name] = values[i];
   return named;
+}
+
+std::int64_t total(std::span<const std::int64_t> trials) {
+  return std::accumulate(trials.begin(), trials.end(), std::int64_t{0});
 }
 
 /// controller.delay of the first machine under each condition, samples.
@@ -72,11 +78,11 @@ ExtrasMaker::ExtrasMaker(const Context& context, TuneAnswer& answer)
            : 0);
   if (!wants(Extra::controls)) controls_.clear();
   if (wants(Extra::retuning)) intervals_ = intervals_of_life(of_.study.ages, *of_.settings.retune_every);
-  std::vector<OtherControl> searches = controls_;
-  searches.resize(controls_.size() + intervals_.size(), {"", {}, {}, answer_.free});
+  for (const LifeInterval& one : intervals_)
+    least_of_intervals_.push_back(least_trials_of_retuning(study_in(of_.study, one), answer_.free));
   plan_ = plan_rest(of_.study, points,
                     wants(Extra::maps) ? trials_of_maps(of_.search.units(), answer_.free.size()) : 0,
-                    searches, of_.effort, of_.speed);
+                    least_of_controls() + total(least_of_intervals_), of_.effort, of_.speed);
   details_.count = plan_.units;
 }
 
@@ -112,11 +118,12 @@ std::int64_t ExtrasMaker::trials_of(Extra extra) const {
     case Extra::robustness:
       return is_met() ? points_of_robustness * units_of_limits().trials() : 0;
     case Extra::retuning:
+      return std::min(std::ssize(intervals_) * trials_of_control,
+                      affordable_trials(one_of_shares(1.0), of_.speed));
     case Extra::controls: {
-      const std::int64_t later = std::ssize(controls_);
-      const std::int64_t searches = extra == Extra::controls ? later : std::ssize(intervals_);
-      const std::int64_t shares = extra == Extra::controls ? later : searches + later;
-      return searches * std::min(trials_of_control, affordable_trials(one_of_shares(shares), of_.speed));
+      const std::int64_t searches = std::ssize(controls_);
+      return searches * std::min(trials_of_control,
+                                 affordable_trials(one_of_shares(static_cast<double>(searches)), of_.speed));
     }
     case Extra::limits:
       return points_of_limits * units_of_limits().trials();
@@ -245,6 +252,13 @@ void ExtrasMaker::find_delay() {
   answer_.wider_band_rate = rate_in_wider_band(wider, answer_.proof->verdict.goal);
 }
 
+/// Trials of the smallest searches for all other controls.
+std::int64_t ExtrasMaker::least_of_controls() const {
+  std::int64_t least = 0;
+  for (const OtherControl& one : controls_) least += least_trials_of_other_search(of_.study, one.free);
+  return least;
+}
+
 /// All units of the search, with a budget those of the details.
 trials::Replicates ExtrasMaker::units_of_limits() const {
   const trials::Replicates& all = of_.search.units();
@@ -264,23 +278,24 @@ void ExtrasMaker::add_controls() {
   const auto all = std::ssize(controls_);
   for (std::int64_t i = 0; i < all; ++i) {
     const OtherControl& control = controls_[static_cast<std::size_t>(i)];
-    if (!ended([&] { add_control(control, one_of_shares(all - i), tuned); }))
+    if (!ended([&] { add_control(control, one_of_shares(static_cast<double>(all - i)), tuned); }))
       leave_out(Extra::controls, fmt::format("controls ({})", control.name));
   }
 }
 
-/// One of so many equal parts of what a budget leaves beside limits and maps; without a budget what a control
-/// takes by default.
-trials::Effort ExtrasMaker::one_of_shares(std::int64_t parts) const {
+/// One of so many parts of what a budget leaves beside limits and maps; without a budget what a control takes
+/// by default.
+trials::Effort ExtrasMaker::one_of_shares(double parts) const {
   if (!has_budget()) return of_.effort.share(trials_of_control, {});
   const std::int64_t later =
       (wants(Extra::limits) ? points_of_limits * plan_.units * of_.search.units().trials_each : 0) +
       plan_.trials_of_maps;
-  parts = std::max<std::int64_t>(parts, 1);
-  if (of_.settings.budget.trials)
-    return of_.effort.share(std::max<std::int64_t>(of_.effort.trials_left() - later, 0) / parts, {});
-  return of_.effort.share(
-      {}, (of_.effort.seconds_left() - static_cast<double>(later) / of_.speed) / static_cast<double>(parts));
+  parts = std::max(parts, 1.0);
+  if (of_.settings.budget.trials) {
+    const std::int64_t left = std::max<std::int64_t>(of_.effort.trials_left() - later, 0);
+    return of_.effort.share(std::llround(static_cast<double>(left) / parts), {});
+  }
+  return of_.effort.share({}, (of_.effort.seconds_left() - static_cast<double>(later) / of_.speed) / parts);
 }
 
 SearchResult ExtrasMaker::search_from(const study::Study& study,
@@ -299,27 +314,37 @@ SearchResult ExtrasMaker::search_from(const study::Study& study,
   return found;
 }
 
+/// From the last interval on, in which the machines have changed most, as many as the budget is enough for by
+/// their smallest searches; each gets a part in proportion to these.
 void ExtrasMaker::add_retuning() {
   answer_.retuning = Retuning{*of_.settings.retune_every, intervals_.size(), {}};
+  const auto leave_out_interval = [&](const LifeInterval& one) {
+    leave_out(Extra::retuning,
+              fmt::format("retuning ({} to {})", one.from(), study::age_text(of_.study.ages, one.to())));
+  };
+  const std::span<const std::int64_t> least = least_of_intervals_;
+  const std::size_t first =
+      has_budget() ? first_affordable(least, affordable_trials(one_of_shares(1.0), of_.speed)) : 0;
+  for (std::size_t i = 0; i < first; ++i) leave_out_interval(intervals_[i]);
+  const std::int64_t of_controls = first == 0 ? least_of_controls() : 0;
   std::vector<TunedValues> tuned{named_values(answer_.free, answer_.gains)};
-  const std::int64_t searches = std::ssize(intervals_) + std::ssize(controls_);
-  for (std::int64_t i = 0; i < std::ssize(intervals_); ++i) {
-    const LifeInterval& interval = intervals_[static_cast<std::size_t>(i)];
-    if (!ended([&] { retune(interval, one_of_shares(searches - i), tuned); }))
-      leave_out(Extra::retuning, fmt::format("retuning ({} to {})", interval.from(),
-                                             study::age_text(of_.study.ages, interval.to())));
+  for (std::size_t i = intervals_.size(); i-- > first;) {
+    const std::int64_t all = total(least.subspan(first, i + 1 - first)) + of_controls;
+    const trials::Effort effort = one_of_shares(static_cast<double>(all) / static_cast<double>(least[i]));
+    if (!ended([&] { retune(intervals_[i], effort, tuned); })) leave_out_interval(intervals_[i]);
   }
 }
 
 /// Tunes for an interval, and runs the values beside those of the whole life on fresh machines.
-/// @param tuned the values for the whole life, and those of other intervals; gets those of this one
+/// @param tuned the values for the whole life, and those of the intervals after; gets those of this one
 void ExtrasMaker::retune(const LifeInterval& interval, const trials::Effort& effort,
                          std::vector<TunedValues>& tuned) {
   const study::Study study = study_in(of_.study, interval);
   // Two sets of values run at every age: that takes more than the judgement of a control.
   const double seconds = effort.seconds_left();
-  const trials::Effort of_search = effort.share(
-      effort.trials_left() / 4 * 3, std::isinf(seconds) ? std::nullopt : std::optional(0.75 * seconds));
+  const trials::Effort of_search =
+      effort.share(std::llround(search_part_of_retuning * static_cast<double>(effort.trials_left())),
+                   std::isinf(seconds) ? std::nullopt : std::optional(search_part_of_retuning * seconds));
   const SearchResult found = search_from(study, answer_.free, of_search, starts_from(tuned, answer_.free));
   RetunedInterval one{interval, {}, {}, {}};
   one.units = units_of_judgement(study, effort.part(2), of_.speed);
@@ -331,7 +356,7 @@ void ExtrasMaker::retune(const LifeInterval& interval, const trials::Effort& eff
     if (!one.gains.empty()) one.retuned.push_back(runs.at(age, answer_.free, one.gains));
   }
   if (!one.gains.empty()) tuned.push_back(named_values(answer_.free, one.gains));
-  answer_.retuning->intervals.push_back(std::move(one));
+  answer_.retuning->intervals.insert(answer_.retuning->intervals.begin(), std::move(one));
 }
 
 /// @param tuned controls that are tuned already; gets this one

@@ -61,9 +61,10 @@ class ExtrasMaker {
   std::int64_t trials_of(Extra extra) const;
   double seconds_of(Extra extra) const;
   bool fits(Extra extra) const;
+  std::int64_t least_of_controls() const;
   trials::Replicates units_of_limits() const;
   study::Study tuned_for_limits(std::vector<std::string> overrides = {}) const;
-  trials::Effort one_of_shares(std::int64_t parts) const;
+  trials::Effort one_of_shares(double parts) const;
   bool has_budget() const { return of_.settings.budget.trials || of_.settings.budget.seconds; }
   bool is_met() const { return answer_.status == goal::Status::met; }
   bool wants(Extra extra) const;
@@ -73,7 +74,8 @@ class ExtrasMaker {
   Context of_;
   TuneAnswer& answer_;
   std::vector<OtherControl> controls_;
-  std::vector<LifeInterval> intervals_;  ///< for which values are tuned again
+  std::vector<LifeInterval> intervals_;           ///< for which values are tuned again
+  std::vector<std::int64_t> least_of_intervals_;  ///< least_trials_of_retuning() of each
   study::Study tuned_;
   RestPlan plan_;
   TunedStudy details_;

@@ -60,6 +60,12 @@ study::Study study_in(const study::Study& study, const LifeInterval& interval) {
   return trials::variant_of(study, overrides);
 }
 
+std::size_t first_affordable(std::span<const std::int64_t> least, std::int64_t trials) {
+  std::size_t first = least.size();
+  while (first > 0 && least[first - 1] <= trials) trials -= least[--first];
+  return first;
+}
+
 std::size_t worst_claim_at(const study::Study& study, const AgeVerdict& age) {
   const std::vector<ClaimOfLife> claims = claims_of_life(study);
   const auto merit = [&](std::size_t claim) {

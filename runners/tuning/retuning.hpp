@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,11 @@ struct Retuning {
   std::size_t wanted{0};  ///< intervals; the budget may leave some out
   std::vector<RetunedInterval> intervals;
 };
+
+/// The first interval of those, from the last one on, whose smallest searches are affordable together; their
+/// number if none is.
+/// @param least trials of each interval
+std::size_t first_affordable(std::span<const std::int64_t> least, std::int64_t trials);
 
 /// The claim (claims_of_life()) that does worst: missed before undecided before met; of equals the one whose
 /// lower bound is least above what is asked for.

@@ -125,15 +125,27 @@ SearchPlan plan_other_search(const study::Study& study, std::span<const study::F
   return {search_size(scope_of(study, free, max_units / 2), trials / each), share.share(trials, seconds)};
 }
 
+std::int64_t least_trials_of_other_search(const study::Study& study,
+                                          std::span<const study::FreeParameter> free) {
+  return whole_trials(
+      std::ceil(static_cast<double>(min_search_trials(study, free)) / (1.0 - judgement_part)));
+}
+
+std::int64_t least_trials_of_retuning(const study::Study& study, std::span<const study::FreeParameter> free) {
+  const double search =
+      static_cast<double>(least_trials_of_other_search(study, free)) / search_part_of_retuning;
+  // What a search that takes all of its part leaves is halved for the two sets of values.
+  const double rest = 1.0 - search_part_of_retuning * (1.0 - judgement_part);
+  const double runs = 2.0 * static_cast<double>(min_units_of_judgement * trials_of_machine(study)) / rest;
+  return whole_trials(std::ceil(std::max(search, runs)));
+}
+
 RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t trials_of_maps,
-                   std::span<const OtherControl> controls, const trials::Effort& effort, double speed) {
+                   std::int64_t searches, const trials::Effort& effort, double speed) {
   constexpr std::int64_t most = 1024;
   constexpr std::int64_t least = 32;
-  double others = 0.0;
-  for (const OtherControl& one : controls)
-    others += static_cast<double>(min_search_trials(study, one.free)) / (1.0 - judgement_part);
   const std::int64_t each = std::max<std::int64_t>(points, 1) * search_trials_of_machine(study);
-  const std::int64_t left = affordable_trials(effort, speed) - whole_trials(others);
+  const std::int64_t left = affordable_trials(effort, speed) - searches;
   if ((left - trials_of_maps) / each < least) trials_of_maps = 0;
   return {std::clamp((left - trials_of_maps) / each, least, most), trials_of_maps};
 }

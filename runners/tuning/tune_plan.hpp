@@ -53,16 +53,28 @@ SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, cons
 SearchPlan plan_other_search(const study::Study& study, std::span<const study::FreeParameter> free,
                              const trials::Effort& share, double speed);
 
+/// Trials that are enough for the smallest search for another control, and its judgement.
+std::int64_t least_trials_of_other_search(const study::Study& study,
+                                          std::span<const study::FreeParameter> free);
+
+/// Of the effort of an interval of life that is tuned again; the rest runs two sets of values at each age.
+inline constexpr double search_part_of_retuning = 0.75;
+
+/// Trials that are enough for the smallest search in an interval of life, and for the runs beside it.
+/// @param study study_in() the interval
+std::int64_t least_trials_of_retuning(const study::Study& study, std::span<const study::FreeParameter> free);
+
 /// How what follows the proof shares the effort that is left.
 struct RestPlan {
   std::int64_t units{0};           ///< on which a point is simulated
   std::int64_t trials_of_maps{0};  ///< kept for them; 0 where they are not affordable
 };
 
-/// As many units for each of so many points as leave the effort for all of them, for the smallest search of
-/// each of the other controls, and for the maps if they are affordable beside these.
+/// As many units for each of so many points as leave the effort for all of them, for the searches, and for
+/// the maps if they are affordable beside these.
+/// @param searches trials of the smallest searches of other controls and intervals together
 RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t trials_of_maps,
-                   std::span<const OtherControl> controls, const trials::Effort& effort, double speed);
+                   std::int64_t searches, const trials::Effort& effort, double speed);
 
 /// trials::Replicates on which another control is judged: 1000, or as many as the effort is enough for.
 /// @throws trials::Spent if these are fewer than 50

@@ -61,7 +61,8 @@ std::vector<RigMoves> missing(std::span<const RigMoves> rigs) {
 double low_bound(std::span<const RigMoves> rigs, const RigClaim& claim) {
   const auto [fewest, most] = std::minmax_element(
       rigs.begin(), rigs.end(), [](const RigMoves& a, const RigMoves& b) { return a.moves < b.moves; });
-  const RigStudy study{std::ssize(rigs), fewest->trials, fewest->moves, fewest->moves == most->moves};
+  const RigStudy study{std::ssize(rigs), fewest->trials, fewest->moves,
+                       fewest->moves == most->moves && !claim.of_least};
   const std::vector<RigMoves> counted = without_further_moves(rigs, fewest->moves);
   return RigBound(study, claim).at_least([&](std::int64_t met) { return passing(counted, met); });
 }

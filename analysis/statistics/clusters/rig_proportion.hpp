@@ -37,6 +37,9 @@ struct RigClaim {
   double proportion;  ///< q
   double wanted;
   double confidence;  ///< of a bound
+  /// Rigs meet the requirement under several conditions if they do under each, and show the fewest moves of
+  /// these, which may depend on each other: the ratio of two tails is not known then. Only for `low`.
+  bool of_least{false};
 };
 
 /// The size of a study on rigs.

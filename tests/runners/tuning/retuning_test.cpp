@@ -78,5 +78,14 @@ TEST(Retuning, RefusesOneIntervalAndVeryMany) {
   EXPECT_EQ(intervals_of_life(ages, 2.0e4).size(), 50U);
 }
 
+// A budget that is not enough for all intervals serves the last ones, as many as possible.
+TEST(Retuning, ASmallBudgetServesTheLastIntervals) {
+  const std::vector<std::int64_t> least{400, 100, 300, 200};
+  const std::vector<std::pair<std::int64_t, std::size_t>> expected{
+      {0, 4}, {199, 4}, {200, 3}, {499, 3}, {500, 2}, {599, 2}, {600, 1}, {999, 1}, {1000, 0}, {9999, 0}};
+  for (const auto& [trials, first] : expected)
+    EXPECT_EQ(tuning::first_affordable(least, trials), first) << trials;
+}
+
 }  // namespace
 }  // namespace zerocount::testing

@@ -128,19 +128,30 @@ std::string_view word_of(ChangeTold told) {
   return "unknown";
 }
 
-/// "friction.k1 lower by 12 to 20 %".
+/// "12 to 20 %", "0.08 to 0.12 counts"; an end that is nothing is left out.
+std::string interval_text(const ParameterChange& change, double least, double most, bool beyond) {
+  const std::string unit = change.kind == ChangeKind::factor ? " %"
+                           : change.unit.empty()             ? ""
+                                                             : " " + change.unit;
+  if (beyond) return fmt::format("at least {:.2g}{}", least, unit);
+  return fmt::format("{:.2g} to {:.2g}{}", least, most, unit);
+}
+
+/// "friction.k1 lower by 12 to 20 %", "encoder.fine_errors.noise higher by 0.08 to 0.12 count".
 std::string change_text(const ParameterChange& change) {
-  const auto percent_off = [](double factor) { return 100.0 * std::abs(factor - 1.0); };
-  const bool lower = change.high <= 1.0;
-  if (!lower && change.low < 1.0)
-    return fmt::format("{} between {:.2g} % lower and {:.2g} % higher", change.parameter,
-                       percent_off(change.low), percent_off(change.high));
-  const double least = percent_off(lower ? change.high : change.low);
-  const double most = percent_off(lower ? change.low : change.high);
-  const char* const direction = lower ? "lower" : "higher";
-  const bool beyond = lower ? change.beyond_low : change.beyond_high;
-  if (beyond) return fmt::format("{} {} by at least {:.2g} %", change.parameter, direction, least);
-  return fmt::format("{} {} by {:.2g} to {:.2g} %", change.parameter, direction, least, most);
+  const bool is_factor = change.kind == ChangeKind::factor;
+  const auto off = [&](double end) { return is_factor ? 100.0 * std::abs(end - 1.0) : std::abs(end); };
+  const double unchanged = unchanged_by(change.kind);
+  const bool lower = change.high <= unchanged;
+  if (!lower && change.low < unchanged) {
+    const std::string unit = is_factor ? " %" : change.unit.empty() ? "" : " " + change.unit;
+    return fmt::format("{} between {:.2g}{} lower and {:.2g}{} higher", change.parameter, off(change.low),
+                       unit, off(change.high), unit);
+  }
+  return fmt::format(
+      "{} {} by {}", change.parameter, lower ? "lower" : "higher",
+      interval_text(change, off(lower ? change.high : change.low), off(lower ? change.low : change.high),
+                    lower ? change.beyond_low : change.beyond_high));
 }
 
 std::string explanation_sentence(const MonitorReading& r) {
@@ -161,38 +172,42 @@ std::string explanation_sentence(const MonitorReading& r) {
       return fmt::format("which parameter differs cannot be told from these measures: {}; {}",
                          fmt::join(texts, ", or "), compared);
     case ChangeTold::none:
-      return fmt::format(
-          "no single parameter of the model, between half and twice its value, explains these "
-          "moves; nearest: {}; {}",
-          fmt::join(texts, ", or "), compared);
+      return fmt::format("no single parameter of those tried explains these moves; nearest: {}; {}",
+                         fmt::join(texts, ", or "), compared);
     case ChangeTold::unknown:
       break;
   }
   return fmt::format("which parameter changed is not told: {}", explanation.reason);
 }
 
+/// Of a change of this kind; nothing of another.
+template <ChangeKind kind>
+auto of_kind(double ParameterChange::*member) {
+  return [member](const ParameterChange& change) {
+    return change.kind == kind ? std::optional(change.*member) : std::nullopt;
+  };
+}
+
 document::Description<ParameterChange> parameter_description() {
   using document::Notation;
+  const auto factor = of_kind<ChangeKind::factor>;
+  const auto amount = of_kind<ChangeKind::amount>;
+  const auto item = [](const char* key, const char* heading, const char* meaning) {
+    return document::Item{
+        .key = key, .heading = heading, .meaning = meaning, .notation = Notation::three_digits};
+  };
   return document::Description<ParameterChange>()
       .value({"parameter", "parameter", "dotted path"}, &ParameterChange::parameter)
-      .value({.key = "factor",
-              .heading = "times",
-              .meaning = "most likely factor by which it changed",
-              .unit = "1",
-              .notation = Notation::three_digits},
-             &ParameterChange::factor)
-      .value({.key = "low",
-              .heading = "from",
-              .meaning = "low end of the 95 % interval of the factor",
-              .unit = "1",
-              .notation = Notation::three_digits},
-             &ParameterChange::low)
-      .value({.key = "high",
-              .heading = "to",
-              .meaning = "high end of it",
-              .unit = "1",
-              .notation = Notation::three_digits},
-             &ParameterChange::high)
+      .value(item("factor", "times", "most likely factor by which it changed; null: something was added"),
+             factor(&ParameterChange::change))
+      .value(item("low", "from", "low end of the 95 % interval of the factor"), factor(&ParameterChange::low))
+      .value(item("high", "to", "high end of it"), factor(&ParameterChange::high))
+      .value(
+          item("amount", "plus", "most likely amount that was added, in its unit; null: it was multiplied"),
+          amount(&ParameterChange::change))
+      .value(item("amount_low", "from", "low end of the 95 % interval of the amount"),
+             amount(&ParameterChange::low))
+      .value(item("amount_high", "to", "high end of it"), amount(&ParameterChange::high))
       .value({.key = "probability",
               .heading = "probability",
               .meaning = "that it is this parameter, if it is one of those tried",

@@ -19,6 +19,15 @@ constexpr double improbable = 0.001;
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
+/// Where a change lies between others.
+double place_of(ChangeKind kind, double change) {
+  return kind == ChangeKind::factor ? std::log(change) : change;
+}
+
+double change_at(ChangeKind kind, double place) {
+  return kind == ChangeKind::factor ? std::exp(place) : place;
+}
+
 /// Normal scores among the values of the unchanged machines.
 class NormalScores {
  public:
@@ -94,9 +103,9 @@ Spread spread_of(const std::vector<Matrix>& machines) {
   return spread;
 }
 
-/// The statistic at one factor: normal.
+/// The statistic at one change: normal.
 struct Expected {
-  double log_factor;
+  double place;  ///< place_of() the change
   Vector mean;
   Matrix covariance;
 };
@@ -170,11 +179,11 @@ std::vector<Matrix> scored(const NormalScores& scores, const std::vector<Machine
   return all;
 }
 
-Expected expected_at(const SimulatedFactor& simulated, const NormalScores& scores,
+Expected expected_at(const SimulatedChange& simulated, ChangeKind kind, const NormalScores& scores,
                      const std::vector<Matrix>& unchanged, const Statistic& statistic) {
   const std::vector<Matrix> changed = scored(scores, simulated.machines);
   const Spread after = spread_of(changed);
-  Expected expected{std::log(simulated.factor), after.mean,
+  Expected expected{place_of(kind, simulated.change), after.mean,
                     after.between + statistic.per_move_after * after.within};
   if (statistic.has_before) {
     std::vector<Matrix> differences;
@@ -197,9 +206,9 @@ struct Fit {
 };
 
 Fit fit_of(const ChangeCandidate& candidate, const std::vector<Expected>& expected, const Vector& observed) {
-  constexpr int parts = 20;  // between two factors
+  constexpr int parts = 20;  // between two changes
   struct Point {
-    double log_factor;
+    double place;
     double likelihood;
     double misfit;
   };
@@ -210,7 +219,7 @@ Fit fit_of(const ChangeCandidate& candidate, const std::vector<Expected>& expect
       const auto between = [part](const auto& a, const auto& b) {
         return ((1.0 - part) * a + part * b).eval();
       };
-      Point point{std::lerp(expected[i].log_factor, expected[i + 1].log_factor, part), 0.0, 0.0};
+      Point point{std::lerp(expected[i].place, expected[i + 1].place, part), 0.0, 0.0};
       point.likelihood =
           log_likelihood(observed, between(expected[i].mean, expected[i + 1].mean),
                          between(expected[i].covariance, expected[i + 1].covariance), point.misfit);
@@ -224,25 +233,27 @@ Fit fit_of(const ChangeCandidate& candidate, const std::vector<Expected>& expect
   const Point* last = nullptr;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double width =
-        0.5 * (points[std::min(i + 1, points.size() - 1)].log_factor - points[i == 0 ? 0 : i - 1].log_factor);
+        0.5 * (points[std::min(i + 1, points.size() - 1)].place - points[i == 0 ? 0 : i - 1].place);
     area += width * std::exp(points[i].likelihood - best->likelihood);
     if (points[i].likelihood < best->likelihood - drop) continue;
     if (first == nullptr) first = &points[i];
     last = &points[i];
   }
-  const double range = points.back().log_factor - points.front().log_factor;
+  const double range = points.back().place - points.front().place;
   return {{.parameter = candidate.parameter,
-           .factor = std::exp(best->log_factor),
-           .low = std::exp(first->log_factor),
-           .high = std::exp(last->log_factor),
+           .kind = candidate.kind,
+           .unit = candidate.unit,
+           .change = change_at(candidate.kind, best->place),
+           .low = change_at(candidate.kind, first->place),
+           .high = change_at(candidate.kind, last->place),
            .misfit = best->misfit,
            .beyond_low = first == &points.front(),
            .beyond_high = last == &points.back()},
           best->likelihood + std::log(area / range)};
 }
 
-const SimulatedFactor& unchanged_of(const ChangeCandidate& candidate) {
-  return *std::ranges::find(candidate.factors, 1.0, &SimulatedFactor::factor);
+const SimulatedChange& unchanged_of(const ChangeCandidate& candidate) {
+  return *std::ranges::find(candidate.changes, unchanged_by(candidate.kind), &SimulatedChange::change);
 }
 
 /// The part of a row that has its most frequent value.
@@ -311,8 +322,8 @@ ChangeExplanation explain_change(std::span<const ChangeCandidate> given, const M
   if (wanted.empty()) return unknown_because("no measure differs between most simulated moves");
   std::vector<ChangeCandidate> candidates(given.begin(), given.end());
   for (ChangeCandidate& candidate : candidates)
-    for (SimulatedFactor& factor : candidate.factors)
-      for (MachineMoves& moves : factor.machines) moves = picked(moves, wanted, measures);
+    for (SimulatedChange& change : candidate.changes)
+      for (MachineMoves& moves : change.machines) moves = picked(moves, wanted, measures);
   const std::vector<MachineMoves>& same = unchanged_of(candidates.front()).machines;
   const NormalScores scores(same, wanted.size());
   const std::vector<Matrix> unchanged = scored(scores, same);
@@ -330,13 +341,13 @@ ChangeExplanation explain_change(std::span<const ChangeCandidate> given, const M
   }
   std::vector<Fit> fits;
   for (const ChangeCandidate& candidate : candidates) {
-    const bool acts = std::ranges::any_of(candidate.factors, [&](const SimulatedFactor& factor) {
-      return factor.machines != unchanged_of(candidate).machines;
+    const bool acts = std::ranges::any_of(candidate.changes, [&](const SimulatedChange& change) {
+      return change.machines != unchanged_of(candidate).machines;
     });
     if (!acts) continue;
     std::vector<Expected> expected;
-    for (const SimulatedFactor& factor : candidate.factors)
-      expected.push_back(expected_at(factor, scores, unchanged, statistic));
+    for (const SimulatedChange& change : candidate.changes)
+      expected.push_back(expected_at(change, candidate.kind, scores, unchanged, statistic));
     fits.push_back(fit_of(candidate, expected, statistic.observed));
   }
   if (fits.empty()) return unknown_because("no parameter acts on these measures");
@@ -352,10 +363,15 @@ ChangeExplanation explain_change(std::span<const ChangeCandidate> given, const M
   constexpr double plausible = 0.05;
   for (const Fit& fit : fits)
     if (fit.change.probability >= plausible) explanation.parameters.push_back(fit.change);
+  // A cause that none of the candidates is may move the measures nearly as one of them does.
   constexpr double sure = 0.95;
-  explanation.told = misfit > explanation.max_misfit                      ? ChangeTold::none
-                     : explanation.parameters.front().probability >= sure ? ChangeTold::one
-                                                                          : ChangeTold::several;
+  constexpr double doubtful = 0.05;
+  const ParameterChange& likeliest = explanation.parameters.front();
+  const bool fits_well = likeliest.misfit <=
+                         statistics::chi_squared_quantile(static_cast<double>(wanted.size()), 1.0 - doubtful);
+  explanation.told = misfit > explanation.max_misfit              ? ChangeTold::none
+                     : likeliest.probability >= sure && fits_well ? ChangeTold::one
+                                                                  : ChangeTold::several;
   return explanation;
 }
 

@@ -11,33 +11,48 @@ namespace zerocount::monitor {
 /// Moves of one machine: the values of `measures` measures, move after move.
 using MachineMoves = std::vector<double>;
 
-/// The moves of simulated machines with a parameter changed by a factor; the same machines at every factor.
-struct SimulatedFactor {
-  double factor{1.0};
+/// How a parameter changes.
+enum class ChangeKind {
+  factor,  ///< its value is multiplied
+  amount   ///< to its value, which may be 0, something is added
+};
+
+/// The moves of simulated machines with a parameter changed; the same machines at every change.
+struct SimulatedChange {
+  double change{1.0};  ///< factor, or amount in the unit of the parameter
   std::vector<MachineMoves> machines;
 };
 
 /// A parameter that may have changed.
 struct ChangeCandidate {
   std::string parameter;                 ///< dotted path
-  std::vector<SimulatedFactor> factors;  ///< rising, with 1 among them
+  std::vector<SimulatedChange> changes;  ///< rising, with unchanged_by(kind) among them
+  ChangeKind kind{ChangeKind::factor};
+  std::string unit{};  ///< of an amount
 };
+
+constexpr double unchanged_by(ChangeKind kind) {
+  return kind == ChangeKind::factor ? 1.0 : 0.0;
+}
 
 /// How well a change of one parameter explains the moves.
 struct ParameterChange {
   std::string parameter;
-  double factor{1.0};  ///< most likely
-  double low{1.0};  ///< 95 % interval of the factor, by the likelihood; an end of the range where it goes on
+  ChangeKind kind{ChangeKind::factor};
+  std::string unit{};  ///< of an amount
+  double change{1.0};  ///< most likely factor, or amount
+  double low{1.0};     ///< its 95 % interval, by the likelihood; an end of the range where it goes on
   double high{1.0};
   double probability{
       0.0};            ///< that it is this one, where one of the candidates changed and all were alike before
   double misfit{0.0};  ///< squared Mahalanobis distance of the moves from the simulated ones
-  bool beyond_low{false};   ///< the interval reaches the lowest simulated factor
+  bool beyond_low{false};   ///< the interval reaches the lowest simulated change
   bool beyond_high{false};  ///< and the highest
 };
 
 enum class ChangeTold {
-  one,      ///< one parameter explains the moves, with a probability of at least 0.95
+  one,  ///< one parameter explains the moves, with a probability of at least 0.95, and P ≥ 0.05 of moves
+        ///< this far from those simulated
   several,  ///< several do
   none,     ///< no single one does: P < 0.001 of moves this far from those simulated
   unknown   ///< nothing can be said: too few moves, or none of the candidates acts on the measures
@@ -69,8 +84,8 @@ inline constexpr std::size_t min_moves_after = 20;
 ///
 /// B between machines (less what their few moves add), W within one, enlarged by (1 + ρ)/(1 − ρ) with the
 /// serial correlation ρ of the observed moves. Without a change μ(f) is the mean of z̄(f), and B that of z̄(f).
-/// Between the factors μ and C are interpolated in log f. All parameters have the same prior, log f evenly
-/// over the range.
+/// Between the factors μ and C are interpolated in log f, between amounts in these. All parameters have the
+/// same prior, log f or the amount evenly over the range.
 ///
 /// Of measures that correlate by more than 0.9 the first counts, and none with one value in most moves; at
 /// most eight.

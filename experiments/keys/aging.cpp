@@ -51,7 +51,9 @@ void read_aging(const yaml::Field& field, std::size_t slot, study::Value& value,
     reading.problems.add(field, why, expected_instead(reading));
     return;
   }
-  if (!yaml::check_map(field, std::string(expected_aging), reading.problems)) return;
+  if (!yaml::check_map(field, fmt::format("{}; {{linear: 0, scale: 1}} switches it off", expected_aging),
+                       reading.problems))
+    return;
   std::vector<std::string> known(study::aging_law_labels.begin(), study::aging_law_labels.end());
   known.emplace_back("scale");
   parameters::check_keys(field, known, reading.problems);

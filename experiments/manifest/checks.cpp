@@ -128,7 +128,8 @@ void check_values(Checking& c) {
         if (reported.size() < max_reported && reported.insert({slots.front(), fault.what}).second) {
           const FaultPlace at = place_of_fault(c.places, c.plan(), slots, point);
           const std::string_view name = c.plan().table.rows[rule.once ? at.slot : slots.front()].name;
-          tell(c, at.place, rule.path.empty() ? name : rule.path, fault.what, fault.expected, rule.warn_only);
+          tell(c, rule.of_record ? c.places.torque_record : at.place,
+               rule.of_record ? "command.torque.file" : name, fault.what, fault.expected, rule.warn_only);
           if (rule.once) return false;
         }
       }

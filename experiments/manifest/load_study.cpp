@@ -34,6 +34,20 @@ std::string joined(const yaml::YamlNode& root, const study::Study& study) {
   return all;
 }
 
+/// The tree in which the contents of a table have replaced its name, with the place of the name.
+/// @param before with the name
+yaml::YamlPointer with_place_of_name(const yaml::YamlPointer& root, const yaml::YamlNode& before,
+                                     std::string_view path, yaml::Problems& problems) {
+  const yaml::YamlNode* const name = manifest_text::node_at(before, path);
+  const yaml::YamlNode* const contents = manifest_text::node_at(*root, path);
+  if (name == nullptr || contents == nullptr) return root;
+  auto placed = std::make_shared<yaml::YamlNode>(*contents);
+  placed->place = name->place;
+  const yaml::YamlPointer changed =
+      manifest_text::with_value(root, path, std::move(placed), name->place, problems);
+  return changed ? changed : root;
+}
+
 /// For new studies only: results files made with ineffective overrides must stay readable.
 void require_effect(const study::Study& study, std::string_view source) {
   yaml::Problems problems;
@@ -90,7 +104,8 @@ study::Study parse_study(std::string text, std::string_view source,
     std::vector<std::string> tables = sections::spectrum_overrides(*root, companions.samples, problems);
     for (std::string& record : sections::torque_record_overrides(*root, companions.samples, problems))
       tables.push_back(std::move(record));
-    root = manifest_text::apply_overrides(root, tables, override_sources, problems);
+    root = with_place_of_name(manifest_text::apply_overrides(root, tables, override_sources, problems), *root,
+                              "command.torque.file", problems);
     overrides.insert(overrides.end(), tables.begin(), tables.end());
   }
   const yaml::YamlPointer written = root;

@@ -167,7 +167,7 @@ ValueRule range_for_the_record(const trial::TorqueRecord& record, const std::str
   const std::vector<study::ValueLimits> levels{{.low = *lowest, .high = *highest}};
   ValueRule rule = range_of_the_converter(unit);
   rule.whole_list = false;
-  rule.path = "command.torque.file";
+  rule.of_record = true;
   rule.find_faults = [levels, of_levels = rule.find_faults](Limits l, Limits) {
     Faults faults = of_levels(l, levels);
     for (ValueFault& fault : faults) fault.listed.clear();

@@ -27,8 +27,8 @@ struct ValueRule {
                                         std::span<const study::ValueLimits> list)>
       find_faults;  ///< from the limits of the parameters in their order, and of the list if whole_list
   bool warn_only{false};
-  bool once{false};         ///< only the first fault is reported, at the parameter of the rule that is given
-  std::string_view path{};  ///< of the message, of a key that is no parameter; empty: as above
+  bool once{false};       ///< only the first fault is reported, at the parameter of the rule that is given
+  bool of_record{false};  ///< the message is about command.torque.file, which is not a parameter
 };
 
 /// The rules between the values of the list and the parameters of the command: the number of samples of a

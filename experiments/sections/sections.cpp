@@ -75,6 +75,7 @@ void complete_moves(SectionReading& s) {
 // Reads the torque that command.torque.file has in place of levels. A name that is still there is that of a
 // table whose problems are reported already; see torque_record_overrides().
 void read_recorded_torque(SectionReading& s, const yaml::Field& field) {
+  s.places.torque_record = field.node->place;
   if (field.node->kind != yaml::YamlNode::Kind::scalar || s.problems().empty())
     s.plan().common.command.torque.record = read_torque_record(field, s.problems());
   const auto torque = yaml::find_field(yaml::find_field(s.root, "command").value(), "torque").value();

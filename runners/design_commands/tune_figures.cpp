@@ -131,18 +131,44 @@ Figure lost_ages_figure(const tuning::LostAges& life, const study::Study& study)
   return figure;
 }
 
+/// The criterion of both sets of values over the ages of each interval; an age at which it is never is left
+/// out.
+Figure retuning_figure(const tuning::Retuning& retuning, const study::Study& study) {
+  FigureData data{"ages",
+                  {{"series", "values", ""},
+                   {"from", "tuned at", study.ages.unit},
+                   {"age", "age", study.ages.unit},
+                   {"criterion", criterion_title(study), ""}}};
+  std::vector<double> ages;
+  for (const tuning::RetunedInterval& one : retuning.intervals) {
+    for (const auto& [name, verdicts] :
+         {std::pair{"one set for the whole life", &one.one_set}, std::pair{"tuned again", &one.retuned}}) {
+      for (const tuning::AgeVerdict& at : *verdicts) {
+        if (!std::isfinite(at.criterion)) continue;
+        data.rows.push_back({name, datum(one.interval.from()), datum(at.age), datum(at.criterion)});
+        ages.push_back(at.age);
+      }
+    }
+  }
+  Figure figure = report::figure_of(
+      "retuning", "tuning-retuning", "What does tuning again buy?",
+      fmt::format(
+          "The criterion of the worst goal and condition at the beginning and the end of each interval "
+          "of {}, and at the ages of the study between, on the same fresh machines; a line for each "
+          "interval. Lower is better. An age at which it is not reached within the hold is left out.",
+          study::age_text(study.ages, retuning.every)),
+      {std::move(data)});
+  figure.specification["encoding"]["y"]["title"] = criterion_title(study);
+  std::ranges::sort(ages);
+  ages.erase(std::unique(ages.begin(), ages.end()), ages.end());
+  report::scale_ages(figure, ages, study.ages.unit);
+  return figure;
+}
+
 /// The proportion that the worst goal of the proof asks for.
 double asked_of(const TuneAnswer& answer, const study::Study& study) {
   const study::Goal& goal = study.goals[answer.proof->verdict.goal];
   return goal.machines.value_or(goal.moves);
-}
-
-/// "band_settling_time.p95 (s)".
-std::string criterion_title(const study::Study& study) {
-  const std::string name = tuning::criterion_name(study);
-  if (tuning::is_proportion_of_allowed(study)) return name + ", of the time that its goal allows";
-  const std::string& unit = tuning::criteria_of(study).front().measure->field.column.unit;
-  return unit == "1" || unit.empty() ? name : fmt::format("{} ({})", name, unit);
 }
 
 Figure frontier_figure(const TuneAnswer& answer, const study::Study& study) {
@@ -206,6 +232,13 @@ bool is_drawn(const Tuning& tuning) {
 
 }  // namespace
 
+std::string criterion_title(const study::Study& study) {
+  const std::string name = tuning::criterion_name(study);
+  if (tuning::is_proportion_of_allowed(study)) return name + ", of the time that its goal allows";
+  const std::string& unit = tuning::criteria_of(study).front().measure->field.column.unit;
+  return unit == "1" || unit.empty() ? name : fmt::format("{} ({})", name, unit);
+}
+
 std::vector<Figure> map_figures(const Tuning& tuning) {
   std::vector<Figure> figures;
   if (!is_drawn(tuning)) return figures;
@@ -221,6 +254,11 @@ std::vector<Figure> frontier_figures(const Tuning& tuning) {
 std::vector<Figure> lost_ages_figures(const Tuning& tuning) {
   if (!is_drawn(tuning) || !tuning.answer.lost_ages) return {};
   return {lost_ages_figure(*tuning.answer.lost_ages, tuning.study)};
+}
+
+std::vector<Figure> retuning_figures(const Tuning& tuning) {
+  if (!is_drawn(tuning) || !tuning.answer.retuning || tuning.answer.retuning->intervals.empty()) return {};
+  return {retuning_figure(*tuning.answer.retuning, tuning.study)};
 }
 
 std::vector<Figure> room_figures(const Tuning& tuning) {

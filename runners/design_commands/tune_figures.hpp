@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "analysis/document/figure.hpp"
@@ -12,6 +13,10 @@ namespace zerocount::design_commands {
 std::vector<document::Figure> map_figures(const Tuning& tuning);
 std::vector<document::Figure> frontier_figures(const Tuning& tuning);
 std::vector<document::Figure> lost_ages_figures(const Tuning& tuning);
+std::vector<document::Figure> retuning_figures(const Tuning& tuning);
 std::vector<document::Figure> room_figures(const Tuning& tuning);
+
+/// "band_settling_time.p95 (s)": what is minimised, with its unit.
+std::string criterion_title(const study::Study& study);
 
 }  // namespace zerocount::design_commands

@@ -8,6 +8,7 @@
 
 #include "analysis/goal/goal_description.hpp"
 #include "analysis/text/text.hpp"
+#include "runners/design_commands/tune_figures.hpp"
 #include "runners/design_commands/tune_parts.hpp"
 
 namespace zerocount::design_commands {
@@ -82,6 +83,7 @@ Description<RetunedRow> age_columns() {
           [](Row row) { return row.of.interval.from(); })
       .value({.key = "age", .heading = "at age", .meaning = "age of the interval, up to its end"},
              [](Row row) { return row.of.interval.ages[row.age]; })
+      .value({.heading = "unit", .shown = Shown::to_people}, [](Row row) { return row.study.ages.unit; })
       .value({.key = "goal", .heading = "goal", .meaning = "name of the goal, of several", .optional = true},
              goal_name_of)
       .value({.key = "condition",
@@ -107,13 +109,14 @@ Description<RetunedRow> age_columns() {
 struct IntervalRow {
   const RetunedInterval& of;
   const std::vector<study::FreeParameter>& free;
+  const study::Study& study;
 };
 
 std::vector<IntervalRow> interval_rows(Of tuning) {
   std::vector<IntervalRow> rows;
   if (!tuning.answer.retuning) return rows;
   for (const RetunedInterval& one : tuning.answer.retuning->intervals)
-    rows.push_back({one, tuning.answer.free});
+    rows.push_back({one, tuning.answer.free, tuning.study});
   return rows;
 }
 
@@ -128,6 +131,7 @@ Description<IntervalRow> interval_columns() {
              [](Row row) { return row.of.interval.from(); })
       .value({.key = "to", .heading = "to", .meaning = "its end"},
              [](Row row) { return row.of.interval.to(); })
+      .value({.heading = "unit", .shown = Shown::to_people}, [](Row row) { return row.study.ages.unit; })
       .value(in_data("gains", "values for the interval by parameter; none if none keep the margins"),
              [](Row row) { return named(row.free, row.of.gains); })
       .value({.heading = "values", .shown = Shown::to_people},
@@ -135,10 +139,14 @@ Description<IntervalRow> interval_columns() {
                return row.of.gains.empty() ? std::string("none keeps the margins")
                                            : values_text(named(row.free, row.of.gains));
              })
+      .value({.key = "criterion_name",
+              .heading = "criterion",
+              .meaning = "quantity that is minimised, with its unit"},
+             [](Row row) { return criterion_title(row.study); })
       .value({.key = "criterion_one_set",
-              .heading = "criterion, one set (–: never)",
-              .meaning = "quantity that is minimised, the largest of the interval, with the values for the "
-                         "whole life; unknown for never"},
+              .heading = "with one set (–: never)",
+              .meaning = "the criterion, the largest of the interval, with the values for the whole life; "
+                         "unknown for never"},
              [](Row row) { return latest_of(row.of.one_set); })
       .value({.key = "criterion",
               .heading = "tuned again",
@@ -212,7 +220,8 @@ void add_retuning(Description<Tuning>& items) {
           age_columns(), all_rows)
       .table({.heading = "what tuning again buys, of the goal and condition that the one set serves worst",
               .shown = Shown::to_people},
-             age_columns(), worst_rows);
+             age_columns(), worst_rows)
+      .figures(retuning_figures);
 }
 
 }  // namespace zerocount::design_commands

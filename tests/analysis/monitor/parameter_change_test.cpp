@@ -51,7 +51,7 @@ class Machines {
 ChangeCandidate candidate(const char* name, const Machines& simulated, const Slopes& slopes) {
   ChangeCandidate one{name, {}};
   for (const double factor : {0.5, 0.6, 0.7, 0.8, 0.87, 0.94, 1.0, 1.06, 1.15, 1.25, 1.43, 1.67, 2.0})
-    one.factors.push_back({factor, simulated.at(slopes, factor, 64, 16)});
+    one.changes.push_back({factor, simulated.at(slopes, factor, 64, 16)});
   return one;
 }
 
@@ -95,6 +95,24 @@ TEST(ParameterChange, OfTwoThatActAlikeIsNotTold) {
   EXPECT_EQ(found.told, ChangeTold::several);
   ASSERT_EQ(found.parameters.size(), 2u);
   EXPECT_NEAR(found.parameters[0].probability, 0.5, 1e-6);
+}
+
+// Noise is added where there is none: a factor of it changes nothing.
+TEST(ParameterChange, IsToldAsAnAmountWhereItWasNothing) {
+  const Machines simulated(8, 0.5);
+  ChangeCandidate noise{"noise", {}, ChangeKind::amount, "count"};
+  for (const double amount : {0.0, 0.1, 0.2, 0.4, 0.8})
+    noise.changes.push_back({amount, simulated.at(damping, std::exp(amount), 64, 16)});
+  const std::vector<ChangeCandidate> candidates{candidate("stiffness", simulated, stiffness), noise};
+  const ChangeExplanation found = explain_change(
+      candidates, changed_machine(Machines(9, 0.5), damping, std::exp(0.3), 200, 300), measures);
+  ASSERT_EQ(found.told, ChangeTold::one);
+  EXPECT_EQ(found.parameters[0].parameter, "noise");
+  EXPECT_EQ(found.parameters[0].kind, ChangeKind::amount);
+  EXPECT_EQ(found.parameters[0].unit, "count");
+  EXPECT_LE(found.parameters[0].low, 0.3);
+  EXPECT_GE(found.parameters[0].high, 0.3);
+  EXPECT_NEAR(found.parameters[0].change, 0.3, 0.1);
 }
 
 TEST(ParameterChange, ThatNoneExplainsIsSaid) {

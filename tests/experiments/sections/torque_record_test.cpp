@@ -135,6 +135,7 @@ TEST(TorqueOfAFile, BeyondTheConverterHasItsWarning) {
     EXPECT_NE(study.warnings[0].find("command.torque.file: 1000000 N m can be outside the converter's range"),
               std::string::npos)
         << study.warnings[0];
+    EXPECT_EQ(study.warnings[0].find("1:1:"), std::string::npos) << "not the place of the key";
   }
 }
 

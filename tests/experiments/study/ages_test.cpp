@@ -371,6 +371,7 @@ TEST(Ages, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
       {refusal_with("friction: {k2: {value: 700, aging: {linear: -0.05}}}\n"),
        "k2.aging: the scale is missing"},
       {refusal_with("friction: {k2: {value: 700, aging: {scale: 2}}}\n"), "k2.aging: found 0 laws"},
+      {refusal_with("friction: {k2: {value: 700, aging: null}}\n"), "{linear: 0, scale: 1} switches it off"},
       {refusal_with("friction: {k2: {value: 700, aging: {linear: 1, exponential: 1, scale: 2}}}\n"),
        "k2.aging: found 2 laws"},
       {refusal_with("friction: {k2: {value: 700, aging: {lineer: 1, scale: 2}}}\n"),

@@ -25,7 +25,7 @@ LINE = "disturbance.vibration=[{amplitude: 1e-4, frequency: 50, phase: 1}]"
 SPECTRUM = "disturbance.vibration=[{spectrum: [[1, 1e-10], [100, 1e-10]], lines: 100}]"
 NOISE = "encoder.fine_errors.noise=0.1"
 LUGRE = ["friction.model=lugre", "friction.sigma0=400"]
-LOAD = ["plant.load.inertia=1e-4", "plant.load.stiffness=400", "plant.load.damping=1e-3"]
+LOAD = ["plant.load.inertia=1e-4"]
 ROWS = {
     "none": [],
     "delay": ["controller.delay=1"],
@@ -52,13 +52,14 @@ ROWS = {
 
 
 def user_time(program, workload, settings, trials, engine, folder):
+    """CPU seconds of a run, without those of the kernel."""
     output = pathlib.Path(folder) / "run.h5"
     command = [program, "run", str(ROOT / f"experiments/bench-{workload}.yaml"), "--threads", "1", "--quiet"]
     command += ["--engine", engine, "-o", str(output)]
     for setting in [f"trials={trials}", "friction.n=2", *settings]:
         command += ["--set", setting]
     before = os.times().children_user
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     used = os.times().children_user - before
     output.unlink()
     return used
@@ -99,7 +100,8 @@ def main():
                 ratios.append(times[-1] / times[-2])
                 gains.append(times[0] / times[-2])
             figures = [f"{r:.1f}" for r in ratios] + [f"{g:.2f}" for g in gains if len(programs) > 1]
-            print(f"| {row} | {' | '.join(figures)} |", flush=True)
+            label = ", ".join(f"`{setting}`" for setting in ROWS[row]) or "none"
+            print(f"| {label} | {' | '.join(figures)} |", flush=True)
 
 
 if __name__ == "__main__":

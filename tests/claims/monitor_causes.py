@@ -27,7 +27,7 @@ initial: {encoder_phase: {uniform: [0, 1]}}
 """
 BEFORE, AFTER = 192, 320  # moves
 FEW = ["settling_time", "band_settling_time[1]", "overshoot", "outcome", "holding_torque"]
-# Settings of the changed machine, the parameters that are right, and whether they are wrong to name.
+# Settings of the changed machine, and the parameters that are right to name.
 CAUSES = {
     "k1 −15 %": (["friction.k1={softer}"], {"friction.k1"}),
     "inertia +20 %": (["plant.inertia=6.648e-4"], {"plant.inertia"}),

@@ -1641,8 +1641,9 @@ class TuneAnswer(Answer):
         - ``from``: beginning of the interval, in the unit of ages
         - ``to``: its end
         - ``gains``: values for the interval by parameter; none if none keep the margins
-        - ``criterion_one_set``: quantity that is minimised, the largest of the interval, with the values for the whole
-          life; unknown for never
+        - ``criterion_name``: quantity that is minimised, with its unit
+        - ``criterion_one_set``: the criterion, the largest of the interval, with the values for the whole life; unknown
+          for never
         - ``criterion``: the same with the values of the interval
         - ``machines``: fresh machines, or draws, that it was simulated on
 
@@ -2530,9 +2531,12 @@ class MonitorAnswer(Answer):
         Parameters of the model that explain the change.
 
         - ``parameter``: dotted path
-        - ``factor``: most likely factor by which it changed
+        - ``factor``: most likely factor by which it changed; null: something was added
         - ``low``: low end of the 95 % interval of the factor
         - ``high``: high end of it
+        - ``amount``: most likely amount that was added, in its unit; null: it was multiplied
+        - ``amount_low``: low end of the 95 % interval of the amount
+        - ``amount_high``: high end of it
         - ``probability``: that it is this parameter, if it is one of those tried
 
     """

@@ -147,9 +147,7 @@ struct Pilot {
 /// @param leaves_choice between rigs and trials on each
 document::AnswerDescription<Pilot> pilot_answer(bool leaves_choice = true) {
   document::AnswerDescription<Pilot> answer{
-      {.name = "plan-pilot",
-       .meaning = "the study that decides the goal, by the results of a small one",
-       .csv_table = "studies"},
+      {.name = "plan-pilot", .meaning = "the study that decides the goal, by the results of a small one"},
       {}};
   answer.items.headline([](const Pilot& p) { return summary::judgement_headline(p.summary, p.judged); })
       .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},

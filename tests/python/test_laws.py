@@ -50,7 +50,7 @@ def test_a_trial_is_named_in_every_way(axis: zc.Study, folder: pathlib.Path) -> 
 def test_an_integral_law_has_the_bits_of_the_built_in_one(axis: zc.Study, point: int) -> None:
     """The integral of the README's study in Python gives the same trials, at every gain."""
     gain = axis.checked.axes[0]["values"][point]
-    for trial in (0, 17, 1999):
+    for trial in (0, 17, 399):
         assert same_trace(zc.trial(axis, point, trial, pi(0, gain, si=True)), zc.trial(axis, point, trial))
 
 

@@ -8,8 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <oneapi/tbb/parallel_for.h>
-
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "core/random/random_numbers.hpp"
 #include "core/random/variates.hpp"
@@ -235,7 +234,7 @@ Chances chances_under(const std::vector<std::vector<SimulatedComparison>>& outco
 Chances chances_with(const Simulator& simulator, double trials, const std::vector<Truth>& truths,
                      const ForecastOptions& options) {
   std::vector<std::vector<SimulatedComparison>> outcomes(static_cast<std::size_t>(options.simulations));
-  oneapi::tbb::parallel_for(std::size_t{0}, outcomes.size(), [&](std::size_t i) {
+  parallel::for_each_index(outcomes.size(), [&](std::size_t i) {
     outcomes[i] = simulator.simulate(trials, truths, static_cast<std::uint32_t>(i));
   });
   Chances lowest = chances_under(outcomes, 0, options.probability);

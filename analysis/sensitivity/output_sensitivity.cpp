@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <oneapi/tbb/parallel_for.h>
 
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/sensitivity/given_data_index.hpp"
 #include "analysis/sensitivity/logistic_fit.hpp"
 #include "analysis/sensitivity/rank_correlation.hpp"
@@ -111,7 +111,7 @@ void add_correlations(const Varying& varying, const std::vector<double>& y, bool
                       double confidence, OutputSensitivity& result) {
   const std::vector<BoundedNumber> partial = partial_rank_correlations(varying.values, y, confidence);
   std::vector<FactorSensitivity> found(varying.names.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t j) {
+  parallel::for_each_index(found.size(), [&](std::size_t j) {
     const auto column = varying.values.col(static_cast<Eigen::Index>(j));
     const std::span<const double> x(column.data(), y.size());
     found[j].rank_correlation = rank_correlation(x, y, confidence);

@@ -5,8 +5,8 @@
 #include <cstddef>
 
 #include <Eigen/Core>
-#include <oneapi/tbb/parallel_for.h>
 
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/sensitivity/pair_difference.hpp"
 
 namespace zerocount::sensitivity {
@@ -221,9 +221,9 @@ std::vector<SobolIndices> saltelli_indices(const SaltelliSample& sample, double 
   const std::vector<double> unset(static_cast<std::size_t>(replicates));
   std::vector<std::vector<double>> first_orders(factors, unset);
   std::vector<std::vector<double>> totals(factors, unset);
-  oneapi::tbb::parallel_for(std::int64_t{0}, replicates, [&](std::int64_t replicate) {
+  parallel::for_each_index(static_cast<std::size_t>(replicates), [&](std::size_t r) {
+    const auto replicate = static_cast<std::int64_t>(r);
     const Eigen::VectorXd drawn = sums * draw_groups(sums.cols(), replicate, randomness);
-    const auto r = static_cast<std::size_t>(replicate);
     for (std::size_t j = 0; j < factors; ++j) {
       const IndexValues values = index_values(drawn, static_cast<Eigen::Index>(j), controls[j]);
       first_orders[j][r] = values.first_order;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/keys/aging.hpp"
@@ -81,6 +82,10 @@ std::string description_of(const parameters::Parameter& parameter) {
 }
 
 }  // namespace
+
+Json object_of(Json properties) {
+  return object_of(std::move(properties), Json::array());
+}
 
 Json object_of(Json properties, Json required) {
   Json schema{{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "core/numerics/interval.hpp"
 #include "experiments/parameters/parameter_table.hpp"
@@ -17,7 +17,10 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view rate_pattern = R"(^[a-z_0-9.]+\.aging$)";
 
 /// A map of these keys only.
-Json object_of(Json properties, Json required = Json::array());
+Json object_of(Json properties);
+
+/// Likewise, of which some must be there.
+Json object_of(Json properties, Json required);
 
 /// A list of at least `min_items`.
 Json list_of(Json item, std::size_t min_items);

@@ -96,7 +96,7 @@ double least_of(const std::vector<ClaimAtAge>& claims, std::int64_t worlds, doub
   return least;
 }
 
-/// Of claims that are in the order of their goals, those of each goal.
+/// Groups claims, which are in the order of their goals, by goal.
 std::vector<std::vector<ClaimAtAge>> by_goals(const std::vector<ClaimAtAge>& claims) {
   std::vector<std::vector<ClaimAtAge>> goals;
   for (const ClaimAtAge& claim : claims) {

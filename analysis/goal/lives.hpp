@@ -11,7 +11,7 @@ namespace zerocount::goal {
 
 /// [age] the proportion of machines that meet the question at the age, with one-sided bounds.
 ///
-/// Of one goal under one condition the bounds are those of a claim on machines (judge_goal()).
+/// The bounds of one goal under one condition are those of a claim on machines (judge_goal()).
 ///
 /// A machine that misses a goal under some condition shows c or more good moves under all of them no more
 /// often than under that one. So the fewest good moves of a machine under any condition bound the machines

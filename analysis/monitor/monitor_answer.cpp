@@ -180,7 +180,7 @@ std::string explanation_sentence(const MonitorReading& r) {
   return fmt::format("which parameter changed is not told: {}", explanation.reason);
 }
 
-/// Of a change of this kind; nothing of another.
+/// Reads a member of a change of this kind; nothing for a change of another kind.
 template <ChangeKind kind>
 auto of_kind(double ParameterChange::*member) {
   return [member](const ParameterChange& change) {

@@ -8,8 +8,8 @@ namespace zerocount::random {
 /// complementary bits give exactly the negative.
 double standard_normal(std::uint64_t bits);
 
-/// The same for the noise in a running trial, by a formula that lanes have, too: within 1e-15 relative of
-/// standard_normal(), whose bits the drawn parameters of manifests keep.
+/// A standard normal number for the noise in a running trial, by a formula that the lanes evaluate as well.
+/// It is within a relative 1e-15 of standard_normal(), which draws the parameters of manifests.
 double standard_normal_noise(std::uint64_t bits);
 
 /// A binomial number: how many of `n` independent events of probability `probability` occur. By inversion:

@@ -19,7 +19,7 @@ constexpr std::string_view rate_pattern = R"(^[a-z_0-9.]+\.aging$)";
 /// A map of these keys only.
 Json object_of(Json properties);
 
-/// Likewise, of which some must be there.
+/// A map of these keys only; those of `required` must be there.
 Json object_of(Json properties, Json required);
 
 /// A list of at least `min_items`.

@@ -39,7 +39,7 @@ std::vector<AddedCause> added_causes() {
            "count",
            {0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.8},
            [](Trial& p, double amount) { p.encoder.fine_errors.noise += amount; }},
-          // Of the torque, so that it stays above -1.
+          // Factors of the torque less one: the gain error stays above -1.
           {"dac.gain_error",
            "",
            {-0.5, -0.4, -0.3, -0.2, -0.13, -0.06, 0.0, 0.06, 0.15, 0.25, 0.43, 0.67, 1.0},
@@ -121,7 +121,7 @@ bool can_be_scaled(const study::Study& study, std::int64_t point, std::string_vi
   return limits.low != 0.0 || limits.high != 0.0;
 }
 
-/// What is simulated with each change.
+/// The study, point and trials that are simulated with each change.
 struct Simulations {
   const study::Study& study;
   std::int64_t point;

@@ -134,7 +134,7 @@ std::int64_t least_trials_of_other_search(const study::Study& study,
 std::int64_t least_trials_of_retuning(const study::Study& study, std::span<const study::FreeParameter> free) {
   const double search =
       static_cast<double>(least_trials_of_other_search(study, free)) / search_part_of_retuning;
-  // What a search that takes all of its part leaves is halved for the two sets of values.
+  // The two sets of values share what remains after a search that uses its whole part.
   const double rest = 1.0 - search_part_of_retuning * (1.0 - judgement_part);
   const double runs = 2.0 * static_cast<double>(min_units_of_judgement * trials_of_machine(study)) / rest;
   return whole_trials(std::ceil(std::max(search, runs)));

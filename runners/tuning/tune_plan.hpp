@@ -57,7 +57,8 @@ SearchPlan plan_other_search(const study::Study& study, std::span<const study::F
 std::int64_t least_trials_of_other_search(const study::Study& study,
                                           std::span<const study::FreeParameter> free);
 
-/// Of the effort of an interval of life that is tuned again; the rest runs two sets of values at each age.
+/// The proportion of the effort for an interval of life that its search gets; the rest runs two sets of
+/// values at each age.
 inline constexpr double search_part_of_retuning = 0.75;
 
 /// Trials that are enough for the smallest search in an interval of life, and for the runs beside it.
@@ -70,8 +71,8 @@ struct RestPlan {
   std::int64_t trials_of_maps{0};  ///< kept for them; 0 where they are not affordable
 };
 
-/// As many units for each of so many points as leave the effort for all of them, for the searches, and for
-/// the maps if they are affordable beside these.
+/// Chooses the number of units per point so that the effort is enough for all points, for the searches, and
+/// for the maps if they fit beside these.
 /// @param searches trials of the smallest searches of other controls and intervals together
 RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t trials_of_maps,
                    std::int64_t searches, const trials::Effort& effort, double speed);

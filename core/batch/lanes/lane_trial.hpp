@@ -21,7 +21,7 @@ namespace zerocount::batch {
 /// The scalar plant of a lane with a hook.
 using LanePlant = plant::PlantWith<friction::PreslidingFriction>;
 
-/// How far ahead the motion of a lane at rest is described (CreepAheadLanes).
+/// The number of samples for which the motion of a lane at rest is computed at once (CreepAheadLanes).
 struct CreepAhead {
   int samples{0};     ///< evaluated one by one since the lane came to rest
   double span{16.0};  ///< samples to describe next time

@@ -28,7 +28,7 @@ def main(manifest):
         return np.quantile(f.set(gains)(machines), 0.95), gains
 
     found = scipy.optimize.differential_evolution(
-        lambda place: settled_95(place)[0], [(0, 1)] * 3, seed=1, popsize=8, maxiter=8, polish=False
+        lambda place: settled_95(place)[0], [(0, 1)] * 3, seed=1, popsize=6, maxiter=6, polish=False
     )
     time, gains = settled_95(found.x)
     print(f"on these machines 95 % of the moves settle within {1e3 * time:.1f} ms")

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import matplotlib
 import pytest
 import zerocount as zc
-from support import ROOT, first_study, shipped
+from support import ROOT, shipped, short_first_study
 
 matplotlib.use("Agg")
 # As applications with Qt do; decimal_comma.py asks for a locale with a comma.
@@ -28,9 +28,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
 def axis(folder: pathlib.Path) -> zc.Study:
     """The first study of the README, with a fifth of its trials."""
     path = folder / "my-axis.yaml"
-    first_study(ROOT, path)
-    text = path.read_text(encoding="utf-8").replace("rigs: 1000", "rigs: 200").replace("trials: 2000", "trials: 400")
-    path.write_text(text, encoding="utf-8")
+    short_first_study(ROOT, path)
     return zc.study(path)
 
 

@@ -10,7 +10,7 @@ import sys
 import tempfile
 import traceback
 
-from support import first_study
+from support import short_first_study
 
 PAGE = "runners/python/README.md"
 
@@ -20,7 +20,7 @@ def main(root: pathlib.Path) -> int:
     blocks = re.findall(r"```python\n(.*?)```", (root / PAGE).read_text(encoding="utf-8"), re.DOTALL)
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        first_study(root, pathlib.Path("my-axis.yaml"))
+        short_first_study(root, pathlib.Path("my-axis.yaml"))
         names: dict[str, object] = {}
         for block in blocks:
             try:

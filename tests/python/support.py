@@ -41,6 +41,13 @@ def first_study(root: pathlib.Path, path: pathlib.Path) -> None:
     path.write_text(re.search(r"```yaml\n(zerocount: 1\nname: my-axis\n.*?)```", text, re.DOTALL)[1], encoding="utf-8")
 
 
+def short_first_study(root: pathlib.Path, path: pathlib.Path) -> None:
+    """Writes that manifest with a fifth of its trials."""
+    first_study(root, path)
+    text = path.read_text(encoding="utf-8").replace("rigs: 1000", "rigs: 200").replace("trials: 2000", "trials: 400")
+    path.write_text(text, encoding="utf-8")
+
+
 def shipped(name: str) -> zc.Study:
     """A shipped study, short."""
     return zc.study(ROOT / "experiments" / "manifests" / f"{name}.yaml").set(**SMALL[name])

@@ -70,9 +70,9 @@ def tune(
         manifest's units. Default: that of the manifest.
     minimise : str, optional
         The criterion, such as ``"band_settling_time.p95"``.
-    margins : dict, optional
+    margins : dict or "off", optional
         Least margins ``gain`` (dB), ``phase`` (degrees) and ``delay`` (samples), the largest ``sensitivity``, and
-        the ``spread`` of the machines that keep them.
+        the ``spread`` of the machines that keep them, such as ``{"gain": 1, "phase": 10, "spread": "off"}``.
     budget : int or str, optional
         Of the search, the proof and the extras: a number of trials, or a time such as ``"60s"``.
     extras : str, optional
@@ -103,12 +103,11 @@ def tune(
     Examples
     --------
     >>> free = {"controller.ki": {"log": [5e3, 5e4]}}
-    >>> margins = {"gain": 1, "phase": 10, "spread": "off"}
-    >>> tuned = zc.tune("my-axis.yaml", "tuned.h5", free=free, margins=margins, budget=40000)
+    >>> tuned = zc.tune("my-axis.yaml", "tuned.h5", free=free, margins="off", budget=10000)
     >>> tuned.status
     'met'
     >>> tuned.manifest
-    <Study 'my-axis': 1 design point × 5547 trials>
+    <Study 'my-axis': 1 design point × 500 trials>
     """
     from .studies import study
 

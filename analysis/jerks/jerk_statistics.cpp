@@ -12,7 +12,7 @@
 
 #include "analysis/jerks/jerk_rates.hpp"
 #include "analysis/jerks/observed_move.hpp"
-#include "analysis/statistics/clusters/clustered_quantile.hpp"
+#include "analysis/statistics/clusters/trial_clusters.hpp"
 #include "analysis/statistics/sums/histogram.hpp"
 #include "core/failure/failure.hpp"
 

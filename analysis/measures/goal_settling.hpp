@@ -6,7 +6,7 @@
 
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/measure_statistics.hpp"
-#include "analysis/statistics/clusters/clustered_quantile.hpp"
+#include "analysis/statistics/clusters/trial_clusters.hpp"
 #include "core/trial/outcome.hpp"
 
 namespace zerocount::measures {

@@ -10,7 +10,7 @@
 #include "analysis/measures/measure_statistics.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/statistics/clusters/clustered_mean.hpp"
-#include "analysis/statistics/clusters/clustered_quantile.hpp"
+#include "analysis/statistics/clusters/trial_clusters.hpp"
 #include "analysis/statistics/sums/histogram.hpp"
 #include "analysis/statistics/sums/state.hpp"
 #include "analysis/statistics/trend.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/statistics/unknown.hpp"
@@ -122,40 +121,6 @@ double clustered_upper_limit(const ClusteredSample& sample, double content, doub
   if (sample.observed().size == 0) return unknown;
   const std::int64_t whole = whole_values(sample, order_statistic(sample.observed(), rank), 1.0 - confidence);
   return scaled_high(sample, tolerance_rank(whole, content, confidence), whole);
-}
-
-void TrialClusters::add_trial(std::int64_t trial, std::vector<double>& observed, std::int64_t size) {
-  if (rigs_in_all_ == 0) {
-    trials_.add_cluster(std::span<double>(observed), size);
-    return;
-  }
-  const auto number = static_cast<std::size_t>(trial % rigs_in_all_);
-  if (number >= rigs_.size()) rigs_.resize(number + 1);
-  Rig& rig = rigs_[number];
-  for (const double value : observed) rig.observed.add(value);
-  rig.size += size;
-}
-
-TrialClusters& TrialClusters::operator+=(const TrialClusters& other) {
-  trials_ += other.trials_;
-  if (rigs_.size() < other.rigs_.size()) rigs_.resize(other.rigs_.size());
-  for (std::size_t i = 0; i < other.rigs_.size(); ++i) {
-    rigs_[i].observed += other.rigs_[i].observed;
-    rigs_[i].size += other.rigs_[i].size;
-  }
-  return *this;
-}
-
-std::int64_t TrialClusters::size() const {
-  return std::accumulate(rigs_.begin(), rigs_.end(), trials_.size(),
-                         [](std::int64_t sum, const Rig& rig) { return sum + rig.size; });
-}
-
-ClusteredSample TrialClusters::sample() const {
-  if (rigs_in_all_ == 0) return trials_;
-  ClusteredSample sample;
-  for (const Rig& rig : rigs_) sample.add_cluster(rig.observed, rig.size);
-  return sample;
 }
 
 }  // namespace zerocount::statistics

@@ -79,48 +79,4 @@ Quantile clustered_quantile(const ClusteredSample& sample, double probability,
 /// tolerance_rank().
 double clustered_upper_limit(const ClusteredSample& sample, double content, double confidence);
 
-/// Collects the values of trials into clusters. A cluster is a trial, or with rigs all trials of a rig; trial
-/// i runs on rig i mod rigs.
-class TrialClusters {
- public:
-  /// @param rigs number of rigs; 0: every trial is a cluster
-  explicit TrialClusters(std::int64_t rigs = 0) : rigs_in_all_(rigs) {}
-
-  /// Adds a trial with `size` values: those in `observed`; the others are censored (larger than all observed
-  /// ones).
-  /// @param observed in any order; sorted by the call
-  void add_trial(std::int64_t trial, std::vector<double>& observed, std::int64_t size);
-  /// Adds other trials, of as many rigs.
-  TrialClusters& operator+=(const TrialClusters& other);
-
-  /// The sample of all trials added so far.
-  ClusteredSample sample() const;
-  std::int64_t size() const;  ///< of the sample
-
-  template <class Self, class Archive>
-  static void transfer(Self& self, Archive& archive) {
-    archive(self.rigs_, self.trials_);
-    if constexpr (!std::is_const_v<Self>) {
-      archive.require(std::ssize(self.rigs_) <= self.rigs_in_all_);
-      for (const Rig& rig : self.rigs_)
-        archive.require(rig.observed.size <= rig.size &&
-                        rig.size <= (std::int64_t{1} << 53) / std::ssize(self.rigs_));
-    }
-  }
-
- private:
-  struct Rig {
-    Histogram<double> observed;
-    std::int64_t size{0};
-
-    template <class Self, class Archive>
-    static void transfer(Self& self, Archive& archive) {
-      archive(self.observed, self.size);
-    }
-  };
-  std::int64_t rigs_in_all_;
-  std::vector<Rig> rigs_;   ///< rigs that have trials
-  ClusteredSample trials_;  ///< without rigs
-};
-
 }  // namespace zerocount::statistics

@@ -77,37 +77,6 @@ TEST(ClusteredQuantile, ValuesThatAreAlikeInTheirClusterCountOnce) {
   }
 }
 
-TEST(ClusteredQuantile, MomentsOfTheClustersAreThoseOfTheirValues) {
-  std::mt19937_64 random(42);
-  TrialClusters by_rig(7);
-  std::vector<std::vector<double>> rigs(7);
-  std::vector<std::int64_t> sizes(7);
-  for (std::int64_t trial = 0; trial < 70; ++trial) {
-    std::vector<double> values;
-    for (int move = 0; move < 3; ++move) {
-      if (random() % 5 != 0) values.push_back(static_cast<double>(random() % 20));
-    }
-    const auto rig = static_cast<std::size_t>(trial % 7);
-    rigs[rig].insert(rigs[rig].end(), values.begin(), values.end());
-    sizes[rig] += 3;
-    by_rig.add_trial(trial, values, 3);
-  }
-  for (const double x : {-1.0, 4.0, 11.5, 30.0}) {
-    ClusterSums expected;
-    for (std::size_t rig = 0; rig < 7; ++rig) {
-      const auto hits = std::count_if(rigs[rig].begin(), rigs[rig].end(), [&](double v) { return v <= x; });
-      expected.add(hits, sizes[rig]);
-    }
-    const ClusterSums found = by_rig.sample().at_most(x);
-    EXPECT_EQ(found.clusters, 7);
-    EXPECT_EQ(found.hits, expected.hits);
-    EXPECT_EQ(found.events, 210);
-    EXPECT_EQ(found.hits_squared, expected.hits_squared);
-    EXPECT_EQ(found.hits_by_events, expected.hits_by_events);
-    EXPECT_EQ(found.events_squared, expected.events_squared);
-  }
-}
-
 TEST(ClusteredQuantile, ClustersMayHaveOneValueOrSeveral) {
   std::vector<double> one{3.0}, none, three{5.0, 3.0, 1.0};
   ClusteredSample sample;

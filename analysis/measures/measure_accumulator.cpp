@@ -59,12 +59,10 @@ MeasureAccumulator::MeasureAccumulator(const layout::Measure& measure,
 
 void MeasureAccumulator::add_quality(std::int64_t trial, std::span<const trial::MoveOutcome> moves) {
   by_move_.resize(moves.size());
-  judged_.resize(static_cast<std::size_t>(std::max<std::int64_t>(kind_.rigs, 1)));
-  hits_.resize(judged_.size());
   for (std::size_t i = 0; i < moves.size(); ++i) by_move_[i] += layout::has_quality(*measure_, moves[i]);
-  const std::size_t rig = static_cast<std::size_t>(trial) % hits_.size();
-  ++judged_[rig];
-  hits_[rig] += value_of_trial(*measure_, moves) > 0.0;
+  const std::int64_t rig = kind_.rigs > 0 ? trial % kind_.rigs : 0;
+  judged_.add(rig, 1);
+  hits_.add(rig, value_of_trial(*measure_, moves) > 0.0);
   if (counts_moves_) {
     const auto has = [&](const trial::MoveOutcome& move) { return layout::has_quality(*measure_, move); };
     of_moves_.add(trial, kind_.rigs, std::ssize(moves), std::count_if(moves.begin(), moves.end(), has));
@@ -106,8 +104,8 @@ MeasureAccumulator& MeasureAccumulator::operator+=(const MeasureAccumulator& nex
   clusters_ += next.clusters_;
   totals_ += next.totals_;
   add_counts(by_move_, next.by_move_);
-  add_counts(judged_, next.judged_);
-  add_counts(hits_, next.hits_);
+  judged_ += next.judged_;
+  hits_ += next.hits_;
   of_moves_ += next.of_moves_;
   return *this;
 }
@@ -122,12 +120,12 @@ bool MeasureAccumulator::is_valid(std::int64_t trials, std::int64_t moves) const
 
 bool MeasureAccumulator::has_valid_qualities(std::int64_t moves) const {
   if (!layout::is_quality(*measure_) || trials_ == 0)
-    return by_move_.empty() && judged_.empty() && hits_.empty();
-  const auto rigs = static_cast<std::size_t>(std::max<std::int64_t>(kind_.rigs, 1));
-  if (std::ssize(by_move_) != moves || judged_.size() != rigs || hits_.size() != rigs) return false;
-  for (std::size_t rig = 0; rig < rigs; ++rig)
+    return by_move_.empty() && judged_.numbers().empty() && hits_.numbers().empty();
+  const std::int64_t rigs = std::max<std::int64_t>(kind_.rigs, 1);
+  if (std::ssize(by_move_) != moves || judged_.end() > rigs || hits_.end() > rigs) return false;
+  for (std::int64_t rig = 0; rig < rigs; ++rig)
     if (hits_[rig] < 0 || hits_[rig] > judged_[rig]) return false;
-  return is_sum_of(judged_, trials_) && statistics::are_counts(by_move_, trials_) &&
+  return is_sum_of(judged_.numbers(), trials_) && statistics::are_counts(by_move_, trials_) &&
          (!counts_moves_ || of_moves_.is_valid(trials_, moves, kind_.rigs));
 }
 
@@ -156,12 +154,12 @@ statistics::ConfidenceInterval MeasureAccumulator::bootstrap_bounds(const Statis
 RateWithBounds MeasureAccumulator::rate(double confidence) const {
   if (trials_ == 0 || kind_.open_loop) return {};
   if (kind_.rigs == 0) {
-    return {zerocount::statistics::rate(hits_.front(), trials_),
-            statistics::clopper_pearson(hits_.front(), trials_, confidence),
-            statistics::wilson(hits_.front(), trials_, confidence)};
+    return {zerocount::statistics::rate(hits_[0], trials_),
+            statistics::clopper_pearson(hits_[0], trials_, confidence),
+            statistics::wilson(hits_[0], trials_, confidence)};
   }
   statistics::ClusterSums sums;
-  for (std::size_t rig = 0; rig < hits_.size(); ++rig) sums.add(hits_[rig], judged_[rig]);
+  for (std::int64_t rig = 0; rig < judged_.end(); ++rig) sums.add(hits_[rig], judged_[rig]);
   const statistics::ClusteredProportion proportion = statistics::clustered_proportion(sums, confidence);
   return {proportion.value, proportion.korn_graubard, proportion.wilson};
 }
@@ -179,7 +177,7 @@ MeasureStatistics MeasureAccumulator::statistics(const StatisticsOptions& option
   if (reports(*reported_, layout::Statistic::student_low))
     result.mean_bounds = statistics::student_t(moments, options.confidence);
   if (layout::is_quality(*measure_)) {
-    result.trials = std::accumulate(hits_.begin(), hits_.end(), std::int64_t{0});
+    result.trials = std::accumulate(hits_.numbers().begin(), hits_.numbers().end(), std::int64_t{0});
     result.by_move = by_move_;
     if (reports(*reported_, layout::Statistic::rate)) result.rate = rate(options.confidence);
     if (counts_moves_ && trials_ > 0 && !kind_.open_loop)

@@ -95,8 +95,8 @@ class MeasureAccumulator {
   statistics::TrialClusters clusters_;
   statistics::ClusterTotals totals_;
   std::vector<std::int64_t> by_move_;  ///< [move] trials whose move has the quality; empty without trials
-  std::vector<std::int64_t> judged_;   ///< [rig], or one for all: trials; empty likewise
-  std::vector<std::int64_t> hits_;     ///< [rig], or one for all: trials with the quality
+  statistics::ByRig judged_;           ///< trials; without rigs all are of rig 0
+  statistics::ByRig hits_;             ///< those with the quality, likewise
   MoveCounts of_moves_;                ///< with the quality, where they are counted
   std::vector<double> values_;         ///< of the current trial
 };

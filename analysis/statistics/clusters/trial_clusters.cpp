@@ -13,14 +13,13 @@ void TrialClusters::add_trial(std::int64_t trial, std::vector<double>& observed,
   }
   const std::int64_t rig = trial % rigs_in_all_;
   for (const double value : observed) add({rig, value, 1});
-  add_size(rig, size);
+  sizes_.add(rig, size);
 }
 
 TrialClusters& TrialClusters::operator+=(const TrialClusters& other) {
   trials_ += other.trials_;
   for (const Count& count : other.counts_) add(count);
-  for (std::int64_t i = 0; i < std::ssize(other.sizes_); ++i)
-    add_size(other.first_ + i, other.sizes_[static_cast<std::size_t>(i)]);
+  sizes_ += other.sizes_;
   return *this;
 }
 
@@ -29,17 +28,6 @@ void TrialClusters::add(const Count& count) {
   // As many new counts as combined ones: each is sorted a few times at most.
   if (counts_.size() - combined_ >= std::max(fewest, combined_)) combine();
   counts_.push_back(count);
-}
-
-void TrialClusters::add_size(std::int64_t rig, std::int64_t size) {
-  if (sizes_.empty()) first_ = rig;
-  if (rig < first_) {
-    sizes_.insert(sizes_.begin(), static_cast<std::size_t>(first_ - rig), 0);
-    first_ = rig;
-  }
-  const auto at = static_cast<std::size_t>(rig - first_);
-  if (at >= sizes_.size()) sizes_.resize(at + 1);
-  sizes_[at] += size;
 }
 
 void TrialClusters::combine() {
@@ -61,7 +49,7 @@ void TrialClusters::combine() {
 }
 
 std::int64_t TrialClusters::size() const {
-  return std::accumulate(sizes_.begin(), sizes_.end(), trials_.size());
+  return std::accumulate(sizes_.numbers().begin(), sizes_.numbers().end(), trials_.size());
 }
 
 ClusteredSample TrialClusters::sample() const {
@@ -70,11 +58,11 @@ ClusteredSample TrialClusters::sample() const {
   combined.combine();
   ClusteredSample sample;
   auto count = combined.counts_.cbegin();
-  for (std::int64_t i = 0; i < std::ssize(sizes_); ++i) {
+  for (std::int64_t rig = sizes_.first(); rig < sizes_.end(); ++rig) {
     Histogram<double> observed;
-    for (; count != combined.counts_.cend() && count->rig == first_ + i; ++count)
+    for (; count != combined.counts_.cend() && count->rig == rig; ++count)
       observed.add(count->value, count->times);
-    sample.add_cluster(observed, sizes_[static_cast<std::size_t>(i)]);
+    sample.add_cluster(observed, sizes_[rig]);
   }
   return sample;
 }

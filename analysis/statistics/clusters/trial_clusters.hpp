@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "analysis/statistics/clusters/by_rig.hpp"
 #include "analysis/statistics/clusters/clustered_quantile.hpp"
 
 namespace zerocount::statistics {
@@ -53,7 +54,6 @@ class TrialClusters {
   };
 
   void add(const Count& count);
-  void add_size(std::int64_t rig, std::int64_t size);
   /// Sorts the counts by rig and value, and adds those of the same.
   void combine();
 
@@ -62,16 +62,15 @@ class TrialClusters {
   void write(Archive& archive) const {
     TrialClusters combined = *this;
     combined.combine();
-    const std::int64_t rigs = sizes_.empty() ? 0 : first_ + std::ssize(sizes_);
-    archive(rigs);
+    archive(sizes_.end());
     auto begin = combined.counts_.cbegin();
-    for (std::int64_t rig = 0; rig < rigs; ++rig) {
+    for (std::int64_t rig = 0; rig < sizes_.end(); ++rig) {
       auto end = begin;
       std::int64_t values = 0;
       for (; end != combined.counts_.cend() && end->rig == rig; ++end) values += end->times;
       archive(static_cast<std::int64_t>(end - begin));
       for (; begin != end; ++begin) archive(begin->value, begin->times);
-      archive(values, rig < first_ ? std::int64_t{0} : sizes_[static_cast<std::size_t>(rig - first_)]);
+      archive(values, sizes_[rig]);
     }
   }
 
@@ -87,17 +86,16 @@ class TrialClusters {
       archive(observed, size);
       archive.require(observed.size <= size && size <= (std::int64_t{1} << 53) / rigs);
       for (const auto& [value, times] : observed.counts) counts_.push_back({rig, value, times});
-      add_size(rig, size);
+      sizes_.add(rig, size);
     }
     combined_ = counts_.size();
   }
 
   std::int64_t rigs_in_all_;
-  std::vector<Count> counts_;        ///< of rigs; the first ones are combined
-  std::size_t combined_{0};          ///< how many
-  std::int64_t first_{0};            ///< rig of sizes_[0]: a block of trials runs on few of many rigs
-  std::vector<std::int64_t> sizes_;  ///< [rig − first_]
-  ClusteredSample trials_;           ///< without rigs
+  std::vector<Count> counts_;  ///< of rigs; the first ones are combined
+  std::size_t combined_{0};    ///< how many
+  ByRig sizes_;                ///< numbers of values, with the censored ones
+  ClusteredSample trials_;     ///< without rigs
 };
 
 }  // namespace zerocount::statistics

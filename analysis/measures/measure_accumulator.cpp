@@ -120,12 +120,12 @@ bool MeasureAccumulator::is_valid(std::int64_t trials, std::int64_t moves) const
 
 bool MeasureAccumulator::has_valid_qualities(std::int64_t moves) const {
   if (!layout::is_quality(*measure_) || trials_ == 0)
-    return by_move_.empty() && judged_.numbers().empty() && hits_.numbers().empty();
+    return by_move_.empty() && judged_.sums().empty() && hits_.sums().empty();
   const std::int64_t rigs = std::max<std::int64_t>(kind_.rigs, 1);
   if (std::ssize(by_move_) != moves || judged_.end() > rigs || hits_.end() > rigs) return false;
   for (std::int64_t rig = 0; rig < rigs; ++rig)
     if (hits_[rig] < 0 || hits_[rig] > judged_[rig]) return false;
-  return is_sum_of(judged_.numbers(), trials_) && statistics::are_counts(by_move_, trials_) &&
+  return is_sum_of(judged_.sums(), trials_) && statistics::are_counts(by_move_, trials_) &&
          (!counts_moves_ || of_moves_.is_valid(trials_, moves, kind_.rigs));
 }
 
@@ -177,7 +177,7 @@ MeasureStatistics MeasureAccumulator::statistics(const StatisticsOptions& option
   if (reports(*reported_, layout::Statistic::student_low))
     result.mean_bounds = statistics::student_t(moments, options.confidence);
   if (layout::is_quality(*measure_)) {
-    result.trials = std::accumulate(hits_.numbers().begin(), hits_.numbers().end(), std::int64_t{0});
+    result.trials = std::accumulate(hits_.sums().begin(), hits_.sums().end(), std::int64_t{0});
     result.by_move = by_move_;
     if (reports(*reported_, layout::Statistic::rate)) result.rate = rate(options.confidence);
     if (counts_moves_ && trials_ > 0 && !kind_.open_loop)

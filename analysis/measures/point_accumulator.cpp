@@ -214,15 +214,11 @@ void PointAccumulator::add_level_accumulators() {
 }
 
 void PointAccumulator::add_to_rig(std::span<const trial::MoveOutcome> moves) {
-  const auto number = static_cast<std::size_t>((first_trial_ + counted_.trials) % kind_.rigs);
-  if (number >= rigs_.size()) rigs_.resize(number + 1);
-  statistics::RigTrials& rig = rigs_[number];
   const auto zero = std::count_if(moves.begin(), moves.end(),
                                   [](const trial::MoveOutcome& m) { return trial::is_success(m.outcome); });
-  ++rig.trials;
-  rig.successes += trial::succeeded(moves);
-  rig.moves += std::ssize(moves);
-  rig.zero_moves += zero;
+  const statistics::RigTrials trial{
+      .trials = 1, .successes = trial::succeeded(moves), .moves = std::ssize(moves), .zero_moves = zero};
+  rigs_.add((first_trial_ + counted_.trials) % kind_.rigs, trial);
 }
 
 /// The settling time of a trial is that of its slowest move. It is censored if a move did not arrive, or was
@@ -277,8 +273,7 @@ PointAccumulator& PointAccumulator::operator+=(const PointAccumulator& next) {
       add_each(levels_[level], next.levels_[level]);
     add_each(lost_in_levels_, next.lost_in_levels_);
   }
-  if (rigs_.size() < next.rigs_.size()) rigs_.resize(next.rigs_.size());
-  add_each(rigs_, next.rigs_);
+  rigs_ += next.rigs_;
   add_each(goals_, next.goals_);
   add_each(goal_settling_, next.goal_settling_);
   groups_.succeeded += next.groups_.succeeded;
@@ -358,10 +353,10 @@ bool PointAccumulator::has_valid_jerks() const {
 }
 
 bool PointAccumulator::has_valid_rigs() const {
-  if (kind_.rigs == 0 || kind_.open_loop) return rigs_.empty();
-  if (std::ssize(rigs_) > kind_.rigs) return false;
+  if (kind_.rigs == 0 || kind_.open_loop) return rigs_.sums().empty();
+  if (rigs_.end() > kind_.rigs) return false;
   statistics::RigTrials sum;
-  for (const statistics::RigTrials& rig : rigs_) {
+  for (const statistics::RigTrials& rig : rigs_.sums()) {
     if (rig.successes < 0 || rig.successes > rig.trials || rig.trials > counted_.trials - sum.trials ||
         rig.zero_moves < 0 || rig.zero_moves > rig.moves || rig.moves > counted_.moves - sum.moves)
       return false;
@@ -430,7 +425,7 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
   result.measures = statistics_of(measures_, options);
   result.levels = level_statistics(options);
   if (kind_.rigs > 0 && result.judged > 0)
-    result.rigs = statistics::rig_statistics(rigs_, options.confidence);
+    result.rigs = statistics::rig_statistics(rigs_.from_zero(), options.confidence);
   result.claim = claim(result, options);
   result.goals = goals_;
   for (const GoalSettling& settling : goal_settling_)

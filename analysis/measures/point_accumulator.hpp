@@ -95,8 +95,8 @@ class MeasureAccumulator {
   statistics::TrialClusters clusters_;
   statistics::ClusterTotals totals_;
   std::vector<std::int64_t> by_move_;  ///< [move] trials whose move has the quality; empty without trials
-  statistics::ByRig judged_;           ///< trials; without rigs all are of rig 0
-  statistics::ByRig hits_;             ///< those with the quality, likewise
+  statistics::ByRig<> judged_;         ///< trials; without rigs all are of rig 0
+  statistics::ByRig<> hits_;           ///< those with the quality, likewise
   MoveCounts of_moves_;                ///< with the quality, where they are counted
   std::vector<double> values_;         ///< of the current trial
 };
@@ -169,11 +169,11 @@ class PointAccumulator {
   std::vector<MeasureAccumulator> measures_;             ///< [row of the table]
   std::vector<std::vector<MeasureAccumulator>> levels_;  ///< [move][row of the table]
   std::vector<std::int64_t> lost_in_levels_;             ///< [move] trials whose motion was lost
-  std::vector<statistics::RigTrials> rigs_;              ///< [rig], of those that have trials
-  std::vector<MoveCounts> goals_;                        ///< [goal]
-  std::vector<GoalSettling> goal_settling_;              ///< [goal]
-  GroupTrials groups_;                                   ///< empty without worlds and conditions
-  statistics::TrialClusters trial_settling_times_;       ///< of each trial: of its slowest move
+  statistics::ByRig<statistics::RigTrials> rigs_;
+  std::vector<MoveCounts> goals_;                   ///< [goal]
+  std::vector<GoalSettling> goal_settling_;         ///< [goal]
+  GroupTrials groups_;                              ///< empty without worlds and conditions
+  statistics::TrialClusters trial_settling_times_;  ///< of each trial: of its slowest move
   std::int64_t jerks_{0};
   statistics::Histogram<double> jerk_intervals_;
   JerkSlowing jerk_slowing_;  ///< its counts

@@ -49,7 +49,7 @@ void TrialClusters::combine() {
 }
 
 std::int64_t TrialClusters::size() const {
-  return std::accumulate(sizes_.numbers().begin(), sizes_.numbers().end(), trials_.size());
+  return std::accumulate(sizes_.sums().begin(), sizes_.sums().end(), trials_.size());
 }
 
 ClusteredSample TrialClusters::sample() const {

@@ -130,10 +130,11 @@ bool MeasureAccumulator::has_valid_qualities(std::int64_t moves) const {
 }
 
 bool MeasureAccumulator::has_valid_totals() const {
-  if (totals_.sums.empty()) return totals_.numbers.empty() && totals_.added.empty();
-  return totals_.sums.size() <= statistics::max_clusters && totals_.sums.size() == totals_.numbers.size() &&
-         totals_.sums.size() == totals_.added.size() && is_sum_of(totals_.added, trials_) &&
-         std::all_of(totals_.numbers.begin(), totals_.numbers.end(), [](std::int64_t n) { return n >= 0; });
+  const std::vector<std::int64_t>& numbers = totals_.numbers.sums();
+  if (totals_.sums.sums().empty()) return numbers.empty() && totals_.added.sums().empty();
+  return totals_.sums.end() <= statistics::max_clusters && totals_.sums.end() == totals_.numbers.end() &&
+         totals_.sums.end() == totals_.added.end() && is_sum_of(totals_.added.sums(), trials_) &&
+         std::all_of(numbers.begin(), numbers.end(), [](std::int64_t n) { return n >= 0; });
 }
 
 RateWithBounds MeasureAccumulator::rate_of_moves(double confidence) const {

@@ -95,8 +95,8 @@ class MeasureAccumulator {
   statistics::TrialClusters clusters_;
   statistics::ClusterTotals totals_;
   std::vector<std::int64_t> by_move_;  ///< [move] trials whose move has the quality; empty without trials
-  statistics::ByRig<> judged_;         ///< trials; without rigs all are of rig 0
-  statistics::ByRig<> hits_;           ///< those with the quality, likewise
+  statistics::ByCluster<> judged_;     ///< trials; without rigs all are of rig 0
+  statistics::ByCluster<> hits_;       ///< those with the quality, likewise
   MoveCounts of_moves_;                ///< with the quality, where they are counted
   std::vector<double> values_;         ///< of the current trial
 };
@@ -169,7 +169,7 @@ class PointAccumulator {
   std::vector<MeasureAccumulator> measures_;             ///< [row of the table]
   std::vector<std::vector<MeasureAccumulator>> levels_;  ///< [move][row of the table]
   std::vector<std::int64_t> lost_in_levels_;             ///< [move] trials whose motion was lost
-  statistics::ByRig<statistics::RigTrials> rigs_;
+  statistics::ByCluster<statistics::RigTrials> rigs_;
   std::vector<MoveCounts> goals_;                   ///< [goal]
   std::vector<GoalSettling> goal_settling_;         ///< [goal]
   GroupTrials groups_;                              ///< empty without worlds and conditions

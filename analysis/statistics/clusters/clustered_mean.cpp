@@ -22,10 +22,10 @@ struct Clusters {
   std::vector<double> numbers;
 
   explicit Clusters(const ClusterTotals& totals) {
-    for (std::size_t i = 0; i < totals.sums.size(); ++i) {
-      if (totals.added[i] == 0) continue;
-      sums.push_back(totals.sums[i].value());
-      numbers.push_back(static_cast<double>(totals.numbers[i]));
+    for (std::int64_t cluster = 0; cluster < totals.added.end(); ++cluster) {
+      if (totals.added[cluster] == 0) continue;
+      sums.push_back(totals.sums[cluster].value());
+      numbers.push_back(static_cast<double>(totals.numbers[cluster]));
     }
   }
 };
@@ -128,35 +128,24 @@ ConfidenceInterval mean_bounds(const Clusters& totals, const random::RandomStrea
 }  // namespace
 
 void ClusterTotals::add(std::int64_t cluster, std::span<const double> values) {
-  const auto place = static_cast<std::size_t>(cluster % max_clusters);
-  if (place >= sums.size()) {
-    sums.resize(place + 1);
-    numbers.resize(place + 1);
-    added.resize(place + 1);
-  }
-  for (const double value : values) sums[place].add(value);
-  numbers[place] += std::ssize(values);
-  ++added[place];
+  const std::int64_t place = cluster % max_clusters;
+  ExactSum& sum = sums.sum_of(place);
+  for (const double value : values) sum.add(value);
+  numbers.add(place, std::ssize(values));
+  added.add(place, 1);
   highest = std::max(highest, cluster);
 }
 
 ClusterTotals& ClusterTotals::operator+=(const ClusterTotals& other) {
-  if (sums.size() < other.sums.size()) {
-    sums.resize(other.sums.size());
-    numbers.resize(other.sums.size());
-    added.resize(other.sums.size());
-  }
-  for (std::size_t i = 0; i < other.sums.size(); ++i) {
-    sums[i] += other.sums[i];
-    numbers[i] += other.numbers[i];
-    added[i] += other.added[i];
-  }
+  sums += other.sums;
+  numbers += other.numbers;
+  added += other.added;
   highest = std::max(highest, other.highest);
   return *this;
 }
 
 std::int64_t ClusterTotals::clusters() const {
-  return std::min(highest + 1, std::accumulate(added.begin(), added.end(), std::int64_t{0}));
+  return std::min(highest + 1, std::accumulate(added.sums().begin(), added.sums().end(), std::int64_t{0}));
 }
 
 ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const random::RandomStream& stream,

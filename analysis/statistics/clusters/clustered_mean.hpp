@@ -2,8 +2,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "analysis/statistics/clusters/by_cluster.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/sums/exact_sum.hpp"
 #include "core/random/random_numbers.hpp"
@@ -19,10 +19,10 @@ inline constexpr std::int64_t bootstrap_resamples = 2000;
 /// Sum and number of the values of each cluster. The mean is Σ sums/Σ numbers. Totals of parts of a sample,
 /// added in any order, are those of the whole.
 struct ClusterTotals {
-  std::vector<ExactSum> sums;         ///< [cluster], in the values' unit
-  std::vector<std::int64_t> numbers;  ///< [cluster]
-  std::vector<std::int64_t> added;    ///< [cluster] how often values were added to it, none being values too
-  std::int64_t highest{-1};           ///< of the clusters before grouping
+  ByCluster<ExactSum> sums;  ///< in the values' unit
+  ByCluster<> numbers;
+  ByCluster<> added;         ///< how often values were added, none being values too
+  std::int64_t highest{-1};  ///< of the clusters before grouping
 
   /// Adds values to a cluster; it belongs to group `cluster` mod max_clusters. A cluster to which none were
   /// ever added is none.

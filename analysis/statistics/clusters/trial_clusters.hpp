@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "analysis/statistics/clusters/by_rig.hpp"
+#include "analysis/statistics/clusters/by_cluster.hpp"
 #include "analysis/statistics/clusters/clustered_quantile.hpp"
 
 namespace zerocount::statistics {
@@ -94,7 +94,7 @@ class TrialClusters {
   std::int64_t rigs_in_all_;
   std::vector<Count> counts_;  ///< of rigs; the first ones are combined
   std::size_t combined_{0};    ///< how many
-  ByRig<> sizes_;              ///< numbers of values, with the censored ones
+  ByCluster<> sizes_;          ///< numbers of values, with the censored ones
   ClusteredSample trials_;     ///< without rigs
 };
 

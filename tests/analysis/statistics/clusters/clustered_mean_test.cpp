@@ -74,7 +74,7 @@ TEST(ClusteredMean, ManyClustersAreGatheredIntoGroupsWithoutLoss) {
   std::vector<double> values(100'000);
   for (double& value : values) value = exponential(random);
   const ClusterTotals totals = totals_of(values);
-  EXPECT_EQ(std::ssize(totals.sums), max_clusters);
+  EXPECT_EQ(totals.sums.end(), max_clusters);
   EXPECT_EQ(totals.clusters(), 100'000);
   const ConfidenceInterval expected = student_t(moments_of(values));
   const ConfidenceInterval found = clustered_mean_bounds(totals, stream);

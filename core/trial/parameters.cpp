@@ -15,6 +15,11 @@ std::size_t move_count(const TrialParameters& parameters) {
   return command.torque.levels.empty() ? command.targets.size() : command.torque.levels.size();
 }
 
+std::int64_t target_of_move(const TrialParameters& parameters, std::size_t move) {
+  const CommandParameters& command = parameters.command;
+  return command.torque.levels.empty() ? command.targets[move] : 0;
+}
+
 std::int64_t samples_of_move(const TrialParameters& parameters, std::size_t move) {
   const double sample_rate = parameters.controller.sample_rate;
   const TorqueCommand& torque = parameters.command.torque;

@@ -101,6 +101,9 @@ std::int64_t samples_in(double duration, double sample_rate);
 /// Number of moves: targets, or torque levels.
 std::size_t move_count(const TrialParameters& parameters);
 
+/// The target of the move, counts; 0 of a torque level.
+std::int64_t target_of_move(const TrialParameters& parameters, std::size_t move);
+
 /// Number of samples of move `move`: round(hold·sample_rate), and for a torque level those on the way to it
 /// before.
 std::int64_t samples_of_move(const TrialParameters& parameters, std::size_t move);

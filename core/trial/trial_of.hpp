@@ -2,9 +2,9 @@
 
 #include "core/trial/divergence.hpp"
 #include "core/trial/move_measures.hpp"
+#include "core/trial/open_loop.hpp"
 #include "core/trial/rig.hpp"
 #include "core/trial/sampled_loop.hpp"
-#include "core/trial/torque_ramp.hpp"
 #include "core/trial/trial.hpp"
 
 /// A trial as a template over its plant, PlantOf a list of laws.
@@ -109,31 +109,26 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
 template <class AnyPlant>
 TrialOutcome apply_torques(const TrialParameters& p, const TrialObservers& observers) {
   Rig<AnyPlant> rig(p);
-  loop::Converter converter(p.dac);
-  const TorqueCommand& command = p.command.torque;
+  OpenLoop loop(p);
   TrialOutcome outcome;
   std::int64_t first = 0;
-  double from = 0.0;
-  for (std::size_t m = 0; m < command.levels.size(); ++m) {
-    const TorqueRamp ramp = make_torque_ramp(from, command.levels[m], command.rate, p.controller.sample_rate);
+  for (std::size_t m = 0; m < p.command.torque.levels.size(); ++m) {
     const MoveTiming timing = move_timing(p, m);
+    loop.start_move(m);
     const auto decide = [&](std::int64_t i, SampleRecord& record) {
       record.error = -record.count;
-      const double torque = command.record
-                                ? torque_at(*command.record, static_cast<double>(i) * timing.sample_time)
-                                : torque_at(ramp, i);
-      if (command.through == TorquePath::exact) {
-        rig.drive_exactly(torque, record);
+      const OpenLoop::Decision decision = loop.decide(i);
+      if (decision.exact) {
+        rig.drive_exactly(decision.output.torque, record);
       } else {
-        rig.drive(converter.convert(torque), record);
+        rig.drive(decision.output, record);
       }
     };
     MoveOutcome move =
         run_move(rig, timing, p.verdict, static_cast<std::int64_t>(m), first, 0, observers, decide);
-    move.travel_time = static_cast<double>(ramp.samples) * timing.sample_time;
+    move.travel_time = loop.travel_time();
     outcome.moves.push_back(move);
     first += timing.samples;
-    from = command.levels[m];
   }
   return outcome;
 }

@@ -127,7 +127,8 @@ struct alignas(64) LoopLanes {
   Lanes error;        ///< of the last sample, counts
   Lanes count;        ///< of the last sample
   Lanes quiet_from;   ///< samples may be passed while θ/Δx + phase − count lies from here, counts;
-  Lanes quiet_to;     ///< to here. 0 and 1 where nothing is measured but what the encoder reads
+  Lanes quiet_to;     ///< to here. 0 and 1 where nothing is measured but what the encoder reads; infinite
+                      ///< where that is not measured either
   Lanes counted;      ///< there has been a sample
   Lanes decided;      ///< torque of the last sample, N m
   Lanes code;         ///< of the last sample
@@ -138,9 +139,11 @@ struct alignas(64) LoopLanes {
   // Decided by the LaneLoop at this sample; other lanes do not use it:
   Lanes given_count;
   Lanes given_code;
+  Lanes given_decided;  ///< torque, N m
   Lanes given_torque;   ///< of the converter, N m
   Lanes given_clipped;  ///< the converter was out of range
   Lanes given_may_stay;
+  Lanes given_stays;  ///< whatever the count
 };
 
 /// One of the streams of random numbers (random::random_bits_at), as whole numbers below 2³².

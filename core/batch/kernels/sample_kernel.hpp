@@ -92,10 +92,11 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
 
   const ControlInput<P> input{error, last_error, count, change, counted};
   const P dac_resolution = at.load(l.dac_resolution);
-  P code, applied;
+  P code, torque, applied;
   Mask clipped;
   if constexpr (decider == Decider::lane_loop) {
     code = at.load(l.given_code);
+    torque = at.load(l.given_decided);
     applied = at.load(l.given_torque);
     clipped = to_mask(at.load(l.given_clipped));
   } else {
@@ -107,11 +108,10 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
     }
     const P wanted = loop::wanted_code(wanted_torque, dac_resolution);
     code = loop::clipped_code(wanted, at.load(l.lowest_code), at.load(l.highest_code));
-    applied = code * dac_resolution;
+    applied = torque = code * dac_resolution;
     clipped = code != wanted;
     if constexpr (decider == Decider::blocks) keep_remainder(batch, at, wanted_torque, applied, clipped);
   }
-  const P torque = code * dac_resolution;
 
   at.store(l.error, error);
   at.store(l.count, count);
@@ -122,7 +122,8 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   Mask steady = (error == P(0.0)) & (last_error == P(0.0)) & (change == P(0.0));
   if constexpr (noisy) steady = Mask::of_bits(0);
   if constexpr (decider == Decider::blocks) steady = steady & ~has_memory<P>(batch, at);
-  if constexpr (decider == Decider::lane_loop) steady = steady & to_mask(at.load(l.given_may_stay));
+  if constexpr (decider == Decider::lane_loop)
+    steady = (steady & to_mask(at.load(l.given_may_stay))) | to_mask(at.load(l.given_stays));
   at.store(l.steady, to_number<P>(steady));
 
   const P zero(0.0);

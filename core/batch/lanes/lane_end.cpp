@@ -33,7 +33,7 @@ trial::MoveOutcome outcome_of(const BatchState& batch, int lane, LaneTrial& tria
   const MeasureLanes& q = batch.measures;
   const LoopLanes& l = batch.loop;
   trial::MoveEnd end;
-  end.last = {p.command.targets[trial.move],
+  end.last = {trial::target_of_move(p, trial.move),
               static_cast<std::int64_t>(l.count[lane]),
               l.decided[lane],
               false,
@@ -42,12 +42,20 @@ trial::MoveOutcome outcome_of(const BatchState& batch, int lane, LaneTrial& tria
   end.broke_away = trial.slid_at_start || trial.breakaways > 0 || q.slid[lane] != 0.0;
   end.reversal_depth = trial.deepest;
   end.stopped = stopped;
-  trial.last_half.finish(end.last.count);
-  trial::MoveOutcome outcome = trial::outcome_of_move(trial::move_timing(p, trial.move), measures_of(q, lane),
-                                                      bands_of(q, lane), trial.jerks, trial.last_half, end);
-  const std::int64_t reference = end.last.target + (trial.loop ? trial.loop->reference_offset() : 0);
-  outcome.true_error =
-      trial::true_error(reference, q.theta[lane] - trial.read_twist, l.resolution[lane], l.phase[lane]);
+  const trial::MoveTiming timing = trial::move_timing(p, trial.move);
+  trial::RunningMeasures<double> measures = measures_of(q, lane);
+  if (timing.judged) {
+    trial.last_half.finish(end.last.count);
+  } else {
+    measures.overshoot = 0.0;  // without a target
+  }
+  trial::MoveOutcome outcome =
+      trial::outcome_of_move(timing, measures, bands_of(q, lane), trial.jerks, trial.last_half, end);
+  if (timing.judged) {
+    const std::int64_t reference = end.last.target + (trial.loop ? trial.loop->reference_offset() : 0);
+    outcome.true_error =
+        trial::true_error(reference, q.theta[lane] - trial.read_twist, l.resolution[lane], l.phase[lane]);
+  }
   if (needs_lane_noise(p))
     outcome.encoder_disagreement = static_cast<std::int64_t>(batch.noise.disagreements[lane]);
   if (trial.loop) trial.loop->finish(outcome);
@@ -65,7 +73,7 @@ void record_move(RunningBatch& run, int lane, LaneTrial& trial, bool stopped) {
 void end_move(RunningBatch& run, int lane) {
   LaneTrial& trial = run.trial_of(lane);
   record_move(run, lane, trial, false);
-  if (++trial.move == trial.parameters->command.targets.size()) return start_next_trial(run, lane);
+  if (++trial.move == trial::move_count(*trial.parameters)) return start_next_trial(run, lane);
   trial.first_sample += run.samples_of(lane);
   start_move(run.state, lane, trial);
 }

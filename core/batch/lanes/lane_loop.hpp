@@ -6,6 +6,7 @@
 #include "core/loop/dac.hpp"
 #include "core/loop/drive.hpp"
 #include "core/loop/measurement.hpp"
+#include "core/trial/open_loop.hpp"
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
 #include "core/trial/sampled_loop.hpp"
@@ -13,8 +14,8 @@
 namespace zerocount::batch {
 
 /// The sampled loop of a lane that the sampling kernels lack, from the angle to the converter's torque:
-/// encoders, SampledLoop, errors of the converter. The kernels move the rotor and keep the measures of the
-/// error.
+/// encoders, SampledLoop or OpenLoop, errors of the converter. The kernels move the rotor and keep the
+/// measures of the error.
 class LaneLoop {
  public:
   explicit LaneLoop(const trial::TrialParameters& parameters);
@@ -28,10 +29,14 @@ class LaneLoop {
     loop::DacOutput dac;
     double torque;  ///< that the converter gives, N m
     bool may_stay;  ///< while count and error stay 0, so does the torque
+    bool stays;     ///< the torque stays until the end of the move, and nothing is drawn
   };
   /// Sample i of the move, the rotor at `theta` (rad). Empty where the encoder cannot count θ, or the
   /// controller gives no finite torque.
   std::optional<Decision> sample(std::int64_t i, double theta);
+
+  /// Whether it is that of a trial with torque levels, whose errors are not measured.
+  bool is_open() const { return open_.has_value(); }
 
   /// Reference − target at the last sample, counts; 0 unless the reference moves for ever.
   std::int64_t reference_offset() const { return reference_offset_; }
@@ -40,9 +45,13 @@ class LaneLoop {
   void finish(trial::MoveOutcome& outcome);
 
  private:
+  Decision decide_open(std::int64_t k, std::int64_t i, std::int64_t count);
+
   loop::Measurement measurement_;
-  trial::SampledLoop loop_;
+  std::optional<trial::SampledLoop> closed_;
+  std::optional<trial::OpenLoop> open_;
   loop::ConverterErrors errors_;
+  bool is_certain_;
   bool may_stay_;
   bool ran_before_{false};        // the controller, at the last sample
   std::int64_t first_sample_{0};  // of the move

@@ -28,12 +28,6 @@ bool blocks_remember(const loop::ControlBlocks& blocks) {
          std::isfinite(blocks.derivative_cutoff) || std::isfinite(blocks.integrator_leak);
 }
 
-/// Whether the angle alone decides the counts, and the code the torque.
-bool is_certain(const trial::TrialParameters& p) {
-  return !loop::has_errors(p.encoder.fine_errors) && !loop::has_errors(p.encoder.coarse_errors) &&
-         p.dac.noise == 0.0;
-}
-
 /// Whether noise of the fine encoder is the only error of encoders and converter that is drawn.
 bool has_noise_alone(const trial::TrialParameters& p) {
   const loop::EncoderErrors& e = p.encoder.fine_errors;
@@ -101,8 +95,15 @@ std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMo
 
 std::string_view lacking(const trial::CommandParameters& command) {
   [[maybe_unused]] const auto& [targets, hold, profile, torque, exact_targets] = command;
-  if (!torque.levels.empty()) return "torque levels";
-  return targets.empty() ? "no moves" : "";
+  return targets.empty() && torque.levels.empty() ? "no moves" : "";
+}
+
+/// Whether each move has a sample: a torque level without a hold may have none.
+bool has_samples(const trial::TrialParameters& p) {
+  const std::size_t moves = p.command.torque.levels.empty() ? 1 : p.command.torque.levels.size();
+  for (std::size_t m = 0; m < moves; ++m)
+    if (trial::samples_of_move(p, m) <= 0) return false;
+  return true;
 }
 
 /// The first feature of the trial that the lanes of its friction model lack; empty if they have all.
@@ -117,7 +118,7 @@ std::string_view lacking(const trial::TrialParameters& p, LaneMotion motion) {
        {lacking(controller), lacking(command), lacking(disturbance, motion, max_frequency)}) {
     if (!feature.empty()) return feature;
   }
-  return trial::samples_of_move(p, 0) > 0 ? "" : "moves without a sample";
+  return has_samples(p) ? "" : "moves without a sample";
 }
 
 }  // namespace
@@ -138,6 +139,11 @@ std::optional<LaneMotion> lane_motion(friction::FrictionModel model) {
       break;
   }
   return std::nullopt;
+}
+
+bool is_certain(const trial::TrialParameters& p) {
+  return !loop::has_errors(p.encoder.fine_errors) && !loop::has_errors(p.encoder.coarse_errors) &&
+         p.dac.noise == 0.0;
 }
 
 bool remembers(const trial::TrialParameters& p) {
@@ -178,7 +184,7 @@ bool needs_lane_loop(const trial::TrialParameters& p) {
          loop::has_errors(p.dac) || loop::has_coarse_phase(p.controller) ||
          p.controller.encoder != loop::EncoderChoice::fine ||
          p.command.profile.shape != loop::ReferenceShape::step || p.controller.user.plugin ||
-         p.controller.blocks.filters.size() > max_lane_filters;
+         !p.command.torque.levels.empty() || p.controller.blocks.filters.size() > max_lane_filters;
 }
 
 bool is_steady_at_zero(const trial::TrialParameters& p) {

@@ -26,8 +26,12 @@ bool needs_lane_noise(const trial::TrialParameters& parameters);
 
 /// Whether the sampled loop of the trial has a feature that the sampling kernels lack: errors of an encoder
 /// other than noise of the fine one, errors of the converter, missed samples, two phases, the coarse encoder,
-/// a reference with a profile, a plugin, measures of the true motion, or more filters than they have.
+/// a reference with a profile, a plugin, measures of the true motion, torque levels, or more filters than
+/// they have.
 bool needs_lane_loop(const trial::TrialParameters& parameters);
+
+/// Whether the angle alone decides the counts, and the code the torque.
+bool is_certain(const trial::TrialParameters& parameters);
 
 /// Whether the torque of a LaneLoop stays while count and error stay 0, the controller having run at this
 /// sample and the one before: in the fine phase of two.

@@ -2,10 +2,20 @@
 #include <cmath>
 
 #include "core/batch/lanes/running_batch.hpp"
+#include "core/loop/formulas.hpp"
 #include "core/numerics/power_series.hpp"
 
 namespace zerocount::batch {
 namespace {
+
+/// Sets θ of a sample that was passed. In an open loop the count follows it.
+void set_passed_theta(RunningBatch& run, int lane, double theta, BatchSample& sample) {
+  const LoopLanes& l = run.state.loop;
+  sample.theta = theta;
+  const LaneTrial& trial = run.trial_of(lane);
+  if (trial.loop && trial.loop->is_open())
+    sample.count = static_cast<std::int64_t>(loop::ideal_count(theta, l.resolution[lane], l.phase[lane]));
+}
 
 /// Sample `k` of the present move with the count and the code of the last sample.
 BatchSample present_sample(RunningBatch& run, int lane, std::int64_t k) {
@@ -47,7 +57,7 @@ void report_passed_samples(RunningBatch& run) {
       const double x = (p.time_to_stop - (whole - j) * time.sample_time[p.lane]) / p.step;
       BatchSample sample = present_sample(run, p.lane, first + j);
       sample.xp = m.extension[p.lane] + (numerics::value_at(p.creep, x) - numerics::value_at(p.creep, p.end));
-      sample.theta = m.hook[p.lane] + numerics::value_at(p.elongation, x) + sample.xp;
+      set_passed_theta(run, p.lane, m.hook[p.lane] + numerics::value_at(p.elongation, x) + sample.xp, sample);
       sample.xh = std::abs(numerics::value_at(p.creep, x));
       run.observers->sample(sample);
     }
@@ -58,7 +68,7 @@ void report_sample_at_rest(RunningBatch& run, int lane, double passed, double th
                            const friction::CreepState& creep) {
   BatchSample sample =
       present_sample(run, lane, run.samples_of(lane) - 1 + static_cast<std::int64_t>(passed));
-  sample.theta = theta;
+  set_passed_theta(run, lane, theta, sample);
   sample.xp = creep.extension;
   sample.xh = creep.hardening;
   run.observers->sample(sample);

@@ -40,9 +40,15 @@ RestAhead rest_ahead(const LanePlant::Rest& rest) {
   return ahead;
 }
 
+/// Whether all samples may be passed, whatever is read.
+bool is_open(const BatchState& batch, int lane) {
+  return batch.loop.quiet_to[lane] == HUGE_VAL;
+}
+
 /// Whether a sample at θ may be passed: the count is the same, and the position quiet.
 bool is_quiet(const BatchState& batch, int lane, double theta) {
   const LoopLanes& l = batch.loop;
+  if (is_open(batch, lane)) return true;
   if (count_at(batch, lane, theta) != l.count[lane]) return false;
   const double within = theta / l.resolution[lane] + l.phase[lane] - l.count[lane];
   return !(within < l.quiet_from[lane]) && !(within > l.quiet_to[lane]);
@@ -53,6 +59,7 @@ bool is_quiet(const BatchState& batch, int lane, double theta) {
 /// may reach one.
 double quiet_time(const BatchState& batch, int lane, const RestAhead& rest, const LanePlant& plant) {
   const LoopLanes& l = batch.loop;
+  if (is_open(batch, lane)) return HUGE_VAL;
   const double low = (l.count[lane] + l.quiet_from[lane] - l.phase[lane]) * l.resolution[lane];
   const double width = (l.quiet_to[lane] - l.quiet_from[lane]) * l.resolution[lane];
   const friction::ResidualOscillation::State& oscillation = plant.oscillation();

@@ -74,9 +74,11 @@ LaneSet decide_in_loops(RunningBatch& run, const LaneSet& due) {
     }
     l.given_count[lane] = static_cast<double>(decision->count);
     l.given_code[lane] = static_cast<double>(decision->dac.code);
+    l.given_decided[lane] = decision->dac.torque;
     l.given_torque[lane] = decision->torque;
     l.given_clipped[lane] = decision->dac.clipped ? 1.0 : 0.0;
     l.given_may_stay[lane] = decision->may_stay ? 1.0 : 0.0;
+    l.given_stays[lane] = decision->stays ? 1.0 : 0.0;
   });
   return decided;
 }

@@ -35,8 +35,9 @@ void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
   l.integral[lane] = p.initial.integral;
   l.error[lane] = 0.0;
   l.count[lane] = 0.0;
-  l.quiet_from[lane] = 0.0;
-  l.quiet_to[lane] = 1.0;
+  const bool is_open = !p.command.torque.levels.empty();
+  l.quiet_from[lane] = is_open ? -infinity : 0.0;
+  l.quiet_to[lane] = is_open ? infinity : 1.0;
   l.counted[lane] = 0.0;
   l.decided[lane] = 0.0;
   l.code[lane] = 0.0;
@@ -222,34 +223,42 @@ void start_trial(BatchState& batch, int lane, LaneTrial& trial) {
   start_move(batch, lane, trial);
 }
 
+void start_slides(const BatchState& batch, int lane, LaneTrial& trial) {
+  trial.breakaways = 0;
+  const bool has_contact = trial.motion == LaneMotion::contact;
+  trial.slid_at_start =
+      (has_contact || trial.motion == LaneMotion::coulomb) && batch.motion.slide_direction[lane] != 0.0;
+  trial.deepest = has_contact ? static_cast<std::int64_t>(trial.plant->spring().depth()) : 0;
+}
+
 void start_move(BatchState& batch, int lane, LaneTrial& trial) {
   const trial::TrialParameters& p = *trial.parameters;
   const trial::MoveTiming timing = trial::move_timing(p, trial.move);
   MeasureLanes& q = batch.measures;
   batch.noise.disagreements[lane] = 0.0;
-  batch.loop.target[lane] = static_cast<double>(p.command.targets[trial.move]);
+  const std::int64_t target = trial::target_of_move(p, trial.move);
+  batch.loop.target[lane] = static_cast<double>(target);
   q.limits.samples[lane] = static_cast<double>(timing.samples);
-  q.limits.dwell[lane] = static_cast<double>(timing.dwell);
+  // Without a target no event of the error is followed.
+  q.limits.dwell[lane] = timing.judged ? static_cast<double>(timing.dwell) : infinity;
   q.limits.window[lane] = static_cast<double>(timing.window);
-  q.last_half[lane] = static_cast<double>(trial::first_of_last_half(timing.samples));
+  q.last_half[lane] =
+      timing.judged ? static_cast<double>(trial::first_of_last_half(timing.samples)) : infinity;
   trial::for_each_measure([lane](Lanes& measure) { measure[lane] = 0.0; }, q);
   for (std::size_t b = 0; b < std::size(q.bands); ++b) {
     BandLanes& band = q.bands[b];
-    band.limit[lane] = b < timing.bands.count ? static_cast<double>(timing.bands.limits[b]) : infinity;
+    band.limit[lane] =
+        timing.judged && b < timing.bands.count ? static_cast<double>(timing.bands.limits[b]) : infinity;
     band.last_outside[lane] = trial::no_samples_of_band.last_outside;
     band.entry[lane] = trial::no_samples_of_band.entry;
     band.exits[lane] = trial::no_samples_of_band.exits;
   }
   for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension, &q.slid})
     (*of)[lane] = 0.0;
-  q.max_error[lane] = p.verdict.stop ? p.verdict.limit : infinity;
-  if (trial.loop) trial.loop->start_move(trial.move, p.command.targets[trial.move], trial.first_sample);
+  q.max_error[lane] = p.verdict.stop && timing.judged ? p.verdict.limit : infinity;
+  if (trial.loop) trial.loop->start_move(trial.move, target, trial.first_sample);
   if (trial.position) trial.position->start_move(trial.move);
-  trial.breakaways = 0;
-  const bool has_contact = trial.motion == LaneMotion::contact;
-  trial.slid_at_start =
-      (has_contact || trial.motion == LaneMotion::coulomb) && batch.motion.slide_direction[lane] != 0.0;
-  trial.deepest = has_contact ? static_cast<std::int64_t>(trial.plant->spring().depth()) : 0;
+  start_slides(batch, lane, trial);
   trial.jerks = trial::Jerks(static_cast<std::int64_t>(trial.move), timing.sample_time);
   trial.last_half.start(timing.samples);
 }
@@ -266,7 +275,7 @@ void start_next_trial(RunningBatch& run, int lane) {
       continue;
     }
     trial.outcome->moves.clear();
-    trial.outcome->moves.reserve(trial.parameters->command.targets.size());
+    trial.outcome->moves.reserve(trial::move_count(*trial.parameters));
     start_trial(run.state, lane, trial);
     run.lanes.active.insert(lane);
     if (trial.loop) {

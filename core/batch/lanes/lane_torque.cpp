@@ -74,8 +74,9 @@ void drive_torque(RunningBatch& run, int lane) {
   LaneTrial& trial = run.trial_of(lane);
   LaneDrive& drive = *trial.drive;
   const LoopLanes& l = run.state.loop;
-  drive.send(trial.first_sample + run.samples_of(lane) - 1,
-             trial.loop ? l.given_torque[lane] : l.decided[lane]);
+  const std::int64_t k = trial.first_sample + run.samples_of(lane) - 1;
+  if (k == 0 && drive.jitters()) start_slides(run.state, lane, trial);
+  drive.send(k, trial.loop ? l.given_torque[lane] : l.decided[lane]);
   if (drive.stays()) {
     run.lanes.varying.erase(lane);
     run.lanes.part.erase(lane);

@@ -85,6 +85,8 @@ bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const m
 /// Starts the trial that `trial` names, with its first move, in the lane. (lane_start.cpp)
 void start_trial(BatchState& batch, int lane, LaneTrial& trial);
 void start_move(BatchState& batch, int lane, LaneTrial& trial);
+/// Starts to measure slides and reversals of the move: from its first sample on.
+void start_slides(const BatchState& batch, int lane, LaneTrial& trial);
 
 // Lanes with LaneMotion::coulomb. (lane_coulomb.cpp)
 void start_coulomb(BatchState& batch, int lane, LaneTrial& trial);

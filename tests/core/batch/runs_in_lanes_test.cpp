@@ -33,6 +33,8 @@ TEST(RunsInLanes, IsTrueOfAPlainTrialWithAnyPlainParameters) {
        [](trial::TrialParameters& p) {
          p.command.targets = {1, 2, 3};
        }},
+      {"torque levels",
+       [](trial::TrialParameters& p) { p.command.targets = {}, p.command.torque.levels = {0.1}; }},
       {"early decision", [](trial::TrialParameters& p) { p.verdict.stop = true; }},
       {"sliding",
        [](trial::TrialParameters& p) {
@@ -96,10 +98,12 @@ TEST(RunsInLanes, IsTrueOfAPlainTrialWithAnyPlainParameters) {
 
 TEST(RunsInLanes, IsFalseOfWhatLanesDoNotKnowWhichThenIsTheReferences) {
   const Change changes[] = {
-      {"torque levels",
-       [](trial::TrialParameters& p) { p.command.targets = {}, p.command.torque.levels = {0.1}; }},
       {"no moves", [](trial::TrialParameters& p) { p.command.targets = {}; }},
       {"no samples", [](trial::TrialParameters& p) { p.command.hold = 1e-5; }},
+      {"a level without samples",
+       [](trial::TrialParameters& p) {
+         p.command.targets = {}, p.command.torque.levels = {0.1, 0.1}, p.command.hold = 0.0;
+       }},
       {"a fast vibration",
        [](trial::TrialParameters& p) {
          p.disturbance.vibration = {{1e-3, 1100.0, 0.0}};

@@ -131,6 +131,7 @@ struct alignas(64) LoopLanes {
                       ///< where that is not measured either
   Lanes counted;      ///< there has been a sample
   Lanes decided;      ///< torque of the last sample, N m
+  Lanes converted;    ///< that the converter made of it, N m; decided by the LaneLoop where there is one
   Lanes code;         ///< of the last sample
   Lanes steady;       ///< the torque will stay as long as the count does
   Lanes driven;       ///< a LaneDrive lies between the decided torque and the rotor
@@ -140,7 +141,6 @@ struct alignas(64) LoopLanes {
   Lanes given_count;
   Lanes given_code;
   Lanes given_decided;  ///< torque, N m
-  Lanes given_torque;   ///< of the converter, N m
   Lanes given_clipped;  ///< the converter was out of range
   Lanes given_may_stay;
   Lanes given_stays;  ///< whatever the count
@@ -226,17 +226,22 @@ struct alignas(64) CourseLanes {
 
 inline constexpr int max_lane_delay = 4;  ///< samples
 
-/// Delay and amplifier between the decided torque and the rotor, where all pieces of the torque are whole
-/// samples (needs_drive_kernel). Lanes with a LaneDrive, or without any, do not use it.
+/// Delay and amplifier between the converter and the rotor, and late samples, where the torque of a sample is
+/// one piece (needs_drive_kernel). Lanes with a LaneDrive, or without any, do not use it.
 struct alignas(64) DriveLanes {
   Lanes delay;                    ///< samples
   Lanes rate;                     ///< of the amplifier, 1/s; 0 without one
-  Lanes decay;                    ///< exp(−rate·T)
+  Lanes decay;                    ///< exp(−rate·duration) of the last piece
   Lanes now;                      ///< torque of the motor at the last sample, N m
   Lanes settled;                  ///< that it approaches, N m
-  Lanes last;                     ///< torque decided at the last sample, N m
+  Lanes last;                     ///< torque of the converter at the last sample, N m
   Lanes alike;                    ///< samples in a row with this torque
-  Lanes waiting[max_lane_delay];  ///< decided at the samples before, N m
+  Lanes waiting[max_lane_delay];  ///< of the samples before, N m
+  Lanes disturbed;                ///< by a disturbance that varies
+  Lanes jitter;                   ///< s; 0 without late samples
+  RandomLanes random;             ///< of the jitter
+  Lanes sample;                   ///< k of the next sample
+  Lanes late;                     ///< δ_k of the next sample, s
 };
 
 /// The second mass (motion::Load). Lanes without one do not use it.

@@ -1,8 +1,23 @@
 #pragma once
 
 #include "core/batch/kernels/lane_group.hpp"
+#include "core/batch/kernels/random_numbers.hpp"
 
 namespace zerocount::batch {
+
+/// The duration (s) of the next piece of lanes with late samples: T + δ_{k+1} − δ_k.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE P late_duration(BatchState& batch, const At& at, const P& jitter) {
+  DriveLanes& d = batch.drive;
+  const P next = at.load(d.sample) + P(1.0);
+  P uniform;
+  set_uniform_at(d.random, at, next, uniform);
+  const P late = jitter * uniform;
+  const P duration = (at.load(batch.time.sample_time) + late) - at.load(d.late);
+  at.store(d.sample, next);
+  at.store(d.late, late);
+  return duration;
+}
 
 /// The next piece of the torque of one vector. @returns the lanes whose torque varies; see drive_kernel.
 template <class At>
@@ -14,7 +29,7 @@ __attribute__((noinline)) typename At::Vector::Mask drive(BatchState& batch, con
   TimeLanes& time = batch.time;
   const P zero(0.0);
   const P one(1.0);
-  const P input = at.load(batch.loop.decided);
+  const P input = at.load(batch.loop.converted);
   const P delay = at.load(d.delay);
   P leaving = input;
   P waiting = input;
@@ -32,28 +47,35 @@ __attribute__((noinline)) typename At::Vector::Mask drive(BatchState& batch, con
   P lag = (at.load(d.now) - last_settled) * at.load(d.decay);
   lag = select(abs(lag) < P(0x1p-1022), zero, lag);
   const P now = select(rate == zero, leaving, last_settled + lag);
-  const Mask varies = now != leaving;
-  const Mask stays = ~varies & (alike > delay);
+  const Mask varies = (now != leaving) | to_mask(at.load(d.disturbed));
+  const P jitter = at.load(d.jitter);
+  const Mask is_late = (jitter > zero) & at.taking_part();
+  const P late_before = at.load(d.late);
+  P duration = at.load(time.sample_time);
+  if (is_late.any()) {
+    duration = select(is_late, late_duration(batch, at, jitter), duration);
+    at.store(d.decay, select(is_late, exp(-rate * duration), at.load(d.decay)));
+  }
+  const Mask stays = ~varies & (alike > delay) & ~is_late;
   at.store(d.alike, alike);
   at.store(d.now, now);
   at.store(d.settled, leaving);
 
   const P disturbance = at.load(batch.loop.disturbance);
-  const P sample_time = at.load(time.sample_time);
   at.store(batch.motion.torque, now + disturbance);
   at.store(c.settled, leaving + disturbance);
   at.store(c.lag, now - leaving);
   at.store(c.decay, select(stays, zero, rate));
-  at.store(c.piece, sample_time);
-  at.store(c.piece_end, sample_time);
+  at.store(c.piece, duration);
+  at.store(c.piece_end, late_before + duration);
   at.store(time.samples_to_stop, select(stays, at.load(time.samples_to_stop), one));
-  at.store(time.time_to_stop, select(stays, at.load(time.time_to_stop), sample_time));
+  at.store(time.time_to_stop, select(stays, at.load(time.time_to_stop), duration));
   return varies & at.taking_part();
 }
 
-/// Passes the torques decided at a sample through a delay of whole samples and through the amplifier, as
-/// loop::Drive does. The next stop of a lane whose torque may change is the next sample. @returns the lanes
-/// whose torque varies until then.
+/// Passes the torques of the converter at a sample through a delay of whole samples and through the
+/// amplifier, as loop::Drive does. The next stop of a lane whose torque may change is the next sample, which
+/// may be late. @returns the lanes whose torque varies until then.
 template <class V>
 LaneSet drive_kernel(BatchState& batch, const LaneSet& lanes) {
   LaneSet varying;

@@ -97,7 +97,7 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   if constexpr (decider == Decider::lane_loop) {
     code = at.load(l.given_code);
     torque = at.load(l.given_decided);
-    applied = at.load(l.given_torque);
+    applied = at.load(l.converted);
     clipped = to_mask(at.load(l.given_clipped));
   } else {
     P wanted_torque;
@@ -117,6 +117,7 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   at.store(l.count, count);
   at.store(l.counted, P(1.0));
   at.store(l.decided, torque);
+  if constexpr (decider != Decider::lane_loop) at.store(l.converted, applied);
   at.store(l.code, code);
   at.store(m.torque, applied + at.load(l.disturbance));
   Mask steady = (error == P(0.0)) & (last_error == P(0.0)) & (change == P(0.0));

@@ -184,7 +184,8 @@ bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const m
   trial.plant->forget_deepest();
   if (trial.drive) {
     const double elapsed = batch.course.piece_end[lane] - batch.time.time_to_stop[lane];
-    trial.plant->set_time(trial.drive->sample_instant() + elapsed);
+    const auto k = static_cast<double>(std::max(last_sample(batch, lane, trial), std::int64_t{0}));
+    trial.plant->set_time(k * batch.time.sample_time[lane] + elapsed);
   }
   trial.plant->advance(torque, batch.time.time_to_stop[lane], plant::max_steps_of_sample);
   trial.breakaways += trial.plant->breakaways() - before;

@@ -85,7 +85,6 @@ LaneDrive::LaneDrive(const trial::TrialParameters& p)
 }
 
 void LaneDrive::send(std::int64_t k, double torque) {
-  sample_ = k;
   late_ = {late_.next, clock_.lateness(k + 1)};
   alike_ = torque == last_torque_ ? alike_ + 1 : 1;
   last_torque_ = torque;

@@ -64,11 +64,10 @@ class LaneDrive {
   /// Whether the torque ever varies between two stops.
   bool may_vary() const { return lags_ || disturbance_varies(); }
   bool disturbance_varies() const { return motion::varies(disturbance_); }
-  VibrationSeries::Coefficients vibration() { return vibration_.about_sample(sample_); }
+  /// About sample k.
+  VibrationSeries::Coefficients vibration(std::int64_t k) { return vibration_.about_sample(k); }
   std::size_t vibration_terms() const { return vibration_.terms(); }
   bool jitters() const { return jitters_; }
-  /// k·T of the last sample, s.
-  double sample_instant() const { return static_cast<double>(sample_) * sample_time_; }
 
  private:
   void add(const loop::TorquePiece& piece);
@@ -83,7 +82,6 @@ class LaneDrive {
   motion::Disturbance disturbance_;
   VibrationSeries vibration_;
   loop::Lateness late_{};
-  std::int64_t sample_{0};  // number of the last one
   double last_torque_{0.0};
   std::int64_t alike_;  // number of equal torques sent last
   std::array<loop::TorquePiece, 8> pieces_{};

@@ -170,13 +170,13 @@ bool needs_lane_noise(const trial::TrialParameters& p) {
 }
 
 bool needs_drive_kernel(const trial::TrialParameters& p) {
-  const trial::DisturbanceParameters& d = p.disturbance;
-  const bool varies = !d.ripple.empty() || !d.vibration.empty() || !d.spectra.empty();
   const double delay = p.controller.delay;
+  const double jitter = p.controller.jitter;
   const motion::TorqueCourse lag{1.0, 0.0, loop::lag_rate(p.amplifier)};
-  const bool is_slow = lag.rate == 0.0 || motion::time_to_settle(lag) >= 1.0 / p.controller.sample_rate;
-  return needs_lane_drive(p) && !needs_lane_loop(p) && !varies && p.controller.jitter == 0.0 &&
-         delay == std::floor(delay) && delay <= max_lane_delay && is_slow;
+  const double longest = 1.0 / p.controller.sample_rate + jitter;
+  const bool is_slow = lag.rate == 0.0 || motion::time_to_settle(lag) >= longest;
+  return needs_lane_drive(p) && delay == std::floor(delay) && delay <= max_lane_delay && is_slow &&
+         (jitter == 0.0 || delay == 0.0);
 }
 
 bool needs_lane_loop(const trial::TrialParameters& p) {

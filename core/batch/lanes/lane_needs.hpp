@@ -40,8 +40,8 @@ bool is_steady_at_zero(const trial::TrialParameters& parameters);
 /// Whether the torque on the rotor differs from the decided one: by a delay, an amplifier, jitter, or a
 /// disturbance that varies.
 bool needs_lane_drive(const trial::TrialParameters& parameters);
-/// Whether of these there are only a delay of few whole samples, and an amplifier slow enough that its lag
-/// lasts beyond a sample, which the drive kernel has. The decided torque must be that of an ideal converter.
+/// Whether the drive kernel has these: the delay is of few whole samples, and of none with jitter; the lag of
+/// the amplifier lasts beyond a sample.
 bool needs_drive_kernel(const trial::TrialParameters& parameters);
 
 }  // namespace zerocount::batch

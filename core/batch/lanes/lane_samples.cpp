@@ -75,7 +75,7 @@ LaneSet decide_in_loops(RunningBatch& run, const LaneSet& due) {
     l.given_count[lane] = static_cast<double>(decision->count);
     l.given_code[lane] = static_cast<double>(decision->dac.code);
     l.given_decided[lane] = decision->dac.torque;
-    l.given_torque[lane] = decision->torque;
+    l.converted[lane] = decision->torque;
     l.given_clipped[lane] = decision->dac.clipped ? 1.0 : 0.0;
     l.given_may_stay[lane] = decision->may_stay ? 1.0 : 0.0;
     l.given_stays[lane] = decision->stays ? 1.0 : 0.0;
@@ -104,6 +104,10 @@ void measure_position(RunningBatch& run, const LaneSet& due) {
 }  // namespace
 
 void take_samples(RunningBatch& run, const LaneSet& due) {
+  for_each_lane(due.in_both(run.lanes.before_start), [&](int lane) {
+    start_slides(run.state, lane, run.trial_of(lane));
+    run.lanes.before_start.erase(lane);
+  });
   for_each_lane(due.in_both(run.lanes.loaded),
                 [&](int lane) { run.trial_of(lane).read_twist = run.state.loop.read_twist[lane]; });
   const LaneSet with_blocks = due.in_both(run.lanes.with_blocks);

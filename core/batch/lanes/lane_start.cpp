@@ -54,10 +54,7 @@ void store_words(std::uint64_t number, double& low, double& high) {
 }
 
 void start_noise(NoiseLanes& n, int lane, const trial::TrialParameters& p) {
-  const random::TrialRandomness& randomness = p.randomness;
-  store_words(randomness.trial, n.random.trial_low[lane], n.random.trial_high[lane]);
-  n.random.stream[lane] = randomness.stream;
-  for (std::size_t i = 0; i < std::size(n.random.key); ++i) n.random.key[i][lane] = randomness.fine_noise[i];
+  store_random(n.random, lane, p.randomness, p.randomness.fine_noise);
   store_constants(n.constants, lane,
                   loop::noise_constants(p.encoder.fine_errors, 1.0 / p.controller.sample_rate));
   n.sample[lane] = 0.0;
@@ -190,6 +187,13 @@ void start_motion(BatchState& batch, int lane, LaneTrial& trial, double resoluti
 
 }  // namespace
 
+void store_random(RandomLanes& to, int lane, const random::TrialRandomness& of,
+                  const random::RandomKey& key) {
+  store_words(of.trial, to.trial_low[lane], to.trial_high[lane]);
+  to.stream[lane] = of.stream;
+  for (std::size_t i = 0; i < std::size(to.key); ++i) to.key[i][lane] = key[i];
+}
+
 void start_trial(BatchState& batch, int lane, LaneTrial& trial) {
   const trial::TrialParameters& p = *trial.parameters;
   trial.move = 0;
@@ -291,7 +295,11 @@ void start_next_trial(RunningBatch& run, int lane) {
       if (trial.drive && trial.drive->may_vary()) run.lanes.loaded_driven.insert(lane);
     }
     set_motion(run, lane);
-    if (trial.drive && trial.drive->jitters()) begin_piece(run, lane);
+    if (trial.drive && trial.drive->vibration_terms() > 0) run.lanes.vibrating.insert(lane);
+    if (trial.drive && trial.drive->jitters()) {
+      begin_piece(run, lane);
+      run.lanes.before_start.insert(lane);
+    }
     return;
   }
 }

@@ -5,9 +5,9 @@
 namespace zerocount::batch {
 namespace {
 
-/// Sets the vibration of the lane's torque to its series about the last sample.
-void store_vibration(BatchState& batch, int lane, LaneDrive& drive) {
-  const VibrationSeries::Coefficients vibration = drive.vibration();
+/// Sets the vibration of the lane's torque to its series about sample k.
+void store_vibration(BatchState& batch, int lane, LaneDrive& drive, std::int64_t k) {
+  const VibrationSeries::Coefficients vibration = drive.vibration(k);
   for (std::size_t j = 0; j <= drive.vibration_terms(); ++j) batch.course.vibration[j][lane] = vibration[j];
 }
 
@@ -34,6 +34,19 @@ void store_piece(BatchState& batch, int lane, const LaneDrive& drive) {
   batch.time.time_to_stop[lane] = piece.duration;
 }
 
+/// Starts the drive kernel for the lane.
+void start_drive_kernel(DriveLanes& d, int lane, const trial::TrialParameters& p, const LaneDrive& drive) {
+  for_each_quantity(d, [lane](Lanes& quantity) { quantity[lane] = 0.0; });
+  d.delay[lane] = d.alike[lane] = p.controller.delay;
+  d.rate[lane] = loop::lag_rate(p.amplifier);
+  d.decay[lane] = numerics::exp(-d.rate[lane] * (1.0 / p.controller.sample_rate));
+  d.disturbed[lane] = drive.disturbance_varies() ? 1.0 : 0.0;
+  d.jitter[lane] = p.controller.jitter;
+  if (!drive.jitters()) return;
+  store_random(d.random, lane, p.randomness, p.randomness.jitter);
+  d.late[lane] = drive.piece().duration;  // until the first sample
+}
+
 }  // namespace
 
 void start_drive(BatchState& batch, int lane, LaneTrial& trial) {
@@ -44,13 +57,8 @@ void start_drive(BatchState& batch, int lane, LaneTrial& trial) {
   c.tolerance[lane] = drive.disturbance_varies() ? 0.0 : trial.elongation_tolerance;
   c.vibrates[lane] = static_cast<double>(drive.vibration_terms());
   for (Lanes& coefficient : c.vibration) coefficient[lane] = 0.0;
-  store_vibration(batch, lane, drive);
-  DriveLanes& d = batch.drive;
-  const trial::TrialParameters& p = *trial.parameters;
-  for_each_quantity(d, [lane](Lanes& quantity) { quantity[lane] = 0.0; });
-  d.delay[lane] = d.alike[lane] = p.controller.delay;
-  d.rate[lane] = loop::lag_rate(p.amplifier);
-  d.decay[lane] = numerics::exp(-d.rate[lane] * batch.time.sample_time[lane]);
+  store_vibration(batch, lane, drive, 0);
+  if (needs_drive_kernel(*trial.parameters)) start_drive_kernel(batch.drive, lane, *trial.parameters, drive);
   c.ripple_count[lane] = static_cast<double>(varying.ripple.size());
   for (std::size_t i = 0; i < std::size(c.ripples); ++i) {
     const motion::Ripple ripple = i < varying.ripple.size() ? varying.ripple[i] : motion::Ripple{};
@@ -74,21 +82,24 @@ void drive_torque(RunningBatch& run, int lane) {
   LaneTrial& trial = run.trial_of(lane);
   LaneDrive& drive = *trial.drive;
   const LoopLanes& l = run.state.loop;
-  const std::int64_t k = trial.first_sample + run.samples_of(lane) - 1;
-  if (k == 0 && drive.jitters()) start_slides(run.state, lane, trial);
-  drive.send(k, trial.loop ? l.given_torque[lane] : l.decided[lane]);
+  const std::int64_t k = last_sample(run.state, lane, trial);
+  drive.send(k, l.converted[lane]);
   if (drive.stays()) {
     run.lanes.varying.erase(lane);
     run.lanes.part.erase(lane);
     hold_torque(run.state, lane, drive.piece().course.now + l.disturbance[lane]);
     return;
   }
-  if (run.state.course.vibrates[lane] != 0.0) store_vibration(run.state, lane, drive);
+  if (run.state.course.vibrates[lane] != 0.0) store_vibration(run.state, lane, drive, k);
   begin_piece(run, lane);
 }
 
 void amplify(RunningBatch& run, const LaneSet& lanes) {
   const LaneSet varying = run.kernels.drive(run.state, lanes);
+  for_each_lane(lanes.in_both(run.lanes.vibrating), [&](int lane) {
+    LaneTrial& trial = run.trial_of(lane);
+    store_vibration(run.state, lane, *trial.drive, last_sample(run.state, lane, trial));
+  });
   for_each_lane(lanes.without(varying), [&](int lane) { run.lanes.varying.erase(lane); });
   for_each_lane(varying, [&](int lane) { run.lanes.varying.insert(lane); });
 }

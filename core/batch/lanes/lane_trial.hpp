@@ -93,6 +93,9 @@ void start_coulomb(BatchState& batch, int lane, LaneTrial& trial);
 /// Ends the slide: a new contact forms at θ.
 void stand_still(BatchState& batch, int lane, LaneTrial& trial);
 
+/// Stores a stream of random numbers of the trial in the lane. (lane_start.cpp)
+void store_random(RandomLanes& to, int lane, const random::TrialRandomness& of, const random::RandomKey& key);
+
 /// Starts the drive of a trial that needs one. (lane_torque.cpp)
 void start_drive(BatchState& batch, int lane, LaneTrial& trial);
 /// The torque on the rotor from now on in a lane where it varies, without a disturbance that varies.
@@ -121,6 +124,11 @@ void store_constants(Struct<Lanes>& to, int lane, const Struct<double>& from) {
   std::memcpy(fields, &from, sizeof from);
   const double* field = fields;
   for_each_quantity(to, [&](Lanes& quantity) { quantity[lane] = *field++; });
+}
+
+/// Number of the last sample from the start of the trial; −1 before the first.
+inline std::int64_t last_sample(const BatchState& batch, int lane, const LaneTrial& trial) {
+  return trial.first_sample + static_cast<std::int64_t>(batch.measures.samples[lane]) - 1;
 }
 
 /// θ of the rotor, rad.

@@ -32,7 +32,9 @@ struct LaneStates {
 
   LaneSet with_position;  ///< the position error is measured, without a LaneLoop
 
-  LaneSet amplified;  ///< with delay and amplifier by the drive kernel
+  LaneSet amplified;     ///< whose torque passes the drive kernel
+  LaneSet vibrating;     ///< with a vibration
+  LaneSet before_start;  ///< whose first sample is late, and yet to come
 
   // Torque until the next stop: constant for a whole sample, if in none.
   LaneSet varying;   ///< it varies
@@ -44,10 +46,10 @@ struct LaneStates {
 
   LaneSet ahead;  ///< at rest, with a plant that lags behind (CreepAheadLanes)
 
-  std::array<LaneSet*, 18> all() {
-    return {&active,  &sticking,    &waiting,   &standing, &sliding,       &bristles,
-            &free,    &with_blocks, &with_loop, &noisy,    &with_position, &amplified,
-            &varying, &part,        &changing,  &loaded,   &loaded_driven, &ahead};
+  std::array<LaneSet*, 20> all() {
+    return {&active,      &sticking,  &waiting,  &standing,      &sliding,       &bristles,  &free,
+            &with_blocks, &with_loop, &noisy,    &with_position, &amplified,     &vibrating, &before_start,
+            &varying,     &part,      &changing, &loaded,        &loaded_driven, &ahead};
   }
 };
 

@@ -35,7 +35,7 @@ double peak_memory(const study::Study& study, double bytes_of_trial, double reco
 struct RunSettings {
   int threads{0};  ///< 0: all that the machine has
   std::function<void(std::int64_t trials)>
-      finished{};                         ///< called by the writer with every block of finished trials
+      finished{};  ///< called by one thread at a time with the number of trials that have ended since
   timeline::Timeline* timeline{nullptr};  ///< gets a span of every stage; null: none
 };
 
@@ -53,7 +53,10 @@ struct FinishedTrials {
 ///
 ///     compute    any thread: run the trials of a block, and put what is kept of them in columns
 ///     collect    one thread at a time, in the order of the turns: add the block to its shard
-///     encode     any thread: filter the columns of a shard that has ended
+///
+/// A shard that has ended passes through these beside the blocks that follow (ShardWriter):
+///
+///     encode     any thread: filter its columns
 ///     store      one thread at a time, as the library of the files wants it: write the file
 ///     flush      any thread: bring it to the disk
 ///     read back  one thread at a time: find what is in the file; any thread: compare its chunks

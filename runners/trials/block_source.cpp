@@ -1,0 +1,96 @@
+#include "runners/trials/block_source.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/trial/trial.hpp"
+#include "results/layout/table_io.hpp"
+#include "runners/trials/study_runner.hpp"
+#include "runners/trials/trial_runner.hpp"
+
+namespace zerocount::trials {
+namespace {
+
+/// Limits of a block. It takes a fraction of a second, so that interruptions are handled quickly. The batch
+/// engine needs many trials per block, because the last ones do not fill its lanes: blocks of 128 take 4 %
+/// longer than those of 1024, blocks of 64 take 17 %.
+struct BlockLimits {
+  double samples;
+  std::int64_t max_trials;
+  std::int64_t min_trials;  ///< unless the samples are more
+};
+constexpr BlockLimits reference_block{1e5, 256, 16};
+constexpr BlockLimits batch_block{1e7, 1024, 128};
+
+const BlockLimits& limits_of(const study::Study& study) {
+  return study.engine == study::Engine::batch ? batch_block : reference_block;
+}
+
+/// Rows of a block of which each thread gets two, if there are so few left.
+std::int64_t rows_for_each(const BlockLimits& limits, std::int64_t rows, int threads) {
+  return std::max(rows / (std::int64_t{2} * threads), limits.min_trials);
+}
+
+/// A block ends with the trial whose trace takes the traces of its retained trials beyond this size.
+constexpr std::size_t max_trace_bytes_per_block = std::size_t{8} << 20;
+
+/// Bytes of the trace of a retained trial in memory.
+double bytes_of_trace(const study::Study& study) {
+  return study.retained_trials.empty() ? 0.0 : samples_per_trial(study) * sizeof(trial::SampleRecord);
+}
+
+}  // namespace
+
+std::int64_t max_block_rows(const study::Study& study, std::int64_t rows, int threads) {
+  const BlockLimits limits = limits_of(study);
+  const double size = limits.samples / std::max(samples_per_trial(study), 1.0);
+  return std::clamp(static_cast<std::int64_t>(size), std::int64_t{1},
+                    std::min(limits.max_trials, rows_for_each(limits, rows, threads)));
+}
+
+double max_block_traces(const study::Study& study) {
+  return static_cast<double>(max_trace_bytes_per_block) + bytes_of_trace(study);
+}
+
+BlockSource::BlockSource(const study::Study& study, std::span<const layout::RowRange> ranges, int threads)
+    : study_(study),
+      turns_(ranges, study.trials),
+      clock_(turns_.points(), threads),
+      max_rows_(max_block_rows(study, layout::total_rows(ranges), threads)),
+      threads_(threads),
+      remaining_(layout::total_rows(ranges)),
+      trace_bytes_(bytes_of_trace(study)) {}
+
+std::optional<Block> BlockSource::next() {
+  if (turns_.is_empty()) return std::nullopt;
+  const bool begins_turn = clock_.progress() >= end_of_turn();
+  if (begins_turn) {
+    turns_.end_turn();
+    clock_.begin_turn();
+  }
+  const std::int64_t of_chunk = layout::chunk_elements - next_row() % layout::chunk_elements;
+  const std::int64_t max_rows =
+      std::min({max_rows_, rows_for_each(limits_of(study_), remaining_, threads_), of_chunk});
+  const layout::RowRange rows = with_few_traces(turns_.upcoming(max_rows));
+  turns_.take(rows.count);
+  remaining_ -= rows.count;
+  return Block{rows, begins_turn};
+}
+
+/// Progress of a turn at which it ends here. Short points share a turn, and a point that takes most of one
+/// has its shard to itself. Shards that begin with a chunk are cheap to join (shards::concatenate).
+double BlockSource::end_of_turn() const {
+  if (turns_.is_at_new_point()) return 0.5;
+  return next_row() % layout::chunk_elements == 0 ? 1.0 : 1.5;
+}
+
+layout::RowRange BlockSource::with_few_traces(layout::RowRange rows) const {
+  double bytes = 0.0;
+  for (std::int64_t i = 0; i < rows.count; ++i) {
+    if (is_retained(study_, (rows.first + i) % study_.trials)) bytes += trace_bytes_;
+    if (bytes > static_cast<double>(max_trace_bytes_per_block)) return {rows.first, i + 1};
+  }
+  return rows;
+}
+
+}  // namespace zerocount::trials

@@ -1,11 +1,14 @@
 #include "results/shards/merge.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
@@ -14,6 +17,7 @@
 #include "results/shards/rig_tables.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
+#include "results/timeline/timeline.hpp"
 
 namespace zerocount::shards {
 namespace {
@@ -232,7 +236,7 @@ void MergedFile::write_statistics(const layout::StoredStatistics& statistics) {
 
 void MergedFile::finish() {
   close();
-  require_written();
+  read_back();
   publish();
 }
 
@@ -242,8 +246,24 @@ void MergedFile::close() {
   written_ = file_.close();
 }
 
+void MergedFile::read_back() {
+  std::exception_ptr unread;
+  const auto hash = [&] {
+    try {
+      const timeline::TimeSpan span(timeline_, "hash", timeline::Work::serial);
+      checksum_ = storage::checksum_of_contents(part_.path(), timeline_);
+    } catch (const Failure&) {
+      unread = std::current_exception();
+    }
+  };
+  // A thread that waits here must not begin another task meanwhile, such as a block of trials.
+  oneapi::tbb::this_task_arena::isolate(
+      [&] { oneapi::tbb::parallel_invoke([&] { require_written(); }, hash); });
+  if (unread) std::rethrow_exception(unread);
+}
+
 void MergedFile::publish() const {
-  storage::publish_compared(output_, timeline_);
+  storage::publish_compared(output_, checksum_);
 }
 
 }  // namespace zerocount::shards

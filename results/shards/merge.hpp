@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/hash/sha256.hpp"
 #include "experiments/study/study.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/header.hpp"
@@ -73,8 +74,10 @@ class MergedFile {
   /// read
   void require_written() const { hdf5::require_written(part_.path(), written_, timeline_); }
   void finish();
-  /// The steps of finish(): close(), require_written(), publish().
+  /// The steps of finish(): close(), read_back(), publish().
   void close();
+  /// require_written(), and the checksum of the file, at a time.
+  void read_back();
   void publish() const;
 
  private:
@@ -86,6 +89,7 @@ class MergedFile {
   std::vector<ShardInfo> shards_;
   storage::UnfinishedFile part_;
   hdf5::WrittenValues written_;
+  hash::Sha256 checksum_{};  ///< of what was read back
   hdf5::File file_;
   std::optional<reading::AllTrialsFile> trials_;
   std::int64_t described_{0};  ///< points with statistics

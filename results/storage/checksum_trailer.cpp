@@ -92,14 +92,23 @@ void publish_with_checksum(const fs::path& path) {
   publish(path);
 }
 
-void publish_compared(const fs::path& path, timeline::Timeline* timeline) {
+hash::Sha256 checksum_of_contents(const fs::path& path, timeline::Timeline* timeline) {
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.valid()) fail_with(path, "read", errno);
+  return sha256_read_ahead(path, file, size_of_file(path, file), timeline);
+}
+
+void publish_compared(const fs::path& path) {
+  publish_compared(path, checksum_of_contents(part_of(path)));
+}
+
+void publish_compared(const fs::path& path, const hash::Sha256& checksum) {
   const fs::path part = part_of(path);
   {
     const FileDescriptor file(::open(part.c_str(), O_RDWR | O_CLOEXEC));
     if (!file.valid()) fail_with(part, "open for writing", errno);
-    const std::size_t size = size_of_file(part, file);
-    const std::string text = trailer_of(sha256_read_ahead(part, file, size, timeline));
-    if (::lseek(file.get(), static_cast<off_t>(size), SEEK_SET) < 0) fail_with(part, "write", errno);
+    if (::lseek(file.get(), 0, SEEK_END) < 0) fail_with(part, "write", errno);
+    const std::string text = trailer_of(checksum);
     write_all(part, file, text);
     synchronise(part, file);
     if (read_trailer(part, file) != text) fail_read_back(part, "the checksum at its end differs");

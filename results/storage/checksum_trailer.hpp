@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "core/hash/sha256.hpp"
+
 namespace zerocount::timeline {
 class Timeline;
 }
@@ -41,8 +43,14 @@ void publish_with_checksum(const std::filesystem::path& path);
 
 /// The same of a file that was brought to the disk, and whose contents came from there and were as they
 /// should be: the bytes that the trailer is for, so only the trailer is read again.
+void publish_compared(const std::filesystem::path& path);
+/// @param checksum of these contents
+void publish_compared(const std::filesystem::path& path, const hash::Sha256& checksum);
+
+/// The SHA-256 of all bytes of a file that has no trailer yet.
 /// @param timeline gets the spans of reading the file, which any thread does; null: none
-void publish_compared(const std::filesystem::path& path, timeline::Timeline* timeline = nullptr);
+/// @throws Failure (machine_failed) with the path and the reason
+hash::Sha256 checksum_of_contents(const std::filesystem::path& path, timeline::Timeline* timeline = nullptr);
 
 /// Gives the file the checksum trailer of its present contents, in a copy that replaces it.
 /// @throws Failure (machine_failed) with the path and the reason

@@ -68,7 +68,7 @@ void assemble(std::span<const shards::ShardInfo> shards, const study::Study& stu
     write_statistics(*file, study, settings);
   }
   timed("store", [&] { file->close(); });
-  timed("read back", [&] { file->require_written(); });
+  timed("read back", [&] { file->read_back(); });
   timed("publish", [&] { file->publish(); });
 }
 

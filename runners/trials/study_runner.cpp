@@ -62,8 +62,10 @@ class ShardPipeline {
       if (has_ended) control.stop();
       return block;
     };
+    // Blocks that wait for an earlier one take memory.
+    const auto max_blocks = static_cast<std::size_t>(threads + threads / 2 + 2);
     tbb::parallel_pipeline(
-        2 * static_cast<std::size_t>(threads) + 2,
+        max_blocks,
         tbb::make_filter<void, std::optional<Block>>(Mode::serial_in_order, next_block) &
             tbb::make_filter<std::optional<Block>, std::shared_ptr<KeptBlock>>(
                 Mode::parallel, [&](const std::optional<Block>& block) { return run_block(*block, stop); }) &

@@ -131,14 +131,22 @@ void ExactSum::normalise() {
 
 ExactSum& ExactSum::operator+=(const ExactSum& other) {
   if (other.digits_.empty()) return *this;
-  ExactSum added = other;
-  added.normalise();
-  normalise();
-  if (added.digits_.empty()) return *this;
-  reach(added.first_, added.first_ + std::ssize(added.digits_) - 1);
-  for (std::size_t i = 0; i < added.digits_.size(); ++i)
-    digits_[static_cast<std::size_t>(added.first_ - first_) + i] += added.digits_[i];
-  normalise();
+  // The digits of a sum are below 2^32 for each addition, and for what normalise() left.
+  if (additions_ + other.additions_ + 1 > additions_without_carry) {
+    ExactSum added = other;
+    added.normalise();
+    normalise();
+    return add_digits(added);
+  }
+  return add_digits(other);
+}
+
+ExactSum& ExactSum::add_digits(const ExactSum& other) {
+  if (other.digits_.empty()) return *this;
+  additions_ += other.additions_ + 1;
+  reach(other.first_, other.first_ + std::ssize(other.digits_) - 1);
+  std::int64_t* const digits = digits_.data() + (other.first_ - first_);
+  for (std::size_t i = 0; i < other.digits_.size(); ++i) digits[i] += other.digits_[i];
   return *this;
 }
 

@@ -41,6 +41,7 @@ class ExactSum {
   bool is_valid() const;
   /// Brings the digits into the one form that stands for the number, whatever it was the sum of.
   void normalise();
+  ExactSum& add_digits(const ExactSum& other);
   void add_scaled(std::int64_t sign, std::int64_t whole, std::int64_t exponent);
   void reach(std::int64_t low, std::int64_t high);
 

@@ -35,7 +35,8 @@ TEST(ChecksumTrailer, OfAPublishedFileIsThatOfItsBytes) {
     for (char& byte : bytes) byte = static_cast<char>(random());
     folder.write("file.part", bytes);
     timeline::Timeline timeline;
-    storage::publish_compared(folder / "file", &timeline);
+    storage::publish_compared(folder / "file",
+                              storage::checksum_of_contents(folder / "file.part", &timeline));
     EXPECT_TRUE(folder.read("file") == bytes + "zerocount-seal sha256 " + hash::sha256_hex(bytes) + "\n")
         << size;
     EXPECT_FALSE(std::filesystem::exists(folder / "file.part"));

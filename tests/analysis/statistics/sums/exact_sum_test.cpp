@@ -76,6 +76,15 @@ TEST(ExactSum, IsThatOfRationalNumbers) {
   }
 }
 
+// So many additions that the digits have to be carried on the way.
+TEST(ExactSum, IsTwiceAsLargeWithItself) {
+  ExactSum sum;
+  for (const double value : {1.0 / 3.0, -1e-30, 7e20}) sum.add(value);
+  const double once = sum.value();
+  for (int doublings = 0; doublings < 70; ++doublings) sum += ExactSum(sum);
+  EXPECT_EQ(sum.value(), std::ldexp(once, 70));
+}
+
 TEST(ExactSum, HoldsTheSmallestAndTheLargestDoubles) {
   using Limits = std::numeric_limits<double>;
   EXPECT_EQ(sum_of({Limits::denorm_min()}).value(), Limits::denorm_min());

@@ -1,14 +1,11 @@
 #include "results/shards/merge.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_invoke.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
@@ -17,7 +14,6 @@
 #include "results/shards/rig_tables.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
-#include "results/timeline/timeline.hpp"
 
 namespace zerocount::shards {
 namespace {
@@ -247,19 +243,8 @@ void MergedFile::close() {
 }
 
 void MergedFile::read_back() {
-  std::exception_ptr unread;
-  const auto hash = [&] {
-    try {
-      const timeline::TimeSpan span(timeline_, "hash", timeline::Work::serial);
-      checksum_ = storage::checksum_of_contents(part_.path(), timeline_);
-    } catch (const Failure&) {
-      unread = std::current_exception();
-    }
-  };
-  // A thread that waits here must not begin another task meanwhile, such as a block of trials.
-  oneapi::tbb::this_task_arena::isolate(
-      [&] { oneapi::tbb::parallel_invoke([&] { require_written(); }, hash); });
-  if (unread) std::rethrow_exception(unread);
+  checksum_ = storage::checksum_of_contents(
+      part_.path(), [&] { require_written(); }, timeline_);
 }
 
 void MergedFile::publish() const {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "core/hash/sha256.hpp"
@@ -51,6 +52,9 @@ void publish_compared(const std::filesystem::path& path, const hash::Sha256& che
 /// @param timeline gets the spans of reading the file, which any thread does; null: none
 /// @throws Failure (machine_failed) with the path and the reason
 hash::Sha256 checksum_of_contents(const std::filesystem::path& path, timeline::Timeline* timeline = nullptr);
+/// The same, while another thread compares the contents. @throws what `compare` throws, else as above
+hash::Sha256 checksum_of_contents(const std::filesystem::path& path, const std::function<void()>& compare,
+                                  timeline::Timeline* timeline);
 
 /// Gives the file the checksum trailer of its present contents, in a copy that replaces it.
 /// @throws Failure (machine_failed) with the path and the reason

@@ -1,12 +1,33 @@
 #include "analysis/parallel/parallel.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "results/timeline/timeline.hpp"
+
 namespace zerocount::parallel {
+namespace {
+
+/// The timeline of what this thread does; null: none. A loop passes it on to the threads of its calls.
+thread_local timeline::Timeline* recorded = nullptr;
+
+/// Makes this thread record there during its lifetime.
+class RecordedThere {
+ public:
+  explicit RecordedThere(timeline::Timeline* there) : before_(std::exchange(recorded, there)) {}
+  RecordedThere(const RecordedThere&) = delete;
+  RecordedThere& operator=(const RecordedThere&) = delete;
+  ~RecordedThere() { recorded = before_; }
+
+ private:
+  timeline::Timeline* before_;
+};
+
+}  // namespace
 
 int threads() {
   using oneapi::tbb::global_control;
@@ -14,8 +35,35 @@ int threads() {
   return std::min(static_cast<int>(limit), oneapi::tbb::this_task_arena::max_concurrency());
 }
 
-void for_each_index(std::size_t count, const std::function<void(std::size_t)>& work) {
-  oneapi::tbb::parallel_for(std::size_t{0}, count, work);
+void for_each_index(std::size_t count, const std::function<void(std::size_t)>& work, std::string_view name) {
+  timeline::Timeline* const there = recorded;
+  if (there == nullptr) {
+    oneapi::tbb::parallel_for(std::size_t{0}, count, work);
+    return;
+  }
+  const timeline::TimeSpan loop(there, name, timeline::Work::parallel);
+  oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    const RecordedThere on_this_thread(there);
+    const timeline::TimeSpan call(there, name, timeline::Work::parallel);
+    work(i);
+  });
+}
+
+struct Recording::Whole {
+  timeline::Timeline* before;
+  timeline::TimeSpan span;
+};
+
+Recording::Recording(timeline::Timeline* timeline, std::string_view name)
+    : whole_(new Whole{std::exchange(recorded, timeline),
+                       timeline::TimeSpan(timeline, name, timeline::Work::serial)}) {}
+
+Recording::~Recording() {
+  recorded = whole_->before;
+}
+
+timeline::Timeline* recording() {
+  return recorded;
 }
 
 struct ThreadLimit::Control {

@@ -3,6 +3,11 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <string_view>
+
+namespace zerocount::timeline {
+class Timeline;
+}
 
 /// Work on all cores, without the headers of the library that does it.
 namespace zerocount::parallel {
@@ -10,8 +15,29 @@ namespace zerocount::parallel {
 /// Threads that work in parallel at most.
 int threads();
 
-/// Calls `work` for each index below `count`, in parallel.
-void for_each_index(std::size_t count, const std::function<void(std::size_t)>& work);
+/// Calls `work` for each index below `count`, in parallel. @param name of each call in a timeline, a literal
+void for_each_index(std::size_t count, const std::function<void(std::size_t)>& work,
+                    std::string_view name = "task");
+
+/// Puts what this thread does during its lifetime into a timeline: one span of it all, and spans of each loop
+/// over indices and of each of its calls, on any thread. What is in no loop is work for one thread.
+class Recording {
+ public:
+  /// @param timeline null: nothing is recorded @param name of the span of it all, a literal
+  Recording(timeline::Timeline* timeline, std::string_view name);
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+  Recording(Recording&&) = delete;
+  Recording& operator=(Recording&&) = delete;
+  ~Recording();
+
+ private:
+  struct Whole;
+  std::unique_ptr<Whole> whole_;
+};
+
+/// The timeline to which the work of this thread is recorded; null: none.
+timeline::Timeline* recording();
 
 /// Threads that work in parallel at most, during its lifetime.
 class ThreadLimit {

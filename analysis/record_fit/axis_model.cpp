@@ -94,19 +94,22 @@ std::vector<RecordMotion> modelled_motions(Records records, const AxisModel& mod
   for (std::size_t r = 0; r < records.size(); ++r) {
     motions[r].sensitivity.setZero(static_cast<Eigen::Index>(sample_count(records[r])), dimension_of(model));
   }
-  parallel::for_each_index(records.size() * columns.size(), [&](std::size_t i) {
-    const std::size_t r = i % records.size();
-    const Eigen::Index j = columns[i / records.size()];
-    if (j == offset) {
-      SampledPath path = path_at(records[r], model, point);
-      if (free.back()) motions[r].sensitivity.col(j) = -path.velocity;
-      motions[r].path = std::move(path.angle);
-      return;
-    }
-    Point moved = point;
-    moved[j] += difference_step;
-    motions[r].sensitivity.col(j) = modelled_path(records[r], model, moved);
-  });
+  parallel::for_each_index(
+      records.size() * columns.size(),
+      [&](std::size_t i) {
+        const std::size_t r = i % records.size();
+        const Eigen::Index j = columns[i / records.size()];
+        if (j == offset) {
+          SampledPath path = path_at(records[r], model, point);
+          if (free.back()) motions[r].sensitivity.col(j) = -path.velocity;
+          motions[r].path = std::move(path.angle);
+          return;
+        }
+        Point moved = point;
+        moved[j] += difference_step;
+        motions[r].sensitivity.col(j) = modelled_path(records[r], model, moved);
+      },
+      "motions");
   for (RecordMotion& motion : motions) {
     for (const Eigen::Index j : columns) {
       if (j == offset) continue;

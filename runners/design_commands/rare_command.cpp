@@ -21,6 +21,7 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/commands/timeline_option.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/examined_point.hpp"
 #include "runners/design_commands/rare_figure.hpp"
@@ -141,6 +142,8 @@ rare::Question question_with_draws(const study::Study& study, const rare::Popula
 
 ExitCode rare(const command_line::Arguments& arguments) {
   const rare::RareSettings settings = settings_of(arguments);
+  const std::optional<std::filesystem::path> timeline =
+      commands::timeline_place(arguments, {arguments.operands()[0]}, {settings.output});
   const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
   const auto threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
   const rare::Population of{named_point(arguments, study), world_to_ask(arguments, study),
@@ -154,10 +157,12 @@ ExitCode rare(const command_line::Arguments& arguments) {
   const storage::OutputLock lock(settings.output);
   commands::print_fallback_lock(lock, settings.output);
   storage::require_replaceable(settings.output);
-  const rare::RareAnswer answer = rare::run_rare(question, settings, interruption.token());
-  const bool is_estimated = answer.estimate.status == rare::EstimateStatus::estimated;
-  return answers::print(arguments, rare_answer(), rare::RareReading{answer, question, settings.output},
-                        is_estimated ? ExitCode::success : ExitCode::inconclusive);
+  return commands::recorded(timeline, "rare", [&] {
+    const rare::RareAnswer answer = rare::run_rare(question, settings, interruption.token());
+    const bool is_estimated = answer.estimate.status == rare::EstimateStatus::estimated;
+    return answers::print(arguments, rare_answer(), rare::RareReading{answer, question, settings.output},
+                          is_estimated ? ExitCode::success : ExitCode::inconclusive);
+  });
 }
 
 }  // namespace
@@ -190,6 +195,7 @@ commands::Command rare_command() {
             {"ratio", "R", "how narrow: high at most R times low (default 2)"},
             {"budget", "B", "a number of trials (default 1000000), or a time such as 60s, 5min or 2h"},
             {"threads", "N", "threads to use; default: all cores"},
+            commands::timeline_option(),
             set_option(),
             {"quiet,q", "", "print no progress"},
             command_line::force_option()}},

@@ -24,6 +24,7 @@
 #include "runners/commands/command.hpp"
 #include "runners/commands/live_page.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/commands/timeline_option.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/examined_point.hpp"
 #include "runners/design_commands/tune_answer.hpp"
@@ -217,6 +218,7 @@ struct TuneTask {
   std::vector<std::filesystem::path> pages;       ///< for the answer
   std::optional<std::filesystem::path> watched;   ///< for the answer, and what is found before
   std::optional<std::filesystem::path> manifest;  ///< for the tuned values
+  std::optional<std::filesystem::path> timeline;  ///< of what the threads do
   bool is_of_file;
 };
 
@@ -228,7 +230,7 @@ std::string spent_of(const tuning::TuneBudget& budget, const tuning::SearchProgr
                        : fmt::format("{} trials", progress.trials);
 }
 
-/// `--report` and `--watch`, once they can be written.
+/// `--report`, `--watch` and `--timeline`, once they can be written.
 void take_pages(const command_line::Arguments& arguments, std::vector<std::filesystem::path> others,
                 TuneTask& task) {
   if (const auto page = commands::page_option(arguments, "report", others)) {
@@ -236,6 +238,8 @@ void take_pages(const command_line::Arguments& arguments, std::vector<std::files
     others.push_back(*page);
   }
   task.watched = commands::watched_page(arguments, others);
+  if (task.watched) others.push_back(*task.watched);
+  task.timeline = commands::timeline_place(arguments, {arguments.operands()[0]}, others);
 }
 
 ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
@@ -275,7 +279,7 @@ ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
     printer.print_extra(extra, tuning_of(answer));
     if (task.watched) live.show(tuning_sections(tuning_of(answer)));
   };
-  return live.during([&] {
+  const auto tune = [&] {
     const tuning::TuneAnswer found = (task.is_of_file ? tuning::describe_tuned : tuning::tune)(
         task.study, task.settings, interruption.token());
     if (task.manifest && found.gains.empty())
@@ -286,7 +290,8 @@ ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
       live.finish(page);
     }
     return printer.print_rest(tuning_of(found, in_html));
-  });
+  };
+  return live.during([&] { return commands::recorded(task.timeline, "tune", tune); });
 }
 
 ExitCode tune_manifest(const command_line::Arguments& arguments) {
@@ -294,11 +299,12 @@ ExitCode tune_manifest(const command_line::Arguments& arguments) {
   settings.output = command_line::output_place(arguments);
   const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
   const std::filesystem::path output = settings.output;
-  TuneTask task{study, std::move(settings), {}, {}, {}, false};
+  TuneTask task{study, std::move(settings), {}, {}, {}, {}, false};
   take_pages(arguments, {arguments.operands()[0], output}, task);
   std::vector<std::filesystem::path> others = task.pages;
   others.push_back(output);
   if (task.watched) others.push_back(*task.watched);
+  if (task.timeline) others.push_back(*task.timeline);
   task.manifest = manifest_option(arguments, study, std::move(others));
   const storage::OutputLock lock(output);
   storage::require_replaceable(output);
@@ -321,7 +327,7 @@ ExitCode tune_file(const command_line::Arguments& arguments) {
   settings.output = arguments.operands()[0];
   const study::Study study = commands::load_study(arguments.operands()[0], arguments);
   const std::filesystem::path output = settings.output;
-  TuneTask task{study, std::move(settings), {}, {}, {}, true};
+  TuneTask task{study, std::move(settings), {}, {}, {}, {}, true};
   take_pages(arguments, {output}, task);
   return run_task(arguments, std::move(task));
 }
@@ -343,6 +349,7 @@ commands::Command tune_command() {
             {"retune-every", "AGE", "tune again at these intervals of life, and tell what that buys"},
             {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"},
             commands::watch_option(),
+            commands::timeline_option(),
             {"threads", "N", "threads to use; default: all cores"},
             set_option(),
             {"quiet,q", "", "print no progress"},

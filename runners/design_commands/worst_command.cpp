@@ -14,6 +14,7 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/commands/timeline_option.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/examined_point.hpp"
 #include "runners/status/interruption.hpp"
@@ -201,9 +202,8 @@ void require_manifest(const ExaminedPoint& examined, const std::filesystem::path
   if (!why.empty()) refuse_manifest(output, why);
 }
 
-ExitCode worst(const command_line::Arguments& arguments) {
-  const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
-  if (output) command_line::require_places(arguments, {arguments.operands()[0]}, {*output});
+ExitCode find_worst(const command_line::Arguments& arguments,
+                    const std::optional<std::filesystem::path>& output) {
   const ExaminedPoint examined = point_to_examine(arguments);
   if (output) require_manifest(examined, *output);
   const status::InterruptionWatch interruption;
@@ -220,6 +220,15 @@ ExitCode worst(const command_line::Arguments& arguments) {
   if (machine.manifest.empty()) refuse_manifest(*output, machine.no_manifest);
   command_line::write_text(*output, machine.manifest);
   return code;
+}
+
+ExitCode worst(const command_line::Arguments& arguments) {
+  const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
+  std::vector<std::filesystem::path> outputs;
+  if (output) outputs.push_back(*output);
+  command_line::require_places(arguments, {arguments.operands()[0]}, outputs);
+  return commands::recorded(commands::timeline_place(arguments, {arguments.operands()[0]}, outputs), "worst",
+                            [&] { return find_worst(arguments, output); });
 }
 
 }  // namespace
@@ -277,6 +286,7 @@ commands::Command worst_command() {
             named_point_option(),
             condition_option(),
             age_option(),
+            commands::timeline_option(),
             set_option(),
             command_line::force_option()}},
           "the machine that a gain suits worst",

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -25,6 +26,7 @@
 #include "runners/commands/command.hpp"
 #include "runners/commands/figure_picture.hpp"
 #include "runners/commands/stage_progress.hpp"
+#include "runners/commands/timeline_option.hpp"
 #include "runners/identification_commands/identification_commands.hpp"
 #include "runners/identification_commands/identify_laws.hpp"
 #include "runners/identification_commands/record_options.hpp"
@@ -317,6 +319,7 @@ struct IdentifyOutputs {
   std::optional<std::filesystem::path> posterior;
   std::optional<std::filesystem::path> plot;
   commands::DrawingKind plot_kind{commands::DrawingKind::page};
+  std::optional<std::filesystem::path> timeline{};
 };
 
 IdentifyOutputs identify_outputs(const command_line::Arguments& arguments) {
@@ -329,7 +332,9 @@ IdentifyOutputs identify_outputs(const command_line::Arguments& arguments) {
     places.push_back(*outputs.plot);
     outputs.plot_kind = commands::drawing_kind(arguments, "plot", *outputs.plot);
   }
-  command_line::require_places(arguments, {arguments.operands().begin(), arguments.operands().end()}, places);
+  const std::vector<std::filesystem::path> inputs(arguments.operands().begin(), arguments.operands().end());
+  command_line::require_places(arguments, inputs, places);
+  outputs.timeline = commands::timeline_place(arguments, inputs, places);
   return outputs;
 }
 
@@ -379,9 +384,8 @@ ExitCode write_identification(const command_line::Arguments& arguments, const Id
   return write_answer(arguments, outputs, answer, found.fragment);
 }
 
-ExitCode identify_records(const command_line::Arguments& arguments) {
-  identification::IdentificationOptions options = identification_options(arguments);
-  const IdentifyOutputs outputs = identify_outputs(arguments);
+ExitCode identify_records(const command_line::Arguments& arguments, const IdentifyOutputs& outputs,
+                          identification::IdentificationOptions options) {
   if (arguments.has("sliding")) {
     refuse_fractional_delay(arguments);
     const auto found = identify_sliding_axis(arguments);
@@ -404,6 +408,13 @@ ExitCode identify_records(const command_line::Arguments& arguments) {
   return write_identification(arguments, outputs,
                               identify_with_progress(arguments, std::move(records), std::move(options)),
                               wanted_draws);
+}
+
+ExitCode identify(const command_line::Arguments& arguments) {
+  identification::IdentificationOptions options = identification_options(arguments);
+  const IdentifyOutputs outputs = identify_outputs(arguments);
+  return commands::recorded(outputs.timeline, "identify",
+                            [&] { return identify_records(arguments, outputs, std::move(options)); });
 }
 
 /// An option of material tests.
@@ -450,6 +461,7 @@ std::vector<command_line::OptionSpec> identify_options() {
        {"trial", "I", "trial of the point (default 0)"},
        answers::format_option({"yaml"}),
        {"output,o", "FILE", "write there instead of to standard output"},
+       commands::timeline_option(),
        {"quiet,q", "", "print no progress"},
        command_line::needing({"output", "posterior", "plot"}, command_line::force_option())});
   return options;
@@ -461,7 +473,7 @@ commands::Command identify_command() {
   return {{"identify", "DATA.csv|FILE...", identify_options(), 1, 64},
           "identify friction, damping and inertia from material tests",
           identify_help,
-          identify_records,
+          identify,
           {identification::identification_answer().complete_type(),
            law_identification::laws_answer().complete_type(),
            sliding_identification::sliding_answer().complete_type()}};

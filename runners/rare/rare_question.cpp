@@ -60,7 +60,8 @@ std::vector<PointResult> run_trials(const Question& question, std::span<const st
 Simulation simulation_of(const Question& question, const trials::Effort& effort) {
   return [&question, effort](std::span<const TrialPoint> points) {
     std::vector<study::GivenDraws> draws(points.size());
-    parallel::for_each_index(points.size(), [&](std::size_t i) { draws[i] = draws_at(question, points[i]); });
+    parallel::for_each_index(
+        points.size(), [&](std::size_t i) { draws[i] = draws_at(question, points[i]); }, "draw");
     return run_trials(question, draws, effort);
   };
 }

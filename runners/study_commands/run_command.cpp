@@ -25,6 +25,7 @@
 #include "runners/commands/command.hpp"
 #include "runners/commands/live_page.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/commands/timeline_option.hpp"
 #include "runners/commands/verified_report.hpp"
 #include "runners/forecast/engine_use.hpp"
 #include "runners/forecast/study_size.hpp"
@@ -108,27 +109,13 @@ void require_study_of_option(const command_line::Arguments& arguments, const stu
                   arguments.operands()[0], study.study_sha256, *wanted));
 }
 
-/// @throws Failure (bad_input) if it is another file of the command, or exists and --force is not given
-std::optional<fs::path> timeline_place(const command_line::Arguments& arguments, const RunRequest& request) {
-  std::optional<fs::path> place = command_line::text_place(arguments, "timeline");
-  if (!place) return place;
-  // The same command goes on after an interruption, and writes its timeline anew.
-  if (!yaml::is_standard_stream(*place) && timeline::is_timeline(storage::bytes_at(*place, 0, 64))) {
-    storage::require_replaceable(*place);
-  } else {
-    command_line::require_places(arguments, {arguments.operands()[0]}, {*place});
-  }
-  std::vector<fs::path> others{request.output};
-  if (request.page) others.push_back(*request.page);
-  command_line::require_apart(arguments, *place, others);
-  return place;
-}
-
 RunRequest run_request(const command_line::Arguments& arguments) {
   RunRequest request;
   request.output = command_line::output_place(arguments);
   request.page = commands::watched_page(arguments, {arguments.operands()[0], request.output});
-  request.timeline = timeline_place(arguments, request);
+  std::vector<fs::path> others{request.output};
+  if (request.page) others.push_back(*request.page);
+  request.timeline = commands::timeline_place(arguments, {arguments.operands()[0]}, others);
   request.study = commands::load_study(arguments.operands()[0], arguments, {&request.output, 1});
   require_study_of_option(arguments, request.study);
   request.study.engine = engine_of(arguments);
@@ -190,24 +177,6 @@ void run_to_output(const RunRequest& request, const status::Listener& listener, 
   }
 }
 
-/// Runs, and writes the timeline also of a run that fails or is interrupted.
-template <class Work>
-void with_timeline(const std::optional<fs::path>& place, const Work& work) {
-  if (!place) return work(nullptr);
-  timeline::Timeline timeline;
-  try {
-    work(&timeline);
-  } catch (...) {
-    try {
-      command_line::write_text(*place, timeline.trace_events());
-    } catch (const Failure& failure) {  // what the run failed of is to be told, too
-      status::tell("{}\n", failure.what());
-    }
-    throw;
-  }
-  command_line::write_text(*place, timeline.trace_events());
-}
-
 ExitCode run(const command_line::Arguments& arguments) {
   const RunRequest request = run_request(arguments);
   const parallel::ThreadLimit limit(trials::threads_to_use(request.threads));
@@ -230,7 +199,7 @@ ExitCode run(const command_line::Arguments& arguments) {
                            .kind = "run"},
                           [&] { return sections_so_far(request.output); });
   return live.during([&] {
-    with_timeline(request.timeline, [&](timeline::Timeline* timeline) {
+    commands::with_timeline(request.timeline, [&](timeline::Timeline* timeline) {
       run_to_output(request, live.listener(), timeline, interruption.token());
     });
     if (request.page) live.finish(report::html_page(page_of(request.output)));
@@ -253,8 +222,7 @@ commands::Command run_command() {
         {"study", "SHA256", "refuse a study with another hash, such as one whose manifest has changed"},
         {"set", "KEY=VALUE",
          "override a manifest key, e.g. controller.ki=2e-5; may be repeated; recorded in the file", true},
-        {"timeline", "FILE",
-         "write which thread did what, and when, for Perfetto or chrome://tracing (Trace Event Format)"},
+        commands::timeline_option(),
         {"quiet,q", "", "print no progress"},
         {"force", "",
          "replace all files named, remove unfinished runs of other studies, skip the check of disk space"}}},

@@ -55,11 +55,14 @@ void run(const TrialSet& set, const Effort& effort, const TakeBlock& take) {
   const std::stop_token stop = effort.stop();
   oneapi::tbb::enumerable_thread_specific<std::unique_ptr<batch::BatchEngine>> engines(
       [] { return std::make_unique<batch::BatchEngine>(); });
-  parallel::for_each_index(set.blocks, [&](std::size_t block) {
-    const std::vector<trial::TrialParameters> trials = set.draw(block);
-    take(block, set.engine == study::Engine::reference ? outcomes_by_reference(trials, stop)
-                                                       : outcomes_of(trials, *engines.local(), stop));
-  });
+  parallel::for_each_index(
+      set.blocks,
+      [&](std::size_t block) {
+        const std::vector<trial::TrialParameters> trials = set.draw(block);
+        take(block, set.engine == study::Engine::reference ? outcomes_by_reference(trials, stop)
+                                                           : outcomes_of(trials, *engines.local(), stop));
+      },
+      "simulate");
 }
 
 }  // namespace zerocount::trials

@@ -362,13 +362,16 @@ bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins
   if (!is_wanted(margins)) return true;
   const std::vector<Corner> corners = examined_corners();
   std::vector<char> kept(corners.size(), 1);
-  parallel::for_each_index(corners.size(), [&](std::size_t i) {
-    if (stop.stop_requested()) throw trial::Interrupted{};
-    kept[i] =
-        keeps_margins(at(corners[i], candidate), loops_with(machines_[corners[i].machine], slides), margins)
-            ? 1
-            : 0;
-  });
+  parallel::for_each_index(
+      corners.size(),
+      [&](std::size_t i) {
+        if (stop.stop_requested()) throw trial::Interrupted{};
+        kept[i] = keeps_margins(at(corners[i], candidate), loops_with(machines_[corners[i].machine], slides),
+                                margins)
+                      ? 1
+                      : 0;
+      },
+      "margins of machines");
   const auto broken = std::ranges::find(kept, 0);
   if (broken == kept.end()) return true;
   const Corner& first = corners[static_cast<std::size_t>(broken - kept.begin())];
@@ -380,12 +383,15 @@ SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool sli
                                          const std::stop_token& stop) const {
   const std::vector<Corner> corners = examined_corners();
   std::vector<SmallestMargins> found(corners.size(), no_limit());
-  parallel::for_each_index(corners.size(), [&](std::size_t i) {
-    if (stop.stop_requested()) throw trial::Interrupted{};
-    const Machine& machine = machines_[corners[i].machine];
-    found[i] = margins_of_machine(at(corners[i], candidate), loops_with(machine, slides), machine.draw,
-                                  machine.condition);
-  });
+  parallel::for_each_index(
+      corners.size(),
+      [&](std::size_t i) {
+        if (stop.stop_requested()) throw trial::Interrupted{};
+        const Machine& machine = machines_[corners[i].machine];
+        found[i] = margins_of_machine(at(corners[i], candidate), loops_with(machine, slides), machine.draw,
+                                      machine.condition);
+      },
+      "margins of machines");
   SmallestMargins all = no_limit();
   all.machines = examined_;
   if (!machines_.empty()) all.spread = machines_.front().spread;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "analysis/goal/goal_verdict.hpp"
+#include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest_text/overrides.hpp"
@@ -101,9 +102,16 @@ bool holds_run(const std::filesystem::path& output, const study::Study& study) {
 void make_run(const study::Study& study, const std::filesystem::path& output, int threads,
               const trials::Effort& effort) {
   try {
-    study_run::run_to_file(
-        {study, output, layout::all_rows(study), threads, true, study_run::ForeignShards::remove, true},
-        study_run::ExistingUse::none, effort.stop());
+    study_run::run_to_file({study,
+                            output,
+                            layout::all_rows(study),
+                            threads,
+                            true,
+                            study_run::ForeignShards::remove,
+                            true,
+                            {},
+                            parallel::recording()},
+                           study_run::ExistingUse::none, effort.stop());
   } catch (const Failure& failure) {
     if (failure.code() != ExitCode::interrupted || effort.is_interrupted()) throw;
     std::error_code error;

@@ -94,8 +94,8 @@ void StudySearch::evaluate(std::span<Candidate* const> candidates, std::int64_t 
     unknown.push_back(one);
   }
   std::vector<study::Study> studies(unknown.size());
-  parallel::for_each_index(unknown.size(),
-                           [&](std::size_t i) { studies[i] = candidate(unknown[i]->values); });
+  parallel::for_each_index(
+      unknown.size(), [&](std::size_t i) { studies[i] = candidate(unknown[i]->values); }, "study");
   std::vector<UnitsToRun> entries;
   entries.reserve(unknown.size());
   for (std::size_t i = 0; i < unknown.size(); ++i)
@@ -134,11 +134,14 @@ std::vector<bool> StudySearch::admissible(std::span<const Candidate> candidates)
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (!may_keep_.contains(examination_of(candidates[i]))) unknown.push_back(i);
   }
-  parallel::for_each_index(unknown.size(), [&](std::size_t k) {
-    if (stop_.stop_requested()) return;
-    const Candidate& one = candidates[unknown[k]];
-    kept[unknown[k]] = may_keep(one.values, has_slid(one.units)) ? 1 : 0;
-  });
+  parallel::for_each_index(
+      unknown.size(),
+      [&](std::size_t k) {
+        if (stop_.stop_requested()) return;
+        const Candidate& one = candidates[unknown[k]];
+        kept[unknown[k]] = may_keep(one.values, has_slid(one.units)) ? 1 : 0;
+      },
+      "margins");
   if (stop_.stop_requested()) throw trial::Interrupted{};
   for (const std::size_t i : unknown) {
     if (kept[i] != 0) may_keep_.insert(examination_of(candidates[i]));
@@ -149,11 +152,14 @@ std::vector<bool> StudySearch::admissible(std::span<const Candidate> candidates)
 
 std::vector<double> StudySearch::shortfall(std::span<const Values> values) const {
   std::vector<double> found(values.size(), std::numeric_limits<double>::infinity());
-  parallel::for_each_index(values.size(), [&](std::size_t i) {
-    if (stop_.stop_requested()) return;
-    if (const std::optional<study::Study> study = examined_if_allowed(values[i]))
-      found[i] = examiner_.shortfall(*study, study_.tuning->margins, false);
-  });
+  parallel::for_each_index(
+      values.size(),
+      [&](std::size_t i) {
+        if (stop_.stop_requested()) return;
+        if (const std::optional<study::Study> study = examined_if_allowed(values[i]))
+          found[i] = examiner_.shortfall(*study, study_.tuning->margins, false);
+      },
+      "shortfall");
   if (stop_.stop_requested()) throw trial::Interrupted{};
   return found;
 }

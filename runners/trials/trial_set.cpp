@@ -13,8 +13,13 @@
 namespace zerocount::trials {
 
 std::int64_t block_for_lanes(std::int64_t all) {
-  constexpr std::int64_t blocks_of_thread = 2;  // at least
-  return std::clamp<std::int64_t>(all / (blocks_of_thread * parallel::threads()), 32, 256);
+  constexpr std::int64_t most = 128;  // the lanes of an engine
+  constexpr std::int64_t least = 16;
+  const std::int64_t threads = parallel::threads();
+  const std::int64_t blocks_of_thread =
+      std::max<std::int64_t>((all + most * threads - 1) / (most * threads), 1);
+  const std::int64_t blocks = blocks_of_thread * threads;
+  return std::max((all + blocks - 1) / blocks, least);
 }
 
 TrialSet numbered_trials(std::int64_t count, std::int64_t block,

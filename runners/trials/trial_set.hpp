@@ -22,7 +22,8 @@ struct TrialSet {
   study::Engine engine{study::Engine::batch};
 };
 
-/// Trials of a block: enough to fill the lanes, and few enough for all threads. @param all trials of the set
+/// Trials of a block: at most those that lanes run together, and few enough that all threads have as many
+/// blocks. @param all trials of the set
 std::int64_t block_for_lanes(std::int64_t all);
 
 /// The trials 0 to count − 1, each drawn by its number, in blocks of `block` trials.

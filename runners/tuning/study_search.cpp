@@ -110,11 +110,19 @@ void StudySearch::evaluate(std::span<Candidate* const> candidates, std::int64_t 
   }
   simulation_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (const Candidate* const one : candidates) some_slid_ = some_slid_ || has_slid(one->units);
-  for (std::size_t i = 0; i < unknown.size(); ++i) {
-    simulated_ += (to - from[i]) * units_.trials_each;
-    journal_.add(base_.study_sha256, unknown[i]->values, from[i],
-                 std::span(unknown[i]->units).subspan(static_cast<std::size_t>(from[i])), elapsed_());
-  }
+  for (const std::int64_t begin : from) simulated_ += (to - begin) * units_.trials_each;
+  std::vector<std::string> lines(unknown.size());
+  const double seconds = elapsed_();
+  parallel::for_each_index(
+      unknown.size(),
+      [&](std::size_t i) {
+        lines[i] =
+            evaluation_line(base_.study_sha256, unknown[i]->values, from[i],
+                            std::span(unknown[i]->units).subspan(static_cast<std::size_t>(from[i])), seconds);
+        studies[i] = {};  // large, and as slow to free as to make
+      },
+      "journal");
+  journal_.add(lines);
 }
 
 std::string StudySearch::refusal_of_all() const {

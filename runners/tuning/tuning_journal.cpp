@@ -4,11 +4,13 @@
 #include <cerrno>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "core/failure/failure.hpp"
@@ -18,14 +20,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A unit as [slid, claim, …], a claim as [moves, met, value, …]; null is infinite.
-Json json_of(const UnitResult& unit) {
-  Json json{unit.slid};
+/// Appends a unit as [slid, claim, …], a claim as [moves, met, value, …]; null is infinite.
+void append_unit(const UnitResult& unit, std::string& text) {
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "[{}", unit.slid);
   for (const ClaimResult& claim : unit.claims) {
-    Json& one = json.emplace_back(Json{claim.moves, claim.met});
-    for (const double value : claim.values) one.push_back(std::isfinite(value) ? Json(value) : Json());
+    fmt::format_to(out, ",[{},{}", claim.moves, claim.met);
+    for (const double value : claim.values) {
+      if (std::isfinite(value)) {
+        fmt::format_to(out, ",{}", value);
+      } else {
+        text += ",null";
+      }
+    }
+    text += ']';
   }
-  return json;
+  text += ']';
 }
 
 ClaimResult claim_of(const Json& json) {
@@ -99,27 +109,25 @@ void TuningJournal::take(const std::string& search, const Values& values, std::i
     units.push_back(std::move(known->second[static_cast<std::size_t>(i)]));
 }
 
-void TuningJournal::add(const std::string& search, const Values& values, std::int64_t from,
-                        std::span<const UnitResult> units, double seconds) {
-  Json list = Json::array();
-  for (const UnitResult& unit : units) list.push_back(json_of(unit));
-  append(Json{{"search", search}, {"values", values}, {"from", from}, {"units", list}, {"seconds", seconds}}
-             .dump());
+void TuningJournal::add(std::span<const std::string> evaluations) {
+  if (!evaluations.empty()) append(evaluations);
 }
 
 void TuningJournal::keep_speed(double speed) {
-  if (!speed_) append(Json{{"speed", speed}}.dump());
+  const std::string line = Json{{"speed", speed}}.dump();
+  if (!speed_) append({&line, 1});
   speed_ = speed;
 }
 
-void TuningJournal::append(const std::string& line) {
+void TuningJournal::append(std::span<const std::string> lines) {
   if (path_.empty()) return;
   errno = 0;
   std::ofstream file(path_, std::ios::app);
   // A line break first ends the part of a line that a killed run may have left.
   file << (std::exchange(torn_, false) ? "\n" : "");
   if (!resumed_ && !begun_) file << header_ << '\n';
-  file << line << '\n' << std::flush;
+  for (const std::string& line : lines) file << line << '\n';
+  file << std::flush;
   begun_ = true;
   if (file) return;
   throw Failure(ExitCode::machine_failed,
@@ -131,6 +139,17 @@ void TuningJournal::remove() {
   if (path_.empty()) return;
   std::error_code error;
   std::filesystem::remove(path_, error);
+}
+
+std::string evaluation_line(const std::string& search, const Values& values, std::int64_t from,
+                            std::span<const UnitResult> units, double seconds) {
+  std::string text = fmt::format(R"({{"search":"{}","values":[{}],"from":{},"units":[)", search,
+                                 fmt::join(values, ","), from);
+  for (const UnitResult& unit : units) {
+    if (text.back() != '[') text += ',';
+    append_unit(unit, text);
+  }
+  return text + fmt::format(R"(],"seconds":{}}})", seconds);
 }
 
 }  // namespace zerocount::tuning

@@ -38,18 +38,16 @@ class TuningJournal {
   void take(const std::string& search, const Values& values, std::int64_t from, std::int64_t to,
             std::vector<UnitResult>& units);
 
-  /// Writes units [from, …) of a candidate.
-  /// @param search hash of the searched study @param seconds that the tuning took so far
+  /// Writes evaluations, each a line of evaluation_line().
   /// @throws Failure (machine_failed)
-  void add(const std::string& search, const Values& values, std::int64_t from,
-           std::span<const UnitResult> units, double seconds);
+  void add(std::span<const std::string> evaluations);
 
   /// Removes the file.
   void remove();
 
  private:
   void read_line(const std::string& line);
-  void append(const std::string& line);
+  void append(std::span<const std::string> lines);
 
   std::filesystem::path path_;
   std::string header_;
@@ -60,5 +58,10 @@ class TuningJournal {
   std::optional<double> speed_;
   std::map<std::pair<std::string, Values>, std::vector<UnitResult>> known_;
 };
+
+/// Units [from, …) of a candidate, as a journal keeps them.
+/// @param search hash of the searched study @param seconds that the tuning took so far
+std::string evaluation_line(const std::string& search, const Values& values, std::int64_t from,
+                            std::span<const UnitResult> units, double seconds);
 
 }  // namespace zerocount::tuning

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -21,12 +22,13 @@ namespace {
 
 constexpr std::int64_t trials_of_reference = 8;  // of a part that lanes do not run
 
-/// A part of an entry that one thread runs.
-struct Part {
+struct UnitOfEntry {
   const UnitsToRun* entry;
-  std::int64_t from;
-  std::int64_t to;
+  std::int64_t unit;
 };
+
+/// Units that one thread runs at once, of one entry or of several.
+using Block = std::vector<UnitOfEntry>;
 
 double value_of(const Criterion& criterion, const trial::MoveOutcome& move) {
   const double value = measures::counted_value(*criterion.measure, move);
@@ -70,30 +72,54 @@ trial::TrialParameters trial_of(const UnitsToRun& entry, const trials::Replicate
   return parameters;
 }
 
-std::vector<trial::TrialParameters> trials_of(const Part& part, const trials::Replicates& units) {
+std::vector<trial::TrialParameters> trials_of(const Block& block, const trials::Replicates& units) {
   std::vector<trial::TrialParameters> trials;
-  for (std::int64_t unit = part.from; unit < part.to; ++unit) {
+  for (const UnitOfEntry& one : block) {
     for (std::int64_t i = 0; i < units.trials_each; ++i)
-      trials.push_back(trial_of(*part.entry, units, unit, i));
+      trials.push_back(trial_of(*one.entry, units, one.unit, i));
   }
   return trials;
 }
 
-/// Units that one thread runs at once. @param all trials that are run together
-std::int64_t units_of_part(const UnitsToRun& entry, const trials::Replicates& units, std::int64_t all) {
+/// Units of a block. @param all trials that are run together
+std::size_t units_of_block(const UnitsToRun& entry, const trials::Replicates& units, std::int64_t all) {
   const bool in_lanes = batch::runs_in_lanes(trial_of(entry, units, entry.from, 0));
   const std::int64_t trials = in_lanes ? trials::block_for_lanes(all) : trials_of_reference;
-  return std::max<std::int64_t>(1, trials / units.trials_each);
+  return static_cast<std::size_t>(std::max<std::int64_t>(1, trials / units.trials_each));
 }
 
-void add_outcomes(const Part& part, const trials::Replicates& units,
+/// The units of all entries in blocks of about the same work, however few units each entry has.
+/// @param all trials of the entries
+std::vector<Block> blocks_of(std::span<const UnitsToRun> entries, const trials::Replicates& units,
+                             std::int64_t all) {
+  std::vector<Block> blocks;
+  std::size_t size = 0;
+  for (const UnitsToRun& entry : entries) {
+    if (entry.from >= entry.to) continue;
+    const std::size_t wanted = units_of_block(entry, units, all);
+    if (wanted != std::exchange(size, wanted)) blocks.emplace_back();
+    for (std::int64_t unit = entry.from; unit < entry.to; ++unit) {
+      if (blocks.back().size() == size) blocks.emplace_back();
+      blocks.back().push_back({&entry, unit});
+    }
+  }
+  return blocks;
+}
+
+void add_outcomes(const Block& block, const trials::Replicates& units,
                   std::span<const trial::TrialOutcome> outcomes) {
-  const TrialCounter counter(*part.entry->study);
-  const std::int64_t conditions = study::condition_count(*part.entry->study);
+  std::optional<TrialCounter> counter;
+  const UnitsToRun* entry = nullptr;
+  std::int64_t conditions = 1;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const auto trial = static_cast<std::int64_t>(i);
-    const auto unit = static_cast<std::size_t>(part.from + trial / units.trials_each);
-    counter.add(outcomes[i].moves, trial % units.trials_each % conditions, (*part.entry->results)[unit]);
+    const UnitOfEntry& one = block[i / static_cast<std::size_t>(units.trials_each)];
+    if (one.entry != std::exchange(entry, one.entry)) {
+      counter.emplace(*entry->study);
+      conditions = study::condition_count(*entry->study);
+    }
+    counter->add(outcomes[i].moves, trial % units.trials_each % conditions,
+                 (*entry->results)[static_cast<std::size_t>(one.unit)]);
   }
 }
 
@@ -245,22 +271,16 @@ std::string text_of_claim(const study::Study& study, const ClaimPlace& place) {
 
 void run_units(std::span<const UnitsToRun> entries, const trials::Replicates& units,
                const trials::Effort& effort) {
-  std::vector<Part> parts;
   trials::TrialSet set;
   for (const UnitsToRun& entry : entries) {
     entry.results->resize(static_cast<std::size_t>(entry.to));
     set.count += (entry.to - entry.from) * units.trials_each;
   }
-  for (const UnitsToRun& entry : entries) {
-    if (entry.from >= entry.to) continue;
-    const std::int64_t size = units_of_part(entry, units, set.count);
-    for (std::int64_t from = entry.from; from < entry.to; from += size)
-      parts.push_back({&entry, from, std::min(from + size, entry.to)});
-  }
-  set.blocks = parts.size();
-  set.draw = [&](std::size_t block) { return trials_of(parts[block], units); };
+  const std::vector<Block> blocks = blocks_of(entries, units, set.count);
+  set.blocks = blocks.size();
+  set.draw = [&](std::size_t block) { return trials_of(blocks[block], units); };
   trials::run(set, effort, [&](std::size_t block, std::span<const trial::TrialOutcome> outcomes) {
-    add_outcomes(parts[block], units, outcomes);
+    add_outcomes(blocks[block], units, outcomes);
   });
 }
 

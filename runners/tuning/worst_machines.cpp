@@ -233,8 +233,8 @@ class MachineSearch {
         place.push_back((all_corners ? ((corner >> i) & 1U) == 1U : numbers_.uniform() < 0.5) ? 1.0 : 0.0);
       add(place);
     }
-    const std::vector<double> start(size, 0.5);
-    for (std::size_t i = 0; i < filling_points; ++i) add(spread_place(start, static_cast<std::int64_t>(i)));
+    const SpreadPlaces filling(std::vector<double>(size, 0.5));
+    for (std::size_t i = 0; i < filling_points; ++i) add(filling.at(static_cast<std::int64_t>(i)));
     for (std::size_t i = 0; i < std::min(order.size(), survivors); ++i)
       points.push_back(inside(machine_of(order[i]), region));
     return points;

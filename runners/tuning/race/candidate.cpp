@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/quantile.hpp"
 
 namespace zerocount::tuning {
@@ -135,6 +137,15 @@ Estimate estimate_of(const Aim& aim, const Candidate& candidate, std::int64_t un
   return estimate;
 }
 
+std::vector<Estimate> estimates_of(const Aim& aim, std::span<const Candidate> candidates,
+                                   std::int64_t units) {
+  std::vector<Estimate> estimates(candidates.size());
+  parallel::for_each_index(
+      candidates.size(), [&](std::size_t i) { estimates[i] = estimate_of(aim, candidates[i], units); },
+      "estimate");
+  return estimates;
+}
+
 bool reaches(const Aim& aim, const Estimate& estimate) {
   for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
     if (estimate.rates[claim] < wanted_rate(aim.claims[claim])) return false;
@@ -183,10 +194,22 @@ double late_part(const ClaimResult& result, double limit) {
 
 double evidence_of_increase(std::span<const double> differences) {
   constexpr std::array<double, 6> bets{0.02, 0.05, 0.12, 0.3, 0.6, 0.9};
+  // Moves that meet a goal or miss it differ in few ways, of which each is computed once.
+  std::map<double, std::size_t> numbers;
+  std::vector<double> distinct;
+  std::vector<std::size_t> kind;
+  kind.reserve(differences.size());
+  for (const double d : differences) {
+    const auto [known, is_new] = numbers.try_emplace(d, distinct.size());
+    if (is_new) distinct.push_back(d);
+    kind.push_back(known->second);
+  }
+  std::vector<double> growth(distinct.size());
   double evidence = 0.0;
   for (const double bet : bets) {
+    for (std::size_t i = 0; i < distinct.size(); ++i) growth[i] = std::log1p(bet * distinct[i]);
     double log_wealth = 0.0;
-    for (const double d : differences) log_wealth += std::log1p(bet * d);
+    for (const std::size_t i : kind) log_wealth += growth[i];
     evidence += std::exp(std::min(log_wealth, 500.0)) / bets.size();
   }
   return evidence;

@@ -75,6 +75,9 @@ struct Estimate {
 /// @param units how many; all if there are fewer
 Estimate estimate_of(const Aim& aim, const Candidate& candidate, std::int64_t units);
 
+/// Those of several candidates, [candidate].
+std::vector<Estimate> estimates_of(const Aim& aim, std::span<const Candidate> candidates, std::int64_t units);
+
 /// The rate that is claimed.
 inline double wanted_rate(const Claim& claim) {
   return claim.machines.value_or(claim.moves);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "analysis/parallel/parallel.hpp"
+
 namespace zerocount::tuning {
 namespace {
 
@@ -13,9 +15,9 @@ std::vector<std::size_t> by_margin(const Aim& aim, const std::vector<Candidate>&
                                    std::int64_t units) {
   std::vector<std::size_t> order(candidates.size());
   std::vector<double> margins;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    order[i] = i;
-    margins.push_back(estimate_of(aim, candidates[i], units).margin);
+  for (const Estimate& one : estimates_of(aim, candidates, units)) {
+    order[margins.size()] = margins.size();
+    margins.push_back(one.margin);
   }
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return margins[a] > margins[b]; });
   return order;
@@ -29,18 +31,24 @@ std::vector<Candidate> dropped(const Aim& aim, const SearchSize& size, std::vect
   const Candidate& most_reliable = candidates[reliable.front()];
   const auto sure = std::ranges::find_if(
       candidates, [&](const Candidate& one) { return surely_meets(aim, one, error_of_dropping); });
-  const auto stays = [&](const Candidate& one) {
-    return !surely_misses(aim, one, most_reliable, error_of_dropping) &&
-           (sure == candidates.end() || &one == &*sure ||
-            !is_significantly_later(aim, one, *sure, error_of_dropping));
-  };
+  std::vector<char> stays(candidates.size());
+  parallel::for_each_index(
+      candidates.size(),
+      [&](std::size_t i) {
+        const Candidate& one = candidates[i];
+        const bool stays_in = !surely_misses(aim, one, most_reliable, error_of_dropping) &&
+                              (sure == candidates.end() || &one == &*sure ||
+                               !is_significantly_later(aim, one, *sure, error_of_dropping));
+        stays[i] = stays_in ? 1 : 0;
+      },
+      "compare");
   const auto most = static_cast<std::size_t>(max_after(size, units));
   std::vector<char> chosen;
   chosen.reserve(candidates.size());
   for (const Candidate& one : candidates) chosen.push_back(std::ssize(one.units) > units ? 1 : 0);
   std::size_t count = 0;
   const auto choose = [&](std::size_t i) {
-    if (count == most || chosen[i] != 0 || !stays(candidates[i])) return;
+    if (count == most || chosen[i] != 0 || stays[i] == 0) return;
     chosen[i] = 1;
     ++count;
   };

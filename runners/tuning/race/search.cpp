@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "core/random/number_source.hpp"
 #include "experiments/designs/random_key.hpp"
@@ -127,13 +128,14 @@ class Search {
     const auto wanted = static_cast<std::size_t>(problem_.size.first_candidates);
     std::vector<double> start;
     for (std::size_t i = 0; i < problem_.free.size(); ++i) start.push_back(numbers_.uniform());
+    const SpreadPlaces places(std::move(start));
     std::vector<Candidate> candidates;
     for (const std::vector<std::size_t>& face : problem_.faces)
-      spread(candidates, start, face,
+      spread(candidates, places, face,
              candidates.size() + static_cast<std::size_t>(problem_.size.face_candidates));
     const std::size_t on_faces =
         problem_.faces.size() * static_cast<std::size_t>(problem_.size.face_candidates);
-    spread(candidates, start, {}, wanted + std::min(candidates.size(), on_faces));
+    spread(candidates, places, {}, wanted + std::min(candidates.size(), on_faces));
     race(std::move(candidates));
   }
 
@@ -150,7 +152,7 @@ class Search {
   }
 
   /// Adds candidates that are evenly spread over a face, up to `wanted` of all.
-  void spread(std::vector<Candidate>& candidates, const std::vector<double>& start,
+  void spread(std::vector<Candidate>& candidates, const SpreadPlaces& sequence,
               const std::vector<std::size_t>& face, std::size_t wanted) {
     if (wanted <= candidates.size()) return;
     std::int64_t drawn = 0;
@@ -158,14 +160,14 @@ class Search {
     find(candidates, [&] {
       std::vector<UnitCubePoint> places;
       for (std::size_t i = 0; i < places_at_once; ++i) {
-        places.push_back(spread_place(start, drawn++));
+        places.push_back(sequence.at(drawn++));
         for (const std::size_t parameter : face) places.back()[parameter] = 0.0;
       }
       add_admissible(places, wanted, candidates);
       return candidates.size() < wanted && drawn < most;
     });
     if (!problem_.shortfall) return;
-    approach(candidates, wanted, face, [&](std::int64_t i) { return spread_place(start, i); });
+    approach(candidates, wanted, face, [&](std::int64_t i) { return sequence.at(i); });
   }
 
   std::vector<double> shortfalls_at(const std::vector<UnitCubePoint>& places) const {
@@ -265,8 +267,8 @@ class Search {
     if (candidates.size() <= elites) return;
     std::vector<double> margins;
     margins.reserve(candidates.size());
-    for (const Candidate& one : candidates)
-      margins.push_back(estimate_of(problem_.aim, one, most_units_).margin);
+    for (const Estimate& one : estimates_of(problem_.aim, candidates, most_units_))
+      margins.push_back(one.margin);
     const std::ptrdiff_t reliable = std::ranges::max_element(margins) - margins.begin();
     if (reliable >= problem_.size.elites)
       std::swap(candidates[elites - 1], candidates[static_cast<std::size_t>(reliable)]);
@@ -316,8 +318,9 @@ class Search {
   void sort_by_merit(std::vector<Candidate>& candidates, std::int64_t units) {
     std::vector<std::pair<Estimate, std::size_t>> order;
     order.reserve(candidates.size());
+    std::vector<Estimate> estimates = estimates_of(problem_.aim, candidates, units);
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      order.emplace_back(estimate_of(problem_.aim, candidates[i], units), i);
+      order.emplace_back(std::move(estimates[i]), i);
       Estimate& latest = estimates_[candidates[i].values];
       if (order.back().first.units >= latest.units) latest = order.back().first;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace zerocount::tuning {
 namespace {
@@ -38,14 +39,16 @@ UnitCubePoint place_of(std::span<const study::FreeParameter> free, const Values&
   return place;
 }
 
-UnitCubePoint spread_place(std::span<const double> start, std::int64_t i) {
+SpreadPlaces::SpreadPlaces(std::vector<double> start) : start_(std::move(start)) {
   double g = 2.0;
-  for (int step = 0; step < 60; ++step) g = std::pow(1.0 + g, 1.0 / static_cast<double>(start.size() + 1));
+  for (int step = 0; step < 60; ++step) g = std::pow(1.0 + g, 1.0 / static_cast<double>(start_.size() + 1));
+  for (std::size_t d = 0; d < start_.size(); ++d) ratios_.push_back((d == 0 ? 1.0 : ratios_.back()) / g);
+}
+
+UnitCubePoint SpreadPlaces::at(std::int64_t i) const {
   UnitCubePoint place;
-  double ratio = 1.0;
-  for (const double first : start) {
-    ratio /= g;
-    const double value = first + static_cast<double>(i) * ratio;
+  for (std::size_t d = 0; d < start_.size(); ++d) {
+    const double value = start_[d] + static_cast<double>(i) * ratios_[d];
     place.push_back(value - std::floor(value));
   }
   return place;

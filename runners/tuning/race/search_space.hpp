@@ -20,8 +20,17 @@ Values values_at(std::span<const study::FreeParameter> free, const UnitCubePoint
 /// The place of the values, clamped to the ranges.
 UnitCubePoint place_of(std::span<const study::FreeParameter> free, const Values& values);
 
-/// Point i of a sequence that fills the unit cube evenly: the fractional parts of start_d + i·g⁻ᵈ, d = 1, 2,
-/// …, g the root of gᴰ⁺¹ = g + 1 (Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
-UnitCubePoint spread_place(std::span<const double> start, std::int64_t i);
+/// A sequence that fills the unit cube evenly: the fractional parts of start_d + i·g⁻ᵈ, d = 1, 2, …, g the
+/// root of gᴰ⁺¹ = g + 1 (Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
+class SpreadPlaces {
+ public:
+  explicit SpreadPlaces(std::vector<double> start);
+
+  UnitCubePoint at(std::int64_t i) const;
+
+ private:
+  std::vector<double> start_;
+  std::vector<double> ratios_;  ///< [d] g⁻ᵈ
+};
 
 }  // namespace zerocount::tuning

@@ -401,7 +401,7 @@ TEST(SearchSpace, ValuesHaveFourDigitsAndStayInTheirRanges) {
   const std::vector<study::FreeParameter> free{{.name = "a", .low = 1e-6, .high = 1e-3, .logarithmic = true},
                                                {.name = "b", .low = 0.0, .high = 12.0, .whole = true}};
   for (std::int64_t i = 0; i < 200; ++i) {
-    const Values values = values_at(free, spread_place(std::vector<double>{0.1, 0.2}, i));
+    const Values values = values_at(free, SpreadPlaces({0.1, 0.2}).at(i));
     EXPECT_GE(values[0], 1e-6);
     EXPECT_LE(values[0], 1e-3);
     EXPECT_EQ(values[1], std::round(values[1]));

@@ -1,6 +1,7 @@
 #include "analysis/parallel/parallel.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include <oneapi/tbb/global_control.h>
@@ -49,6 +50,17 @@ void for_each_index(std::size_t count, const std::function<void(std::size_t)>& w
   });
 }
 
+bool holds_for_all(std::size_t count, const std::function<bool(std::size_t)>& holds, std::string_view name) {
+  std::atomic<bool> all = true;
+  for_each_index(
+      count,
+      [&](std::size_t i) {
+        if (all && !holds(i)) all = false;
+      },
+      name);
+  return all;
+}
+
 struct Recording::Whole {
   timeline::Timeline* before;
   timeline::TimeSpan span;
@@ -57,6 +69,8 @@ struct Recording::Whole {
 Recording::Recording(timeline::Timeline* timeline, std::string_view name)
     : whole_(new Whole{std::exchange(recorded, timeline),
                        timeline::TimeSpan(timeline, name, timeline::Work::serial)}) {}
+
+Recording::Recording(std::string_view name) : Recording(recorded, name) {}
 
 Recording::~Recording() {
   recorded = whole_->before;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -210,9 +211,7 @@ std::vector<ValueRule> rules_of_blocks(std::string_view enter, std::string_view 
 
 std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
   std::vector<ValueRule> rules = rules_of_durations(plan.open_loop);
-  const auto add = [&](const std::vector<ValueRule>& more) {
-    rules.insert(rules.end(), more.begin(), more.end());
-  };
+  const auto add = [&](std::vector<ValueRule> more) { std::ranges::move(more, std::back_inserter(rules)); };
   add(command_rules(plan));
   add(list_rules(plan));
   add(plugin_rules(plan));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -125,8 +126,9 @@ bool keeps_margins(const trial::TrialParameters& p, const MachineLoops& machine,
   for (const double share : {0.5, 1.0}) {
     if (margins.delay && !none_unstable(loops_of(p, machine, share * *margins.delay))) return false;
   }
-  return std::ranges::all_of(of.loops,
-                             [&](const theory::TrialLoop& one) { return keeps_margins(one.loop, margins); });
+  return parallel::holds_for_all(
+      of.loops.size(), [&](std::size_t i) { return keeps_margins(of.loops[i].loop, margins); },
+      "margins of a loop");
 }
 
 /// The part of a margin that is missing; 0 where nothing is.
@@ -342,19 +344,28 @@ trial::TrialParameters LoopExaminer::at(const Corner& corner, const study::Study
 
 bool LoopExaminer::may_keep(const study::Study& candidate, const study::LoopMargins& margins,
                             bool slides) const {
-  return !is_wanted(margins) || std::ranges::all_of(critical_, [&](const Corner& one) {
-    return keeps_margins(at(one, candidate), loops_with(machines_[one.machine], slides), margins);
-  });
+  if (!is_wanted(margins)) return true;
+  return parallel::holds_for_all(
+      critical_.size(),
+      [&](std::size_t i) {
+        const Corner& one = critical_[i];
+        return keeps_margins(at(one, candidate), loops_with(machines_[one.machine], slides), margins);
+      },
+      "margins of a machine");
 }
 
 double LoopExaminer::shortfall(const study::Study& candidate, const study::LoopMargins& margins,
                                bool slides) const {
-  double largest = 0.0;
-  if (!is_wanted(margins)) return largest;
-  for (const Corner& one : critical_)
-    largest = std::max(largest,
-                       shortfall_of(at(one, candidate), loops_with(machines_[one.machine], slides), margins));
-  return largest;
+  if (!is_wanted(margins)) return 0.0;
+  std::vector<double> found(critical_.size());
+  parallel::for_each_index(
+      critical_.size(),
+      [&](std::size_t i) {
+        const Corner& one = critical_[i];
+        found[i] = shortfall_of(at(one, candidate), loops_with(machines_[one.machine], slides), margins);
+      },
+      "shortfall of a machine");
+  return std::accumulate(found.begin(), found.end(), 0.0, [](double a, double b) { return std::max(a, b); });
 }
 
 bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins& margins, bool slides,

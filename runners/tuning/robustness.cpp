@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/parallel/parallel.hpp"
 #include "experiments/rules/value_rules.hpp"
 
 namespace zerocount::tuning {
@@ -53,13 +54,18 @@ Variation variation_of(const EffectRuns& runs, const ChangedPoint& point) {
 Variation with_other_seeds(const EffectRuns& runs, const trials::Replicates& units,
                            const std::function<study::Study(std::uint64_t)>& with_seed,
                            const trials::Effort& effort) {
+  std::array<study::Study, other_seeds> others;
+  parallel::for_each_index(
+      others.size(),
+      [&](std::size_t i) {
+        others[i] = with_seed(trials::fresh_seed(runs.study().seed, fmt::format("other seed {}", i)));
+      },
+      "study");
   Variation lowest;
   int held = 0;
   double highest = 0.0;
-  for (int i = 0; i < other_seeds; ++i) {
-    const std::uint64_t seed = trials::fresh_seed(runs.study().seed, fmt::format("other seed {}", i));
-    const study::Study other = with_seed(seed);
-    const EffectRuns seeded(other, units, effort);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const EffectRuns seeded(others[i], units, effort);
     Variation one = variation_of(seeded, seeded.base());
     held += one.holds ? 1 : 0;
     highest = std::max(highest, *one.limit.rate);

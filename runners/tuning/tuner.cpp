@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
 #include "core/trial/trial.hpp"
@@ -222,6 +223,7 @@ class Tuner {
   }
 
   void find() {
+    const parallel::Recording stage("search");
     SearchSettings search;
     search.seed = study_.seed;
     search.begins_anew = settings_.budget.trials || settings_.budget.seconds;
@@ -316,6 +318,7 @@ class Tuner {
   }
 
   void prove() {
+    const parallel::Recording stage("proof");
     const std::int64_t each = trials_of_machine(study_);
     ProofRun run;
     ProofProblem problem;
@@ -393,6 +396,7 @@ class Tuner {
   }
 
   void make_extras() {
+    const parallel::Recording stage("extras");
     ExtrasMaker({study_, settings_, search_, journal_, effort_, speed_, measured_speed_,
                  [this] { return elapsed(); }, line_},
                 answer_)

@@ -20,8 +20,9 @@
 namespace zerocount::tuning {
 namespace {
 
-constexpr std::int64_t trials_of_reference = 8;  // of a part that lanes do not run
+constexpr std::int64_t trials_of_reference = 8;  // of a block that lanes do not run
 
+/// A unit of an entry.
 struct UnitOfEntry {
   const UnitsToRun* entry;
   std::int64_t unit;

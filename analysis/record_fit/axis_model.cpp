@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/record_fit/record_path.hpp"
@@ -56,13 +57,17 @@ void add_twist(const TestRecord& record, double compliance, double offset, Eigen
   }
 }
 
+/// The samples of a record, each weighted by the steps that a fast rotor needs in it.
+std::int64_t weighted_samples(const TestRecord& record, const AxisParameters& axis) {
+  const double steps = 1.0 + fastest_rate(axis) * record.sample_time;
+  return static_cast<std::int64_t>(std::min(steps, 1e3) * static_cast<double>(sample_count(record)));
+}
+
 SampledPath path_at(const TestRecord& record, const AxisModel& model, const Point& point) {
   const AxisParameters axis = model.parameters_at(point);
   plant::Plant plant(axis.plant, axis.friction, record.start,
                      {motion_tolerance * record.unit, rest_tolerance * record.unit});
-  const double steps = 1.0 + fastest_rate(axis) * record.sample_time;
-  const auto samples = static_cast<double>(sample_count(record));
-  model.simulated->fetch_add(static_cast<std::int64_t>(std::min(steps, 1e3) * samples));
+  model.simulated->fetch_add(weighted_samples(record, axis));
   const double offset = point[point.size() - 1];
   SampledPath path = sampled_path(record, std::move(plant), offset, long_steps(axis));
   if (model.series_compliance) {
@@ -83,15 +88,25 @@ Eigen::VectorXd modelled_path(const TestRecord& record, const AxisModel& model, 
   return path_at(record, model, point).angle;
 }
 
+std::int64_t samples_of_paths(Records records, const AxisModel& model, const Point& point) {
+  const AxisParameters axis = model.parameters_at(point);
+  std::int64_t samples = 0;
+  for (const TestRecord& record : records) samples += weighted_samples(record, axis);
+  return samples;
+}
+
 std::vector<RecordMotion> modelled_motions(Records records, const AxisModel& model, const Point& point,
-                                           const FreeCoordinates& free) {
+                                           const FreeCoordinates& free, std::vector<RecordMotion> known) {
   const Eigen::Index offset = dimension_of(model) - 1;
-  std::vector<Eigen::Index> columns{offset};  // that of the time offset comes with the path itself
+  std::vector<Eigen::Index> columns;
+  if (known.empty()) columns.push_back(offset);  // that of the time offset comes with the path itself
   for (Eigen::Index j = 0; j < offset; ++j) {
     if (free[static_cast<std::size_t>(j)]) columns.push_back(j);
   }
-  std::vector<RecordMotion> motions(records.size());
+  std::vector<RecordMotion> motions = std::move(known);
+  motions.resize(records.size());
   for (std::size_t r = 0; r < records.size(); ++r) {
+    if (motions[r].sensitivity.size() > 0) continue;
     motions[r].sensitivity.setZero(static_cast<Eigen::Index>(sample_count(records[r])), dimension_of(model));
   }
   parallel::for_each_index(

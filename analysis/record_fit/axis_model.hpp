@@ -79,8 +79,12 @@ Eigen::VectorXd modelled_path(const TestRecord& record, const AxisModel& model, 
 
 /// The motions of all records, with derivatives by forward differences, that with respect to the time offset
 /// from the velocity. Simulated in parallel.
+/// @param known empty, or these motions with their paths and the derivatives by the time offset alone
 std::vector<RecordMotion> modelled_motions(Records records, const AxisModel& model, const Point& point,
-                                           const FreeCoordinates& free);
+                                           const FreeCoordinates& free, std::vector<RecordMotion> known = {});
+
+/// What the paths of all records at a point add to AxisModel::simulated.
+std::int64_t samples_of_paths(Records records, const AxisModel& model, const Point& point);
 
 /// True if a fit whose prior has the mean `prior` may try the point: all coordinates within their ranges, and
 /// the motion at most 20 times as fast as the sampling, or twice as fast as that of the prior.

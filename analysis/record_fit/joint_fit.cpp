@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <ceres/cost_function.h>
 #include <ceres/iteration_callback.h>
@@ -54,13 +55,11 @@ class JointResiduals : public ceres::CostFunction {
     };
     Rows by_axis = block(0, dimension);
     Rows by_offset = block(1, static_cast<Eigen::Index>(records_.size()));
-    const FreeCoordinates none(setting_.free.size(), false);
-    const std::vector<RecordMotion> motions =
-        modelled_motions(records_, setting_.model, axis, by_axis.rows() > 0 ? setting_.free : none);
+    const std::vector<RecordMotion>& motions = motions_at(axis, by_axis.rows() > 0);
     Eigen::Index row = 0;
     for (std::size_t r = 0; r < records_.size(); ++r) {
       const RecordMotion& motion = motions[r];
-      if (!motion.path.allFinite() || !motion.sensitivity.allFinite()) return false;
+      if (!motion.path.allFinite() || (by_axis.rows() > 0 && !motion.sensitivity.allFinite())) return false;
       for (const AngleObservation& observation : observations_[r]) {
         const double scale = 1.0 / std::sqrt(observation.variance);
         residuals[row] =
@@ -79,9 +78,50 @@ class JointResiduals : public ceres::CostFunction {
   }
 
  private:
+  /// The motions of the last point. A step of the search asks for the paths at its end and, if it is taken,
+  /// for the derivatives there.
+  struct LastMotions {
+    Point axis;
+    std::vector<RecordMotion> motions;
+    bool has_slopes{false};
+    std::int64_t samples_of_slopes{0};
+  };
+
+  /// Counts what is asked for, so that the end of the search does not depend on what is simulated ahead.
+  const std::vector<RecordMotion>& motions_at(const Point& axis, bool with_slopes) const {
+    if (last_.motions.empty() || last_.axis != axis) {
+      last_ = {axis, {}};
+      simulate(with_slopes || has_idle_threads());
+    } else if (with_slopes && !last_.has_slopes) {
+      simulate(true);
+    }
+    setting_.model.simulated->fetch_add(samples_of_paths(records_, setting_.model, axis) +
+                                        (with_slopes ? last_.samples_of_slopes : 0));
+    return last_.motions;
+  }
+
+  void simulate(bool with_slopes) const {
+    AxisModel model = setting_.model;
+    model.simulated = std::make_shared<std::atomic<std::int64_t>>(0);
+    FreeCoordinates free = setting_.free;
+    if (!with_slopes) std::fill(free.begin(), free.end() - 1, false);
+    const bool knows_paths = !last_.motions.empty();
+    last_.motions = modelled_motions(records_, model, last_.axis, free, std::move(last_.motions));
+    last_.has_slopes = with_slopes;
+    last_.samples_of_slopes =
+        model.simulated->load() - (knows_paths ? 0 : samples_of_paths(records_, model, last_.axis));
+  }
+
+  /// Whether the derivatives take no longer than the paths alone.
+  bool has_idle_threads() const {
+    const auto columns = std::ranges::count(setting_.free, true) + 1;
+    return columns * std::ssize(records_) <= parallel::threads();
+  }
+
   Records records_;
   const Observations& observations_;
   const FitSetting& setting_;
+  mutable LastMotions last_;
 };
 
 /// Ends a fit that has simulated more samples than its setting allows.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string_view>
 
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "core/numerics/normal_distribution.hpp"
 #include "experiments/designs/random_key.hpp"
@@ -117,6 +119,14 @@ void add_moves(const Question& question, const WeightedTrial& failed, std::int64
   }
 }
 
+/// [point] what its trial has drawn.
+std::vector<std::vector<double>> inputs_at(const Question& question, std::span<const TrialPoint> points) {
+  std::vector<std::vector<double>> inputs(points.size());
+  parallel::for_each_index(
+      points.size(), [&](std::size_t i) { inputs[i] = trial_at(question, points[i]).inputs; }, "draw");
+  return inputs;
+}
+
 }  // namespace
 
 std::vector<FailureInput> failure_inputs(const Question& question, const EstimatorState& state) {
@@ -125,16 +135,13 @@ std::vector<FailureInput> failure_inputs(const Question& question, const Estimat
   std::vector<FailureInput> found;
   if (failed.empty()) return found;
   NumberSource numbers(designs::random_key(question.study.seed, "rare/usual"));
-  std::vector<std::vector<double>> usual;
+  std::vector<TrialPoint> usual;
   for (std::size_t i = 0; i < usual_trials; ++i)
-    usual.push_back(
-        trial_at(question, {numbers.normals(question.coordinates.size()), static_cast<std::int64_t>(i)})
-            .inputs);
-  std::vector<std::vector<double>> in_failures;
-  in_failures.reserve(failed.size());
-  for (const WeightedTrial* trial : failed) in_failures.push_back(trial_at(question, trial->point).inputs);
-  const std::vector<std::vector<double>> usual_columns = sorted_columns(usual);
-  const std::vector<std::vector<double>> columns = sorted_columns(in_failures);
+    usual.push_back({numbers.normals(question.coordinates.size()), static_cast<std::int64_t>(i)});
+  std::vector<TrialPoint> failing;
+  for (const WeightedTrial* trial : failed) failing.push_back(trial->point);
+  const std::vector<std::vector<double>> usual_columns = sorted_columns(inputs_at(question, usual));
+  const std::vector<std::vector<double>> columns = sorted_columns(inputs_at(question, failing));
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const std::vector<double>& all = usual_columns[i];
     if (!(all.front() < all.back())) continue;

@@ -159,6 +159,33 @@ TEST(RecordMotion, DerivativesAreThoseOfThePath) {
   }
 }
 
+// A step of a search knows the paths before it asks for the derivatives.
+TEST(RecordMotion, DerivativesBesideKnownPathsAreTheSameAndCountTheRest) {
+  std::mt19937_64 random(25);
+  constexpr double creep_torque = 0.1;
+  const identification::TestRecord record =
+      simulated_test(random_contact(random), three_tests()[1], {}, random);
+  for (const bool with_offset : {false, true}) {
+    const record_fit::Point point = identification::point_of(random_contact(random), creep_torque);
+    record_fit::FreeCoordinates free(identification::coordinate_count, true);
+    free[identification::time_offset] = with_offset;
+    record_fit::FreeCoordinates offset_alone(identification::coordinate_count, false);
+    offset_alone[identification::time_offset] = with_offset;
+    const record_fit::AxisModel model = identification::contact_model(creep_torque);
+    const std::vector<record_fit::RecordMotion> all =
+        record_fit::modelled_motions({&record, 1}, model, point, free);
+    const std::int64_t samples_of_all = model.simulated->exchange(0);
+    std::vector<record_fit::RecordMotion> paths =
+        record_fit::modelled_motions({&record, 1}, model, point, offset_alone);
+    EXPECT_EQ(model.simulated->load(), record_fit::samples_of_paths({&record, 1}, model, point));
+    const std::vector<record_fit::RecordMotion> after =
+        record_fit::modelled_motions({&record, 1}, model, point, free, std::move(paths));
+    EXPECT_EQ(model.simulated->load(), samples_of_all);
+    EXPECT_TRUE(after.front().path == all.front().path);
+    EXPECT_TRUE(after.front().sensitivity == all.front().sensitivity);
+  }
+}
+
 TEST(RecordMotion, CoordinatesAndParametersAreInverse) {
   std::mt19937_64 random(24);
   const identification::ContactParameters contact = random_contact(random);

@@ -59,5 +59,20 @@ TEST_F(TimelineOfRun, ReplacesATimelineAndNothingElse) {
   EXPECT_EQ(run("study.yaml").code, 2);
 }
 
+TEST_F(TimelineOfRun, OfASearchHasItsStagesAndEveryLoop) {
+  const std::string study = small_manifest(150);
+  folder_.write("study.yaml", study.substr(0, study.find("sweep:")) +
+                                  "controller: {ki: 3.85e-5}\n"
+                                  "goal: {band: 1, within: 0.1, moves: 0.5}\n"
+                                  "tune: {free: {controller.ki: {log: [1.0e-5, 1.0e-4]}}}\n");
+  const ProgramResult tune = program({"tune", "study.yaml", "-o", "tuned.h5", "--budget", "20000", "--extras",
+                                      "none", "--timeline", "time.json"});
+  ASSERT_TRUE(tune.code == 0 || tune.code == 1 || tune.code == 3) << tune.err;
+  std::map<std::string, std::int64_t> trials = trials_of_stages("time.json");
+  for (const char* stage : {"tune", "search", "proof", "simulate", "margins", "compute"})
+    EXPECT_TRUE(trials.contains(stage)) << stage;
+  EXPECT_EQ(program({"tune", "study.yaml", "-o", "other.h5", "--timeline", "tuned.h5"}).code, 2);
+}
+
 }  // namespace
 }  // namespace zerocount::testing

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
+#include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 #include "tests/analysis/identification/quasistatic_judge.hpp"
@@ -431,7 +431,7 @@ TEST(Identification, DependsOnTheRecordAlone) {
   programme.step(0.05).hold(0.1).step(0.0).hold(0.1).ramp(0.1, 0.4).ramp(-0.1, 0.4).hold(0.5);
   const identification::TestRecord record = simulated_test({}, programme, {}, random);
   const auto answer_of = [&](std::size_t threads) {
-    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    const parallel::ThreadLimit limit(static_cast<int>(threads));
     const identification::Identification found = identification::identify({record}, {{}, 100, 150});
     EXPECT_EQ(found.draws.rows.size(), 150u);
     return document::json(identification::identification_answer().of(found)).dump() +

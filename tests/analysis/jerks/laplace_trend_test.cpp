@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
+#include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/support/goodness_of_fit.hpp"
 
@@ -171,7 +171,7 @@ TEST(LaplaceTrend, DoesNotDependOnTheNumberOfThreads) {
   TrendSum sum(0.95);
   for (int move = 0; move < 20; ++move) sum.add(in_window(renewals()[0].interval, random));
   const double all = sum.summary().p_slowing;
-  const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  const parallel::ThreadLimit one(1);
   EXPECT_EQ(sum.summary().p_slowing, all);
 }
 

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <oneapi/tbb/global_control.h>
 
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/sensitivity/sensitivity.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
@@ -346,7 +346,7 @@ TEST(StudySensitivity, DoesNotDependOnTheNumberOfThreads) {
     if (*design != '\0') text.replace(text.find("design: saltelli\n"), 17, design);
     const MadeUpStudy study(text, both_in_upper_half);
     const auto many = json_of(study.ask());
-    const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
+    const parallel::ThreadLimit one(1);
     EXPECT_EQ(json_of(study.ask()), many);
   }
 }

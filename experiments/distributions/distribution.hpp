@@ -79,18 +79,8 @@ using Distribution =
 /// Interval of the possible values.
 numerics::Interval support(const Distribution& distribution);
 
-/// The numbers of a quantile function that do not depend on the probability.
-struct QuantileConstants {
-  double low{0.0};       ///< log-uniform: ln low; log-normal: ln median; truncated: P(Z ≤ lower limit)
-  double high{0.0};      ///< log-uniform: ln high; log-normal: s; truncated: P(Z ≤ upper limit)
-  bool mirrored{false};  ///< truncated: an upper tail, whose probabilities would be differences near 1
-};
-QuantileConstants quantile_constants(const Distribution& distribution);
-
 /// The smallest x with P(X ≤ x) ≥ u, 0 < u < 1, in the quantity's unit.
 double quantile(const Distribution& distribution, double u);
-/// The same number. @param constants those of the distribution, computed once for many draws
-double quantile(const Distribution& distribution, const QuantileConstants& constants, double u);
 
 /// A uniform number whose quantile is x, to rounding; nothing if x cannot be drawn. Of a continuous
 /// distribution it is P(X ≤ x); of a discrete one the middle of the interval that gives x.

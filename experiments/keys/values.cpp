@@ -90,7 +90,6 @@ study::Value read_drawn(const distributions::DistributionForm& form, const yaml:
                   allowed_values(parameter, reading.plan.units));
   }
   reading.plan.distributions.push_back(*distribution);
-  reading.plan.quantile_constants.push_back(distributions::quantile_constants(*distribution));
   return {.kind = study::Value::Kind::distribution,
           .index = static_cast<std::uint32_t>(reading.plan.distributions.size() - 1)};
 }

@@ -121,7 +121,6 @@ struct StudyPlan {
   std::vector<double> ages;   ///< rising; empty: nothing changes with age
   std::vector<Aging> agings;  ///< of the values that change with age
   std::vector<distributions::Distribution> distributions;
-  std::vector<distributions::QuantileConstants> quantile_constants;  ///< [distribution]
   std::vector<std::shared_ptr<const Rotors>> profiles;
   std::vector<FollowingValue> following;
   std::vector<MeasuredSlots> measured;         ///< of the groups that the study gives

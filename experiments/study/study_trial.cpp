@@ -235,7 +235,6 @@ void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
 double drawn_number(const TrialDraws& draws, std::uint32_t slot, const Value& value, std::size_t point) {
   const double number = value.kind == Value::Kind::distribution
                             ? distributions::quantile(draws.plan().distributions[value.index],
-                                                      draws.plan().quantile_constants[value.index],
                                                       uniform_of(draws, slot, value.level))
                             : value.number;
   return value.aging ? at_age(draws, slot, point, number, age_factor_of(draws, value, point)) : number;

@@ -133,6 +133,17 @@ void return_freed_memory() {
 #endif
 }
 
+/// Bytes of what the statistics of a point keep of each rig: counts, and the distinct values of its moves,
+/// such as settling times.
+double memory_of_rigs(const study::Study& study) {
+  constexpr double of_rig = 1270.0,
+                   of_value = 470.0;  // of a rig, and of a trial with values of its own; measured
+  if (study.rigs == 0 || layout::has_sums(study.retention)) return 0.0;  // the forecast of sums has them
+  const double values =
+      std::min(static_cast<double>(study.trials), static_cast<double>(study.rigs) * samples_per_trial(study));
+  return of_rig * static_cast<double>(study.rigs) + of_value * values;
+}
+
 /// Bytes of the statistics of the points that are written together, when all trials have been run.
 double memory_of_statistics(const study::Study& study) {
   constexpr double all_statistics = 4e6;  // of the few points that have them all; measured
@@ -143,7 +154,8 @@ double memory_of_statistics(const study::Study& study) {
                           static_cast<double>(std::ssize(study.points.axes) + std::int64_t(columns) +
                                               study.rigs + 3 * study.worlds);
   return all_statistics +
-         of_point * static_cast<double>(std::min(study::point_count(study), layout::chunk_elements));
+         (of_point + memory_of_rigs(study)) *
+             static_cast<double>(std::min(study::point_count(study), layout::chunk_elements));
 }
 
 }  // namespace

@@ -98,6 +98,11 @@ TEST(StudySize, IsAboutTheMemoryThatARunTakes) {
   expect_memory_of_run(small_manifest(12000));
 }
 
+// The sums of as many rigs as trials take more than anything else.
+TEST(StudySize, IsAboutTheMemoryThatRigsTake) {
+  expect_memory_of_run(small_manifest(20000, "rigs: 20000\nkeep: statistics\n"));
+}
+
 /// Traces of 8000 trials of 1000 samples.
 TEST(StudySize, DISABLED_TheMemoryOfTracesIsBounded) {
   constexpr int trials = 8000;

@@ -1,6 +1,7 @@
 #include "runners/trials/shard_writer.hpp"
 
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -19,29 +20,34 @@ ShardWriter::ShardWriter(const study::Study& study, const std::filesystem::path&
     : study_(study), directory_(directory), timeline_(timeline), provenance_(layout::current_provenance()) {}
 
 ShardWriter::~ShardWriter() {
-  tasks_.cancel();  // an exception has ended the run, or all are written
-  tasks_.wait();
+  tasks_.wait();  // no exception leaves a task
 }
 
 void ShardWriter::write(ShardContents&& contents) {
-  if (has_failed_) tasks_.wait();  // throws the failure
+  if (has_failed_) wait();
   if (in_work_ >= max_shards_in_work) return write_shard(std::move(contents));
   ++in_work_;
   tasks_.run([this, shared = std::make_shared<ShardContents>(std::move(contents))] {
     try {
       write_shard(std::move(*shared));
     } catch (...) {
+      const std::lock_guard lock(library_);
+      if (!failure_) failure_ = std::current_exception();
       has_failed_ = true;
-      throw;
     }
     --in_work_;
   });
 }
 
 std::vector<shards::ShardInfo> ShardWriter::finish() {
-  tasks_.wait();
+  wait();
   shards::sort_by_rows(written_);
   return std::move(written_);
+}
+
+void ShardWriter::wait() {
+  tasks_.wait();
+  if (failure_) std::rethrow_exception(failure_);
 }
 
 /// Any thread; what calls the library, one thread at a time.

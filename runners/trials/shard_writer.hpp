@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <filesystem>
 #include <mutex>
 #include <vector>
@@ -38,6 +39,8 @@ class ShardWriter {
 
  private:
   void write_shard(ShardContents&& contents);
+  /// For all tasks. @throws the first failure
+  void wait();
 
   const study::Study& study_;
   const std::filesystem::path& directory_;
@@ -47,7 +50,10 @@ class ShardWriter {
   std::vector<shards::ShardInfo> written_;  ///< with the library
   std::atomic<int> in_work_{0};             ///< by tasks
   std::atomic<bool> has_failed_{false};     ///< a task
-  oneapi::tbb::task_group tasks_;
+  std::exception_ptr failure_;              ///< the first one of a task
+  /// Shards that have begun are written when the run ends with an exception.
+  oneapi::tbb::task_group_context context_{oneapi::tbb::task_group_context::isolated};
+  oneapi::tbb::task_group tasks_{context_};
 };
 
 }  // namespace zerocount::trials

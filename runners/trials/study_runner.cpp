@@ -30,12 +30,6 @@
 namespace zerocount::trials {
 namespace {
 
-/// A block that has been run, or the end of all.
-struct RunBlock {
-  std::shared_ptr<KeptBlock> kept;  ///< null if it was interrupted, or at the end
-  bool is_end{false};
-};
-
 /// The stages through which trials become shards. Made and used in the arena of its threads.
 class ShardPipeline {
  public:

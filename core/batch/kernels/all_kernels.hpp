@@ -26,8 +26,7 @@ inline constexpr MotionKernels motion_kernels_with{
     .bristle_rest = Varies ? nullptr : bristle_rest_kernel<P, false>,
     .bristle_fast = bristle_kernel<V, true, Varies, false>,
     .bristle_slow = bristle_kernel<V, false, Varies, false>,
-    .free = free_kernel<V, Varies>,
-    .stand = Varies ? stand_coupled_kernel<V, true, false> : stand_kernel<V>};
+    .free = free_kernel<V, Varies>};
 
 /// The same of lanes with a second mass, whose torque may vary with `Driven`. The torque of its coupling has
 /// no bound ahead, so that none of them counts as fast.
@@ -42,8 +41,7 @@ inline constexpr MotionKernels loaded_kernels_with{
     .bristle_rest = bristle_rest_kernel<P, true>,
     .bristle_fast = bristle_kernel<V, false, Driven, true>,
     .bristle_slow = bristle_kernel<V, false, Driven, true>,
-    .free = loaded_free_kernel<V, Driven>,
-    .stand = stand_coupled_kernel<V, Driven, true>};
+    .free = loaded_free_kernel<V, Driven>};
 
 /// All kernels. @tparam V their vectors. @tparam E those of steps that locate events. @tparam P the vector of
 /// those that go over all lanes.
@@ -51,6 +49,7 @@ template <class V, class E, class P>
 inline constexpr Kernels kernels_with{lanes_at_stop_kernel<P>,
                                       fast_lanes_kernel<P>,
                                       creep_ahead_kernel<V>,
+                                      stand_kernel<V>,
                                       sample_kernel<V, Decider::pid, false>,
                                       sample_kernel<V, Decider::blocks, false>,
                                       sample_kernel<V, Decider::pid, true>,

@@ -3,10 +3,47 @@
 #include <cmath>
 #include <utility>
 
-#include "core/friction/sliding/standing.hpp"
 #include "core/numerics/sign.hpp"
 
 namespace zerocount::friction {
+namespace {
+
+struct StandingSeries {
+  numerics::Series position{};  ///< 0
+  numerics::Series omega{};     ///< 0
+  numerics::Series exponent{};  ///< 0
+  numerics::Series torque{};    ///< on the rotor, N m
+};
+
+/// A rotor at rest while the torque on it, u − Ts, is within the breakaway torque.
+struct StandingRotor {
+  using Expansion = StandingSeries;
+  enum class Event { none, released };
+
+  double breakaway;     ///< Fs, N m
+  double direction{0};  ///< of the torque on it at the end of the step: −1, 1
+
+  static StandingSeries start() { return {}; }
+  static double expand(StandingSeries& s, std::size_t k, double torque) {
+    s.torque[k] = torque;
+    return 0.0;
+  }
+  motion::NextEvent<Event> first_event(const StandingSeries& s, double step) const {
+    motion::NextEvent<Event> next{step};
+    for (const double sign : {1.0, -1.0}) {
+      numerics::Series margin = s.torque;
+      for (double& coefficient : margin) coefficient *= -sign;
+      margin[0] += breakaway;
+      if (margin[0] > 0.0) next.offer(motion::next_sign_change(margin, next.time), Event::released);
+    }
+    return next;
+  }
+  void go_to(const StandingSeries& s, const motion::NextEvent<Event>& next) {
+    direction = numerics::sign_of(numerics::value_at(s.torque, next.time));
+  }
+};
+
+}  // namespace
 
 CoulombFriction::CoulombFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
                                  const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
@@ -62,9 +99,10 @@ double CoulombFriction::stand(const motion::TorqueCourse& torque, double duratio
 }
 
 double CoulombFriction::stand_coupled(const motion::TorqueCourse& torque, double duration) {
-  const StandStep step = stand_step(contact_.breakaway, plant_.inertia, torque, tolerance_, duration);
-  if (step.direction != 0.0) break_away(step.direction);
-  return step.time;
+  StandingRotor rotor{contact_.breakaway};
+  const auto next = motion::taylor_step(rotor, plant_.inertia, torque, tolerance_, duration);
+  if (next.event == StandingRotor::Event::released) break_away(rotor.direction);
+  return next.time;
 }
 
 void CoulombFriction::break_away(double direction) {

@@ -76,7 +76,7 @@ class MergedFile {
   void finish();
   /// The steps of finish(): close(), read_back(), publish().
   void close();
-  /// require_written(), and the checksum of the file, at a time.
+  /// require_written(), and the checksum of the file, at the same time.
   void read_back();
   void publish() const;
 

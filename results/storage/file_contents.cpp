@@ -75,6 +75,7 @@ hash::Sha256 sha256_read_ahead(const std::filesystem::path& path, const FileDesc
   using Mode = tbb::filter_mode;
   using BlockPointer = std::shared_ptr<FileBlock>;
   hash::Sha256Hash hash;
+  std::size_t hashed = 0;
   std::size_t next = 0;
   const auto next_block = [&](tbb::flow_control& control) -> BlockPointer {
     if (next == length) {
@@ -96,11 +97,15 @@ hash::Sha256 sha256_read_ahead(const std::filesystem::path& path, const FileDesc
         static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + 2,
         tbb::make_filter<void, BlockPointer>(Mode::serial_in_order, next_block) &
             tbb::make_filter<BlockPointer, BlockPointer>(Mode::parallel, read) &
-            tbb::make_filter<BlockPointer, void>(Mode::serial_in_order,
-                                                 [&](const BlockPointer& block) { hash.add(block->bytes); }));
+            tbb::make_filter<BlockPointer, void>(Mode::serial_in_order, [&](const BlockPointer& block) {
+              hash.add(block->bytes);
+              hashed += block->bytes.size();
+            }));
   };
   // A thread that waits here must not begin another task meanwhile, such as a block of trials.
   tbb::this_task_arena::isolate(pipeline);
+  // A run that ends with an exception cancels the pipeline, which then returns early.
+  if (hashed != length) fail_with(path, "read", ECANCELED);
   return hash.digest();
 }
 

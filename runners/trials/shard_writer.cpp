@@ -23,8 +23,12 @@ ShardWriter::~ShardWriter() {
   tasks_.wait();  // no exception leaves a task
 }
 
-void ShardWriter::write(ShardContents&& contents) {
+void ShardWriter::require_working() {
   if (has_failed_) wait();
+}
+
+void ShardWriter::write(ShardContents&& contents) {
+  require_working();
   if (in_work_ >= max_shards_in_work) return write_shard(std::move(contents));
   ++in_work_;
   tasks_.run([this, shared = std::make_shared<ShardContents>(std::move(contents))] {

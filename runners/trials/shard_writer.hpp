@@ -29,6 +29,8 @@ class ShardWriter {
   /// Waits for the shards that are being written.
   ~ShardWriter();
 
+  /// @throws the failure of an earlier shard
+  void require_working();
   /// @throws Failure (machine_failed) if this shard or an earlier one cannot be written
   void write(ShardContents&& contents);
   /// Waits for all shards. @returns them in order of rows. @throws as write()

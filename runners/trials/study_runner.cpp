@@ -88,6 +88,7 @@ class ShardPipeline {
   /// One thread at a time, in the order of the turns.
   void collect(const std::shared_ptr<KeptBlock>& block) {
     const timeline::TimeSpan span(settings_.timeline, "collect", timeline::Work::serial);
+    writer_.require_working();
     if (!block) return;
     unreported_ += block->rows.count;
     const auto first_point = static_cast<std::size_t>(block->rows.first / study_.trials);

@@ -34,9 +34,9 @@ class ByCluster {
   /// The cluster after the last one that was added to; 0 without any.
   std::int64_t end() const { return first_ + std::ssize(sums_); }
   std::int64_t first() const { return first_; }
-  /// Of the clusters from first() on.
+  /// The sums of the clusters from first() on.
   const std::vector<Sum>& sums() const { return sums_; }
-  /// Of the clusters from 0 on.
+  /// The sums of the clusters from 0 on.
   std::vector<Sum> from_zero() const {
     std::vector<Sum> sums(static_cast<std::size_t>(first_));
     sums.insert(sums.end(), sums_.begin(), sums_.end());

@@ -25,7 +25,7 @@ TrialClusters& TrialClusters::operator+=(const TrialClusters& other) {
 
 void TrialClusters::add(const Count& count) {
   constexpr std::size_t fewest = 64;
-  // As many new counts as combined ones: each is sorted a few times at most.
+  // Combining when the new counts are as many as the combined ones sorts each count a few times at most.
   if (counts_.size() - combined_ >= std::max(fewest, combined_)) combine();
   counts_.push_back(count);
 }

@@ -21,7 +21,7 @@ class TrialClusters {
 
   /// Adds a trial with `size` values: those in `observed`; the others are censored (larger than all observed
   /// ones).
-  /// @param observed in any order; sorted by the call
+  /// @param observed in any order; the call may sort them
   void add_trial(std::int64_t trial, std::vector<double>& observed, std::int64_t size);
   /// Adds other trials, of as many rigs.
   TrialClusters& operator+=(const TrialClusters& other);
@@ -57,7 +57,8 @@ class TrialClusters {
   /// Sorts the counts by rig and value, and adds those of the same.
   void combine();
 
-  /// Of each rig from 0: the number of its values, each with its count, their sum, and the size.
+  /// For each rig from 0 on: the number of distinct values, each value with its count, the sum of the counts,
+  /// and the number of all values.
   template <class Archive>
   void write(Archive& archive) const {
     TrialClusters combined = *this;

@@ -18,7 +18,7 @@
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/examined_point.hpp"
 #include "runners/status/interruption.hpp"
-#include "runners/tuning/additions.hpp"
+#include "runners/tuning/effects/additions.hpp"
 
 namespace zerocount::design_commands {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "analysis/document/answer.hpp"
 #include "analysis/goal/question.hpp"
-#include "runners/tuning/limits.hpp"
+#include "runners/tuning/effects/limits.hpp"
 
 namespace zerocount::design_commands {
 

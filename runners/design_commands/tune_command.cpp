@@ -35,9 +35,9 @@
 #include "runners/status/interruption.hpp"
 #include "runners/status/status.hpp"
 #include "runners/trials/study_runner.hpp"
-#include "runners/tuning/proof_runner.hpp"
+#include "runners/tuning/search/proof_runner.hpp"
 #include "runners/tuning/tuner.hpp"
-#include "runners/tuning/unit_runner.hpp"
+#include "runners/tuning/units/unit_runner.hpp"
 
 namespace zerocount::design_commands {
 namespace {

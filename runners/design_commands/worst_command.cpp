@@ -18,7 +18,7 @@
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/examined_point.hpp"
 #include "runners/status/interruption.hpp"
-#include "runners/tuning/worst_machines.hpp"
+#include "runners/tuning/worst_machines/worst_machines.hpp"
 
 namespace zerocount::design_commands {
 namespace {

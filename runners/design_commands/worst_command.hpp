@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/document/answer.hpp"
-#include "runners/tuning/worst_machines.hpp"
+#include "runners/tuning/worst_machines/worst_machines.hpp"
 
 namespace zerocount::design_commands {
 

@@ -26,7 +26,7 @@
 #include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_commands/study_commands.hpp"
-#include "runners/tuning/unit_runner.hpp"
+#include "runners/tuning/units/unit_runner.hpp"
 
 namespace zerocount::study_commands {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "analysis/measures/goal_counts.hpp"
 #include "core/numerics/bisection.hpp"
-#include "runners/tuning/limits.hpp"
+#include "runners/tuning/effects/limits.hpp"
 
 namespace zerocount::tuning {
 namespace {

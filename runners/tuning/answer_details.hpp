@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runners/tuning/unit_runner.hpp"
+#include "runners/tuning/units/unit_runner.hpp"
 
 /// Properties of the tuned values, by simulation of the units of the search. None of them is proven.
 /// All functions throw trial::Interrupted and trials::Spent.

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "analysis/summary/move_behaviour.hpp"
-#include "runners/tuning/loop_examiner.hpp"
-#include "runners/tuning/unit_runner.hpp"
+#include "runners/tuning/units/loop_examiner.hpp"
+#include "runners/tuning/units/unit_runner.hpp"
 
 namespace zerocount::tuning {
 

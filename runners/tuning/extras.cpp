@@ -12,7 +12,7 @@
 #include "core/trial/trial.hpp"
 #include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
-#include "runners/tuning/proof_runner.hpp"
+#include "runners/tuning/search/proof_runner.hpp"
 
 namespace zerocount::tuning {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "runners/status/status.hpp"
-#include "runners/tuning/other_controls.hpp"
-#include "runners/tuning/study_search.hpp"
+#include "runners/tuning/search/other_controls.hpp"
+#include "runners/tuning/search/study_search.hpp"
 #include "runners/tuning/tune_plan.hpp"
 #include "runners/tuning/tuner.hpp"
 

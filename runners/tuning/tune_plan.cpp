@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
-#include "runners/tuning/proof_runner.hpp"
-#include "runners/tuning/study_search.hpp"
-#include "runners/tuning/unit_runner.hpp"
+#include "runners/tuning/search/proof_runner.hpp"
+#include "runners/tuning/search/study_search.hpp"
+#include "runners/tuning/units/unit_runner.hpp"
 
 namespace zerocount::tuning {
 namespace {

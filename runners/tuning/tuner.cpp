@@ -18,10 +18,10 @@
 #include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
 #include "runners/tuning/extras.hpp"
-#include "runners/tuning/proof_runner.hpp"
 #include "runners/tuning/race/proof.hpp"
-#include "runners/tuning/study_search.hpp"
-#include "runners/tuning/tuning_journal.hpp"
+#include "runners/tuning/search/proof_runner.hpp"
+#include "runners/tuning/search/study_search.hpp"
+#include "runners/tuning/search/tuning_journal.hpp"
 
 namespace zerocount::tuning {
 namespace {

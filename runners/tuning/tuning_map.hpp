@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "runners/tuning/answer_details.hpp"
-#include "runners/tuning/study_search.hpp"
+#include "runners/tuning/search/study_search.hpp"
 
 namespace zerocount::tuning {
 

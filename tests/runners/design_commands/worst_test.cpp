@@ -11,7 +11,7 @@
 #include "experiments/study/plan.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
-#include "runners/tuning/unit_runner.hpp"
+#include "runners/tuning/units/unit_runner.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {

@@ -1,0 +1,159 @@
+#include "runners/tuning/ages/lost_ages.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "core/numerics/bisection.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+constexpr double precision_of_age = 1.1;  // of an age
+constexpr double decade = 10.0;
+constexpr int max_decades = 6;  // beyond the last age of the study
+constexpr int max_steps = 6;    // between two ages
+
+/// To three digits, as answers show it.
+double short_age(double age) {
+  if (age == 0.0) return age;
+  const double unit = std::pow(decade, std::floor(std::log10(age)) - 2.0);
+  return unit < 1.0 ? std::round(age / unit) / std::round(1.0 / unit) : std::round(age / unit) * unit;
+}
+
+/// An age between two; above age 0 a tenth of the older.
+double age_between(double younger, double older) {
+  return short_age(younger == 0.0 ? older / decade : numerics::geometric_mean(younger, older));
+}
+
+double asked_of(const study::Goal& goal) {
+  return goal.machines.value_or(goal.moves);
+}
+
+/// Whether a claim still holds at an age, in one of the senses of LostClaim.
+using Holds = std::function<bool(const AgeVerdict&)>;
+
+class LifeOfClaims {
+ public:
+  LifeOfClaims(const AgeRuns& runs, const std::vector<study::FreeParameter>& free, const Values& values)
+      : runs_(runs), free_(free), values_(values), claims_(claims_of_life(runs.study())) {}
+
+  LostAges found() {
+    run_study_ages();
+    run_decades();
+    for (std::size_t claim = 0; claim < claims_.size(); ++claim) {
+      for (const Holds& holds : senses_of(claim)) refine(holds);
+    }
+    LostAges all;
+    for (std::size_t claim = 0; claim < claims_.size(); ++claim) all.claims.push_back(lost_claim(claim));
+    all.tried = std::move(tried_);
+    all.refusal = std::move(refusal_);
+    all.units = runs_.units();
+    return all;
+  }
+
+ private:
+  void run(double age) {
+    const auto place = std::ranges::lower_bound(tried_, age, {}, &AgeVerdict::age);
+    if (place != tried_.end() && place->age == age) return;
+    AgeVerdict verdict = runs_.at(age, free_, values_);
+    tried_.insert(std::ranges::lower_bound(tried_, age, {}, &AgeVerdict::age), std::move(verdict));
+  }
+
+  void run_study_ages() {
+    const std::vector<double>& ages = runs_.study().ages.at;
+    for (std::size_t i = 0; i < ages.size(); ++i) {
+      run(ages[i]);
+      if (i + 1 < ages.size()) {
+        const double between = age_between(ages[i], ages[i + 1]);
+        if (between > ages[i] && between < ages[i + 1]) run(between);
+      }
+    }
+  }
+
+  bool all_are_missed() const {
+    return std::ranges::all_of(tried_.back().statuses,
+                               [](goal::Status status) { return status == goal::Status::missed; });
+  }
+
+  void run_decades() {
+    const double last = runs_.study().ages.at.back();
+    double age = last > 0.0 ? last : 1.0;
+    for (int i = 0; i < max_decades && !all_are_missed(); ++i) {
+      const double younger = age;
+      age = short_age(decade * age);
+      refusal_ = runs_.refusal_at(age);
+      if (!refusal_.empty()) {
+        run(oldest_allowed(younger, age));
+        return;
+      }
+      run(age);
+    }
+  }
+
+  /// To three digits.
+  double oldest_allowed(double allowed, double refused) const {
+    constexpr double narrow = 1.02;
+    const auto is_allowed = [this](double age) { return runs_.refusal_at(age).empty(); };
+    return numerics::bisect(
+               {allowed, refused}, is_allowed,
+               [](const numerics::Bracket& ages) { return ages.fails <= narrow * ages.holds; },
+               [](double a, double b) { return short_age(numerics::geometric_mean(a, b)); })
+        .holds;
+  }
+
+  std::array<Holds, 3> senses_of(std::size_t claim) const {
+    const double asked = asked_of(runs_.study().goals[claims_[claim].goal]);
+    return {[=](const AgeVerdict& at) { return at.rates[claim].value >= asked; },
+            [=](const AgeVerdict& at) { return at.statuses[claim] == goal::Status::met; },
+            [=](const AgeVerdict& at) { return at.statuses[claim] != goal::Status::missed; }};
+  }
+
+  /// Simulates ages between the last at which it holds and the next one.
+  void refine(const Holds& holds) {
+    int steps = 0;
+    for (int from_zero = 0; steps < max_steps && from_zero < max_decades;) {
+      const auto lost = std::ranges::find_if_not(tried_, holds);
+      if (lost == tried_.begin() || lost == tried_.end()) return;
+      const double younger = std::prev(lost)->age;
+      const double middle = age_between(younger, lost->age);
+      if (lost->age <= precision_of_age * younger || middle <= younger || middle >= lost->age) return;
+      run(middle);
+      ++(younger == 0.0 ? from_zero : steps);
+    }
+  }
+
+  LostClaim lost_claim(std::size_t claim) const {
+    const auto [seems_met, is_met, may_be_met] = senses_of(claim);
+    LostClaim life{claims_[claim]};
+    if (const auto lost = std::ranges::find_if_not(tried_, seems_met); lost != tried_.end())
+      life.lost = lost->age;
+    if (const auto unsure = std::ranges::find_if_not(tried_, is_met); unsure != tried_.begin())
+      life.met_until = std::prev(unsure)->age;
+    if (const auto missed = std::ranges::find_if_not(tried_, may_be_met); missed != tried_.end())
+      life.missed_from = missed->age;
+    return life;
+  }
+
+  const AgeRuns& runs_;
+  const std::vector<study::FreeParameter>& free_;
+  const Values& values_;
+  std::vector<ClaimOfLife> claims_;
+  std::vector<AgeVerdict> tried_;
+  std::string refusal_;
+};
+
+}  // namespace
+
+LostAges lost_ages(const AgeRuns& runs, const std::vector<study::FreeParameter>& free, const Values& values) {
+  return LifeOfClaims(runs, free, values).found();
+}
+
+std::int64_t points_of_lost_ages(const study::Study& study) {
+  constexpr std::int64_t of_claim = 14;
+  return 2 * std::ssize(study.ages.at) + max_decades + of_claim * std::ssize(claims_of_life(study));
+}
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,226 @@
+#include "runners/tuning/effects/additions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/theory/load_mode.hpp"
+#include "experiments/rules/value_rules.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+constexpr double added_noise = 0.1;        // counts rms
+constexpr double added_delay = 1.0;        // samples
+constexpr double allowed_loss = 0.01;      // of each rate, by a mode that is borne
+constexpr double lowest_frequency = 10.0;  // Hz
+constexpr double precision = 1.05;         // of the frequency
+constexpr double samples_of_mode = 8.0e5;  // that are simulated for its rate
+constexpr std::int64_t few = 8;            // the part of these units on which it is sought
+
+// Noise.
+
+bool closes_the_loop(const loop::ControllerParameters& controller, loop::EncoderChoice encoder) {
+  return controller.encoder == encoder ||
+         (std::isfinite(controller.coarse.coarse_beyond) && controller.coarse.encoder == encoder);
+}
+
+void add_noise(trial::TrialParameters& p) {
+  const auto add_to = [&](loop::EncoderChoice encoder, double& noise) {
+    if (closes_the_loop(p.controller, encoder)) noise = std::hypot(noise, added_noise);
+  };
+  add_to(loop::EncoderChoice::fine, p.encoder.fine_errors.noise);
+  add_to(loop::EncoderChoice::coarse, p.encoder.coarse_errors.noise);
+}
+
+std::string refusal_of_noise(study::PointEdit at) {
+  for (const char* const noise : {"encoder.fine_errors.noise", "encoder.coarse_errors.noise"})
+    at.set(noise, std::hypot(at.limits(noise).high, added_noise));
+  return rules::refusal_of(at);
+}
+
+// Delay.
+
+std::string refusal_of_delay(study::PointEdit at) {
+  at.set("controller.delay", at.limits("controller.delay").high + added_delay);
+  return rules::refusal_of(at);
+}
+
+// Mode.
+
+std::string refusal_of_load(study::PointEdit at, double frequency) {
+  const motion::PlantParameters rigid{.inertia = at.limits("plant.inertia").typical};
+  const motion::PlantParameters plant = theory::with_load_mode(rigid, frequency);
+  at.scale("plant.inertia", plant.inertia / rigid.inertia);
+  at.set("plant.load.inertia", plant.load.inertia);
+  at.set("plant.load.stiffness", plant.load.stiffness);
+  at.set("plant.load.damping", plant.load.damping);
+  return rules::refusal_of(at);
+}
+
+/// To three digits: what is simulated is what the row says.
+double rounded(double frequency) {
+  const double unit = std::pow(10.0, std::floor(std::log10(frequency)) - 2.0);
+  return unit < 1.0 ? std::round(frequency / unit) / std::round(1.0 / unit)
+                    : std::round(frequency / unit) * unit;
+}
+
+/// The search of the lowest mode that is borne.
+class ModeSearch {
+ public:
+  explicit ModeSearch(const EffectRuns& runs)
+      : runs_(runs), first_(study::study_trial(runs.conditions().front(), runs.point(), 0).parameters) {
+    double samples = 0.0;
+    for (std::size_t move = 0; move < first_.command.targets.size(); ++move)
+      samples += static_cast<double>(samples_of_move(first_, move));
+    samples *= static_cast<double>(runs.trials_each() * std::ssize(runs.conditions()));
+    units_ = whole_worlds(std::max<std::int64_t>(few, std::llround(samples_of_mode / samples)));
+    few_units_ = whole_worlds((units_ + few - 1) / few);
+  }
+
+  Limit lowest() const {
+    const double highest = 0.5 * first_.controller.sample_rate;
+    const ChangedPoint at_highest = run(highest, few_units_);
+    if (!at_highest.refusal.empty()) return limit_of(runs_, at_highest);
+    if (!is_borne(at_highest, few_units_) && !is_borne(run(highest, units_), units_))
+      return beyond_rate(highest);
+    double borne = highest;
+    double missed = rounded(0.5 * borne);
+    while (borne >= lowest_frequency && is_borne(run(missed, few_units_), few_units_)) {
+      borne = missed;
+      missed = rounded(0.5 * borne);
+    }
+    const bool any_is_missed = borne >= lowest_frequency;
+    while (any_is_missed && borne > precision * missed) {
+      const double middle = rounded(std::sqrt(borne * missed));
+      (is_borne(run(middle, few_units_), few_units_) ? borne : missed) = middle;
+    }
+    ChangedPoint found = run(borne, units_);
+    if (is_borne(found, units_)) {
+      while (any_is_missed) {
+        ChangedPoint lower = run(missed, units_);
+        if (!is_borne(lower, units_)) break;
+        found = std::move(lower);
+        missed = rounded(missed / precision);
+      }
+    } else {
+      for (; !is_borne(found, units_); found = run(borne, units_)) {
+        if (borne >= highest) return beyond_rate(highest);
+        missed = borne;
+        borne = std::min(rounded(precision * borne), highest);
+      }
+    }
+    return row(found, any_is_missed ? fmt::format("{:.6g} Hz costs more than 1 %", missed)
+                                    : "no higher mode that was tried costs more than 1 %");
+  }
+
+ private:
+  std::int64_t whole_worlds(std::int64_t units) const {
+    return std::min(trials::in_equal_worlds(runs_.study(), units), runs_.units());
+  }
+
+  ChangedPoint with_mode(double frequency) const {
+    const std::vector<ConditionEffects> mode =
+        runs_.effects([&](const study::Study& study, std::int64_t point) {
+          return std::vector{load_mode(study, point, frequency)};
+        });
+    return runs_.changed(std::array{&mode.front()});
+  }
+
+  /// The point with a mode, run on so many units, or on fewer by which it is not borne.
+  ChangedPoint run(double frequency, std::int64_t units) const {
+    ChangedPoint point = with_mode(frequency);
+    for (std::int64_t count = 2; point.refusal.empty(); count *= 2) {
+      runs_.run({&point, 1}, std::min(count, units));
+      if (count >= units || !is_borne(point, units)) break;
+    }
+    return point;
+  }
+
+  /// The row where not even the highest mode that is tried is borne.
+  Limit beyond_rate(double highest) const {
+    ChangedPoint point = with_mode(highest);
+    runs_.run({&point, 1}, units_);
+    return row(point, "costs more than 1 %; modes above half the sample rate are not tried");
+  }
+
+  /// Whether no goal is missed under any condition by more of the first units than is allowed; units that
+  /// have not run are taken to meet all.
+  bool is_borne(const ChangedPoint& point, std::int64_t units) const {
+    Candidate best = point.run;
+    for (std::int64_t unit = std::ssize(best.units); unit < units; ++unit) {
+      UnitResult all_met = runs_.base().run.units[static_cast<std::size_t>(unit)];
+      for (ClaimResult& claim : all_met.claims) claim.met = claim.moves;
+      best.units.push_back(std::move(all_met));
+    }
+    const Estimate with = estimate_of(runs_.aim(), best, units);
+    const Estimate without = estimate_of(runs_.aim(), runs_.base().run, units);
+    constexpr double rounding = 1e-9;
+    const double allowed =
+        allowed_loss + rounding + (units < units_ ? 1.0 / static_cast<double>(with.units) : 0.0);
+    for (std::size_t claim = 0; claim < with.rates.size(); ++claim) {
+      if (with.rates[claim] < without.rates[claim] - allowed) return false;
+    }
+    return true;
+  }
+
+  Limit row(const ChangedPoint& point, const std::string& found) const {
+    Limit limit = limit_of(runs_, point);
+    limit.note = fmt::format("{}; {}", found, point.note);
+    if (units_ < runs_.units())
+      limit.note += fmt::format("; first {} of {} {}: {:.4g} % without it", units_, runs_.units(),
+                                runs_.study().rigs > 0 ? "machines" : "draws",
+                                100.0 * estimate_of(runs_.aim(), runs_.base().run, units_).rate);
+    return limit;
+  }
+
+  const EffectRuns& runs_;
+  trial::TrialParameters first_;
+  std::int64_t units_{0};      ///< of which the rate is given
+  std::int64_t few_units_{0};  ///< on which the frequency is sought
+};
+
+bool can_have_load(const EffectRuns& runs) {
+  return std::ranges::any_of(runs.conditions(), [&](const study::Study& study) {
+    return study::PointEdit(study, runs.point()).limits("plant.load.inertia").high > 0.0;
+  });
+}
+
+}  // namespace
+
+std::vector<Effect> added_effects(const study::Study& study, std::int64_t point) {
+  const study::PointEdit at(study, point);
+  return {{.name = fmt::format("encoder noise of {} counts rms", added_noise),
+           .refusal = refusal_of_noise(at),
+           .change = add_noise},
+          {.name = "one sample of delay",
+           .refusal = refusal_of_delay(at),
+           .change = [](trial::TrialParameters& p) { p.controller.delay += added_delay; }}};
+}
+
+Effect load_mode(const study::Study& study, std::int64_t point, double frequency) {
+  return {.name = fmt::format("a load mode at {:.6g} Hz", frequency),
+          .note = "half of the inertia, 1 % damping",
+          .refusal = refusal_of_load(study::PointEdit(study, point), frequency),
+          .change = [frequency](trial::TrialParameters& p) {
+            p.plant = theory::with_load_mode(p.plant, frequency);
+          }};
+}
+
+std::vector<Limit> additions_to(const EffectRuns& runs) {
+  const std::vector<ConditionEffects> effects = runs.effects(added_effects);
+  std::vector<ChangedPoint> points;
+  points.reserve(effects.size());
+  for (const ConditionEffects& one : effects) points.push_back(runs.changed(std::array{&one}));
+  runs.run(points, runs.units());
+  std::vector<Limit> rows;
+  rows.reserve(points.size() + 1);
+  for (const ChangedPoint& one : points) rows.push_back(limit_of(runs, one));
+  if (!can_have_load(runs)) rows.push_back(ModeSearch(runs).lowest());
+  return rows;
+}
+
+}  // namespace zerocount::tuning

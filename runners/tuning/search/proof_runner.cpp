@@ -1,0 +1,201 @@
+#include "runners/tuning/search/proof_runner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/goal/goal_verdict.hpp"
+#include "analysis/parallel/parallel.hpp"
+#include "core/failure/failure.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/manifest_text/overrides.hpp"
+#include "results/layout/header.hpp"
+#include "results/reading/all_trials_file.hpp"
+#include "runners/study_run/file_run.hpp"
+#include "runners/tuning/race/proof.hpp"
+#include "runners/tuning/search/study_search.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+constexpr std::int64_t usual_units = 500;  // at least, where the effort is enough for them
+
+/// The fewest units that can meet one goal. @param each trials of a unit under each condition
+std::int64_t min_units_of(const study::Study& study, std::size_t goal, std::int64_t each,
+                          std::size_t points) {
+  const measures::CountedGoal counted = measures::asked_of_moves(study)[goal];
+  const bool on_rigs = study.rigs > 0;
+  std::int64_t fewest = 0;
+  for (const goal::Needs& one : goal::smallest_studies(
+           study.goals[goal], on_rigs, measures::asked_moves(counted, study.moves), points, study.worlds)) {
+    if (!on_rigs) fewest = std::max(fewest, one.trials);
+    if (on_rigs && one.trials <= each * one.rigs && (fewest == 0 || one.rigs < fewest)) fewest = one.rigs;
+  }
+  return fewest;
+}
+
+/// The fewest units that can meet all goals. @param each trials of a unit
+std::int64_t min_units_of(const study::Study& study, std::int64_t each, std::size_t points) {
+  std::int64_t least = std::max<std::int64_t>(study.worlds, 1);
+  for (std::size_t goal = 0; goal < study.goals.size(); ++goal)
+    least = std::max(least, min_units_of(study, goal, each / study::condition_count(study), points));
+  return least;
+}
+
+/// @param each trials of a rig
+measures::MoveCounts at_trials_each(measures::MoveCounts counts, std::int64_t each) {
+  for (statistics::RigMoves& rig : counts.rigs) {
+    const auto factor = static_cast<double>(each) / static_cast<double>(rig.trials);
+    counts.moves -= rig.moves;
+    counts.met -= rig.met;
+    rig.trials = each;
+    rig.moves = std::llround(static_cast<double>(rig.moves) * factor);
+    rig.met = std::llround(static_cast<double>(rig.met) * factor);
+    counts.moves += rig.moves;
+    counts.met += rig.met;
+  }
+  for (measures::MoveCounts& condition : counts.of_conditions)
+    condition = at_trials_each(std::move(condition), each / std::ssize(counts.of_conditions));
+  return counts;
+}
+
+/// The fewest units, with as many trials each, that decide all goals with a probability of 1/2.
+/// @param most where no study decides them, a part of them
+std::int64_t deciding_units(const study::Study& study, const GoalCounts& counts, std::size_t points,
+                            std::int64_t most) {
+  const std::vector<goal::Needs> studies = goal::deciding_studies(study.goals, counts, points, 0.5);
+  if (studies.empty()) return most / 8;
+  return studies.front().rigs > 0 ? studies.front().rigs : studies.front().trials;
+}
+
+std::string_view key_of(std::string_view entry) {
+  return entry.substr(0, entry.find('='));
+}
+
+/// The entries, the last of each key.
+std::vector<std::string> last_of_each(const std::vector<std::string>& entries) {
+  std::vector<std::string> kept;
+  for (auto one = entries.begin(); one != entries.end(); ++one) {
+    const auto again = [one](const std::string& later) { return key_of(later) == key_of(*one); };
+    if (std::none_of(one + 1, entries.end(), again)) kept.push_back(*one);
+  }
+  return kept;
+}
+
+bool holds_run(const std::filesystem::path& output, const study::Study& study) {
+  std::error_code error;
+  if (!std::filesystem::exists(output, error)) return false;
+  try {
+    const reading::ResultsFile file(output);
+    return file.header().study_sha256 == study.study_sha256 &&
+           layout::same_build(file.header().provenance, layout::current_provenance());
+  } catch (const Failure&) {
+    return false;  // no results file: it is made anew
+  }
+}
+
+void make_run(const study::Study& study, const std::filesystem::path& output, int threads,
+              const trials::Effort& effort) {
+  try {
+    study_run::run_to_file({study,
+                            output,
+                            layout::all_rows(study),
+                            threads,
+                            true,
+                            study_run::ForeignShards::remove,
+                            true,
+                            {},
+                            parallel::recording()},
+                           study_run::ExistingUse::none, effort.stop());
+  } catch (const Failure& failure) {
+    if (failure.code() != ExitCode::interrupted || effort.is_interrupted()) throw;
+    std::error_code error;
+    std::filesystem::remove_all(layout::shards_directory(output), error);
+    throw trials::Spent{};
+  }
+}
+
+}  // namespace
+
+GoalCounts counts_of(const study::Study& study, const trials::Replicates& units,
+                     std::span<const UnitResult> results) {
+  const auto conditions = static_cast<std::size_t>(study::condition_count(study));
+  GoalCounts goals(study.goals.size());
+  for (std::size_t goal = 0; goal < goals.size(); ++goal) {
+    measures::MoveCounts& counts = goals[goal];
+    counts.tell_apart(study.worlds, std::ssize(study.conditions));
+    for (std::size_t unit = 0; unit < results.size(); ++unit) {
+      for (std::size_t condition = 0; condition < conditions; ++condition) {
+        const ClaimResult& claim = results[unit].claims[goal * conditions + condition];
+        const auto number = static_cast<std::int64_t>(unit);
+        if (study.rigs == 0) {
+          counts.add(trials::trial_of_replicate(study, units, number, static_cast<std::int64_t>(condition)),
+                     0, claim.moves, claim.met);
+        } else {
+          counts.add_rig(unit, condition,
+                         {units.trials_each / static_cast<std::int64_t>(conditions), claim.moves, claim.met});
+        }
+      }
+    }
+  }
+  return goals;
+}
+
+GoalCounts with_trials_each(GoalCounts counts, std::int64_t each) {
+  for (measures::MoveCounts& goal : counts) goal = at_trials_each(std::move(goal), each);
+  return counts;
+}
+
+std::int64_t proof_units(const study::Study& study, const GoalCounts& counts, std::int64_t each,
+                         std::size_t points, std::int64_t max_trials) {
+  const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
+  const std::int64_t most = std::max<std::int64_t>(max_trials / each / worlds, 1) * worlds;
+  const std::int64_t least = std::max(usual_units, min_units_of(study, each, points));
+  std::int64_t wanted = deciding_units(study, counts, points, most);
+  wanted += wanted / 2;
+  return trials::in_equal_worlds(study, std::clamp(wanted, std::min(least, most), most));
+}
+
+std::int64_t min_proof_trials(const study::Study& study, int attempt) {
+  const std::int64_t each = trials_of_machine(study);
+  return trials::in_equal_worlds(study, min_units_of(study, each, correction_of(attempt))) * each;
+}
+
+study::Study with_values_in_text(const study::Study& study, const std::vector<std::string>& values) {
+  std::vector<std::string> all = study.manifest.overrides;
+  all.insert(all.end(), values.begin(), values.end());
+  std::string text = study.manifest.text;
+  std::vector<std::string> overrides;
+  for (const std::string& one : last_of_each(all)) {
+    const std::string_view key = key_of(one);
+    const std::optional<std::string> edited =
+        manifest_text::with_override(text, key, std::string_view(one).substr(key.size() + 1));
+    if (edited) {
+      text = *edited;
+    } else {
+      overrides.push_back(one);
+    }
+  }
+  study::Study edited = manifest::parse_study(text, study.name, overrides, sections::companions_of(study));
+  edited.engine = study.engine;
+  return edited;
+}
+
+ProofRun run_proof(const study::Study& study, std::vector<std::string> values,
+                   const trials::Replicates& units, const std::filesystem::path& output, int threads,
+                   const trials::Effort& effort) {
+  effort.spend(units.trials());
+  for (const std::string& one : trials::overrides_for(study, units)) values.push_back(one);
+  if (layout::has_sums(study.retention)) values.emplace_back("keep=trials");
+  ProofRun run{with_values_in_text(study, values), {}};
+  if (!holds_run(output, run.study)) make_run(run.study, output, threads, effort);
+  run.results = results_in(reading::AllTrialsFile(output), run.study, units);
+  return run;
+}
+
+}  // namespace zerocount::tuning

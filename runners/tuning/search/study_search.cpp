@@ -1,0 +1,186 @@
+#include "runners/tuning/search/study_search.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <utility>
+
+#include "analysis/parallel/parallel.hpp"
+#include "core/trial/trial.hpp"
+#include "experiments/study/plan.hpp"
+#include "experiments/study/study_table.hpp"
+#include "runners/tuning/search/other_controls.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+constexpr std::int64_t max_search_trials_of_machine = 20;
+constexpr std::int64_t examined_machines = 2048;
+
+bool lie_in_ranges(const Values& values, std::span<const study::FreeParameter> free) {
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    if (!(values[i] >= free[i].low && values[i] <= free[i].high)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Values values_in_manifest(const study::Study& study, std::span<const study::FreeParameter> free) {
+  Values values;
+  for (const study::FreeParameter& one : free) {
+    const std::size_t slot = study::find_slots(one.name, study.plan->table).value().first;
+    values.push_back(study.plan->base[slot].number);
+  }
+  return values;
+}
+
+std::int64_t trials_of_machine(const study::Study& study) {
+  const std::int64_t conditions = study::condition_count(study);
+  const bool on_machines =
+      std::ranges::any_of(study.goals, [](const study::Goal& goal) { return goal.machines.has_value(); });
+  if (!on_machines) return conditions;
+  return std::max<std::int64_t>(study.trials / (study.rigs * conditions), 10) * conditions;
+}
+
+std::int64_t search_trials_of_machine(const study::Study& study) {
+  const std::int64_t conditions = study::condition_count(study);
+  return std::min(trials_of_machine(study) / conditions, max_search_trials_of_machine) * conditions;
+}
+
+StudySearch::StudySearch(const study::Study& study, std::vector<study::FreeParameter> free,
+                         const SearchSize& size, TuningJournal& journal, std::function<double()> elapsed,
+                         trials::Effort effort)
+    : study_(study),
+      free_(std::move(free)),
+      size_(size),
+      units_{size.max_units, search_trials_of_machine(study)},
+      base_(trials::variant_of(study, trials::overrides_for(study, units_))),
+      examined_units_{trials::in_equal_worlds(study, examined_machines), units_.trials_each},
+      examined_base_(trials::variant_of(study, trials::overrides_for(study, examined_units_))),
+      examiner_(examined_base_, examined_units_.count),
+      journal_(journal),
+      elapsed_(std::move(elapsed)),
+      effort_(std::move(effort)) {}
+
+SearchResult StudySearch::run(const SearchSettings& settings, std::vector<Values> starts) {
+  stop_ = settings.effort.stop();
+  SearchProblem problem;
+  problem.free = free_;
+  problem.aim = aim_of(study_);
+  starts.insert(starts.begin(), values_in_manifest(study_, free_));
+  std::erase_if(starts, [this](const Values& values) { return !lie_in_ranges(values, free_); });
+  problem.starts = std::move(starts);
+  problem.faces = zero_sets(free_);
+  problem.size = size_;
+  problem.trials_of_unit = units_.trials_each;
+  problem.evaluate = [this](std::span<Candidate* const> candidates, std::int64_t to) {
+    evaluate(candidates, to);
+  };
+  problem.admissible = [this](std::span<const Candidate> candidates) { return admissible(candidates); };
+  problem.shortfall = [this](std::span<const Values> values) { return shortfall(values); };
+  problem.verified = [this](const Candidate& candidate) { return verified(candidate); };
+  return search(problem, settings);
+}
+
+void StudySearch::evaluate(std::span<Candidate* const> candidates, std::int64_t to) {
+  std::vector<Candidate*> unknown;
+  std::vector<std::int64_t> from;
+  for (Candidate* const one : candidates) {
+    const std::int64_t begin = std::ssize(one->units);
+    journal_.take(base_.study_sha256, one->values, begin, to, one->units);
+    if (std::ssize(one->units) >= to) continue;
+    from.push_back(std::ssize(one->units));
+    unknown.push_back(one);
+  }
+  std::vector<study::Study> studies(unknown.size());
+  parallel::for_each_index(
+      unknown.size(), [&](std::size_t i) { studies[i] = candidate(unknown[i]->values); }, "study");
+  std::vector<UnitsToRun> entries;
+  entries.reserve(unknown.size());
+  for (std::size_t i = 0; i < unknown.size(); ++i)
+    entries.push_back({&studies[i], from[i], to, &unknown[i]->units, nullptr});
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    run_units(entries, units_, stop_);
+  } catch (const trial::Interrupted&) {
+    for (std::size_t i = 0; i < unknown.size(); ++i)
+      unknown[i]->units.resize(static_cast<std::size_t>(from[i]));
+    throw;
+  }
+  simulation_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (const Candidate* const one : candidates) some_slid_ = some_slid_ || has_slid(one->units);
+  for (const std::int64_t begin : from) simulated_ += (to - begin) * units_.trials_each;
+  std::vector<std::string> lines(unknown.size());
+  const double seconds = elapsed_();
+  parallel::for_each_index(
+      unknown.size(),
+      [&](std::size_t i) {
+        lines[i] =
+            evaluation_line(base_.study_sha256, unknown[i]->values, from[i],
+                            std::span(unknown[i]->units).subspan(static_cast<std::size_t>(from[i])), seconds);
+        studies[i] = {};  // large, and as slow to free as to make
+      },
+      "journal");
+  journal_.add(lines);
+}
+
+std::string StudySearch::refusal_of_all() const {
+  const auto is_allowed = [this](const Values& values) { return examined_if_allowed(values).has_value(); };
+  if (examined_.empty() || std::ranges::any_of(examined_, is_allowed)) return "";
+  return trials::refusal_of_values(examined_base_, names_of(free_), examined_.front());
+}
+
+bool StudySearch::may_keep(const Values& values, bool slides) const {
+  const std::optional<study::Study> study = examined_if_allowed(values);
+  return study && examiner_.may_keep(*study, study_.tuning->margins, slides);
+}
+
+std::vector<bool> StudySearch::admissible(std::span<const Candidate> candidates) {
+  std::vector<char> kept(candidates.size(), 1);
+  std::vector<std::size_t> unknown;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!may_keep_.contains(examination_of(candidates[i]))) unknown.push_back(i);
+  }
+  parallel::for_each_index(
+      unknown.size(),
+      [&](std::size_t k) {
+        if (stop_.stop_requested()) return;
+        const Candidate& one = candidates[unknown[k]];
+        kept[unknown[k]] = may_keep(one.values, has_slid(one.units)) ? 1 : 0;
+      },
+      "margins");
+  if (stop_.stop_requested()) throw trial::Interrupted{};
+  for (const std::size_t i : unknown) {
+    if (kept[i] != 0) may_keep_.insert(examination_of(candidates[i]));
+    if (candidates[i].units.empty()) examined_.push_back(candidates[i].values);
+  }
+  return {kept.begin(), kept.end()};
+}
+
+std::vector<double> StudySearch::shortfall(std::span<const Values> values) const {
+  std::vector<double> found(values.size(), std::numeric_limits<double>::infinity());
+  parallel::for_each_index(
+      values.size(),
+      [&](std::size_t i) {
+        if (stop_.stop_requested()) return;
+        if (const std::optional<study::Study> study = examined_if_allowed(values[i]))
+          found[i] = examiner_.shortfall(*study, study_.tuning->margins, false);
+      },
+      "shortfall");
+  if (stop_.stop_requested()) throw trial::Interrupted{};
+  return found;
+}
+
+bool StudySearch::verified(const Candidate& one) {
+  if (keeps_.contains(examination_of(one))) return true;
+  if (!examiner_.keeps(examined_candidate(one.values), study_.tuning->margins, has_slid(one.units),
+                       effort_.stop())) {
+    may_keep_.clear();  // there may be one more critical machine
+    return false;
+  }
+  keeps_.insert(examination_of(one));
+  return true;
+}
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,155 @@
+#include "runners/tuning/search/tuning_journal.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "core/failure/failure.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Appends a unit as [slid, claim, …], a claim as [moves, met, value, …]; null is infinite.
+void append_unit(const UnitResult& unit, std::string& text) {
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "[{}", unit.slid);
+  for (const ClaimResult& claim : unit.claims) {
+    fmt::format_to(out, ",[{},{}", claim.moves, claim.met);
+    for (const double value : claim.values) {
+      if (std::isfinite(value)) {
+        fmt::format_to(out, ",{}", value);
+      } else {
+        text += ",null";
+      }
+    }
+    text += ']';
+  }
+  text += ']';
+}
+
+ClaimResult claim_of(const Json& json) {
+  ClaimResult claim{json.at(0).get<std::int32_t>(), json.at(1).get<std::int32_t>(), {}};
+  for (std::size_t i = 2; i < json.size(); ++i)
+    claim.values.push_back(json[i].is_null() ? std::numeric_limits<double>::infinity()
+                                             : json[i].get<double>());
+  return claim;
+}
+
+UnitResult unit_of(const Json& json) {
+  UnitResult unit{.claims = {}, .slid = json.at(0).get<bool>()};
+  for (std::size_t i = 1; i < json.size(); ++i) unit.claims.push_back(claim_of(json[i]));
+  return unit;
+}
+
+std::string header_of(const std::string& tuning) {
+  return Json{{"zerocount_tuning", 3}, {"tuning", tuning}}.dump();
+}
+
+}  // namespace
+
+std::filesystem::path journal_path(const std::filesystem::path& output) {
+  return output.string() + ".tuning";
+}
+
+TuningJournal::TuningJournal(std::filesystem::path path, const std::string& tuning, bool replace)
+    : path_(std::move(path)) {
+  std::error_code error;
+  header_ = header_of(tuning);
+  if (std::filesystem::exists(path_, error)) {
+    std::ifstream file(path_);
+    std::string line;
+    resumed_ = std::getline(file, line) && line == header_;
+    if (!resumed_ && !replace) {
+      throw Failure(
+          ExitCode::bad_input,
+          fmt::format("{}: is the unfinished tuning of another study, or by another build; expected "
+                      "another FILE, or --force to replace it",
+                      path_.string()));
+    }
+    while (resumed_ && std::getline(file, line)) read_line(line);
+    torn_ = resumed_;
+  }
+  if (!resumed_) remove();
+}
+
+/// The last line of a run that was killed may be a part of one: its evaluation is made again.
+void TuningJournal::read_line(const std::string& line) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (json.is_discarded()) return;
+  try {
+    if (json.contains("speed")) {
+      speed_ = json.at("speed").get<double>();
+      return;
+    }
+    std::vector<UnitResult>& known = known_[{json.at("search"), json.at("values").get<Values>()}];
+    if (json.at("from").get<std::size_t>() != known.size()) return;
+    for (const Json& unit : json.at("units")) known.push_back(unit_of(unit));
+    seconds_ = json.at("seconds");
+  } catch (const Json::exception&) {
+    return;
+  }
+}
+
+void TuningJournal::take(const std::string& search, const Values& values, std::int64_t from, std::int64_t to,
+                         std::vector<UnitResult>& units) {
+  const auto known = known_.find({search, values});
+  if (known == known_.end()) return;
+  for (std::int64_t i = from; i < std::min(to, std::ssize(known->second)); ++i)
+    units.push_back(std::move(known->second[static_cast<std::size_t>(i)]));
+}
+
+void TuningJournal::add(std::span<const std::string> evaluations) {
+  if (!evaluations.empty()) append(evaluations);
+}
+
+void TuningJournal::keep_speed(double speed) {
+  const std::string line = Json{{"speed", speed}}.dump();
+  if (!speed_) append({&line, 1});
+  speed_ = speed;
+}
+
+void TuningJournal::append(std::span<const std::string> lines) {
+  if (path_.empty()) return;
+  errno = 0;
+  std::ofstream file(path_, std::ios::app);
+  // A line break first ends the part of a line that a killed run may have left.
+  file << (std::exchange(torn_, false) ? "\n" : "");
+  if (!resumed_ && !begun_) file << header_ << '\n';
+  for (const std::string& line : lines) file << line << '\n';
+  file << std::flush;
+  begun_ = true;
+  if (file) return;
+  throw Failure(ExitCode::machine_failed,
+                fmt::format("{}: cannot be written: {}", path_.string(),
+                            std::error_code(errno, std::generic_category()).message()));
+}
+
+void TuningJournal::remove() {
+  if (path_.empty()) return;
+  std::error_code error;
+  std::filesystem::remove(path_, error);
+}
+
+std::string evaluation_line(const std::string& search, const Values& values, std::int64_t from,
+                            std::span<const UnitResult> units, double seconds) {
+  std::string text = fmt::format(R"({{"search":"{}","values":[{}],"from":{},"units":[)", search,
+                                 fmt::join(values, ","), from);
+  for (const UnitResult& unit : units) {
+    if (text.back() != '[') text += ',';
+    append_unit(unit, text);
+  }
+  return text + fmt::format(R"(],"seconds":{}}})", seconds);
+}
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,437 @@
+#include "runners/tuning/units/loop_examiner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string_view>
+#include <utility>
+
+#include "analysis/parallel/parallel.hpp"
+#include "analysis/theory/load_mode.hpp"
+#include "analysis/theory/trial_loops.hpp"
+#include "core/friction/law.hpp"
+#include "core/friction/parameters.hpp"
+#include "core/loop/controller/controller.hpp"
+#include "core/numerics/bisection.hpp"
+#include "core/theory/margins.hpp"
+#include "core/trial/trial.hpp"
+#include "experiments/study/plan.hpp"
+#include "runners/tuning/units/loop_spread.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+constexpr std::int64_t max_unlike_machines = 100;
+constexpr int places_on_profile = 64;
+constexpr int stiffnesses = 4;  // from the softest to the stiffest
+constexpr double longest_delay = 10.0;
+constexpr double lowest_mode_tried = 1.0;  // of a mode, Hz
+constexpr double frequency_ratio = 1.05;   // of one mode that is tried and the next
+
+/// What is examined of a machine.
+struct MachineLoops {
+  double softest;   ///< contact before it slides, N m/rad; only of a spring of k1 and k2
+  double stiffest;  ///< N m/rad
+  bool slides;
+};
+
+template <class Machine>
+MachineLoops loops_with(const Machine& machine, bool slides) {
+  return {machine.softest, machine.stiffest, slides};
+}
+
+struct Loops {
+  std::vector<theory::TrialLoop> loops;
+  double hold{0.0};  ///< s
+  bool before_sliding{false};
+  bool sliding{false};
+};
+
+/// The control in the fine phase, and that at standstill if there is one.
+std::vector<loop::ControllerParameters> controls_before_sliding(const trial::TrialParameters& p) {
+  std::vector<loop::ControllerParameters> controls{
+      loop::controller_in_phase(p.controller, loop::ControlPhase::fine)};
+  if (const auto at_standstill = loop::controller_at_standstill(controls.front()))
+    controls.push_back(*at_standstill);
+  return controls;
+}
+
+void add_stiffnesses(const trial::TrialParameters& p, const MachineLoops& machine,
+                     std::vector<theory::TrialLoop>& loops) {
+  std::string name = "before sliding";
+  for (const loop::ControllerParameters& control : controls_before_sliding(p)) {
+    for (int i = 0; i < stiffnesses; ++i) {
+      const double share = static_cast<double>(i) / (stiffnesses - 1);
+      const double stiffness = machine.softest * std::pow(machine.stiffest / machine.softest, share);
+      loops.push_back({name, false, stiffness,
+                       theory::frozen_loop(stiffness, p.plant.presliding_damping, p.plant, p.encoder, control,
+                                           theory::drive_of(p))});
+      if (machine.softest == machine.stiffest) break;
+    }
+    name = "before sliding, at standstill";
+  }
+}
+
+/// The loops in which a machine moves, with this much more delay.
+Loops loops_of(trial::TrialParameters p, const MachineLoops& machine, double more_delay) {
+  p.controller.delay += more_delay;
+  const bool has_spring = friction::has_spring(p.friction.model);
+  const std::vector<theory::TrialLoop> of_trial = theory::trial_loops(p);
+  Loops found;
+  found.hold = p.command.hold;
+  found.before_sliding = !std::ranges::all_of(of_trial, &theory::TrialLoop::slides);
+  found.sliding = machine.slides || !found.before_sliding;
+  if (has_spring) add_stiffnesses(p, machine, found.loops);
+  for (const theory::TrialLoop& one : of_trial) {
+    if (one.slides ? found.sliding : !has_spring) found.loops.push_back(one);
+  }
+  return found;
+}
+
+bool is_unstable(const theory::TrialLoop& one, double hold) {
+  return theory::stability_of(one.loop, hold) == theory::LoopStability::unstable;
+}
+
+bool none_unstable(const Loops& of) {
+  return std::ranges::none_of(of.loops,
+                              [&](const theory::TrialLoop& one) { return is_unstable(one, of.hold); });
+}
+
+double decibels(double factor) {
+  return std::isnan(factor) ? std::numeric_limits<double>::infinity() : std::abs(20.0 * std::log10(factor));
+}
+
+double degrees(double phase) {
+  return std::isnan(phase) ? std::numeric_limits<double>::infinity() : std::abs(phase);
+}
+
+bool is_wanted(const study::LoopMargins& margins) {
+  return margins.gain || margins.phase || margins.delay || margins.sensitivity;
+}
+
+bool keeps_margins(const theory::FrozenLoop& loop, const study::LoopMargins& margins) {
+  if (margins.gain || margins.phase) {
+    const theory::StabilityMargins found = theory::stability_margins(loop);
+    if (margins.gain && decibels(found.gain.value) < *margins.gain) return false;
+    if (margins.phase && degrees(found.phase.value) < *margins.phase) return false;
+  }
+  return !margins.sensitivity || theory::peak_sensitivity(loop).value <= *margins.sensitivity;
+}
+
+bool keeps_margins(const trial::TrialParameters& p, const MachineLoops& machine,
+                   const study::LoopMargins& margins) {
+  const Loops of = loops_of(p, machine, 0.0);
+  if (!none_unstable(of)) return false;
+  for (const double share : {0.5, 1.0}) {
+    if (margins.delay && !none_unstable(loops_of(p, machine, share * *margins.delay))) return false;
+  }
+  return parallel::holds_for_all(
+      of.loops.size(), [&](std::size_t i) { return keeps_margins(of.loops[i].loop, margins); },
+      "margins of a loop");
+}
+
+/// The part of a margin that is missing; 0 where nothing is.
+double missing_part(double found, double wanted) {
+  return wanted > 0.0 ? std::max(1.0 - found / wanted, 0.0) : 0.0;
+}
+
+/// How fast loops grow that shall be stable, above 0; 0 where they all are.
+double instability(const Loops& of) {
+  double fastest = 0.0;
+  for (const theory::TrialLoop& one : of.loops) {
+    if (is_unstable(one, of.hold))
+      fastest = std::max(fastest, std::log1p(theory::log_growth(one.loop, of.hold)));
+  }
+  return fastest;
+}
+
+double shortfall_of(const trial::TrialParameters& p, const MachineLoops& machine,
+                    const study::LoopMargins& margins) {
+  const Loops of = loops_of(p, machine, 0.0);
+  if (const double fastest = instability(of); fastest > 0.0) return 1.0 + fastest;
+  double missing = 0.0;
+  for (const double share : {0.5, 1.0}) {
+    if (!margins.delay) break;
+    const double fastest = instability(loops_of(p, machine, share * *margins.delay));
+    missing = std::max(missing, fastest / (1.0 + fastest));
+  }
+  for (const theory::TrialLoop& one : of.loops) {
+    const theory::StabilityMargins found = theory::stability_margins(one.loop);
+    if (margins.gain) missing = std::max(missing, missing_part(decibels(found.gain.value), *margins.gain));
+    if (margins.phase) missing = std::max(missing, missing_part(degrees(found.phase.value), *margins.phase));
+    if (!margins.sensitivity) continue;
+    const double peak = theory::peak_sensitivity(one.loop).value;
+    missing = std::max(missing, missing_part(1.0 / (peak - 1.0), 1.0 / (*margins.sensitivity - 1.0)));
+  }
+  return missing;
+}
+
+/// The delay (samples) by which the loop may grow until it is unstable, to 0.01, and the first loop that is;
+/// longest_delay where none is.
+std::pair<double, std::optional<theory::TrialLoop>> delay_margin(const trial::TrialParameters& p,
+                                                                 const MachineLoops& machine) {
+  std::optional<theory::TrialLoop> first_lost;
+  const auto bears = [&](double more) {
+    const Loops of = loops_of(p, machine, more);
+    const auto lost = std::ranges::find_if(
+        of.loops, [&](const theory::TrialLoop& one) { return is_unstable(one, of.hold); });
+    if (lost != of.loops.end()) first_lost = *lost;
+    return lost == of.loops.end();
+  };
+  double kept = 0.0;
+  double lost = 0.25;
+  if (!bears(0.0)) return {0.0, first_lost};
+  while (bears(lost)) {
+    kept = lost;
+    lost += 0.25;
+    if (kept >= longest_delay) return {longest_delay, std::nullopt};
+  }
+  const double margin = numerics::bisect({kept, lost}, bears, numerics::within(0.01)).holds;
+  return {margin, first_lost};
+}
+
+/// Whether what differs between machines under a condition changes nothing of the loops but the stiffness of
+/// a spring.
+bool differ_in_stiffness_alone(const study::Study& study, std::int64_t condition,
+                               friction::FrictionModel model) {
+  if (!friction::has_spring(model) && friction::traits_of(model).has_presliding_motion) return false;
+  return !draws(study, condition, [](std::string_view name) {
+    return !name.starts_with("friction.") && !name.starts_with("initial.") && !name.starts_with("command.");
+  });
+}
+
+/// The softest and the stiffest contact over the friction profile of a trial.
+std::pair<double, double> stiffness_range(const trial::TrialParameters& p, double period) {
+  double softest = std::numeric_limits<double>::infinity();
+  double stiffest = 0.0;
+  const int places = p.friction.profiled.empty() ? 1 : places_on_profile;
+  for (int place = 0; place < places; ++place) {
+    const friction::FrictionParameters contact =
+        friction::friction_at(p.friction, p.initial.position + period * place / places);
+    softest = std::min(softest, contact.k1);
+    stiffest = std::max(stiffest, contact.k1 + contact.k2);
+  }
+  return {softest, stiffest};
+}
+
+/// Of no loop at all.
+SmallestMargins no_limit() {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  return {.gain = none, .phase = none, .delay = longest_delay};
+}
+
+/// Lets a margin be the smallest of another loop too.
+void include(double& smallest, std::optional<CriticalLoop>& loop, double one,
+             const std::optional<CriticalLoop>& of) {
+  if (!(one < smallest)) return;
+  smallest = one;
+  loop = of;
+}
+
+/// Likewise the largest sensitivity.
+void include_sensitivity(SmallestMargins& all, double one, const std::optional<CriticalLoop>& of) {
+  if (!(one > all.sensitivity)) return;
+  all.sensitivity = one;
+  all.sensitivity_loop = of;
+}
+
+/// @param draw of the machine, or nothing
+SmallestMargins margins_of_machine(const trial::TrialParameters& p, const MachineLoops& machine,
+                                   std::optional<std::int64_t> draw, std::int64_t condition) {
+  const auto critical = [&](const theory::TrialLoop& one) {
+    const bool has_spring = !one.slides && one.stiffness > 0.0;
+    return CriticalLoop{one.name, has_spring ? std::optional(one.stiffness) : std::nullopt, draw, condition};
+  };
+  const Loops of = loops_of(p, machine, 0.0);
+  SmallestMargins smallest = no_limit();
+  smallest.before_sliding = of.before_sliding;
+  smallest.sliding = of.sliding;
+  const auto [delay, lost] = delay_margin(p, machine);
+  if (lost) include(smallest.delay, smallest.delay_loop, delay, critical(*lost));
+  for (const theory::TrialLoop& each : of.loops) {
+    smallest.stable = smallest.stable && !is_unstable(each, of.hold);
+    const theory::StabilityMargins margins = theory::stability_margins(each.loop);
+    include(smallest.gain, smallest.gain_loop, decibels(margins.gain.value), critical(each));
+    include(smallest.phase, smallest.phase_loop, degrees(margins.phase.value), critical(each));
+    include_sensitivity(smallest, theory::peak_sensitivity(each.loop).value, critical(each));
+    if (margins.crossover.frequency > smallest.crossover) smallest.crossover = margins.crossover.frequency;
+  }
+  return smallest;
+}
+
+/// Lets margins be the smallest of other machines too.
+void include(SmallestMargins& all, const SmallestMargins& one) {
+  all.stable = all.stable && one.stable;
+  include(all.gain, all.gain_loop, one.gain, one.gain_loop);
+  include(all.phase, all.phase_loop, one.phase, one.phase_loop);
+  include(all.delay, all.delay_loop, one.delay, one.delay_loop);
+  include_sensitivity(all, one.sensitivity, one.sensitivity_loop);
+  all.crossover = std::max(all.crossover, one.crossover);
+  all.before_sliding = all.before_sliding || one.before_sliding;
+  all.sliding = all.sliding || one.sliding;
+}
+
+}  // namespace
+
+LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
+    : conditions_(std::ssize(study.conditions)) {
+  const trial::TrialParameters first = study::study_trial(study, 0, 0).parameters;
+  if (theory::has_no_linear_loop(first)) return;
+  const study::TrialTurns turns = study::turns_of(study);
+  std::vector<char> alike;  // [condition]
+  for (std::int64_t condition = 0; condition < turns.conditions; ++condition)
+    alike.push_back(differ_in_stiffness_alone(study, condition, first.friction.model) ? 1 : 0);
+  examined_ = std::ranges::count(alike, 0) == 0 ? machines : std::min(machines, max_unlike_machines);
+  std::vector<Machine> all(static_cast<std::size_t>(examined_ * turns.conditions));
+  parallel::for_each_index(all.size(), [&](std::size_t i) {
+    const std::int64_t condition = static_cast<std::int64_t>(i) % turns.conditions;
+    const std::int64_t trial = turns.trial_of(static_cast<std::int64_t>(i) / turns.conditions, condition);
+    const auto [softest, stiffest] =
+        stiffness_range(study::study_trial(study, 0, trial).parameters, study.period);
+    const std::int64_t draw = static_cast<std::int64_t>(i) / turns.conditions;
+    all[i] = {trial, condition, draw, spread_of_undrawn(study, condition), softest, stiffest};
+  });
+  for (const Machine& one : all) {
+    const auto like_it = std::ranges::find(machines_, one.condition, &Machine::condition);
+    const bool is_alike = alike[static_cast<std::size_t>(one.condition)] != 0;
+    if (!is_alike || like_it == machines_.end()) {
+      machines_.push_back(one);
+      if (is_alike) machines_.back().draw.reset();
+    } else {
+      like_it->softest = std::min(like_it->softest, one.softest);
+      like_it->stiffest = std::max(like_it->stiffest, one.stiffest);
+    }
+  }
+  for (std::int64_t condition = 0; condition < turns.conditions; ++condition) {
+    add_critical(condition, [](const Machine& a, const Machine& b) { return a.softest < b.softest; });
+    add_critical(condition, [](const Machine& a, const Machine& b) { return a.stiffest > b.stiffest; });
+  }
+}
+
+template <class Less>
+void LoopExaminer::add_critical(std::int64_t condition, const Less& less) {
+  std::optional<std::size_t> first;
+  for (std::size_t i = 0; i < machines_.size(); ++i) {
+    if (machines_[i].condition != condition) continue;
+    if (!first || less(machines_[i], machines_[*first])) first = i;
+  }
+  for (const std::size_t corner : likely_worst_corners(machines_[*first].spread)) {
+    const Corner one{*first, corner};
+    if (std::ranges::find(critical_, one) == critical_.end()) critical_.push_back(one);
+  }
+}
+
+std::vector<LoopExaminer::Corner> LoopExaminer::examined_corners() const {
+  std::vector<Corner> corners;
+  for (std::size_t machine = 0; machine < machines_.size(); ++machine) {
+    const study::LoopSpread& spread = machines_[machine].spread;
+    if (machines_[machine].draw) {
+      for (const std::size_t corner : likely_worst_corners(spread)) corners.push_back({machine, corner});
+    } else {
+      const std::size_t count = corners_of({}, spread).size();
+      for (std::size_t corner = 0; corner < count; ++corner) corners.push_back({machine, corner});
+    }
+  }
+  return corners;
+}
+
+trial::TrialParameters LoopExaminer::at(const Corner& corner, const study::Study& candidate) const {
+  const Machine& machine = machines_[corner.machine];
+  return corners_of(study::study_trial(candidate, 0, machine.trial).parameters,
+                    machine.spread)[corner.corner];
+}
+
+bool LoopExaminer::may_keep(const study::Study& candidate, const study::LoopMargins& margins,
+                            bool slides) const {
+  if (!is_wanted(margins)) return true;
+  return parallel::holds_for_all(
+      critical_.size(),
+      [&](std::size_t i) {
+        const Corner& one = critical_[i];
+        return keeps_margins(at(one, candidate), loops_with(machines_[one.machine], slides), margins);
+      },
+      "margins of a machine");
+}
+
+double LoopExaminer::shortfall(const study::Study& candidate, const study::LoopMargins& margins,
+                               bool slides) const {
+  if (!is_wanted(margins)) return 0.0;
+  std::vector<double> found(critical_.size());
+  parallel::for_each_index(
+      critical_.size(),
+      [&](std::size_t i) {
+        const Corner& one = critical_[i];
+        found[i] = shortfall_of(at(one, candidate), loops_with(machines_[one.machine], slides), margins);
+      },
+      "shortfall of a machine");
+  return std::accumulate(found.begin(), found.end(), 0.0, [](double a, double b) { return std::max(a, b); });
+}
+
+bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins& margins, bool slides,
+                         const std::stop_token& stop) {
+  if (!is_wanted(margins)) return true;
+  const std::vector<Corner> corners = examined_corners();
+  std::vector<char> kept(corners.size(), 1);
+  parallel::for_each_index(
+      corners.size(),
+      [&](std::size_t i) {
+        if (stop.stop_requested()) throw trial::Interrupted{};
+        kept[i] = keeps_margins(at(corners[i], candidate), loops_with(machines_[corners[i].machine], slides),
+                                margins)
+                      ? 1
+                      : 0;
+      },
+      "margins of machines");
+  const auto broken = std::ranges::find(kept, 0);
+  if (broken == kept.end()) return true;
+  const Corner& first = corners[static_cast<std::size_t>(broken - kept.begin())];
+  if (std::ranges::find(critical_, first) == critical_.end()) critical_.push_back(first);
+  return false;
+}
+
+SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool slides,
+                                         const std::stop_token& stop) const {
+  const std::vector<Corner> corners = examined_corners();
+  std::vector<SmallestMargins> found(corners.size(), no_limit());
+  parallel::for_each_index(
+      corners.size(),
+      [&](std::size_t i) {
+        if (stop.stop_requested()) throw trial::Interrupted{};
+        const Machine& machine = machines_[corners[i].machine];
+        found[i] = margins_of_machine(at(corners[i], candidate), loops_with(machine, slides), machine.draw,
+                                      machine.condition);
+      },
+      "margins of machines");
+  SmallestMargins all = no_limit();
+  all.machines = examined_;
+  if (!machines_.empty()) all.spread = machines_.front().spread;
+  all.conditions.resize(static_cast<std::size_t>(conditions_), all);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    include(all, found[i]);
+    if (conditions_ > 0)
+      include(all.conditions[static_cast<std::size_t>(machines_[corners[i].machine].condition)], found[i]);
+  }
+  return all;
+}
+
+std::optional<double> LoopExaminer::lowest_mode(const study::Study& candidate, bool slides,
+                                                const std::stop_token& stop) const {
+  const auto bears = [&](double frequency) {
+    if (stop.stop_requested()) throw trial::Interrupted{};
+    return std::ranges::all_of(critical_, [&](const Corner& corner) {
+      const Machine& one = machines_[corner.machine];
+      trial::TrialParameters p = study::study_trial(candidate, 0, one.trial).parameters;
+      p.plant = theory::with_load_mode(p.plant, frequency);
+      return none_unstable(loops_of(p, {one.softest, one.stiffest, slides}, 0.0));
+    });
+  };
+  if (is_blind()) return std::nullopt;
+  const trial::TrialParameters first = study::study_trial(candidate, 0, machines_.front().trial).parameters;
+  double borne = 0.5 * first.controller.sample_rate;
+  if (motion::has_load(first.plant) || !bears(borne)) return std::nullopt;
+  while (borne > lowest_mode_tried && bears(borne / frequency_ratio)) borne /= frequency_ratio;
+  return borne;
+}
+
+}  // namespace zerocount::tuning

@@ -1,0 +1,308 @@
+#include "runners/tuning/units/unit_runner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/comparison/gate_rules.hpp"
+#include "analysis/goal/question.hpp"
+#include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/trial_value.hpp"
+#include "core/batch/batch.hpp"
+#include "core/failure/failure.hpp"
+#include "runners/trials/trial_set.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+constexpr std::int64_t trials_of_reference = 8;  // of a block that lanes do not run
+
+/// A unit of an entry.
+struct UnitOfEntry {
+  const UnitsToRun* entry;
+  std::int64_t unit;
+};
+
+/// Units that one thread runs at once, of one entry or of several.
+using Block = std::vector<UnitOfEntry>;
+
+double value_of(const Criterion& criterion, const trial::MoveOutcome& move) {
+  const double value = measures::counted_value(*criterion.measure, move);
+  return std::isnan(value) ? std::numeric_limits<double>::infinity() : value / criterion.scale;
+}
+
+/// Adds the moves of a trial to the result of its unit.
+class TrialCounter {
+ public:
+  explicit TrialCounter(const study::Study& study)
+      : goals_(measures::asked_of_moves(study)),
+        criteria_(criteria_of(study)),
+        conditions_(static_cast<std::size_t>(study::condition_count(study))) {}
+
+  void add(std::span<const trial::MoveOutcome> moves, std::int64_t condition, UnitResult& result) const {
+    result.claims.resize(goals_.size() * conditions_);
+    for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
+      ClaimResult& claim = result.claims[goal * conditions_ + static_cast<std::size_t>(condition)];
+      for (const trial::MoveOutcome& move : moves) {
+        if (!measures::asks(goals_[goal], move)) continue;
+        ++claim.moves;
+        claim.met += measures::meets(goals_[goal], move) ? 1 : 0;
+        claim.values.push_back(value_of(criteria_[goal], move));
+        result.slid = result.slid || move.broke_away;
+      }
+    }
+  }
+
+ private:
+  std::vector<measures::CountedGoal> goals_;
+  std::vector<Criterion> criteria_;
+  std::size_t conditions_;
+};
+
+/// Trial i of a unit, changed.
+trial::TrialParameters trial_of(const UnitsToRun& entry, const trials::Replicates& units, std::int64_t unit,
+                                std::int64_t i) {
+  const std::int64_t trial = trials::trial_of_replicate(*entry.study, units, unit, i);
+  trial::TrialParameters parameters = study::study_trial(*entry.study, units.point, trial).parameters;
+  if (entry.change != nullptr) (*entry.change)(parameters);
+  return parameters;
+}
+
+std::vector<trial::TrialParameters> trials_of(const Block& block, const trials::Replicates& units) {
+  std::vector<trial::TrialParameters> trials;
+  for (const UnitOfEntry& one : block) {
+    for (std::int64_t i = 0; i < units.trials_each; ++i)
+      trials.push_back(trial_of(*one.entry, units, one.unit, i));
+  }
+  return trials;
+}
+
+/// Units of a block. @param all trials that are run together
+std::size_t units_of_block(const UnitsToRun& entry, const trials::Replicates& units, std::int64_t all) {
+  const bool in_lanes = batch::runs_in_lanes(trial_of(entry, units, entry.from, 0));
+  const std::int64_t trials = in_lanes ? trials::block_for_lanes(all) : trials_of_reference;
+  return static_cast<std::size_t>(std::max<std::int64_t>(1, trials / units.trials_each));
+}
+
+/// The units of all entries in blocks of about the same work, however few units each entry has.
+/// @param all trials of the entries
+std::vector<Block> blocks_of(std::span<const UnitsToRun> entries, const trials::Replicates& units,
+                             std::int64_t all) {
+  std::vector<Block> blocks;
+  std::size_t size = 0;
+  for (const UnitsToRun& entry : entries) {
+    if (entry.from >= entry.to) continue;
+    const std::size_t wanted = units_of_block(entry, units, all);
+    if (wanted != std::exchange(size, wanted)) blocks.emplace_back();
+    for (std::int64_t unit = entry.from; unit < entry.to; ++unit) {
+      if (blocks.back().size() == size) blocks.emplace_back();
+      blocks.back().push_back({&entry, unit});
+    }
+  }
+  return blocks;
+}
+
+void add_outcomes(const Block& block, const trials::Replicates& units,
+                  std::span<const trial::TrialOutcome> outcomes) {
+  std::optional<TrialCounter> counter;
+  const UnitsToRun* entry = nullptr;
+  std::int64_t conditions = 1;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const auto trial = static_cast<std::int64_t>(i);
+    const UnitOfEntry& one = block[i / static_cast<std::size_t>(units.trials_each)];
+    if (one.entry != std::exchange(entry, one.entry)) {
+      counter.emplace(*entry->study);
+      conditions = study::condition_count(*entry->study);
+    }
+    counter->add(outcomes[i].moves, trial % units.trials_each % conditions,
+                 (*entry->results)[static_cast<std::size_t>(one.unit)]);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> names_of(std::span<const study::FreeParameter> free) {
+  std::vector<std::string> names;
+  for (const study::FreeParameter& one : free) names.push_back(one.name);
+  return names;
+}
+
+std::optional<study::Study> at_values(const study::Study& study, std::span<const study::FreeParameter> free,
+                                      const Values& values) {
+  return trials::with_values(study, names_of(free), values);
+}
+
+std::vector<std::string> overrides_of(std::span<const study::FreeParameter> free, const Values& values) {
+  std::vector<std::string> overrides;
+  for (std::size_t i = 0; i < free.size(); ++i)
+    overrides.push_back(fmt::format("{}={}", free[i].name, values[i]));
+  return overrides;
+}
+
+namespace {
+
+/// A quantile of a measure of the true motion or the position error, such as rest_torque_noise.p95.
+std::optional<Criterion> motion_criterion(const study::Study& study, std::string_view text) {
+  const auto dot = text.rfind('.');
+  if (dot == std::string_view::npos) return std::nullopt;
+  const auto quantile = std::ranges::find(comparison::quantile_names, text.substr(dot + 1),
+                                          &std::pair<std::string_view, double>::first);
+  if (quantile == comparison::quantile_names.end()) return std::nullopt;
+  for (const layout::Measure& measure : layout::measure_table(study.features)) {
+    bool study::StudyFeatures::*const use = measure.file.only_with;
+    const bool is_motion = use == &study::StudyFeatures::motion || use == &study::StudyFeatures::following ||
+                           use == &study::StudyFeatures::reversals;
+    if (measure.field.column.name != text.substr(0, dot)) continue;
+    if (measure.tolerance || (is_motion && study.features.*use)) return Criterion{&measure, quantile->second};
+  }
+  return std::nullopt;
+}
+
+/// Whether the text is of the settling times in the bands of the goals: "band_settling_time.p95".
+bool is_of_settling(std::string_view text) {
+  return text.starts_with("band_settling_time.");
+}
+
+Criterion criterion_of(const study::Study& study, std::size_t goal, const std::string& wanted_text) {
+  const goal::Question question = only(goal::question_of(study), goal);
+  const bool has_several = study.goals.size() > 1;
+  const bool is_default = wanted_text == study::Tuning{}.minimise;
+  const std::string text = is_default || (has_several && is_of_settling(wanted_text))
+                               ? goal::settling_measure(question) + wanted_text.substr(wanted_text.rfind('.'))
+                               : wanted_text;
+  if (const std::optional<Criterion> criterion = motion_criterion(study, text)) return *criterion;
+  const auto dot = text.rfind('.');
+  const std::string name = text.substr(0, dot);
+  const bool lacks_band = name.starts_with("band_") && !name.ends_with("]") && dot != std::string::npos;
+  const std::string with_band =
+      lacks_band ? fmt::format("{}[{}]{}", name, question.claim()->band, text.substr(dot)) : text;
+  const auto quantity = comparison::find_requirable(with_band);
+  if (!quantity || quantity->kind != comparison::RequirementKind::quantile) {
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: tune.minimise: '{}' is no quantile of a measure; expected one such as "
+                              "band_settling_time.p95, settling_time.median or, with verdict.motion, "
+                              "rest_torque_noise.p95",
+                              study.name, text));
+  }
+  const layout::Measure& wanted = *quantity->measure.measure;
+  for (const layout::Measure& measure : layout::measure_table(study.features)) {
+    if (measure.field.column.name == wanted.field.column.name && measure.band == wanted.band)
+      return {&measure, quantity->probability};
+  }
+  throw Failure(ExitCode::bad_input,
+                fmt::format("{}: tune.minimise: '{}' is of an error band that the study does not measure; "
+                            "expected one of verdict.bands or the goal's",
+                            study.name, text));
+}
+
+}  // namespace
+
+bool is_of_settling(const study::Study& study) {
+  return !study.tuning || is_of_settling(study.tuning->minimise);
+}
+
+std::string criterion_name(const study::Study& study) {
+  const std::string& name = study.tuning->minimise;
+  const auto has_tolerance = [](const study::Goal& goal) { return goal.tolerance.has_value(); };
+  if (!is_of_settling(study) || std::ranges::none_of(study.goals, has_tolerance)) return name;
+  const std::string_view measure =
+      std::ranges::all_of(study.goals, has_tolerance) ? "tolerance_settling_time" : "goal_settling_time";
+  return std::string(measure) + name.substr(name.rfind('.'));
+}
+
+bool is_proportion_of_allowed(const study::Study& study) {
+  return study.goals.size() > 1 && is_of_settling(study);
+}
+
+std::vector<Criterion> criteria_of(const study::Study& study) {
+  const std::string text = study.tuning ? study.tuning->minimise : study::Tuning{}.minimise;
+  std::vector<Criterion> criteria;
+  for (std::size_t goal = 0; goal < std::max<std::size_t>(study.goals.size(), 1); ++goal) {
+    criteria.push_back(criterion_of(study, goal, text));
+    if (is_proportion_of_allowed(study)) criteria.back().scale = study.goals[goal].within;
+  }
+  return criteria;
+}
+
+Aim aim_of(const study::Study& study) {
+  Aim aim{.claims = {},
+          .conditions = static_cast<std::size_t>(study::condition_count(study)),
+          .quantile = criteria_of(study).front().quantile,
+          .worlds = study.worlds};
+  const std::vector<study::Goal> goals =
+      study.goals.empty() ? std::vector{study::Goal{.moves = 1.0}} : study.goals;
+  for (const study::Goal& goal : goals)
+    aim.claims.insert(aim.claims.end(), aim.conditions, {goal.moves, goal.machines});
+  return aim;
+}
+
+ClaimPlace place_of_claim(const study::Study& study, std::size_t claim) {
+  const auto conditions = static_cast<std::size_t>(study::condition_count(study));
+  return {claim / conditions, claim % conditions};
+}
+
+std::size_t claim_at(const study::Study& study, const ClaimPlace& place) {
+  return place.goal * static_cast<std::size_t>(study::condition_count(study)) + place.condition;
+}
+
+std::optional<std::string> goal_name(const study::Study& study, const ClaimPlace& place) {
+  if (study.goals.empty() || study.goals[place.goal].name.empty()) return std::nullopt;
+  return study.goals[place.goal].name;
+}
+
+std::optional<std::string> condition_name(const study::Study& study, const ClaimPlace& place) {
+  if (study.conditions.empty()) return std::nullopt;
+  return study.conditions[place.condition];
+}
+
+bool has_named_claims(const study::Study& study) {
+  return study.goals.size() > 1 || !study.conditions.empty();
+}
+
+std::string text_of_claim(const study::Study& study, const ClaimPlace& place) {
+  const std::optional<std::string> goal = study.goals.size() > 1 ? goal_name(study, place) : std::nullopt;
+  return (goal ? fmt::format(" of goal '{}'", *goal) : std::string()) +
+         study::condition_text(study, static_cast<std::int64_t>(place.condition));
+}
+
+void run_units(std::span<const UnitsToRun> entries, const trials::Replicates& units,
+               const trials::Effort& effort) {
+  trials::TrialSet set;
+  for (const UnitsToRun& entry : entries) {
+    entry.results->resize(static_cast<std::size_t>(entry.to));
+    set.count += (entry.to - entry.from) * units.trials_each;
+  }
+  const std::vector<Block> blocks = blocks_of(entries, units, set.count);
+  set.blocks = blocks.size();
+  set.draw = [&](std::size_t block) { return trials_of(blocks[block], units); };
+  trials::run(set, effort, [&](std::size_t block, std::span<const trial::TrialOutcome> outcomes) {
+    add_outcomes(blocks[block], units, outcomes);
+  });
+}
+
+std::vector<UnitResult> results_of(const study::Study& study, const trials::Replicates& units,
+                                   std::int64_t count, const Change* change, const trials::Effort& effort) {
+  std::vector<UnitResult> results;
+  const UnitsToRun all{&study, 0, std::min(count, units.count), &results, change};
+  run_units({&all, 1}, units, effort);
+  return results;
+}
+
+std::vector<UnitResult> results_in(const reading::AllTrialsFile& file, const study::Study& study,
+                                   const trials::Replicates& units) {
+  const TrialCounter counter(study);
+  const study::TrialTurns turns = study::turns_of(study);
+  std::vector<UnitResult> results(static_cast<std::size_t>(units.count));
+  measures::visit_trials(file, file.rows(), [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+    counter.add(moves, turns.condition_of(row),
+                results[static_cast<std::size_t>(turns.draw_of(row) % units.count)]);
+  });
+  return results;
+}
+
+}  // namespace zerocount::tuning

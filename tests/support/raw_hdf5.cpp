@@ -1,5 +1,6 @@
 #include "tests/support/raw_hdf5.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -59,13 +60,14 @@ std::string chunks_of(hid_t dataset) {
   H5Dget_num_chunks(dataset, space, &chunks);
   std::string bytes;
   for (hsize_t chunk = 0; chunk < chunks; ++chunk) {
-    hsize_t offset[2] = {0, 0};
+    std::array<hsize_t, H5S_MAX_RANK> offset{};
     hsize_t size = 0;
     std::uint32_t mask = 0;
-    H5Dget_chunk_info(dataset, space, chunk, offset, &mask, nullptr, &size);
+    checked(H5Dget_chunk_info(dataset, space, chunk, offset.data(), &mask, nullptr, &size));
     std::string content(size, '\0');
-    H5Dread_chunk(dataset, H5P_DEFAULT, offset, &mask, content.data());
-    bytes += std::to_string(offset[0]) + "," + std::to_string(offset[1]) + ":" + content;
+    checked(H5Dread_chunk(dataset, H5P_DEFAULT, offset.data(), &mask, content.data()));
+    for (const hsize_t place : offset) bytes += std::to_string(place) + ",";
+    bytes += ":" + content;
   }
   H5Sclose(space);
   return bytes;

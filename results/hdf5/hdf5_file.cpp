@@ -13,13 +13,6 @@
 namespace zerocount::hdf5 {
 namespace {
 
-/// Turns off the library's messages on stderr and its exit handler, which would repeat failed writes.
-void quieten() {
-  static const herr_t no_work_at_exit = H5dont_atexit();
-  static_cast<void>(no_work_at_exit);
-  demand(H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr));  // applies to the calling thread
-}
-
 storage::ByteFile::Mode mode_of(Purpose purpose, bool create) {
   if (purpose != Purpose::write) return storage::ByteFile::Mode::read;
   return create ? storage::ByteFile::Mode::create : storage::ByteFile::Mode::change;
@@ -145,7 +138,6 @@ bool is_hdf5(const std::filesystem::path& path) {
 
 File File::open(std::shared_ptr<Origin> origin, bool create) {
   const LibraryUse use;
-  quieten();
   const std::string path = origin->bytes->path().string();
   const Handle creation = creation_properties(H5P_FILE_CREATE);
   const Handle access = access_properties(origin->bytes);

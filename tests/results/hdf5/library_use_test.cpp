@@ -41,5 +41,16 @@ TEST(LibraryUse, OfASecondThreadAtTheSameTimeIsRefused) {
   in_another_thread([&] { EXPECT_EQ(dataset.extent().size(), 1U); });
 }
 
+TEST(LibraryUse, ThatFailsPrintsNothingInAnyThread) {
+  const TemporaryFolder folder;
+  hdf5::File file = hdf5::File::create(folder / "file.h5");
+  const auto fail = [&] { EXPECT_ANY_THROW(file.create_group("twice")); };
+  file.create_group("twice");
+  ::testing::internal::CaptureStderr();
+  fail();
+  in_another_thread(fail);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
 }  // namespace
 }  // namespace zerocount::testing

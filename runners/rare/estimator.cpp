@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <span>
 #include <string_view>
@@ -12,11 +11,10 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/betting_bounds.hpp"
 #include "analysis/statistics/unknown.hpp"
-#include "core/numerics/normal_distribution.hpp"
 #include "experiments/designs/random_key.hpp"
 #include "runners/rare/splitting.hpp"
+#include "runners/rare/tried_values.hpp"
 
 namespace zerocount::rare {
 namespace {
@@ -46,7 +44,6 @@ constexpr double min_proportion_of_searched = 0.5;  // of splitting's failures, 
 constexpr double cap_of_no_use = 0.5;               // plain trials have 1
 constexpr double narrow_cap = 30.0;                 // of the weights, over the probability
 constexpr std::size_t drawn_at_once = 500;
-constexpr std::size_t max_drawn = 2'000'000;  // some hundred bytes each
 constexpr double natural_proportion = 0.1;
 constexpr double share_of_levels = 0.35;
 constexpr double share_of_new = 0.4;  // of the mixture, after a failure that it did not foresee
@@ -54,40 +51,6 @@ constexpr double cap_beyond_usual = 2.0;
 constexpr double quantile_of_cap = 0.998;  // of the likelihood ratio of failures
 constexpr std::int64_t max_learnings = 8;
 constexpr double steps_per_independent_point = 5.0;  // of a Markov chain
-constexpr double disagreement = 10.0;                // of splitting and the bounds
-
-std::vector<double> positive_values(const EstimatorState& state) {
-  std::vector<double> values;
-  for (const WeightedTrial& trial : state.drawn) {
-    if (trial.failed > 0.0) values.push_back(trial.weight * trial.failed);
-  }
-  return values;
-}
-
-/// Confidence of the bounds of one proposal: the error probabilities of all have the sum that is allowed. The
-/// first has most of it, then the plain trials that follow a proposal of no use.
-double confidence_of(const EstimatorState& state, double confidence) {
-  const double part = state.learnings <= 1 ? 0.7
-                      : state.proposal.is_natural()
-                          ? 0.2
-                          : 0.1 * std::ldexp(1.0, static_cast<int>(1 - state.learnings));
-  return 1.0 - (1.0 - confidence) * part;
-}
-
-bool is_narrow(const statistics::ConfidenceInterval& bounds, double ratio) {
-  return bounds.low > 0.0 && bounds.high <= ratio * bounds.low;
-}
-
-/// Whether splitting along the first score found failures of a far larger probability than the bounds allow,
-/// each time that it found some. Along the others it may end with copies of a few failures, whose number says
-/// little.
-bool splitting_disagrees(const EstimatorState& state, double high) {
-  const auto is_meant = [](const ScoreSearch& search) { return search.score == 0 && search.reached; };
-  return std::ranges::any_of(state.searches, is_meant) &&
-         std::ranges::none_of(state.searches, [&](const ScoreSearch& search) {
-           return is_meant(search) && search.probability <= disagreement * high;
-         });
-}
 
 /// Scales the weights of components to a sum.
 void scale_weights(std::vector<NormalComponent>& components, double sum) {
@@ -103,47 +66,6 @@ std::vector<NormalComponent> mixed(std::vector<NormalComponent> first, std::vect
   scale_weights(second, first.empty() ? 1.0 : share);
   std::ranges::move(second, std::back_inserter(first));
   return first;
-}
-
-/// A value of a discrete draw, and what its last trials showed.
-struct TriedValue {
-  PinnedValue value;
-  std::vector<double> scores;  ///< [score] the largest; −∞: not known
-
-  void take(std::span<const PointResult> results) {
-    value.trials = std::ssize(results);
-    value.failures = std::ranges::count_if(results, [](const PointResult& one) { return one.failed > 0.0; });
-    scores.assign(results.front().scores.size(), -std::numeric_limits<double>::infinity());
-    for (const PointResult& one : results) {
-      for (std::size_t i = 0; i < scores.size(); ++i) scores[i] = std::fmax(scores[i], one.scores[i]);
-    }
-  }
-};
-
-/// Those with most failures, and by turns those with the largest value of each score.
-std::vector<TriedValue> most_suspicious(const std::vector<TriedValue>& tried, std::size_t count,
-                                        std::size_t scores) {
-  if (tried.size() <= count) return tried;
-  std::vector<std::size_t> order(tried.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::vector<bool> chosen(tried.size(), false);
-  std::vector<TriedValue> found;
-  const auto take_first = [&](std::size_t most, const auto& is_wanted) {
-    for (std::size_t i = 0; i < order.size() && most > 0 && found.size() < count; ++i) {
-      if (chosen[order[i]] || !is_wanted(tried[order[i]])) continue;
-      chosen[order[i]] = true;
-      found.push_back(tried[order[i]]);
-      --most;
-    }
-  };
-  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return tried[i].value.failures; });
-  take_first(count, [](const TriedValue& one) { return one.value.failures > 0; });
-  const std::size_t of_each = (count - found.size() + scores - 1) / scores;
-  for (std::size_t score = 0; score < scores; ++score) {
-    std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return tried[i].scores[score]; });
-    take_first(of_each, [](const TriedValue&) { return true; });
-  }
-  return found;
 }
 
 class Estimator {
@@ -508,36 +430,6 @@ class Estimator {
 };
 
 }  // namespace
-
-Estimate answer_of(const EstimatorState& state, const EstimatorSettings& settings) {
-  Estimate answer;
-  answer.plain_high =
-      statistics::clopper_pearson(state.plain_failures, state.plain_trials, settings.confidence).high;
-  answer.bounds = {0.0, answer.plain_high};
-  if (!state.learned) return answer;
-  const std::vector<double> values = positive_values(state);
-  if (state.drawn.empty()) return answer;
-  answer.bounds = statistics::betting_bounds(values, std::ssize(state.drawn), state.cap,
-                                             confidence_of(state, settings.confidence));
-  answer.probability =
-      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(state.drawn.size());
-  answer.bounds.high = std::min(answer.bounds.high, 1.0);
-  const bool exceeds = std::ranges::any_of(values, [&](double value) { return value > state.cap; });
-  answer.narrow = !exceeds && is_narrow(answer.bounds, settings.ratio);
-  const bool natural = state.proposal.is_natural();
-  if (exceeds || (!natural && answer.narrow && splitting_disagrees(state, answer.bounds.high))) {
-    answer.status = EstimateStatus::not_covered;
-  } else if (answer.narrow) {
-    answer.status = EstimateStatus::estimated;
-  } else if (natural && state.plain_failures == 0) {
-    answer.status = EstimateStatus::no_failure;
-  } else if (state.drawn.size() >= max_drawn) {
-    answer.status = EstimateStatus::too_many;
-  }
-  if (answer.status != EstimateStatus::estimated)
-    answer.bounds.high = std::max(answer.bounds.high, answer.plain_high);
-  return answer;
-}
 
 Estimate estimate(EstimatorState& state, const EstimatorSettings& settings, const Simulation& simulate,
                   const std::function<bool(const EstimatorState&)>& go_on) {

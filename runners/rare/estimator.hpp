@@ -48,6 +48,8 @@ struct EstimatorSettings {
   std::uint64_t seed{0};
 };
 
+/// Largest number of trials that are drawn from a proposal. One takes some hundred bytes.
+inline constexpr std::size_t max_drawn = 2'000'000;
 /// Largest number of values of a discrete draw that is tried value by value.
 inline constexpr std::int64_t max_tried_values = 100'000;
 

@@ -175,16 +175,7 @@ ComparedData compared_data(const reading::AllTrialsFile& baseline,
 }
 
 GateRules rules_for(const ComparedData& data, const GateRules& rules) {
-  for (const std::string& measure : measures_of_named_goals(rules)) {
-    const bool judged = std::ranges::any_of(data.of_current.judged, [&](const TrialGoal& one) {
-      return name_of_goal_measure(without_goal(measure), one.goal.name) == measure;
-    });
-    if (judged) continue;
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: it has no goal for the margin of '{}'; expected one of its goals: {}",
-                              data.current.path().string(), measure,
-                              fmt::join(names_of(data.of_current.judged), ", ")));
-  }
+  require_named_goals(rules, names_of(data.of_current.judged), data.current.path().string());
   std::multimap<std::string, std::string> labels;
   for (const MatchedPoint& point : data.points) labels.emplace(point.design_point, point.label);
   return expanded(rules, labels, names_of(data.of_current.required));

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "core/failure/failure.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount::comparison {
@@ -249,10 +251,17 @@ bool names_goal_measure(const GateRules& rules) {
   });
 }
 
-std::vector<std::string> measures_of_named_goals(const GateRules& rules) {
-  std::vector<std::string> names = named_measures(rules);
-  std::erase_if(names, [](const std::string& name) { return without_goal(name) == name; });
-  return names;
+void require_named_goals(const GateRules& rules, std::span<const std::string> goals, std::string_view path) {
+  for (const std::string& measure : named_measures(rules)) {
+    if (without_goal(measure) == measure) continue;
+    const bool is_judged = std::ranges::any_of(goals, [&](const std::string& goal) {
+      return name_of_goal_measure(without_goal(measure), goal) == measure;
+    });
+    if (is_judged) continue;
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: it has no goal for the margin of '{}'; expected one of its goals: {}",
+                              path, measure, fmt::join(goals, ", ")));
+  }
 }
 
 bool judges_by_goal(const GateRules& rules) {

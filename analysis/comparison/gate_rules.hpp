@@ -134,8 +134,9 @@ std::vector<GateMeasure> judged_measures(const GateRules& rules, const layout::M
 
 /// Whether the rules name a measure of the goal.
 bool names_goal_measure(const GateRules& rules);
-/// The names of measures in the rules that are of one goal with its name.
-std::vector<std::string> measures_of_named_goals(const GateRules& rules);
+/// @param goals the names of those that are judged @param path of the manifest or file
+/// @throws Failure (bad_input) where the rules name a measure of another goal
+void require_named_goals(const GateRules& rules, std::span<const std::string> goals, std::string_view path);
 /// Whether a measure of the goal is judged where a study has one.
 bool judges_by_goal(const GateRules& rules);
 

@@ -125,15 +125,6 @@ Question only(const Question& question, std::size_t number) {
   return one;
 }
 
-void require_one_goal(const study::Study& study, std::string_view path) {
-  if (study.goals.size() <= 1) return;
-  throw Failure(
-      ExitCode::bad_input,
-      fmt::format("{}: it has {} goals, and this answer is of one; expected one goal (summary, judge, "
-                  "status and report take several)",
-                  path, study.goals.size()));
-}
-
 void require_claim(const study::Study& study, std::string_view path, std::string_view others) {
   if (!study.goals.empty()) return;
   throw Failure(ExitCode::bad_input,

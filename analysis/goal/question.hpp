@@ -58,9 +58,6 @@ inline bool has_names(const Question& question) {
 }
 /// Its part with this number alone, to judge a point by its worst goal (Verdict::goal).
 Question only(const Question& question, std::size_t number);
-/// @throws Failure (bad_input) for a study with several goals, where answers are of one. @param path of the
-/// manifest or file
-void require_one_goal(const study::Study& study, std::string_view path);
 /// @throws Failure (bad_input) without a claim. @param path of the manifest or file @param others what may be
 /// given in its place: ", or --success"
 void require_claim(const study::Study& study, std::string_view path, std::string_view others = "");

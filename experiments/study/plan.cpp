@@ -20,15 +20,6 @@ std::string_view turn_word(const Study& study) {
   return study.condition_names.empty() ? "age" : "condition and age";
 }
 
-void refuse_conditions(const Study& study, std::string_view verb) {
-  if (study.conditions.empty()) return;
-  throw Failure(
-      ExitCode::bad_input,
-      fmt::format("{}: it has {} conditions, which are not told apart by '{}'; expected a study without "
-                  "conditions: the overrides of one of them can stand in its sections, or be given by --set",
-                  study.name, study.conditions.size(), verb));
-}
-
 bool changes_with_age(const StudyPlan& plan, std::size_t slot) {
   if (plan.agings.empty()) return false;
   const Value& base = plan.base[slot];

@@ -329,9 +329,6 @@ inline std::int64_t conditions_of_age(const Study& study) {
 std::string condition_text(const Study& study, std::int64_t condition);
 /// The noun for an entry of Study::conditions: "condition", "age", "condition and age".
 std::string_view turn_word(const Study& study);
-/// For what does not tell conditions apart. @param verb of the program
-/// @throws Failure (bad_input) for a study with conditions
-void refuse_conditions(const Study& study, std::string_view verb);
 inline TrialTurns turns_of(const Study& study) {
   return {std::max<std::int64_t>(study.rigs, 1), condition_count(study)};
 }

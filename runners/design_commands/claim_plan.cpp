@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,6 +17,8 @@
 #include "analysis/summary/summary.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
+#include "experiments/study/condition_study.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/study_argument.hpp"
 
@@ -43,32 +46,56 @@ struct PlanRequest {
   double rate() const { return true_success.value_or(worst_case_rate); }
 };
 
+/// A design point of a pilot, under one condition where it has any.
+struct PilotPoint {
+  std::string label;
+  double rate{0.0};    ///< of success
+  double rig_sd{0.0};  ///< standard deviation of the success probability between rigs
+};
+
+/// The point whose rigs differ most; none where no rigs have several trials.
+std::optional<PilotPoint> worst_point(const summary::StudySummary& summary, std::string_view condition) {
+  std::optional<PilotPoint> worst;
+  for (std::size_t i = 0; i < summary.points.size(); ++i) {
+    const measures::PointSummary& point = summary.points[i];
+    const double sd = point.rigs.success_sd;
+    if (!std::isnan(sd) && (!worst || sd > worst->rig_sd))
+      worst = {study::label_under(summary.labels[i], condition), point.success_rate().value, sd};
+  }
+  return worst;
+}
+
+/// The point, and the condition, under which the rigs of the pilot differ most.
+std::optional<PilotPoint> worst_point_of(const std::string& path) {
+  const study::Study study = commands::described_study(path);
+  if (study.conditions.empty()) return worst_point(summary::summarise_file(path), "");
+  const reading::AllTrialsFile file(path);
+  std::optional<PilotPoint> worst;
+  for (std::int64_t i = 0; i < study::condition_count(study); ++i) {
+    const std::optional<PilotPoint> one = worst_point(summary::summarise(file.under_condition(i)),
+                                                      study.conditions[static_cast<std::size_t>(i)]);
+    if (one && (!worst || one->rig_sd > worst->rig_sd)) worst = one;
+  }
+  return worst;
+}
+
 /// Takes the standard deviation and the rate from the point of a pilot study whose rigs differ most.
 void measure_pilot(PlanRequest& request, const std::string& path) {
-  study::refuse_conditions(commands::described_study(path), "zerocount plan");
-  const summary::StudySummary summary = summary::summarise_file(path);
-  const measures::PointSummary* worst = nullptr;
-  for (const measures::PointSummary& point : summary.points) {
-    const double sd = point.rigs.success_sd;
-    if (!std::isnan(sd) && (worst == nullptr || sd > worst->rigs.success_sd)) worst = &point;
-  }
-  if (worst == nullptr) {
+  const std::optional<PilotPoint> worst = worst_point_of(path);
+  if (!worst) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: has no differences between rigs; expected the results of a study with "
                               "`rigs` and several trials on each",
                               path));
   }
-  const double rate = worst->success_rate().value;
-  if (!(rate > 0.0 && rate < 1.0)) {
+  if (!(worst->rate > 0.0 && worst->rate < 1.0)) {
     throw Failure(ExitCode::bad_input, fmt::format("{}: no point has both successes and failures; expected "
                                                    "--rig-sd and --true-success in place of a pilot",
                                                    path));
   }
-  request.rig_sd = worst->rigs.success_sd;
-  if (!request.true_success) request.true_success = rate;
-  request.pilot =
-      fmt::format("{}, point {}", path,
-                  text::printable(summary.labels[static_cast<std::size_t>(worst - summary.points.data())]));
+  request.rig_sd = worst->rig_sd;
+  if (!request.true_success) request.true_success = worst->rate;
+  request.pilot = fmt::format("{}, point {}", path, text::printable(worst->label));
 }
 
 PlanRequest request_of(const command_line::Arguments& arguments) {

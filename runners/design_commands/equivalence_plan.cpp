@@ -15,9 +15,11 @@
 
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/comparison/forecast.hpp"
+#include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
 #include "analysis/text/percent.hpp"
+#include "experiments/study/condition_study.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/plugins/hidden_state.hpp"
@@ -84,9 +86,7 @@ comparison::GateRules rules_of(const command_line::Arguments& arguments) {
 study::Study planned_study(const command_line::Arguments& arguments) {
   const std::string& manifest = arguments.operands()[0];
   study::Study study = commands::load_study(manifest, arguments);
-  study::refuse_conditions(study, "zerocount plan");
   plugins::require_no_hidden_state(study);
-  goal::require_one_goal(study, manifest);
   const auto refuse = [&](const char* what) {
     throw Failure(ExitCode::bad_input, fmt::format("{}: {}", manifest, what));
   };
@@ -96,8 +96,25 @@ study::Study planned_study(const command_line::Arguments& arguments) {
   return study;
 }
 
+/// Refuses margins of measures of goals that the study does not have.
+void require_goals_of_margins(const comparison::GateRules& rules, const study::Study& study,
+                              const std::string& manifest) {
+  if (study.goals.empty() && comparison::names_goal_measure(rules)) {
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: its manifest has no goal, by whose measures it is to be planned; expected one "
+                    "such as goal: {{band: 1, within: 0.05, moves: 0.99}}",
+                    manifest));
+  }
+  std::vector<std::string> names;
+  for (const study::Goal& goal : study.goals) names.push_back(goal.name);
+  comparison::require_named_goals(rules, names, manifest);
+}
+
 /// The first `trials` trials of a point.
-comparison::PointTrials run_point(const study::Study& study, std::int64_t point, std::int64_t trials) {
+/// @param study under one condition @param claims as comparison::AlsoRead::claims
+comparison::PointTrials run_point(const study::Study& study, std::int64_t point, std::int64_t trials,
+                                  std::size_t claims) {
   const auto draw = [&](std::int64_t index) { return study::study_trial(study, point, index).parameters; };
   std::vector<trial::MoveOutcome> outcomes;
   for (const std::vector<trial::MoveOutcome>& moves : trials::results_of(
@@ -106,14 +123,16 @@ comparison::PointTrials run_point(const study::Study& study, std::int64_t point,
   comparison::AlsoRead also;
   also.rigs = also.goal_rigs = study.rigs;
   also.worlds = study.worlds;
-  if (study::first_goal(study))
-    also.judged = {{*study::first_goal(study), measures::counted_goals(study).front()}};
+  also.claims = claims;
+  const std::vector<measures::CountedGoal> counted = measures::counted_goals(study);
+  for (std::size_t i = 0; i < study.goals.size(); ++i) also.judged.push_back({study.goals[i], counted[i]});
   return comparison::gather_trials(outcomes, std::ssize(outcomes) / trials, also);
 }
 
 /// A measure at a point of the pilot.
 struct PlannedMeasure {
-  std::string point;
+  std::string point;      ///< with the condition
+  std::string condition;  ///< empty without conditions
   comparison::MeasureComparison found;
   comparison::JudgementForecast forecast{};
 };
@@ -121,14 +140,17 @@ struct PlannedMeasure {
 struct EquivalencePlan {
   comparison::GateRules rules;
   double power{comparison::decision_probability};
-  std::int64_t pilot{0};  ///< trials of each point
+  std::int64_t pilot{0};       ///< trials of each point under each condition
+  std::int64_t conditions{1};  ///< under which each point is run
   comparison::Forecast forecast;
   std::vector<PlannedMeasure> measures;
 };
 
-/// Adds the measures of a point to the plan. The sample of the pilot stands for both studies.
-comparison::ForecastPoint planned_point(EquivalencePlan& plan, const std::string& label,
-                                        const comparison::PointTrials& trials) {
+/// Adds the measures of a point under a condition to the plan. The sample of the pilot stands for both
+/// studies.
+comparison::ForecastPoint planned_point(EquivalencePlan& plan, const std::string& design_point,
+                                        const std::string& condition, const comparison::PointTrials& trials) {
+  const std::string label = study::label_under(design_point, condition);
   const auto found = comparison::compare_measures(plan.rules, label, trials, trials, false);
   const auto samples = comparison::measure_samples(plan.rules, found, trials, trials, false);
   comparison::ForecastPoint point{plan.pilot, plan.pilot, {}, {}, {}};
@@ -137,7 +159,7 @@ comparison::ForecastPoint planned_point(EquivalencePlan& plan, const std::string
     if (!comparison::has_finite_bounds(one)) continue;
     point.measures.push_back(samples[k]);
     point.found.push_back(one);
-    plan.measures.push_back({label, one});
+    plan.measures.push_back({label, condition, one});
   }
   return point;
 }
@@ -147,22 +169,26 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   plan.rules = rules_of(arguments);
   plan.power = command_line::probability_option(arguments, "power").value_or(plan.power);
   const study::Study study = planned_study(arguments);
-  if (!study::first_goal(study) && comparison::names_goal_measure(plan.rules)) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: its manifest has no goal, by whose measures it is to be planned; expected one "
-                    "such as goal: {{band: 1, within: 0.05, moves: 0.99}}",
-                    arguments.operands()[0]));
-  }
-  plan.pilot = study.rigs > 0 ? study.trials : std::min(study.trials, pilot_trials);
+  require_goals_of_margins(plan.rules, study, arguments.operands()[0]);
+  plan.conditions = study::condition_count(study);
+  std::vector<study::Study> under;  // [condition]
+  for (std::int64_t i = 0; i < plan.conditions; ++i) under.push_back(study::under_condition(study, i));
+  const std::int64_t trials = under.front().trials;
+  plan.pilot = study.rigs > 0 ? trials : std::min(trials, pilot_trials);
   const std::int64_t units = study.rigs > 0 ? study.rigs : plan.pilot;
+  const std::size_t claims =
+      std::max(study.goals.size(), std::size_t{1}) * static_cast<std::size_t>(plan.conditions);
   comparison::ForecastSamples samples({units, units}, true);
-  status::Progress progress(study::point_count(study) * plan.pilot, 0, trials::samples_per_trial(study),
-                            false);
+  status::Progress progress(study::point_count(study) * plan.conditions * plan.pilot, 0,
+                            trials::samples_per_trial(study), false);
+  std::int64_t done = 0;
   for (std::int64_t i = 0; i < study::point_count(study); ++i) {
-    samples.add(planned_point(plan, study.points.labels[static_cast<std::size_t>(i)],
-                              run_point(study, i, plan.pilot)));
-    progress.update((i + 1) * plan.pilot);
+    for (std::size_t condition = 0; condition < under.size(); ++condition) {
+      samples.add(planned_point(plan, study.points.labels[static_cast<std::size_t>(i)],
+                                study.conditions.empty() ? "" : study.conditions[condition],
+                                run_point(under[condition], i, plan.pilot, claims)));
+      progress.update(done += plan.pilot);
+    }
   }
   if (plan.measures.empty()) {
     throw Failure(
@@ -181,14 +207,19 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   return plan;
 }
 
-std::optional<std::int64_t> whole(const std::optional<double>& trials) {
-  return trials ? std::optional(static_cast<std::int64_t>(*trials)) : std::nullopt;
+/// The trials of a design point, under all conditions together. @param each under each of them
+std::int64_t trials_of_point(const EquivalencePlan& plan, double each) {
+  return plan.conditions * static_cast<std::int64_t>(each);
+}
+std::optional<std::int64_t> trials_of_point(const EquivalencePlan& plan, const std::optional<double>& each) {
+  return each ? std::optional(trials_of_point(plan, *each)) : std::nullopt;
 }
 
-/// A measure of the plan, and the most trials that were tried.
+/// A measure of the plan, with the trials of its design point under all conditions.
 struct MeasureRow {
   const PlannedMeasure& planned;
-  double max_trials;
+  std::optional<std::int64_t> trials;
+  std::int64_t max_trials;  ///< the most that were tried
 
   std::string text(double value) const {
     return comparison::value_text(value, planned.found.measure, planned.found.unit);
@@ -197,22 +228,28 @@ struct MeasureRow {
 
 std::vector<MeasureRow> measure_rows(const EquivalencePlan& plan) {
   std::vector<MeasureRow> rows;
-  for (const PlannedMeasure& one : plan.measures) rows.push_back({one, plan.forecast.max_trials});
+  for (const PlannedMeasure& one : plan.measures) {
+    rows.push_back(
+        {one, trials_of_point(plan, one.forecast.trials), trials_of_point(plan, plan.forecast.max_trials)});
+  }
   return rows;
 }
 
 std::string trials_cell(const MeasureRow& row) {
-  const comparison::JudgementForecast& forecast = row.planned.forecast;
-  if (forecast.trials) return comparison::trials_text(*forecast.trials);
-  return fmt::format("{} decide a margin of {}", comparison::trials_text(row.max_trials),
-                     row.text(forecast.margin));
+  if (row.trials) return comparison::trials_text(static_cast<double>(*row.trials));
+  return fmt::format("{} decide a margin of {}", comparison::trials_text(static_cast<double>(row.max_trials)),
+                     row.text(row.planned.forecast.margin));
 }
 
 document::Description<MeasureRow> measure_columns() {
   using Row = const MeasureRow&;
   return document::Description<MeasureRow>()
-      .value({.key = "point", .heading = "point", .meaning = "label of the design point"},
+      .value({.key = "point", .heading = "point", .meaning = "label of the design point, with the condition"},
              [](Row row) { return row.planned.point; })
+      .value(in_data("condition", "its trials are under it; absent without conditions"),
+             [](Row row) {
+               return row.planned.condition.empty() ? std::nullopt : std::optional(row.planned.condition);
+             })
       .value({.key = "measure", .heading = "measure", .meaning = "name of the measure"},
              [](Row row) { return row.planned.found.measure; })
       .value(in_data("unit", "its unit"), [](Row row) { return row.planned.found.unit; })
@@ -225,16 +262,18 @@ document::Description<MeasureRow> measure_columns() {
       .value({.heading = "margin", .shown = Shown::to_people, .numeric = true},
              [](Row row) { return "± " + row.text(row.planned.found.margin); })
       .value(in_data("trials", "trials of each study per design point for this measure alone"),
-             [](Row row) { return whole(row.planned.forecast.trials); })
+             &MeasureRow::trials)
       .value({.heading = "trials", .shown = Shown::to_people, .numeric = true}, trials_cell);
 }
 
 std::string equivalence_headline(const EquivalencePlan& plan) {
   return fmt::format(
       "{} trials per design point in each of the two studies{} show with a probability of {} that all these "
-      "measures are equivalent",
-      comparison::trials_text(plan.forecast.trials.value_or(plan.forecast.max_trials)),
-      plan.forecast.trials ? "" : " do not", text::percent(plan.power));
+      "measures are equivalent{}",
+      comparison::trials_text(static_cast<double>(
+          trials_of_point(plan, plan.forecast.trials.value_or(plan.forecast.max_trials)))),
+      plan.forecast.trials ? "" : " do not", text::percent(plan.power),
+      plan.conditions > 1 ? fmt::format(" under each of the {} conditions", plan.conditions) : "");
 }
 
 std::string aim_sentence(const EquivalencePlan& plan) {
@@ -242,7 +281,7 @@ std::string aim_sentence(const EquivalencePlan& plan) {
       "equivalent: two equal studies with different random numbers differ by less than the margins (bounds: "
       "{} "
       "each), by a pilot of {} trials per design point",
-      text::percent(plan.rules.confidence), plan.pilot);
+      text::percent(plan.rules.confidence), plan.conditions * plan.pilot);
 }
 
 document::AnswerDescription<EquivalencePlan> equivalence_answer() {
@@ -257,11 +296,12 @@ document::AnswerDescription<EquivalencePlan> equivalence_answer() {
       .value(in_data("confidence", "confidence of each bound", "1"),
              [](Of plan) { return plan.rules.confidence; })
       .value(in_data("power", "probability with which equivalence is shown", "1"), &EquivalencePlan::power)
-      .value(in_data("pilot_trials", "trials of the pilot per design point"), &EquivalencePlan::pilot)
+      .value(in_data("pilot_trials", "trials of the pilot per design point"),
+             [](Of plan) { return plan.conditions * plan.pilot; })
       .value(in_data("trials", "trials of each study per design point; unknown if max_trials do not suffice"),
-             [](Of plan) { return whole(plan.forecast.trials); })
+             [](Of plan) { return trials_of_point(plan, plan.forecast.trials); })
       .value(in_data("max_trials", "the most trials that were tried"),
-             [](Of plan) { return static_cast<std::int64_t>(plan.forecast.max_trials); })
+             [](Of plan) { return trials_of_point(plan, plan.forecast.max_trials); })
       .table({.key = "measures", .meaning = "measures at the design points"}, measure_columns(),
              measure_rows);
   return answer;

@@ -2825,7 +2825,8 @@ class PlanEquivalenceAnswer(Answer):
     measures : pandas.DataFrame
         Measures at the design points.
 
-        - ``point``: label of the design point
+        - ``point``: label of the design point, with the condition
+        - ``condition``: its trials are under it; absent without conditions
         - ``measure``: name of the measure
         - ``unit``: its unit
         - ``value``: its value in the pilot, in its unit

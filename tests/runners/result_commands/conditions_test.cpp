@@ -108,7 +108,8 @@ json under(const json& points, const std::string& condition) {
   json found = json::array();
   for (const json& point : points) {
     if (point.at("condition") != condition) continue;
-    EXPECT_TRUE(point.at("label").get<std::string>().ends_with(", " + condition)) << point.at("label");
+    const std::string label = point.at(point.contains("label") ? "label" : "point");
+    EXPECT_TRUE(label.ends_with(", " + condition)) << label;
     found.push_back(point);
   }
   return found;
@@ -214,6 +215,40 @@ TEST_F(ConditionsOfResults, AreNamedByVerdictsAndPlans) {
   EXPECT_NE(one_goal.find(" under condition "), std::string::npos) << one_goal;
   EXPECT_NE(run({"plan", "rigs-both.yaml"}).find("under the conditions empty, loaded together"),
             std::string::npos);
+}
+
+TEST_F(ConditionsOfResults, ArePlannedLikeStudiesOfTheirOwn) {
+  for (const Kind& kind : kinds_with_conditions) {
+    const auto planned = [&](const std::string& study) {
+      return said({"plan", file_of(kind, study) + ".yaml", "--margin", "settling_time=20%", "--margin",
+                   "success_rate=0.2"});
+    };
+    const json both = planned("both");
+    std::size_t found = 0;
+    for (const std::string& condition : names_of_conditions) {
+      const json alone = planned(condition);
+      EXPECT_EQ(both.at("pilot_trials"), 2 * alone.at("pilot_trials").get<std::int64_t>());
+      // The trials depend on random numbers, of which each measure has its own.
+      const std::set<std::string> others{"point", "condition", "trials"};
+      EXPECT_EQ(without(under(both.at("measures"), condition), others), without(alone.at("measures"), others));
+      found += alone.at("measures").size();
+    }
+    EXPECT_EQ(both.at("measures").size(), found);
+    for (const json& one : both.at("measures")) {
+      if (one.at("trials").is_number() && both.at("trials").is_number()) {
+        EXPECT_LE(one.at("trials"), both.at("trials")) << one;
+      }
+    }
+  }
+}
+
+TEST_F(ConditionsOfResults, GiveThePlanThePilotWhoseRigsDifferMost) {
+  double largest = 0.0;
+  for (const std::string& condition : names_of_conditions) {
+    const json alone = said({"plan", "--halfwidth", "0.05", "rigs-" + condition + ".h5"}).at("halfwidth");
+    largest = std::max(largest, alone.at("rig_sd").get<double>());
+  }
+  EXPECT_EQ(said({"plan", "--halfwidth", "0.05", "rigs-both.h5"}).at("halfwidth").at("rig_sd"), largest);
 }
 
 TEST_F(ConditionsOfResults, HaveSeriesOfTheirOwn) {

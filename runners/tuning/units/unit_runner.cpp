@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -89,21 +90,29 @@ std::size_t units_of_block(const UnitsToRun& entry, const trials::Replicates& un
   return static_cast<std::size_t>(std::max<std::int64_t>(1, trials / units.trials_each));
 }
 
+/// Units in as few blocks of at most `size` as there can be. Each block has units of all entries where there
+/// are enough, one after another: trials of one entry take about the same time, and blocks of different
+/// entries would not.
+void add_blocks(std::span<const UnitOfEntry> units, std::size_t size, std::vector<Block>& blocks) {
+  const std::size_t count = (units.size() + size - 1) / size;
+  for (std::size_t block = 0; block < count; ++block) {
+    blocks.emplace_back();
+    for (std::size_t i = block; i < units.size(); i += count) blocks.back().push_back(units[i]);
+  }
+}
+
 /// The units of all entries in blocks of about the same work, however few units each entry has.
 /// @param all trials of the entries
 std::vector<Block> blocks_of(std::span<const UnitsToRun> entries, const trials::Replicates& units,
                              std::int64_t all) {
-  std::vector<Block> blocks;
-  std::size_t size = 0;
+  std::map<std::size_t, std::vector<UnitOfEntry>> by_size;
   for (const UnitsToRun& entry : entries) {
     if (entry.from >= entry.to) continue;
-    const std::size_t wanted = units_of_block(entry, units, all);
-    if (wanted != std::exchange(size, wanted)) blocks.emplace_back();
-    for (std::int64_t unit = entry.from; unit < entry.to; ++unit) {
-      if (blocks.back().size() == size) blocks.emplace_back();
-      blocks.back().push_back({&entry, unit});
-    }
+    std::vector<UnitOfEntry>& same = by_size[units_of_block(entry, units, all)];
+    for (std::int64_t unit = entry.from; unit < entry.to; ++unit) same.push_back({&entry, unit});
   }
+  std::vector<Block> blocks;
+  for (const auto& [size, same] : by_size) add_blocks(same, size, blocks);
   return blocks;
 }
 

@@ -19,7 +19,8 @@ struct Command {
   std::string summary;  ///< one line
   std::string help;     ///< complete description with examples
   ExitCode (*run)(const command_line::Arguments&){nullptr};
-  std::vector<document::AnswerType> answers{};  ///< that it gives; empty where it answers no question
+  /// Types of answers that it gives; null where it answers no question. A type takes long to describe.
+  std::vector<document::AnswerType> (*answers)(){nullptr};
 };
 
 /// Prints to stderr that the lock is a file with an owner, if it is.

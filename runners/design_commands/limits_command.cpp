@@ -268,7 +268,7 @@ commands::Command limits_command() {
           "what stands between a point and its goal",
           limits_help,
           limits,
-          {limits_answer().complete_type()}};
+          [] { return std::vector{limits_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::design_commands

@@ -108,7 +108,7 @@ commands::Command plan_command() {
       "print how many trials a claim needs",
       plan_help,
       plan,
-      plan_types()};
+      plan_types};
 }
 
 }  // namespace zerocount::design_commands

@@ -202,7 +202,7 @@ commands::Command rare_command() {
           "the probability of a failure that plain trials do not see",
           rare_help,
           rare,
-          {rare_answer().complete_type()}};
+          [] { return std::vector{rare_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::design_commands

@@ -357,7 +357,7 @@ commands::Command tune_command() {
           "find gains that meet the goal, and prove them",
           tune_help,
           tune,
-          {tune_answer().complete_type()}};
+          [] { return std::vector{tune_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::design_commands

@@ -292,7 +292,7 @@ commands::Command worst_command() {
           "the machine that a gain suits worst",
           worst_help,
           worst,
-          {worst_answer().complete_type()}};
+          [] { return std::vector{worst_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::design_commands

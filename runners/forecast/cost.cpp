@@ -42,7 +42,7 @@ trial::TrialParameters parameters_of(const study::Study& study, std::int64_t row
   return study::study_trial(study, row / study.trials, row % study.trials).parameters;
 }
 
-constexpr double patience = 0.1;  // s
+constexpr double patience = 0.05;  // s
 
 /// A block of trials, each cut at a number of samples.
 struct BlockSize {

@@ -13,7 +13,7 @@ struct StudyCost {
   double seconds() const { return samples * seconds_per_sample / cores; }  ///< with all cores
 };
 
-/// Measures the cost of the batch engine on trials spread over the study, for about a tenth of a second.
+/// Measures the cost of the batch engine on trials spread over the study, for about a twentieth of a second.
 /// Trials are cut at 200 000 samples, or less if those would take longer.
 StudyCost measure_cost(const study::Study& study);
 

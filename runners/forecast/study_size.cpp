@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t max_sampled_trials = 64;
 constexpr double max_sampled_samples = 4e5;  // takes some hundredths of a second
-constexpr std::int64_t sampled_places = 8;
+constexpr std::int64_t sampled_places = 4;   // with as many trials each as fill the lanes
 
 /// For the sampled trials, and for those with traces. Where none ends in time, a trial without jerks stands
 /// for them.

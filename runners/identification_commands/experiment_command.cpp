@@ -191,7 +191,7 @@ commands::Command experiment_command() {
           "design the torque over time from which identify tells the friction",
           experiment_help,
           experiment,
-          {experiment_answer().complete_type()}};
+          [] { return std::vector{experiment_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::identification_commands

@@ -474,9 +474,11 @@ commands::Command identify_command() {
           "identify friction, damping and inertia from material tests",
           identify_help,
           identify,
-          {identification::identification_answer().complete_type(),
-           law_identification::laws_answer().complete_type(),
-           sliding_identification::sliding_answer().complete_type()}};
+          [] {
+            return std::vector{identification::identification_answer().complete_type(),
+                               law_identification::laws_answer().complete_type(),
+                               sliding_identification::sliding_answer().complete_type()};
+          }};
 }
 
 }  // namespace zerocount::identification_commands

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "analysis/text/report_json.hpp"
 #include "experiments/manifest/json_schema.hpp"
 #include "runners/program/commands.hpp"
@@ -10,8 +12,10 @@ namespace {
 /// The types of the answers of all commands.
 std::vector<document::AnswerType> answer_types() {
   std::vector<document::AnswerType> types;
-  for (const commands::Command& command : commands())
-    types.insert(types.end(), command.answers.begin(), command.answers.end());
+  for (const commands::Command& command : commands()) {
+    if (command.answers == nullptr) continue;
+    for (document::AnswerType& type : command.answers()) types.push_back(std::move(type));
+  }
   return types;
 }
 

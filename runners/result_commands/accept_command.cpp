@@ -81,7 +81,7 @@ commands::Command accept_command() {
           "accept machines by their moves, beside the prediction",
           accept_help,
           accept,
-          {acceptance::acceptance_answer().complete_type()}};
+          [] { return std::vector{acceptance::acceptance_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::result_commands

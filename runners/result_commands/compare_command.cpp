@@ -143,7 +143,7 @@ commands::Command compare_command() {
           "compare a results file with a baseline: the regression gate",
           compare_help,
           compare,
-          {report::comparison_answer().complete_type()}};
+          [] { return std::vector{report::comparison_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::result_commands

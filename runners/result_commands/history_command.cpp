@@ -164,7 +164,7 @@ commands::Command history_command() {
           "results over time, with the runs at which they changed",
           history_help,
           run_history,
-          {report::history_answer().complete_type()}};
+          [] { return std::vector{report::history_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::result_commands

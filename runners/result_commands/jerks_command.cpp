@@ -46,7 +46,7 @@ commands::Command jerks_command() {
           "print the rate, intervals and trend of jerks",
           jerks_help,
           print_jerks,
-          {jerks::jerk_answer().complete_type()}};
+          [] { return std::vector{jerks::jerk_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::result_commands

@@ -187,7 +187,7 @@ commands::Command judge_command() {
           "judge a study by the goal in its manifest",
           judge_help,
           judge,
-          {judge_answer(any_claim()).complete_type()}};
+          [] { return std::vector{judge_answer(any_claim()).complete_type()}; }};
 }
 
 }  // namespace zerocount::result_commands

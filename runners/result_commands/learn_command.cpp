@@ -349,7 +349,7 @@ commands::Command learn_command() {
           "say which unknown to measure next",
           learn_help,
           learn,
-          {learn_answer().complete_type()}};
+          [] { return std::vector{learn_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::result_commands

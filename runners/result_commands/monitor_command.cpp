@@ -237,7 +237,7 @@ commands::Command monitor_command() {
           "say whether a machine in use has changed",
           monitor_help,
           monitor_machine,
-          {monitor::monitor_answer().complete_type()}};
+          [] { return std::vector{monitor::monitor_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::result_commands

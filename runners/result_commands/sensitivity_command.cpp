@@ -72,7 +72,7 @@ commands::Command sensitivity_command() {
           "print which random parameters influence the outputs of the trials",
           full_help(),
           print_sensitivity,
-          {report::sensitivity_answer().complete_type()}};
+          [] { return std::vector{report::sensitivity_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::result_commands

@@ -178,7 +178,7 @@ commands::Command summary_command() {
           "print the statistics of a results file",
           summary_help,
           summarise_file,
-          {summary_answer::summary_type()}};
+          [] { return std::vector{summary_answer::summary_type()}; }};
 }
 
 }  // namespace zerocount::result_commands

@@ -412,7 +412,7 @@ commands::Command check_command() {
           "validate a manifest; print its plan and the theory of its points",
           check_help,
           check,
-          {check_answer().complete_type()}};
+          [] { return std::vector{check_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::study_commands

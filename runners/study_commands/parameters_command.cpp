@@ -187,7 +187,9 @@ commands::Command parameters_command() {
       "default, unless its unit differs: on a linear axis most values are required, and with\n"
       "--units si the integral gain. Such values of friction show the range of common guides.\n",
       print_parameters,
-      {parameters_answer().complete_type(), guides_answer().complete_type()}};
+      [] {
+        return std::vector{parameters_answer().complete_type(), guides_answer().complete_type()};
+      }};
 }
 
 }  // namespace zerocount::study_commands

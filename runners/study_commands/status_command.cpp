@@ -216,7 +216,7 @@ commands::Command status_command() {
           "print the progress of a run or an array job, with the summary so far",
           status_help,
           print_statuses,
-          {status_answer().complete_type()}};
+          [] { return std::vector{status_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::study_commands

@@ -151,7 +151,7 @@ commands::Command verify_command() {
           "check results files, and run a sample of their trials again",
           verify_help,
           verify,
-          {verify_answer().complete_type()}};
+          [] { return std::vector{verify_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::study_commands

@@ -1,13 +1,35 @@
+#include <algorithm>
+#include <array>
+
 #include "core/batch/batch.hpp"
 #include "core/batch/kernels/kernels.hpp"
 
 namespace zerocount::batch {
+namespace {
 
-bool is_available(InstructionSet instructions) {
+struct BuiltKernels {
+  InstructionSet instructions;
+  const Kernels* kernels;
+};
+
+/// The widest first.
+constexpr std::array built{
+#ifdef ZEROCOUNT_KERNELS_AVX512
+    BuiltKernels{InstructionSet::avx512, &avx512_kernels},
+#endif
+#ifdef ZEROCOUNT_KERNELS_AVX2
+    BuiltKernels{InstructionSet::avx2, &avx2_kernels},
+#endif
+#ifdef ZEROCOUNT_KERNELS_PORTABLE
+    BuiltKernels{InstructionSet::portable, &portable_kernels},
+#endif
+};
+
+bool processor_has(InstructionSet instructions) {
   switch (instructions) {
     case InstructionSet::portable:
       return true;
-#ifdef ZEROCOUNT_X86_KERNELS
+#ifdef __x86_64__
     case InstructionSet::avx2:
       return __builtin_cpu_supports("avx2") != 0;
     case InstructionSet::avx512:
@@ -22,11 +44,18 @@ bool is_available(InstructionSet instructions) {
   return false;
 }
 
+}  // namespace
+
+bool is_available(InstructionSet instructions) {
+  return processor_has(instructions) &&
+         std::ranges::find(built, instructions, &BuiltKernels::instructions) != built.end();
+}
+
 InstructionSet widest_instruction_set() {
-  for (const InstructionSet wide : {InstructionSet::avx512, InstructionSet::avx2}) {
-    if (is_available(wide)) return wide;
+  for (const BuiltKernels& one : built) {
+    if (processor_has(one.instructions)) return one.instructions;
   }
-  return InstructionSet::portable;
+  return built.back().instructions;
 }
 
 std::string_view name_of(InstructionSet instructions) {
@@ -41,12 +70,9 @@ std::string_view name_of(InstructionSet instructions) {
   return "portable";
 }
 
-const Kernels& kernels_of([[maybe_unused]] InstructionSet instructions) {
-#ifdef ZEROCOUNT_X86_KERNELS
-  if (instructions == InstructionSet::avx512) return avx512_kernels;
-  if (instructions == InstructionSet::avx2) return avx2_kernels;
-#endif
-  return portable_kernels;
+const Kernels& kernels_of(InstructionSet instructions) {
+  const auto* const found = std::ranges::find(built, instructions, &BuiltKernels::instructions);
+  return *(found == built.end() ? built.back() : *found).kernels;
 }
 
 }  // namespace zerocount::batch

@@ -42,9 +42,7 @@ enum class InstructionSet;
 const Kernels& kernels_of(InstructionSet instructions);
 
 extern const Kernels portable_kernels;
-#ifdef ZEROCOUNT_X86_KERNELS
 extern const Kernels avx2_kernels;
 extern const Kernels avx512_kernels;
-#endif
 
 }  // namespace zerocount::batch

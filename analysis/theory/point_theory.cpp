@@ -137,10 +137,7 @@ struct LowEnd {
 };
 
 LowEnd low_end_at(const study::Study& study, const trial::TrialParameters& p, double k1) {
-  friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
-  contact.k1 = k1;
-  const IntegralGainBounds bounds = integral_gain_bounds(p.plant, contact, p.encoder, p.controller);
-  return {k1, as_given(study.units, p, bounds.stable_below)};
+  return {k1, as_given(study.units, p, critical_integral_gain(k1, p.plant, p.encoder, p.controller))};
 }
 
 void add(LowestStiffness& lowest, const LowEnd& end) {

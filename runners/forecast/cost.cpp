@@ -64,7 +64,8 @@ BlockSize affordable_block(const study::Study& study, double samples_of_trial) {
     trial::run_trial(trial);
     slowest = std::max(slowest, seconds_since(start));
   }
-  const double affordable = speed_of_lanes * patience * static_cast<double>(short_trial) / slowest;
+  const double speed = std::min(speed_of_lanes, static_cast<double>(rows));
+  const double affordable = speed * patience * static_cast<double>(short_trial) / slowest;
   const double samples = std::clamp(affordable, static_cast<double>(short_trial), 1e6);
   return {static_cast<std::int64_t>(std::clamp(samples / samples_of_trial, 1.0, 512.0)),
           static_cast<std::int64_t>(std::min(samples, 2e5))};

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t max_sampled_trials = 64;
 constexpr double max_sampled_samples = 4e5;  // takes some hundredths of a second
-constexpr std::int64_t sampled_places = 4;   // with as many trials each as fill the lanes
+constexpr std::int64_t sampled_places = 8;
 
 /// For the sampled trials, and for those with traces. Where none ends in time, a trial without jerks stands
 /// for them.
@@ -43,7 +43,17 @@ shards::TrialResult trial_without_jerks(const study::Study& study) {
   return trial;
 }
 
-/// Trials from several places of the study, numbered from 0, without sample records.
+/// Rows of several places among all of them, from the `from`-th to before the `to`-th of each.
+std::vector<std::int64_t> rows_at(std::int64_t places, std::int64_t from, std::int64_t to, std::int64_t all) {
+  std::vector<std::int64_t> rows;
+  for (std::int64_t place = 0; place < places; ++place) {
+    for (std::int64_t i = from; i < to; ++i) rows.push_back(all / places * place + i);
+  }
+  return rows;
+}
+
+/// Trials from several places of the study, which together fill the lanes, numbered from 0, without sample
+/// records.
 std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
   const trials::Effort limited = trials::Effort().share({}, sampling_limit);
   const std::int64_t rows = study::trial_count(study);
@@ -53,15 +63,17 @@ std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
   const std::int64_t places = std::min(sampled_places, wanted);
   trials::TrialRunner runner(study);
   std::vector<shards::TrialResult> trials;
+  const auto add = [&](std::int64_t from, std::int64_t to) {
+    std::vector<shards::TrialResult> more = runner.run(rows_at(places, from, to, rows), limited.stop());
+    trials.insert(trials.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  };
   try {
-    for (std::int64_t place = 0; place < places; ++place) {
-      const std::int64_t first = rows / places * place;
-      std::vector<shards::TrialResult> here = runner.run({first, wanted / places}, limited.stop());
-      trials.insert(trials.end(), std::make_move_iterator(here.begin()), std::make_move_iterator(here.end()));
-    }
+    add(0, 1);
+    add(1, wanted / places);
   } catch (const trial::Interrupted&) {
     if (trials.empty()) trials.push_back(trial_without_jerks(study));
   }
+  std::ranges::sort(trials, {}, &shards::TrialResult::row);
   for (std::size_t i = 0; i < trials.size(); ++i) {
     trials[i].row = static_cast<std::int64_t>(i);
     trials[i].trace.clear();

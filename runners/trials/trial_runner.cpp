@@ -1,6 +1,7 @@
 #include "runners/trials/trial_runner.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "core/trial/trial.hpp"
@@ -28,6 +29,12 @@ shards::TrialResult run_reference(const study::Study& study, std::int64_t row, s
   return result;
 }
 
+std::vector<std::int64_t> numbers_of(layout::RowRange rows) {
+  std::vector<std::int64_t> numbers(static_cast<std::size_t>(rows.count));
+  std::iota(numbers.begin(), numbers.end(), rows.first);
+  return numbers;
+}
+
 }  // namespace
 
 bool is_retained(const study::Study& study, std::int64_t index) {
@@ -46,60 +53,68 @@ TrialRunner::TrialRunner(const study::Study& study) : study_(&study) {
   drawn_.resize(static_cast<std::size_t>(settings.lanes));
 }
 
-study::StudyTrial TrialRunner::next_trial(std::int64_t row, TrialBlock& block) {
+study::StudyTrial TrialRunner::draw(std::int64_t row, const Drawn& drawn) const {
   study::StudyTrial trial = trial_of_row(*study_, row);
-  const std::int64_t first_point = block.results.front().row / study_->trials;
-  const auto point = static_cast<std::size_t>(row / study_->trials - first_point);
-  block.predictions.resize(std::max(block.predictions.size(), point + 1));
-  block.predictions[point].add(theory::predict(trial.parameters));
+  if (drawn) drawn(row, trial);
   return trial;
 }
 
 std::vector<shards::TrialResult> TrialRunner::run(layout::RowRange rows, const std::stop_token& stop) {
-  return run_block(rows, stop).results;
+  return run(numbers_of(rows), stop);
+}
+
+std::vector<shards::TrialResult> TrialRunner::run(std::span<const std::int64_t> rows,
+                                                  const std::stop_token& stop) {
+  return run_rows(rows, stop, {});
 }
 
 TrialBlock TrialRunner::run_block(layout::RowRange rows, const std::stop_token& stop) {
   TrialBlock block;
-  block.results.resize(static_cast<std::size_t>(rows.count));
-  if (rows.count > 0) block.results.front().row = rows.first;
-  if (engine_) {
-    run_in_lanes(rows, stop, block);
-    return block;
-  }
-  for (std::int64_t row = rows.first; row < rows.end(); ++row)
-    block.results[static_cast<std::size_t>(row - rows.first)] =
-        run_reference(*study_, row, next_trial(row, block), stop);
+  const std::int64_t first_point = rows.first / study_->trials;
+  block.results = run_rows(numbers_of(rows), stop, [&](std::int64_t row, const study::StudyTrial& trial) {
+    const auto point = static_cast<std::size_t>(row / study_->trials - first_point);
+    block.predictions.resize(std::max(block.predictions.size(), point + 1));
+    block.predictions[point].add(theory::predict(trial.parameters));
+  });
   return block;
 }
 
-void TrialRunner::run_in_lanes(layout::RowRange rows, const std::stop_token& stop, TrialBlock& block) {
-  std::vector<shards::TrialResult>& results = block.results;
-  std::vector<std::size_t> places;  // indices of the trials in the results
+std::vector<shards::TrialResult> TrialRunner::run_rows(std::span<const std::int64_t> rows,
+                                                       const std::stop_token& stop, const Drawn& drawn) {
+  std::vector<shards::TrialResult> results(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) results[i].row = rows[i];
+  if (engine_) {
+    run_in_lanes(stop, drawn, results);
+  } else {
+    for (shards::TrialResult& one : results)
+      one = run_reference(*study_, one.row, draw(one.row, drawn), stop);
+  }
+  return results;
+}
+
+void TrialRunner::run_in_lanes(const std::stop_token& stop, const Drawn& drawn,
+                               std::vector<shards::TrialResult>& results) {
+  std::vector<shards::TrialResult*> places;
   places.reserve(results.size());
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const std::int64_t row = rows.first + static_cast<std::int64_t>(i);
-    results[i].row = row;
-    if (is_retained(*study_, row % study_->trials)) {
-      results[i] = run_reference(*study_, row, next_trial(row, block), stop);
+  for (shards::TrialResult& one : results) {
+    if (is_retained(*study_, one.row % study_->trials)) {
+      one = run_reference(*study_, one.row, draw(one.row, drawn), stop);
     } else {
-      places.push_back(i);
+      places.push_back(&one);
     }
   }
-  const auto draw = [&](std::size_t trial, std::size_t slot) -> const trial::TrialParameters& {
-    shards::TrialResult& result = results[places[trial]];
-    drawn_[slot] = next_trial(result.row, block);
+  const auto draw_next = [&](std::size_t trial, std::size_t slot) -> const trial::TrialParameters& {
+    shards::TrialResult& result = *places[trial];
+    drawn_[slot] = draw(result.row, drawn);
     result.inputs = std::move(drawn_[slot].inputs);
     return drawn_[slot].parameters;
   };
   std::vector<trial::TrialOutcome> outcomes(places.size());
   batch::BatchObservers observers;
   observers.stop = stop;
-  observers.jerk = [&](std::size_t trial, const trial::Jerk& jerk) {
-    results[places[trial]].jerks.push_back(jerk);
-  };
-  engine_->run(draw, outcomes, observers);
-  for (std::size_t i = 0; i < places.size(); ++i) results[places[i]].outcome = std::move(outcomes[i]);
+  observers.jerk = [&](std::size_t trial, const trial::Jerk& jerk) { places[trial]->jerks.push_back(jerk); };
+  engine_->run(draw_next, outcomes, observers);
+  for (std::size_t i = 0; i < places.size(); ++i) places[i]->outcome = std::move(outcomes[i]);
 }
 
 }  // namespace zerocount::trials

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -31,10 +34,17 @@ class TrialRunner {
   TrialBlock run_block(layout::RowRange rows, const std::stop_token& stop = {});
   /// The results alone.
   std::vector<shards::TrialResult> run(layout::RowRange rows, const std::stop_token& stop = {});
+  /// Those of any rows, in their order.
+  std::vector<shards::TrialResult> run(std::span<const std::int64_t> rows, const std::stop_token& stop = {});
 
  private:
-  study::StudyTrial next_trial(std::int64_t row, TrialBlock& block);
-  void run_in_lanes(layout::RowRange rows, const std::stop_token& stop, TrialBlock& block);
+  /// Draws the trial of a row, which is told to `drawn`.
+  using Drawn = std::function<void(std::int64_t row, const study::StudyTrial& trial)>;
+  study::StudyTrial draw(std::int64_t row, const Drawn& drawn) const;
+  std::vector<shards::TrialResult> run_rows(std::span<const std::int64_t> rows, const std::stop_token& stop,
+                                            const Drawn& drawn);
+  void run_in_lanes(const std::stop_token& stop, const Drawn& drawn,
+                    std::vector<shards::TrialResult>& results);
 
   const study::Study* study_;
   std::unique_ptr<batch::BatchEngine> engine_;

@@ -2,13 +2,13 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <numeric>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "analysis/measures/point_accumulator.hpp"
-#include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
 #include "core/trial/divergence.hpp"
@@ -57,45 +57,83 @@ MeasureAccumulator::MeasureAccumulator(const layout::Measure& measure,
       counts_moves_(reports(reported, layout::Statistic::moves_rate)),
       clusters_(kind.rigs) {}
 
-void MeasureAccumulator::add_quality(std::int64_t trial, std::span<const trial::MoveOutcome> moves) {
-  by_move_.resize(moves.size());
-  for (std::size_t i = 0; i < moves.size(); ++i) by_move_[i] += layout::has_quality(*measure_, moves[i]);
-  const std::int64_t rig = kind_.rigs > 0 ? trial % kind_.rigs : 0;
-  judged_.add(rig, 1);
-  hits_.add(rig, value_of_trial(*measure_, moves) > 0.0);
-  if (counts_moves_) {
-    const auto has = [&](const trial::MoveOutcome& move) { return layout::has_quality(*measure_, move); };
-    of_moves_.add(trial, kind_.rigs, std::ssize(moves), std::count_if(moves.begin(), moves.end(), has));
-  }
-}
-
-/// Adds values_ to the clusters, with `size` − |values_| censored values: later than all others.
-void MeasureAccumulator::add_clusters(std::int64_t trial, std::int64_t size) {
-  if (has_mean_bounds_) totals_.add(kind_.rigs > 0 ? trial % kind_.rigs : trial, values_);
-  clusters_.add_trial(trial, values_, size);
-}
-
-void MeasureAccumulator::add(std::int64_t trial, std::span<const trial::MoveOutcome> moves) {
+void MeasureAccumulator::add(const MovesOfTrials& some) {
   if (reported_->texts.empty()) return;
-  values_.clear();
-  const layout::CountedValues& counted = measure_->values;
   if (layout::is_quality(*measure_)) {
-    add_quality(trial, moves);
+    add_qualities(some);
   } else if (measure_->reduction == layout::MoveReduction::sum) {
-    const double sum = value_of_trial(*measure_, moves);
-    if (!std::isnan(sum)) values_.push_back(sum);
-    add_clusters(trial, std::ssize(values_));
-  } else if (!(counted.needs_target && kind_.open_loop)) {
-    const bool known = is_known(*measure_, kind_.version);
-    for (const trial::MoveOutcome& move : moves) {
-      const double value = known ? counted_value(*measure_, move) + positive_zero : statistics::unknown;
-      if (!in_clusters_ && trial::was_run(move)) moments_.add(value);
-      if ((in_clusters_ || has_mean_bounds_) && !std::isnan(value)) values_.push_back(value);
-    }
-    if (!in_clusters_ && has_mean_bounds_) totals_.add(kind_.rigs > 0 ? trial % kind_.rigs : trial, values_);
-    if (in_clusters_) add_clusters(trial, counted.nan_is_late ? std::ssize(moves) : std::ssize(values_));
+    add_sums(some);
+  } else if (!(measure_->values.needs_target && kind_.open_loop)) {
+    add_values(some);
   }
-  ++trials_;
+  trials_ += some.trials();
+}
+
+void MeasureAccumulator::add_qualities(const MovesOfTrials& some) {
+  by_move_.resize(some.of_trial);
+  const auto of_trial = static_cast<std::int64_t>(some.of_trial);
+  const std::int64_t wanted = measure_->reduction == layout::MoveReduction::all ? of_trial : 1;
+  values_.resize(some.moves.size());
+  layout::qualities_of(*measure_, some.moves, values_);
+  std::int64_t having = 0;  // without rigs
+  auto quality = values_.cbegin();
+  for (std::int64_t trial = some.first_trial; quality != values_.cend(); ++trial) {
+    std::int64_t moves = 0;
+    for (std::int64_t& of_move : by_move_) {
+      const bool has = *quality++ != 0.0;
+      of_move += has;
+      moves += has;
+    }
+    if (kind_.rigs > 0) {
+      judged_.add(trial % kind_.rigs, 1);
+      hits_.add(trial % kind_.rigs, moves >= wanted);
+    }
+    having += moves >= wanted;
+    if (counts_moves_) of_moves_.add(trial, kind_.rigs, of_trial, moves);
+  }
+  if (kind_.rigs > 0) return;
+  judged_.add(0, some.trials());
+  hits_.add(0, having);
+}
+
+void MeasureAccumulator::add_sums(const MovesOfTrials& some) {
+  std::vector<double> of_moves(some.moves.size());
+  layout::values_of(measure_->field, some.moves, of_moves);
+  values_.clear();
+  for (auto move = of_moves.cbegin(); move != of_moves.cend();
+       move += static_cast<std::ptrdiff_t>(some.of_trial))
+    values_.push_back(std::accumulate(move, move + static_cast<std::ptrdiff_t>(some.of_trial), 0.0));
+  add_totals(some.first_trial, 1);
+  clusters_.add_trials(some.first_trial, values_, 1, false);
+}
+
+void MeasureAccumulator::add_values(const MovesOfTrials& some) {
+  const layout::CountedValues& counted = measure_->values;
+  values_.assign(some.moves.size(), statistics::unknown);
+  if (is_known(*measure_, kind_.version)) layout::values_of(measure_->field, some.moves, values_);
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const trial::MoveOutcome& move = *some.moves[i];
+    values_[i] = (counted.magnitude ? std::abs(values_[i]) : values_[i]) + positive_zero;
+    const bool was_run = trial::was_run(move);
+    if (!was_run || (counted.needs_motion && move.outcome == trial::Outcome::nonfinite))
+      values_[i] = statistics::unknown;
+    if (!in_clusters_ && was_run) moments_.add(values_[i]);
+  }
+  add_totals(some.first_trial, some.of_trial);
+  if (in_clusters_) clusters_.add_trials(some.first_trial, values_, some.of_trial, counted.nan_is_late);
+}
+
+/// Adds values_, [trial, value], to the totals of the clusters. @param trial index of the first
+void MeasureAccumulator::add_totals(std::int64_t trial, std::size_t of_trial) {
+  if (!has_mean_bounds_) return;
+  std::vector<double> known;
+  for (std::span<const double> values(values_); !values.empty(); values = values.subspan(of_trial)) {
+    known.clear();
+    std::ranges::copy_if(values.first(of_trial), std::back_inserter(known),
+                         [](double value) { return !std::isnan(value); });
+    totals_.add(kind_.rigs > 0 ? trial % kind_.rigs : trial, known);
+    ++trial;
+  }
 }
 
 MeasureAccumulator& MeasureAccumulator::operator+=(const MeasureAccumulator& next) {

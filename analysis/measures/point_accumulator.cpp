@@ -47,13 +47,6 @@ void require_kind(const trial::MoveOutcome& move, bool open_loop) {
                                               : "a move with a torque level; expected one with a target");
 }
 
-/// @param trial index of the first
-void add_trials(MeasureAccumulator& measure, std::int64_t trial, std::span<const trial::MoveOutcome> moves,
-                std::size_t moves_of_trial) {
-  for (; !moves.empty(); moves = moves.subspan(moves_of_trial))
-    measure.add(trial++, moves.first(moves_of_trial));
-}
-
 std::vector<MeasureStatistics> statistics_of(const std::vector<MeasureAccumulator>& measures,
                                              const StatisticsOptions& options) {
   std::vector<MeasureStatistics> statistics(measures.size());
@@ -134,19 +127,21 @@ PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTa
 
 void PointAccumulator::add(const trial::TrialOutcome& trial, std::span<const trial::Jerk> jerks) {
   add_counts(trial.moves, jerks);
-  add_measures(trial.moves, trial.moves.size());
+  add_measures(layout::pointers_to(trial.moves), trial.moves.size());
 }
 
-void PointAccumulator::add_measures(std::span<const trial::MoveOutcome> moves, std::size_t moves_of_trial) {
+void PointAccumulator::add_measures(std::span<const trial::MoveOutcome* const> moves,
+                                    std::size_t moves_of_trial) {
   // Few enough moves to stay in the cache while all measures are added.
   constexpr std::size_t moves_at_a_time = 1024;
   const std::size_t trials_at_a_time = std::max<std::size_t>(1, moves_at_a_time / moves_of_trial);
   while (!moves.empty()) {
-    const auto some = moves.first(std::min(moves.size(), trials_at_a_time * moves_of_trial));
-    for (MeasureAccumulator& measure : measures_)
-      add_trials(measure, first_trial_ + measured_, some, moves_of_trial);
-    measured_ += static_cast<std::int64_t>(some.size() / moves_of_trial);
-    moves = moves.subspan(some.size());
+    const MovesOfTrials some{first_trial_ + measured_, moves_of_trial,
+                             moves.first(std::min(moves.size(), trials_at_a_time * moves_of_trial))};
+    for (MeasureAccumulator& measure : measures_) measure.add(some);
+    if (!kind_.open_loop) add_trial_settling_times(some);
+    measured_ += some.trials();
+    moves = moves.subspan(some.moves.size());
   }
 }
 
@@ -186,7 +181,6 @@ void PointAccumulator::add_moves(std::span<const trial::MoveOutcome> moves) {
     goal_settling_[i].add(first_trial_ + counted_.trials, kind_.goals[i], moves);
   }
   if (kind_.has_groups()) add_to_groups(moves);
-  add_trial_settling_time(moves);
 }
 
 void PointAccumulator::add_to_groups(std::span<const trial::MoveOutcome> moves) {
@@ -203,7 +197,9 @@ void PointAccumulator::add_level(std::size_t level, std::span<const trial::MoveO
   if (move.front().outcome == trial::Outcome::nonfinite) {
     ++lost_in_levels_[level];
   } else {
-    for (MeasureAccumulator& measure : levels_[level]) measure.add(first_trial_ + counted_.trials, move);
+    const trial::MoveOutcome* const one = move.data();
+    for (MeasureAccumulator& measure : levels_[level])
+      measure.add({first_trial_ + counted_.trials, 1, std::span(&one, 1)});
   }
 }
 
@@ -223,15 +219,17 @@ void PointAccumulator::add_to_rig(std::span<const trial::MoveOutcome> moves) {
 
 /// The settling time of a trial is that of its slowest move. It is censored if a move did not arrive, or was
 /// not run because a move before it diverged.
-void PointAccumulator::add_trial_settling_time(std::span<const trial::MoveOutcome> moves) {
+void PointAccumulator::add_trial_settling_times(const MovesOfTrials& some) {
   values_.clear();
-  if (std::all_of(moves.begin(), moves.end(),
-                  [](const trial::MoveOutcome& m) { return trial::was_run(m) && m.arrived; })) {
-    double slowest = 0.0;
-    for (const trial::MoveOutcome& move : moves) slowest = std::max(slowest, move.settling_time);
-    values_.push_back(slowest);
+  for (std::size_t first = 0; first < some.moves.size(); first += some.of_trial) {
+    double& slowest = values_.emplace_back(0.0);
+    for (const trial::MoveOutcome* move : some.moves.subspan(first, some.of_trial)) {
+      const bool arrived = trial::was_run(*move) && move->arrived;
+      slowest = arrived ? std::max(slowest, move->settling_time) : statistics::unknown;
+      if (!arrived) break;
+    }
   }
-  trial_settling_times_.add_trial(first_trial_ + counted_.trials, values_, 1);
+  trial_settling_times_.add_trials(some.first_trial, values_, 1, true);
 }
 
 void PointAccumulator::add_jerks(const trial::MoveOutcome& move, std::span<const trial::Jerk> jerks) {

@@ -8,6 +8,7 @@
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/goal_settling.hpp"
 #include "analysis/measures/measure_statistics.hpp"
+#include "analysis/measures/moves_of_trials.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/statistics/clusters/clustered_mean.hpp"
 #include "analysis/statistics/clusters/trial_clusters.hpp"
@@ -60,8 +61,7 @@ class MeasureAccumulator {
   MeasureAccumulator(const layout::Measure& measure, const layout::ReportedStatistics& reported,
                      const MoveKind& kind);
 
-  /// @param trial index of the trial at its point, which tells its rig
-  void add(std::int64_t trial, std::span<const trial::MoveOutcome> moves);
+  void add(const MovesOfTrials& some);
   /// Adds other trials, of the same measure.
   MeasureAccumulator& operator+=(const MeasureAccumulator& next);
   MeasureStatistics statistics(const StatisticsOptions& options) const;
@@ -78,8 +78,10 @@ class MeasureAccumulator {
  private:
   bool has_valid_qualities(std::int64_t moves) const;
   bool has_valid_totals() const;
-  void add_quality(std::int64_t trial, std::span<const trial::MoveOutcome> moves);
-  void add_clusters(std::int64_t trial, std::int64_t size);
+  void add_qualities(const MovesOfTrials& some);
+  void add_sums(const MovesOfTrials& some);
+  void add_values(const MovesOfTrials& some);
+  void add_totals(std::int64_t trial, std::size_t of_trial);
   RateWithBounds rate(double confidence) const;
   RateWithBounds rate_of_moves(double confidence) const;
   statistics::ConfidenceInterval bootstrap_bounds(const StatisticsOptions& options) const;
@@ -98,7 +100,7 @@ class MeasureAccumulator {
   statistics::ByCluster<> judged_;     ///< trials; without rigs all are of rig 0
   statistics::ByCluster<> hits_;       ///< those with the quality, likewise
   MoveCounts of_moves_;                ///< with the quality, where they are counted
-  std::vector<double> values_;         ///< of the current trial
+  std::vector<double> values_;         ///< of the trials that are being added
 };
 
 /// Collects the trials of one design point and computes its statistics. The trials of one rig and the moves
@@ -120,9 +122,10 @@ class PointAccumulator {
   /// its jerks are out of order or not those that its outcome counts, or its moves are not of the kind.
   void add(const trial::TrialOutcome& trial, std::span<const trial::Jerk> jerks);
 
-  /// The two parts of add(): the measures, of many trials with `moves_of_trial` moves each; and the rest, of
-  /// one trial.
-  void add_measures(std::span<const trial::MoveOutcome> moves, std::size_t moves_of_trial);
+  /// The two parts of add(): the measures, of many trials with `moves_of_trial` moves each, by columns; and the
+  /// rest, of one trial.
+  /// @param moves [trial, move]
+  void add_measures(std::span<const trial::MoveOutcome* const> moves, std::size_t moves_of_trial);
   void add_counts(std::span<const trial::MoveOutcome> moves, std::span<const trial::Jerk> jerks);
 
   /// Adds the trials that follow these, of the same point. The statistics do not depend on how the trials of
@@ -156,7 +159,7 @@ class PointAccumulator {
   void add_level(std::size_t level, std::span<const trial::MoveOutcome> move);
   void add_to_groups(std::span<const trial::MoveOutcome> moves);
   void add_to_rig(std::span<const trial::MoveOutcome> moves);
-  void add_trial_settling_time(std::span<const trial::MoveOutcome> moves);
+  void add_trial_settling_times(const MovesOfTrials& some);
   void add_jerks(const trial::MoveOutcome& move, std::span<const trial::Jerk> jerks);
   std::vector<LevelStatistics> level_statistics(const StatisticsOptions& options) const;
   statistics::SuccessClaim claim(const PointSummary& point, const StatisticsOptions& options) const;

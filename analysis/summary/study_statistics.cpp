@@ -232,7 +232,7 @@ class BlockStages {
       }
       jerks = jerks.subspan(count);
     }
-    sums.trials().add_measures(outcomes, of_trial);
+    sums.trials().add_measures(layout::pointers_to(outcomes), of_trial);
     if (wanted_.undecided) sums.add_undecided(piece, outcomes);
     if (wanted_.predictions) sums.add(theory::prediction_of(study_, piece));
   }

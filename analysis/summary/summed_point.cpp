@@ -35,10 +35,14 @@ SummedPoint::SummedPoint(const study::Study& study, std::int64_t point, std::int
 SummedPoint::SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial)
     : SummedPoint(study, point, first_trial, layout::format_version, layout::measure_table(study.features)) {}
 
-void SummedPoint::add(std::int64_t row, const trial::TrialOutcome& outcome,
-                      std::span<const trial::Jerk> jerks) {
-  trials_.add(outcome, jerks);
-  undecided_.add(*study_, row, outcome.moves);
+void SummedPoint::add(std::span<const shards::TrialResult> trials) {
+  std::vector<const trial::MoveOutcome*> moves;
+  for (const shards::TrialResult& trial : trials) {
+    trials_.add_counts(trial.outcome.moves, trial.jerks);
+    undecided_.add(*study_, trial.row, trial.outcome.moves);
+    for (const trial::MoveOutcome& move : trial.outcome.moves) moves.push_back(&move);
+  }
+  if (!trials.empty()) trials_.add_measures(moves, moves.size() / trials.size());
 }
 
 void SummedPoint::add_undecided(layout::RowRange rows, std::span<const trial::MoveOutcome> moves) {

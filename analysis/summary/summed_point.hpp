@@ -12,6 +12,7 @@
 #include "experiments/study/study.hpp"
 #include "results/layout/point_sums.hpp"
 #include "results/reading/results_file.hpp"
+#include "results/shards/trial_result.hpp"
 
 namespace zerocount::summary {
 
@@ -28,9 +29,9 @@ class SummedPoint {
 
   std::int64_t point() const { return point_; }
 
-  /// Adds the next trial, but for what the criteria predict of it.
+  /// Adds the next trials, but for what the criteria predict of them.
   /// @throws Failure (bad_data) as PointAccumulator::add does
-  void add(std::int64_t row, const trial::TrialOutcome& outcome, std::span<const trial::Jerk> jerks);
+  void add(std::span<const shards::TrialResult> trials);
   void add(const theory::PointPrediction& prediction) { prediction_ = prediction_ + prediction; }
   /// Adds the trials without what is undecided of their moves: see add_undecided().
   measures::PointAccumulator& trials() { return trials_; }

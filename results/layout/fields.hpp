@@ -54,6 +54,19 @@ double value_of(const RecordField<Record>& field, const Record& record) {
                     field.member);
 }
 
+/// The values of a field of the records.
+template <class Record>
+void values_of(const RecordField<Record>& field, std::span<const Record* const> records,
+               std::span<double> values) {
+  std::visit(
+      [&](auto member) {
+        std::ranges::transform(records, values.begin(), [member](const Record* record) {
+          return static_cast<double>(std::invoke(member, *record));
+        });
+      },
+      field.member);
+}
+
 /// Whether the field is a function of the others: it is written, and worked out again when it is read.
 template <class Record>
 bool is_computed(const RecordField<Record>& field) {

@@ -78,10 +78,18 @@ bool is_quality(const Measure& measure) {
 }
 
 bool has_quality(const Measure& measure, const trial::MoveOutcome& move) {
-  const double value = value_of(measure.field, move);
-  if (std::holds_alternative<trial::Outcome trial::MoveOutcome::*>(measure.field.member))
-    return trial::is_success(static_cast<trial::Outcome>(static_cast<std::int8_t>(value)));
-  return value != 0.0;
+  const trial::MoveOutcome* const one = &move;
+  double quality = 0.0;
+  qualities_of(measure, std::span(&one, 1), std::span(&quality, 1));
+  return quality != 0.0;
+}
+
+void qualities_of(const Measure& measure, std::span<const trial::MoveOutcome* const> moves,
+                  std::span<double> qualities) {
+  values_of(measure.field, moves, qualities);
+  if (!std::holds_alternative<trial::Outcome trial::MoveOutcome::*>(measure.field.member)) return;
+  for (double& value : qualities)
+    value = trial::is_success(static_cast<trial::Outcome>(static_cast<std::int8_t>(value))) ? 1.0 : 0.0;
 }
 
 std::vector<const Measure*> measures_of(const MeasureTable& measures, ReportOrder order,

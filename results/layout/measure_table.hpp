@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -155,6 +156,9 @@ bool is_in_file(const Measure& measure, std::int64_t version, const study::Study
 /// Whether the moves have, or lack, the measure as a quality.
 bool is_quality(const Measure& measure);
 bool has_quality(const Measure& measure, const trial::MoveOutcome& move);
+/// 1 of each move that has the quality, 0 of others.
+void qualities_of(const Measure& measure, std::span<const trial::MoveOutcome* const> moves,
+                  std::span<double> qualities);
 
 /// Orders that reports of earlier versions have: the measures named here come first, the others follow in the
 /// order of the table.

@@ -1,7 +1,10 @@
 #include "runners/trials/kept_block.hpp"
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "results/layout/header.hpp"
 
@@ -21,17 +24,22 @@ KeptBlock reduce(const study::Study& study, TrialBlock&& block) {
     kept.predictions = std::move(block.predictions);
     return kept;
   }
-  std::vector<shards::TrialResult> failures;
-  for (shards::TrialResult& result : block.results) {
-    const std::int64_t point = result.row / study.trials;
-    if (kept.sums.empty() || kept.sums.back().point() != point)
-      kept.sums.emplace_back(study, point, result.row % study.trials);
-    kept.sums.back().add(result.row, result.outcome, result.jerks);
-    if (layout::has_trials(study.retention) && !trial::succeeded(result.outcome.moves))
-      failures.push_back(std::move(result));
+  const std::int64_t first_point = kept.rows.first / study.trials;
+  for (std::span<const shards::TrialResult> rest(block.results); !rest.empty();) {
+    const std::int64_t row = rest.front().row;
+    const std::int64_t point = row / study.trials;
+    const auto of_point = static_cast<std::size_t>(
+        std::min((point + 1) * study.trials - row, static_cast<std::int64_t>(rest.size())));
+    kept.sums.emplace_back(study, point, row % study.trials).add(rest.first(of_point));
+    kept.sums.back().add(block.predictions[static_cast<std::size_t>(point - first_point)]);
+    rest = rest.subspan(of_point);
   }
-  if (layout::has_trials(study.retention)) kept.trials = shards::columns_of(study, measures, failures);
-  for (std::size_t i = 0; i < kept.sums.size(); ++i) kept.sums[i].add(block.predictions[i]);
+  if (layout::has_trials(study.retention)) {
+    std::erase_if(block.results, [](const shards::TrialResult& result) {
+      return trial::succeeded(result.outcome.moves);
+    });
+    kept.trials = shards::columns_of(study, measures, block.results);
+  }
   return kept;
 }
 

@@ -1,6 +1,8 @@
 #include "analysis/statistics/clusters/clustered_quantile.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 #include "analysis/statistics/clusters/tolerance.hpp"
@@ -8,6 +10,28 @@
 
 namespace zerocount::statistics {
 namespace {
+
+/// Adds values of which many are equal: those seen last are counted before they are looked for in the map.
+void add_repeated(Histogram<double>& histogram, std::span<const double> values) {
+  struct Seen {
+    double value{0.0};
+    std::int64_t times{0};
+  };
+  constexpr int places_log2 = 8;
+  std::array<Seen, std::size_t{1} << places_log2> all_seen{};
+  for (const double value : values) {
+    constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15;
+    Seen& seen = all_seen[std::bit_cast<std::uint64_t>(value) * golden_ratio >> (64 - places_log2)];
+    if (seen.value != value && seen.times > 0) {
+      histogram.add(seen.value, seen.times);
+      seen.times = 0;
+    }
+    seen.value = value;
+    ++seen.times;
+  }
+  for (const Seen& seen : all_seen)
+    if (seen.times > 0) histogram.add(seen.value, seen.times);
+}
 
 /// The effective number of independent values at a quantile, rounded down.
 std::int64_t whole_values(const ClusteredSample& sample, double sample_quantile, double tail) {
@@ -71,6 +95,17 @@ void ClusteredSample::add_cluster(std::span<double> observed, std::int64_t size)
   for (std::size_t i = 0; i < observed.size(); ++i) {
     observed_.add(observed[i]);
     if (!single_values_) add_step(observed[i], static_cast<std::int64_t>(i), 1, size);
+  }
+}
+
+void ClusteredSample::add_single_values(std::span<const double> observed, std::int64_t censored) {
+  const std::int64_t clusters = std::ssize(observed) + censored;
+  totals_ += {.clusters = clusters, .events = clusters, .events_squared = static_cast<double>(clusters)};
+  constexpr std::size_t few = 64;
+  if (single_values_ && observed.size() >= few) return add_repeated(observed_, observed);
+  for (const double value : observed) {
+    observed_.add(value);
+    if (!single_values_) add_step(value, 0, 1, 1);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "analysis/statistics/clusters/trial_clusters.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
 
@@ -14,6 +15,25 @@ void TrialClusters::add_trial(std::int64_t trial, std::vector<double>& observed,
   const std::int64_t rig = trial % rigs_in_all_;
   for (const double value : observed) add({rig, value, 1});
   sizes_.add(rig, size);
+}
+
+void TrialClusters::add_trials(std::int64_t trial, std::span<const double> values, std::size_t of_trial,
+                               bool nan_is_late) {
+  std::vector<double> observed;
+  observed.reserve(values.size());
+  const auto observe = [&](std::span<const double> some) {
+    observed.clear();
+    std::ranges::copy_if(some, std::back_inserter(observed), [](double value) { return !std::isnan(value); });
+    return nan_is_late ? std::ssize(some) : std::ssize(observed);
+  };
+  if (rigs_in_all_ == 0 && of_trial == 1) {
+    const std::int64_t size = observe(values);
+    return trials_.add_single_values(observed, size - std::ssize(observed));
+  }
+  for (; !values.empty(); values = values.subspan(of_trial)) {
+    const std::int64_t size = observe(values.first(of_trial));
+    add_trial(trial++, observed, size);
+  }
 }
 
 TrialClusters& TrialClusters::operator+=(const TrialClusters& other) {

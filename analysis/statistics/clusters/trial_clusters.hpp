@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <iterator>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -23,6 +24,9 @@ class TrialClusters {
   /// ones).
   /// @param observed in any order; the call may sort them
   void add_trial(std::int64_t trial, std::vector<double>& observed, std::int64_t size);
+  /// Adds trials with `of_trial` values each. @param trial index of the first @param values [trial, value];
+  /// NaN: none, or if `nan_is_late` one that is censored
+  void add_trials(std::int64_t trial, std::span<const double> values, std::size_t of_trial, bool nan_is_late);
   /// Adds other trials, of as many rigs.
   TrialClusters& operator+=(const TrialClusters& other);
 

@@ -1,9 +1,11 @@
 #include "analysis/statistics/sums/exact_sum.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
@@ -66,36 +68,67 @@ void ExactSum::reach(std::int64_t low, std::int64_t high) {
   if (high >= first_ + std::ssize(digits_)) digits_.resize(static_cast<std::size_t>(high - first_ + 1), 0);
 }
 
-/// Adds sign·whole·2^exponent, 0 ≤ whole < 2^54.
-void ExactSum::add_scaled(std::int64_t sign, std::int64_t whole, std::int64_t exponent) {
-  if (whole == 0) return;
+std::int64_t* ExactSum::digits_at(std::int64_t place, std::int64_t count) {
   if (++additions_ > additions_without_carry) normalise();
-  const std::int64_t place = (exponent - min_exponent) / digit_bits;
-  const auto shift = static_cast<int>((exponent - min_exponent) % digit_bits);
-  const std::int64_t low = (whole & digit_mask) << shift;  // below 2^63
-  const std::int64_t high = ((whole >> digit_bits) << shift) + (low >> digit_bits);
-  reach(place, place + 2);
-  std::int64_t* digit = digits_.data() + (place - first_);
+  reach(place, place + count - 1);
+  return digits_.data() + (place - first_);
+}
+
+void ExactSum::begin_digits() {
+  const double value = std::exchange(only_, 0.0);
+  if (value != 0.0) add_to_digits(value);
+}
+
+void ExactSum::add_to_digits(double value) {
+  const Scaled number = scaled(value);
+  if (number.whole == 0) return;
+  const std::int64_t sign = std::signbit(value) ? -1 : 1;
+  const std::int64_t place = (number.exponent - min_exponent) / digit_bits;
+  const auto shift = static_cast<int>((number.exponent - min_exponent) % digit_bits);
+  const std::int64_t low = (number.whole & digit_mask) << shift;  // below 2^63
+  const std::int64_t high = ((number.whole >> digit_bits) << shift) + (low >> digit_bits);
+  std::int64_t* digit = digits_at(place, 3);
   digit[0] += sign * (low & digit_mask);
   digit[1] += sign * (high & digit_mask);
   digit[2] += sign * (high >> digit_bits);
 }
 
-void ExactSum::add(double value) {
+/// With whole = a·2^32 + b: its square is a²·2^64 + 2·a·b·2^32 + b², of which each of four digits is shifted.
+void ExactSum::add_square_to_digits(double value) {
   const Scaled number = scaled(value);
-  add_scaled(std::signbit(value) ? -1 : 1, number.whole, number.exponent);
+  if (number.whole == 0) return;
+  const auto a = static_cast<std::uint64_t>(number.whole >> digit_bits);  // below 2^21
+  const auto b = static_cast<std::uint64_t>(number.whole & digit_mask);
+  constexpr auto mask = static_cast<std::uint64_t>(digit_mask);
+  const std::uint64_t low = b * b;
+  const std::uint64_t middle = 2 * a * b + (low >> digit_bits);  // below 2^55
+  const std::uint64_t high = a * a + (middle >> digit_bits);     // below 2^43
+  const std::array<std::uint64_t, 4> parts{low & mask, middle & mask, high & mask, high >> digit_bits};
+  const std::int64_t from_first = 2 * number.exponent - min_exponent;
+  const auto shift = static_cast<int>(from_first % digit_bits);
+  std::int64_t* digit = digits_at(from_first / digit_bits, 5);
+  std::uint64_t carried = 0;
+  for (const std::uint64_t part : parts) {
+    carried += part << shift;  // below 2^64
+    *digit++ += static_cast<std::int64_t>(carried & mask);
+    carried >>= digit_bits;
+  }
+  *digit += static_cast<std::int64_t>(carried);
 }
 
-/// With whole = a·2^27 + b: its square is a²·2^54 + 2·a·b·2^27 + b².
+void ExactSum::add(double value) {
+  if (value == 0.0) return;
+  if (digits_.empty() && only_ == 0.0) {
+    only_ = value;
+    return;
+  }
+  begin_digits();
+  add_to_digits(value);
+}
+
 void ExactSum::add_square(double value) {
-  constexpr int half = 27;
-  const Scaled number = scaled(value);
-  const std::int64_t a = number.whole >> half;
-  const std::int64_t b = number.whole & ((std::int64_t{1} << half) - 1);
-  const std::int64_t exponent = 2 * number.exponent;
-  add_scaled(1, a * a, exponent + 2 * half);
-  add_scaled(1, a * b, exponent + half + 1);
-  add_scaled(1, b * b, exponent);
+  begin_digits();
+  add_square_to_digits(value);
 }
 
 bool ExactSum::is_valid() const {
@@ -107,6 +140,7 @@ bool ExactSum::is_valid() const {
 
 void ExactSum::normalise() {
   constexpr std::int64_t half = digit_base / 2;
+  begin_digits();
   additions_ = 0;
   for (std::size_t i = 0; i < digits_.size(); ++i) {
     const std::int64_t carry = digits_[i] >> digit_bits;
@@ -130,7 +164,11 @@ void ExactSum::normalise() {
 }
 
 ExactSum& ExactSum::operator+=(const ExactSum& other) {
-  if (other.digits_.empty()) return *this;
+  if (other.digits_.empty()) {
+    add(other.only_);
+    return *this;
+  }
+  begin_digits();
   // The digits of a sum are below 2^32 for each addition, and for what normalise() left.
   if (additions_ + other.additions_ + 1 > additions_without_carry) {
     ExactSum added = other;
@@ -151,7 +189,7 @@ ExactSum& ExactSum::add_digits(const ExactSum& other) {
 }
 
 double ExactSum::value() const {
-  if (digits_.empty()) return 0.0;
+  if (digits_.empty()) return only_;
   return rounded(whole_number(digits_), min_exponent + digit_bits * first_, 1);
 }
 
@@ -161,7 +199,9 @@ bool operator==(ExactSum one, ExactSum other) {
   return one.first_ == other.first_ && one.digits_ == other.digits_;
 }
 
-double squared_deviations(const ExactSum& sum, const ExactSum& squares, std::int64_t n) {
+double squared_deviations(ExactSum sum, ExactSum squares, std::int64_t n) {
+  sum.begin_digits();
+  squares.begin_digits();
   const cpp_int total = whole_number(sum.digits_);
   // The places of the last digits of n·Σx² and of (Σx)².
   const std::int64_t of_squares = squares.first_ - min_exponent / digit_bits;

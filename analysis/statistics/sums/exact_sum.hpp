@@ -22,7 +22,7 @@ class ExactSum {
   double value() const;
 
   friend bool operator==(ExactSum one, ExactSum other);
-  friend double squared_deviations(const ExactSum& sum, const ExactSum& squares, std::int64_t n);
+  friend double squared_deviations(ExactSum sum, ExactSum squares, std::int64_t n);
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
@@ -31,6 +31,7 @@ class ExactSum {
       sum.normalise();
       archive(sum.first_, sum.digits_);
     } else {
+      self.only_ = 0.0;
       archive(self.first_, self.digits_);
       archive.require(self.is_valid());
     }
@@ -42,17 +43,23 @@ class ExactSum {
   /// Brings the digits into the one form that stands for the number, whatever it was the sum of.
   void normalise();
   ExactSum& add_digits(const ExactSum& other);
-  void add_scaled(std::int64_t sign, std::int64_t whole, std::int64_t exponent);
+  void add_to_digits(double value);
+  void add_square_to_digits(double value);
+  /// Brings the only summand into digits.
+  void begin_digits();
+  /// The digits from this place on, `count` of them, to add less than 2^32 to each.
+  std::int64_t* digits_at(std::int64_t place, std::int64_t count);
   void reach(std::int64_t low, std::int64_t high);
 
   static constexpr std::int64_t last_place = 4224 / 32;  ///< of 2^2048, above the largest square
 
+  double only_{0.0};  ///< the sum while it has no digits: a sum of one value takes no memory for them
   std::vector<std::int64_t> digits_;
   std::int64_t first_{0};      ///< place of the first digit
   std::int64_t additions_{0};  ///< since the last normalise(): the digits must not overflow
 };
 
 /// Σ(xᵢ − x̄)² = Σxᵢ² − (Σxᵢ)²/n, rounded to the nearest double.
-double squared_deviations(const ExactSum& sum, const ExactSum& squares, std::int64_t n);
+double squared_deviations(ExactSum sum, ExactSum squares, std::int64_t n);
 
 }  // namespace zerocount::statistics

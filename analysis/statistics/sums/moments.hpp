@@ -57,8 +57,8 @@ struct MomentSums {
     ++n;
     sum.add(value);
     squares.add_square(value);
-    min = std::fmin(min, value);  // the number, where the other is NaN
-    max = std::fmax(max, value);
+    if (!(min <= value)) min = value;  // or NaN
+    if (!(max >= value)) max = value;
   }
 
   MomentSums& operator+=(const MomentSums& other) {

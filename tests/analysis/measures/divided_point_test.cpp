@@ -136,6 +136,34 @@ TEST(DividedPoint, HasTheStatisticsOfTheWhole) {
   }
 }
 
+// Measures are added by columns of many trials.
+TEST(DividedPoint, HasTheStatisticsOfTrialsThatWereAddedOneByOne) {
+  testing::Draws draws(2308);
+  for (int round = 0; round < 24; ++round) {
+    const bool open_loop = round % 4 == 3;
+    const MoveKind kind{.open_loop = open_loop, .rigs = round % 3 == 1 ? 7 : 0};
+    const auto of_trial = static_cast<std::size_t>(round % 2 == 0 ? 1.0 : draws.uniform(1.0, 4.0));
+    PointAccumulator one_by_one(kind), together(kind);
+    std::vector<JerkingTrial> trials;
+    for (int i = 0; i < 1500; ++i) {
+      trials.push_back(random_trial(draws, of_trial, open_loop));
+      one_by_one.add(trials.back().outcome, trials.back().jerks);
+    }
+    for (auto first = trials.cbegin(); first != trials.cend();) {
+      const auto end = first + std::min(trials.cend() - first,
+                                        static_cast<std::ptrdiff_t>(draws.log_uniform(1.0, 1400.0)));
+      std::vector<const trial::MoveOutcome*> moves;
+      for (; first != end; ++first) {
+        together.add_counts(first->outcome.moves, first->jerks);
+        for (const trial::MoveOutcome& move : first->outcome.moves) moves.push_back(&move);
+      }
+      together.add_measures(moves, of_trial);
+    }
+    EXPECT_EQ(together.state().whole, one_by_one.state().whole) << "round " << round;
+    EXPECT_EQ(bits_of(together.state().real), bits_of(one_by_one.state().real)) << "round " << round;
+  }
+}
+
 TEST(DividedPoint, RefusesTheStateOfAnotherKindOfPoint) {
   testing::Draws draws(2305);
   const PointAccumulator point = random_point(draws, {}, 2);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/statistics/sums/state.hpp"
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::statistics {
 namespace {
@@ -94,6 +95,35 @@ TEST_P(TrialClustersOf, BlocksInAnyOrderGiveTheStateOfAllTrials) {
     reader.require_end();
     again += clusters_of(rigs, trials, trials + 50);
     EXPECT_EQ(state_of(again).whole, state_of(clusters_of(rigs, 0, trials + 50)).whole);
+  }
+}
+
+TEST(TrialClusters, OfAColumnAreThoseOfItsTrials) {
+  std::mt19937_64 random(9);
+  for (const std::int64_t rigs : {0, 0, 7}) {
+    TrialClusters one_by_one(rigs), by_column(rigs);
+    for (std::int64_t trial = 0; trial < 3000;) {
+      // Single values before and after trials of several; columns of repeated and of different values.
+      const std::size_t of_trial = random() % 4 == 0 ? 1 + random() % 3 : 1;
+      const bool nan_is_late = random() % 2 == 0;
+      const std::uint64_t distinct = random() % 2 == 0 ? 20 : 1'000'000;
+      const auto trials = static_cast<std::int64_t>(1 + random() % 400);
+      std::vector<double> column;
+      for (std::int64_t i = 0; i < trials; ++i) {
+        std::vector<double> observed;
+        for (std::size_t j = 0; j < of_trial; ++j) {
+          column.push_back(random() % 5 == 0 ? unknown : static_cast<double>(random() % distinct));
+          if (column.back() == column.back()) observed.push_back(column.back());
+        }
+        const auto size = static_cast<std::int64_t>(nan_is_late ? of_trial : observed.size());
+        one_by_one.add_trial(trial + i, observed, size);
+      }
+      by_column.add_trials(trial, column, of_trial, nan_is_late);
+      trial += trials;
+      EXPECT_EQ(by_column.size(), one_by_one.size());
+    }
+    EXPECT_EQ(state_of(by_column).whole, state_of(one_by_one).whole);
+    EXPECT_EQ(state_of(by_column).real, state_of(one_by_one).real);
   }
 }
 

@@ -5,7 +5,8 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <numeric>
+#include <functional>
+#include <string_view>
 #include <utility>
 
 #include <libdeflate.h>
@@ -17,7 +18,7 @@ namespace {
 constexpr std::size_t block_size = 16384;
 constexpr std::size_t end_of_block = 256;  ///< symbol
 constexpr std::size_t literals_and_lengths = 286;
-constexpr std::size_t distances = 16;  ///< of which code 0 is a distance of 1, and code 15 with six bits 256
+constexpr std::size_t distances = 30;
 constexpr std::size_t code_length_symbols = 19;
 constexpr int max_bits = 15, max_bits_of_code_lengths = 7;
 
@@ -30,7 +31,7 @@ struct Bits {
 /// Bytes that stand for themselves, and then a repetition of what stands `distance` bytes before.
 struct Segment {
   std::span<const std::byte> literals;
-  std::size_t repeated{0};  ///< 0, or at least 8
+  std::size_t repeated{0};  ///< 0, or at least 3
   std::size_t distance{1};
 };
 
@@ -40,25 +41,59 @@ std::uint64_t eight_bytes(const std::byte* from) {
   return bytes;
 }
 
-/// Divides the bytes from `begin` to `end` into segments. @param first of the whole stream
-std::vector<Segment> segments_of(const std::byte* first, const std::byte* begin, const std::byte* end) {
-  constexpr std::size_t step = 8;
+/// Index of the first of three bytes that are 0, of eight; 8: there are none.
+std::size_t first_three_zeros(std::uint64_t bytes) {
+  constexpr std::uint64_t low_bits = 0x7f7f7f7f7f7f7f7f;
+  const std::uint64_t zeros = ~(((bytes & low_bits) + low_bits) | bytes | low_bits);  // their highest bits
+  return static_cast<std::size_t>(std::countr_zero(zeros & zeros >> 8U & zeros >> 16U)) / 8;
+}
+
+/// The distance between the last eight bytes of a block and the same ones before, or between the first two of
+/// several: each design point, or each trial of a rig, repeats the draws of the one before. 2 without any.
+/// @param first of the whole stream
+std::size_t period_of(const std::byte* first, std::span<const std::byte> block) {
+  constexpr std::ptrdiff_t window = 32768;
+  constexpr std::size_t sample = 8;
+  const std::byte* const end = block.data() + block.size();
+  const std::byte* const begin = first + std::max<std::ptrdiff_t>(end - first - window, 0);
+  const std::string_view text(reinterpret_cast<const char*>(begin), static_cast<std::size_t>(end - begin));
+  if (text.size() < 2 * sample) return 2;
+  const std::string_view last = text.substr(text.size() - sample);
+  const std::size_t found = text.find(last);
+  const std::size_t next = text.find(last, found + 1);
+  return next == std::string_view::npos ? 2 : std::max<std::size_t>(next - found, 2);
+}
+
+/// Divides a block into segments. @param first of the whole stream
+std::vector<Segment> segments_of(const std::byte* first, std::span<const std::byte> block,
+                                 std::size_t period) {
+  constexpr std::ptrdiff_t step = 8;
+  const std::byte* const end = block.data() + block.size();
   std::vector<Segment> segments;
-  const std::byte* literals = begin;
-  const auto repeats = [&](const std::byte* at, std::ptrdiff_t distance) {
-    return end - at >= static_cast<std::ptrdiff_t>(step) && at - first >= distance &&
-           eight_bytes(at) == eight_bytes(at - distance);
+  const std::byte* literals = block.data();
+  const auto distance = static_cast<std::ptrdiff_t>(period);
+  const auto begin = [&](const std::byte* at, const std::byte* after, std::size_t by) {
+    segments.push_back({{literals, at}, static_cast<std::size_t>(after - at), by});
+    literals = after;
+    return after;
   };
-  for (const std::byte* at = begin; at < end;) {
-    const std::ptrdiff_t distance = repeats(at, 1) ? 1 : 256;
+  const auto run_end = [&](const std::byte* at) {
     const std::byte* after = at;
-    while (repeats(after, distance)) after += step;
-    if (after == at) {
-      at += std::min<std::ptrdiff_t>(step, end - at);
+    while (end - after >= step && eight_bytes(after) == eight_bytes(after - 1)) after += step;
+    while (after < end && *after == after[-1]) ++after;
+    return after;
+  };
+  for (const std::byte* at = block.data() + (block.data() == first ? 1 : 0); end - at >= step;) {
+    const std::byte* const run = at + first_three_zeros(eight_bytes(at) ^ eight_bytes(at - 1));
+    if (run < at + step) {
+      at = begin(run, run_end(run), 1);
       continue;
     }
-    segments.push_back({{literals, at}, static_cast<std::size_t>(after - at), static_cast<std::size_t>(distance)});
-    literals = at = after;
+    const std::byte* after = at;
+    while (after - first >= distance && end - after >= step &&
+           eight_bytes(after) == eight_bytes(after - distance))
+      after += step;
+    at = after > at ? begin(at, after, period) : at + step;
   }
   segments.push_back({{literals, end}, 0, 1});
   return segments;
@@ -82,6 +117,14 @@ std::pair<std::size_t, Bits> symbol_of_length(std::size_t length) {
   if (above_shortest < 8) return {257 + above_shortest, {}};
   const std::uint32_t extra = static_cast<std::uint32_t>(std::bit_width(above_shortest)) - 3;
   return {261 + 4 * extra + (above_shortest >> extra & 3U), {above_shortest & ((1U << extra) - 1), extra}};
+}
+
+/// Symbol of a distance, and its extra bits.
+std::pair<std::size_t, Bits> symbol_of_distance(std::size_t distance) {
+  const auto above_shortest = static_cast<std::uint32_t>(distance - 1);
+  if (above_shortest < 2) return {above_shortest, {}};
+  const std::uint32_t extra = static_cast<std::uint32_t>(std::bit_width(above_shortest)) - 2;
+  return {2 + 2 * extra + (above_shortest >> extra & 1U), {above_shortest & ((1U << extra) - 1), extra}};
 }
 
 /// Lengths of a Huffman code for symbols that occur so often, at most `limit` bits; 0 of those that do not
@@ -138,48 +181,51 @@ std::array<Bits, symbols> canonical_code(const std::array<std::uint8_t, symbols>
   return code;
 }
 
-/// Writes bits behind one another.
+Bits joined(const Bits& first, const Bits& second) {
+  return {first.value | second.value << first.count, first.count + second.count};
+}
+
+/// Writes bits behind one another into memory that is large enough, and has eight bytes to spare.
 class BitWriter {
  public:
-  explicit BitWriter(std::vector<std::byte>& stream) : stream_(stream) {}
+  explicit BitWriter(std::byte* to) : to_(to) {}
 
   /// Up to 32 bits.
-  void put(Bits bits) {
+  void put(const Bits& bits) {
     bits_ |= static_cast<std::uint64_t>(bits.value) << count_;
     count_ += bits.count;
-    if (count_ < 32) return;
-    std::array<std::byte, 4> four{};
-    for (std::byte& byte : four) {
-      byte = static_cast<std::byte>(bits_ & 0xffU);
-      bits_ >>= 8U;
-    }
-    stream_.insert(stream_.end(), four.begin(), four.end());
-    count_ -= 32;
+    std::memcpy(to_, &bits_, sizeof bits_);
+    to_ += count_ / 8;
+    bits_ >>= count_ / 8 * 8;
+    count_ %= 8;
   }
-  /// Fills up the last byte.
-  void end_byte() {
-    for (; count_ > 0; count_ -= std::min(count_, 8U), bits_ >>= 8U)
-      stream_.push_back(static_cast<std::byte>(bits_ & 0xffU));
-  }
+  /// Begins a byte.
+  void end_byte() { put({0, (8 - count_) % 8}); }
+  /// Whole bytes, where a byte begins.
+  void put(std::span<const std::byte> bytes) { to_ = std::ranges::copy(bytes, to_).out; }
+  const std::byte* end() const { return to_; }
 
  private:
-  std::vector<std::byte>& stream_;
+  std::byte* to_;
   std::uint64_t bits_{0};
-  std::uint32_t count_{0};  ///< fewer than 32
+  std::uint32_t count_{0};  ///< fewer than 8
 };
 
 using Lengths = std::array<std::uint8_t, literals_and_lengths>;
+using Counts = std::array<std::uint32_t, literals_and_lengths>;
 
 /// The lengths of all codes, as symbols of a code of their own (section 3.2.7) with extra bits.
-std::vector<std::pair<std::size_t, Bits>> symbols_of_lengths(const Lengths& lengths) {
+std::vector<std::pair<std::size_t, Bits>> symbols_of_lengths(const Lengths& lengths, std::size_t period) {
   std::vector<std::uint8_t> all(lengths.begin(), lengths.end());
   all.resize(literals_and_lengths + distances);
-  all[literals_and_lengths] = all.back() = 1;
+  all[literals_and_lengths] = 1;
+  all[literals_and_lengths + symbol_of_distance(period).first] = 1;
   std::vector<std::pair<std::size_t, Bits>> symbols;
   for (std::size_t i = 0; i < all.size();) {
-    const auto run_end = std::find_if(all.begin() + static_cast<std::ptrdiff_t>(i),
-                                      all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), i + 138)),
-                                      [](std::uint8_t length) { return length != 0; });
+    const auto run_end =
+        std::find_if(all.begin() + static_cast<std::ptrdiff_t>(i),
+                     all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), i + 138)),
+                     [](std::uint8_t length) { return length != 0; });
     const auto zeros = static_cast<std::uint32_t>(run_end - all.begin()) - static_cast<std::uint32_t>(i);
     if (zeros >= 11) {
       symbols.push_back({18, {zeros - 11, 7}});
@@ -193,8 +239,8 @@ std::vector<std::pair<std::size_t, Bits>> symbols_of_lengths(const Lengths& leng
   return symbols;
 }
 
-void write_codes(const Lengths& lengths, BitWriter& writer) {
-  const std::vector<std::pair<std::size_t, Bits>> symbols = symbols_of_lengths(lengths);
+void write_codes(const Lengths& lengths, std::size_t period, BitWriter& writer) {
+  const std::vector<std::pair<std::size_t, Bits>> symbols = symbols_of_lengths(lengths, period);
   std::array<std::uint32_t, code_length_symbols> counts{};
   for (const auto& [symbol, extra] : symbols) ++counts[symbol];
   const auto lengths_of_lengths = code_lengths(counts, max_bits_of_code_lengths);
@@ -210,8 +256,8 @@ void write_codes(const Lengths& lengths, BitWriter& writer) {
   }
 }
 
-std::array<std::uint32_t, literals_and_lengths> counts_of(const std::vector<Segment>& segments) {
-  std::array<std::uint32_t, literals_and_lengths> counts{};
+Counts counts_of(const std::vector<Segment>& segments) {
+  Counts counts{};
   std::array<std::uint32_t, 256> odd{};  // so that equal neighbours do not wait for each other
   for (const Segment& segment : segments) {
     for (std::size_t i = 0; i + 1 < segment.literals.size(); i += 2) {
@@ -227,15 +273,21 @@ std::array<std::uint32_t, literals_and_lengths> counts_of(const std::vector<Segm
 }
 
 /// A block of the stream (section 3.2.3). @param is_last 1 of the last one
-void write_coded(const std::vector<Segment>& segments, const Lengths& lengths, std::uint32_t is_last,
-                 BitWriter& writer) {
+void write_coded(const std::vector<Segment>& segments, std::size_t period, const Lengths& lengths,
+                 std::uint32_t is_last, BitWriter& writer) {
   writer.put({is_last, 1});
   writer.put({2, 2});
-  write_codes(lengths, writer);
+  write_codes(lengths, period, writer);
+  const Bits of_period = joined({1, 1}, symbol_of_distance(period).second);
   const auto code = canonical_code(lengths);
   for (const Segment& segment : segments) {
-    for (const std::byte literal : segment.literals) writer.put(code[std::to_integer<std::size_t>(literal)]);
-    const Bits distance = segment.distance == 1 ? Bits{0, 1} : Bits{1 | 63U << 1U, 7};  // 193 + 63 = 256
+    const auto code_of = [&](std::size_t i) {
+      return code[std::to_integer<std::size_t>(segment.literals[i])];
+    };
+    const std::size_t in_pairs = segment.literals.size() / 2 * 2;
+    for (std::size_t i = 0; i < in_pairs; i += 2) writer.put(joined(code_of(i), code_of(i + 1)));
+    if (in_pairs < segment.literals.size()) writer.put(code_of(in_pairs));
+    const Bits distance = segment.distance == 1 ? Bits{0, 1} : of_period;
     for_each_length(segment.repeated, [&](std::size_t length) {
       const auto [symbol, extra] = symbol_of_length(length);
       writer.put(code[symbol]);
@@ -246,47 +298,58 @@ void write_coded(const std::vector<Segment>& segments, const Lengths& lengths, s
   writer.put(code[end_of_block]);
 }
 
-void write_stored(std::span<const std::byte> bytes, std::uint32_t is_last, std::vector<std::byte>& stream,
-                  BitWriter& writer) {
+void write_stored(std::span<const std::byte> bytes, std::uint32_t is_last, BitWriter& writer) {
   writer.put({is_last, 3});
   writer.end_byte();
   const auto size = static_cast<std::uint32_t>(bytes.size());
   writer.put({size | ~size << 16U, 32});
-  stream.insert(stream.end(), bytes.begin(), bytes.end());
+  writer.put(bytes);
 }
 
-/// Whether a code saves enough of the bytes to be worth the time that it takes, and that of decoding.
-bool is_worth_coding(const std::array<std::uint32_t, literals_and_lengths>& counts, const Lengths& lengths,
-                     std::size_t bytes) {
+/// Whether no code of these bytes saves a twentieth: with relative frequencies pᵢ, a code takes at least
+/// −Σpᵢ·log₂pᵢ ≥ −log₂Σpᵢ² bits a byte (the Rényi entropies of order 1 and 2).
+bool are_random(const Counts& counts, std::size_t bytes) {
+  std::uint64_t squares = 0;
+  for (std::size_t byte = 0; byte < 256; ++byte) squares += std::uint64_t{counts[byte]} * counts[byte];
+  constexpr std::uint64_t of_bits = 194;  // 2^7.6
+  return squares * of_bits < std::uint64_t{bytes} * bytes;
+}
+
+/// Whether a code saves enough to be worth the time that it takes, and that of decoding.
+bool is_worth_coding(const Counts& counts, const Lengths& lengths, std::size_t bytes) {
   std::size_t bits = 8 * 80;  // the codes
   for (std::size_t symbol = 0; symbol < counts.size(); ++symbol) bits += counts[symbol] * lengths[symbol];
   return 20 * bits < 19 * 8 * bytes;
 }
 
+void write_block(const std::byte* first, std::span<const std::byte> block, std::uint32_t is_last,
+                 BitWriter& writer) {
+  if (block.empty()) return write_stored(block, is_last, writer);
+  const std::size_t period = period_of(first, block);
+  const std::vector<Segment> segments = segments_of(first, block, period);
+  const Counts counts = counts_of(segments);
+  if (segments.size() == 1 && are_random(counts, block.size())) return write_stored(block, is_last, writer);
+  const Lengths lengths = code_lengths(counts, max_bits);
+  if (!is_worth_coding(counts, lengths, block.size())) return write_stored(block, is_last, writer);
+  write_coded(segments, period, lengths, is_last, writer);
+}
+
 }  // namespace
 
 std::vector<std::byte> zlib_stream(std::span<const std::byte> bytes) {
-  std::vector<std::byte> stream{std::byte{0x78}, std::byte{0x01}};  // window of 32 kB, fastest
-  stream.reserve(bytes.size() / 2 + 64);
-  BitWriter writer(stream);
+  constexpr std::size_t max_bytes_of_codes = 700;
+  std::vector<std::byte> stream(bytes.size() + (bytes.size() / block_size + 1) * max_bytes_of_codes);
+  BitWriter writer(stream.data());
+  writer.put({0x0178, 16});  // window of 32 kB, fastest
   for (std::size_t begin = 0; begin == 0 || begin < bytes.size(); begin += block_size) {
     const std::span<const std::byte> block = bytes.subspan(begin, std::min(block_size, bytes.size() - begin));
     const std::uint32_t is_last = begin + block_size >= bytes.size() ? 1 : 0;
-    const std::vector<Segment> segments =
-        segments_of(bytes.data(), block.data(), block.data() + block.size());
-    const auto counts = counts_of(segments);
-    Lengths lengths{};
-    if (!block.empty()) lengths = code_lengths(counts, max_bits);
-    if (!block.empty() && is_worth_coding(counts, lengths, block.size())) {
-      write_coded(segments, lengths, is_last, writer);
-    } else {
-      write_stored(block, is_last, stream, writer);
-    }
+    write_block(bytes.data(), block, is_last, writer);
   }
   writer.end_byte();
   const std::uint32_t checksum = libdeflate_adler32(1, bytes.data(), bytes.size());
-  for (const unsigned shift : {24U, 16U, 8U, 0U})
-    stream.push_back(static_cast<std::byte>(checksum >> shift & 0xffU));
+  for (const unsigned shift : {24U, 16U, 8U, 0U}) writer.put({checksum >> shift & 0xffU, 8});
+  stream.resize(static_cast<std::size_t>(writer.end() - stream.data()));
   return stream;
 }
 

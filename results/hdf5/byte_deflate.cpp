@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <memory>
+#include <new>
 #include <string_view>
 #include <utility>
 
@@ -315,6 +317,31 @@ bool are_random(const Counts& counts, std::size_t bytes) {
   return squares * of_bits < std::uint64_t{bytes} * bytes;
 }
 
+/// Literals and the bits that their code takes.
+struct LiteralCode {
+  std::size_t bytes{0};
+  std::size_t bits{0};
+};
+LiteralCode literal_code(const Counts& counts, const Lengths& lengths) {
+  LiteralCode code;
+  for (std::size_t literal = 0; literal < end_of_block; ++literal) {
+    code.bytes += counts[literal];
+    code.bits += std::size_t{counts[literal]} * lengths[literal];
+  }
+  return code;
+}
+
+/// The stream of libdeflate at its fastest level.
+std::vector<std::byte> searched_stream(std::span<const std::byte> bytes) {
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(1), libdeflate_free_compressor);
+  if (!compressor) throw std::bad_alloc();
+  std::vector<std::byte> stream(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()));
+  stream.resize(
+      libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), stream.data(), stream.size()));
+  return stream;
+}
+
 /// Whether a code saves enough to be worth the time that it takes, and that of decoding.
 bool is_worth_coding(const Counts& counts, const Lengths& lengths, std::size_t bytes) {
   std::size_t bits = 8 * 80;  // the codes
@@ -322,29 +349,61 @@ bool is_worth_coding(const Counts& counts, const Lengths& lengths, std::size_t b
   return 20 * bits < 19 * 8 * bytes;
 }
 
-void write_block(const std::byte* first, std::span<const std::byte> block, std::uint32_t is_last,
+/// Whether many of the literals stand in strings of eight that occurred before, as in recorded samples. Of
+/// all strings a sixteenth is looked at, which their bits choose.
+bool recur(const std::vector<Segment>& segments) {
+  constexpr int places_log2 = 10;
+  constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15;
+  std::array<std::uint64_t, std::size_t{1} << places_log2> seen{};
+  std::size_t strings = 0, found = 0;
+  for (const Segment& segment : segments) {
+    for (std::size_t i = 0; i + 8 <= segment.literals.size(); ++i) {
+      const std::uint64_t string = eight_bytes(segment.literals.data() + i);
+      const std::uint64_t hash = string * golden_ratio >> (60 - places_log2);
+      if (hash % 16 != 0) continue;
+      std::uint64_t& before = seen[hash / 16];
+      ++strings;
+      found += before == string;
+      before = string;
+    }
+  }
+  return 10 * found > strings;
+}
+
+/// False if a search for strings that recur would save much: nothing is written then.
+bool write_block(const std::byte* first, std::span<const std::byte> block, std::uint32_t is_last,
                  BitWriter& writer) {
-  if (block.empty()) return write_stored(block, is_last, writer);
+  const auto store = [&] {
+    write_stored(block, is_last, writer);
+    return true;
+  };
   const std::size_t period = period_of(first, block);
   const std::vector<Segment> segments = segments_of(first, block, period);
   const Counts counts = counts_of(segments);
-  if (segments.size() == 1 && are_random(counts, block.size())) return write_stored(block, is_last, writer);
+  if (segments.size() == 1 && are_random(counts, block.size())) return store();
   const Lengths lengths = code_lengths(counts, max_bits);
-  if (!is_worth_coding(counts, lengths, block.size())) return write_stored(block, is_last, writer);
+  const LiteralCode literals = literal_code(counts, lengths);
+  constexpr std::size_t bits_of_repetition = 3;  // of each byte: a length and a distance for eight
+  if (literals.bits > bits_of_repetition * literals.bytes && 8 * literals.bytes > block.size() &&
+      recur(segments))
+    return false;
+  if (!is_worth_coding(counts, lengths, block.size())) return store();
   write_coded(segments, period, lengths, is_last, writer);
+  return true;
 }
 
 }  // namespace
 
 std::vector<std::byte> zlib_stream(std::span<const std::byte> bytes) {
+  if (bytes.size() < block_size) return searched_stream(bytes);  // which takes little time
   constexpr std::size_t max_bytes_of_codes = 700;
   std::vector<std::byte> stream(bytes.size() + (bytes.size() / block_size + 1) * max_bytes_of_codes);
   BitWriter writer(stream.data());
   writer.put({0x0178, 16});  // window of 32 kB, fastest
-  for (std::size_t begin = 0; begin == 0 || begin < bytes.size(); begin += block_size) {
+  for (std::size_t begin = 0; begin < bytes.size(); begin += block_size) {
     const std::span<const std::byte> block = bytes.subspan(begin, std::min(block_size, bytes.size() - begin));
     const std::uint32_t is_last = begin + block_size >= bytes.size() ? 1 : 0;
-    write_block(bytes.data(), block, is_last, writer);
+    if (!write_block(bytes.data(), block, is_last, writer)) return searched_stream(bytes);
   }
   writer.end_byte();
   const std::uint32_t checksum = libdeflate_adler32(1, bytes.data(), bytes.size());

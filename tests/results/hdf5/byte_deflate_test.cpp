@@ -92,5 +92,21 @@ TEST(ByteDeflate, CompressesRunsAndRampsToLittle) {
   EXPECT_LT(zlib_stream(ramp).size(), 3000U);
 }
 
+// Such as the samples of trials that do nearly the same.
+TEST(ByteDeflate, FindsStringsThatRecurAtAnyDistance) {
+  testing::Draws draws(20260123);
+  std::vector<std::vector<std::byte>> strings(20);
+  for (std::vector<std::byte>& string : strings)
+    append(string, draws.integer(40, 200), [&](std::int64_t) { return draws.integer(0, 255); });
+  std::vector<std::byte> bytes;
+  while (bytes.size() < 65536) {
+    const auto& string = strings[static_cast<std::size_t>(draws.integer(0, 19))];
+    bytes.insert(bytes.end(), string.begin(), string.end());
+  }
+  const std::vector<std::byte> stream = zlib_stream(bytes);
+  EXPECT_EQ(inflated(stream, bytes.size()), bytes);
+  EXPECT_LT(stream.size(), bytes.size() / 4);
+}
+
 }  // namespace
 }  // namespace zerocount::hdf5

@@ -122,8 +122,8 @@ class PointAccumulator {
   /// its jerks are out of order or not those that its outcome counts, or its moves are not of the kind.
   void add(const trial::TrialOutcome& trial, std::span<const trial::Jerk> jerks);
 
-  /// The two parts of add(): the measures, of many trials with `moves_of_trial` moves each, by columns; and the
-  /// rest, of one trial.
+  /// The two parts of add(): the measures, of many trials with `moves_of_trial` moves each, by columns; and
+  /// the rest, of one trial.
   /// @param moves [trial, move]
   void add_measures(std::span<const trial::MoveOutcome* const> moves, std::size_t moves_of_trial);
   void add_counts(std::span<const trial::MoveOutcome> moves, std::span<const trial::Jerk> jerks);

@@ -8,6 +8,7 @@
 
 #include "core/numerics/elementary_functions.hpp"
 #include "core/numerics/normal_distribution.hpp"
+#include "experiments/distributions/quantile_function.hpp"
 
 namespace zerocount::distributions {
 namespace {
@@ -28,56 +29,59 @@ std::int64_t place_among(std::int64_t count, double u) {
   return std::min(static_cast<std::int64_t>(u * static_cast<double>(count)), count - 1);
 }
 
-double quantile_of(const Uniform& d, double u) {
+template <class Other>
+QuantileConstants constants_of(const Other&) {
+  return {};
+}
+QuantileConstants constants_of(const LogUniform& d) {
+  return {numerics::log_of_draws(d.low), numerics::log_of_draws(d.high)};
+}
+QuantileConstants constants_of(const Lognormal& d) {
+  return {numerics::log_of_draws(d.median), std::sqrt(numerics::log1p(d.cv * d.cv))};
+}
+/// The limits as scores. An upper tail is mirrored.
+QuantileConstants constants_of(const TruncatedNormal& d) {
+  const bool mirrored = d.low > d.mean;
+  const double low = (d.low - d.mean) / d.sd;
+  const double high = (d.high - d.mean) / d.sd;
+  return {numerics::normal_probability(mirrored ? -high : low),
+          numerics::normal_probability(mirrored ? -low : high), mirrored};
+}
+
+double turned(const QuantileConstants& tail, double u) {
+  return tail.mirrored ? 1.0 - u : u;
+}
+
+double quantile_of(const Uniform& d, const QuantileConstants&, double u) {
   return kept_inside(d.low + u * (d.high - d.low), d.low, d.high);
 }
 
-double quantile_of(const LogUniform& d, double u) {
-  return kept_inside(
-      numerics::exp_of_draws(std::lerp(numerics::log_of_draws(d.low), numerics::log_of_draws(d.high), u)),
-      d.low, d.high);
+double quantile_of(const LogUniform& d, const QuantileConstants& logarithms, double u) {
+  return kept_inside(numerics::exp_of_draws(std::lerp(logarithms.low, logarithms.high, u)), d.low, d.high);
 }
 
-double quantile_of(const Normal& d, double u) {
+double quantile_of(const Normal& d, const QuantileConstants&, double u) {
   return numerics::normal_quantile(u, d.mean, d.sd);
 }
 
-/// The limits of a truncated normal distribution as scores. An upper tail is mirrored: its probabilities
-/// would be differences of numbers near 1.
-struct TailOfScores {
-  bool mirrored;
-  double below;  ///< P(Z ≤ lower limit)
-  double up_to;  ///< P(Z ≤ upper limit)
-
-  explicit TailOfScores(const TruncatedNormal& d) : mirrored(d.low > d.mean) {
-    const double low = (d.low - d.mean) / d.sd;
-    const double high = (d.high - d.mean) / d.sd;
-    below = numerics::normal_probability(mirrored ? -high : low);
-    up_to = numerics::normal_probability(mirrored ? -low : high);
-  }
-  double turned(double u) const { return mirrored ? 1.0 - u : u; }
-};
-
-double quantile_of(const TruncatedNormal& d, double u) {
-  const TailOfScores tail(d);
-  const double z = numerics::normal_quantile(std::lerp(tail.below, tail.up_to, tail.turned(u)));
+double quantile_of(const TruncatedNormal& d, const QuantileConstants& tail, double u) {
+  const double z = numerics::normal_quantile(std::lerp(tail.low, tail.high, turned(tail, u)));
   return kept_inside(d.mean + d.sd * (tail.mirrored ? -z : z), d.low, d.high);
 }
 
-double quantile_of(const Lognormal& d, double u) {
-  return numerics::exp_of_draws(numerics::normal_quantile(u, numerics::log_of_draws(d.median),
-                                                          std::sqrt(numerics::log1p(d.cv * d.cv))));
+double quantile_of(const Lognormal&, const QuantileConstants& logarithm, double u) {
+  return numerics::exp_of_draws(numerics::normal_quantile(u, logarithm.low, logarithm.high));
 }
 
-double quantile_of(const Triangular& d, double u) {
+double quantile_of(const Triangular& d, const QuantileConstants&, double u) {
   return kept_inside(boost::math::quantile(boost::math::triangular(d.low, d.mode, d.high), u), d.low, d.high);
 }
 
-double quantile_of(const Integers& d, double u) {
+double quantile_of(const Integers& d, const QuantileConstants&, double u) {
   return d.unit * static_cast<double>(d.low + place_among(d.high - d.low + 1, u));
 }
 
-double quantile_of(const Choice& d, double u) {
+double quantile_of(const Choice& d, const QuantileConstants&, double u) {
   return d.values[static_cast<std::size_t>(place_among(static_cast<std::int64_t>(d.values.size()), u))];
 }
 
@@ -92,8 +96,8 @@ Uniformly uniform_of_value(const Uniform& d, double x) {
 }
 
 Uniformly uniform_of_value(const LogUniform& d, double x) {
-  const double low = numerics::log_of_draws(d.low);
-  return (numerics::log_of_draws(x) - low) / (numerics::log_of_draws(d.high) - low);
+  const QuantileConstants logarithms = constants_of(d);
+  return (numerics::log_of_draws(x) - logarithms.low) / (logarithms.high - logarithms.low);
 }
 
 Uniformly uniform_of_value(const Normal& d, double x) {
@@ -101,15 +105,15 @@ Uniformly uniform_of_value(const Normal& d, double x) {
 }
 
 Uniformly uniform_of_value(const TruncatedNormal& d, double x) {
-  const TailOfScores tail(d);
+  const QuantileConstants tail = constants_of(d);
   const double z = (x - d.mean) / d.sd;
   const double up_to_x = numerics::normal_probability(tail.mirrored ? -z : z);
-  return tail.turned((up_to_x - tail.below) / (tail.up_to - tail.below));
+  return turned(tail, (up_to_x - tail.low) / (tail.high - tail.low));
 }
 
 Uniformly uniform_of_value(const Lognormal& d, double x) {
-  return numerics::normal_probability((numerics::log_of_draws(x) - numerics::log_of_draws(d.median)) /
-                                      std::sqrt(numerics::log1p(d.cv * d.cv)));
+  const QuantileConstants logarithm = constants_of(d);
+  return numerics::normal_probability((numerics::log_of_draws(x) - logarithm.low) / logarithm.high);
 }
 
 Uniformly uniform_of_value(const Triangular& d, double x) {
@@ -148,8 +152,16 @@ numerics::Interval support(const Distribution& distribution) {
                     distribution);
 }
 
+QuantileFunction::QuantileFunction(const Distribution& distribution)
+    : distribution_(distribution),
+      constants_(std::visit([](const auto& d) { return constants_of(d); }, distribution)) {}
+
+double QuantileFunction::operator()(double u) const {
+  return std::visit([&](const auto& d) { return quantile_of(d, constants_, u); }, distribution_);
+}
+
 double quantile(const Distribution& distribution, double u) {
-  return std::visit([u](const auto& d) { return quantile_of(d, u); }, distribution);
+  return std::visit([u](const auto& d) { return quantile_of(d, constants_of(d), u); }, distribution);
 }
 
 std::optional<double> uniform_of(const Distribution& distribution, double x) {

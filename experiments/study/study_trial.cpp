@@ -15,9 +15,12 @@
 #include "experiments/study/measured_machines.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study.hpp"
+#include "experiments/study/trial_drawer.hpp"
 
 namespace zerocount::study {
 namespace {
+
+using QuantileFunctions = std::vector<std::optional<distributions::QuantileFunction>>;
 
 // The coordinates of a trial's random numbers.
 struct TrialDraws {
@@ -28,6 +31,7 @@ struct TrialDraws {
   std::uint64_t world;   ///< 0 without worlds
   std::uint32_t stream;  ///< of values drawn per trial, not per rig
   const GivenDraws& given;
+  QuantileFunctions* quantiles{nullptr};  ///< [distribution of the plan]; null: none are kept
 
   const StudyPlan& plan() const { return *study.plan; }
 };
@@ -231,11 +235,19 @@ void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
   }
 }
 
+/// The value of a distribution of the plan.
+double drawn_quantile(const TrialDraws& draws, std::size_t distribution, double u) {
+  const distributions::Distribution& of_plan = draws.plan().distributions[distribution];
+  if (draws.quantiles == nullptr) return distributions::quantile(of_plan, u);
+  std::optional<distributions::QuantileFunction>& kept = (*draws.quantiles)[distribution];
+  if (!kept) kept.emplace(of_plan);
+  return (*kept)(u);
+}
+
 /// A number, or that of a distribution, at the age of the point.
 double drawn_number(const TrialDraws& draws, std::uint32_t slot, const Value& value, std::size_t point) {
   const double number = value.kind == Value::Kind::distribution
-                            ? distributions::quantile(draws.plan().distributions[value.index],
-                                                      uniform_of(draws, slot, value.level))
+                            ? drawn_quantile(draws, value.index, uniform_of(draws, slot, value.level))
                             : value.number;
   return value.aging ? at_age(draws, slot, point, number, age_factor_of(draws, value, point)) : number;
 }
@@ -283,8 +295,8 @@ TrialPlace place_of(const Study& study, std::int64_t point, std::int64_t index) 
 
 /// A trial whose parameters are being set.
 struct TrialInProgress {
-  StudyTrial trial;
-  std::vector<double> numbers;  ///< [slot]
+  StudyTrial& trial;
+  std::vector<double>& numbers;  ///< [slot]
   const StudyPlan& plan;
 
   void set(std::size_t slot, double number) {
@@ -328,10 +340,13 @@ void require_machine(std::size_t point, const TrialInProgress& t) {
   }
 }
 
-/// With all values but those of profiles.
-TrialInProgress begin_trial(const TrialDraws& draws, std::size_t point) {
-  const StudyPlan& plan = draws.plan();
-  TrialInProgress t{{.parameters = plan.common, .inputs = {}}, plan.numbers, plan};
+/// Sets all values but those of profiles.
+void begin_trial(const TrialDraws& draws, std::size_t point, TrialInProgress& t) {
+  const StudyPlan& plan = t.plan;
+  t.trial.parameters = plan.common;
+  t.trial.inputs.clear();
+  t.trial.target_positions.clear();
+  t.numbers = plan.numbers;
   t.trial.parameters.randomness.trial = numbers_within_trial(draws.study, draws.index, draws.given);
   t.trial.parameters.randomness.stream = draws.stream;
   for (const std::uint32_t slot : plan.input_slots) {
@@ -347,7 +362,29 @@ TrialInProgress begin_trial(const TrialDraws& draws, std::size_t point) {
       set_following(draws, point, slot, t);
   }
   require_machine(point, t);
-  return t;
+}
+
+/// See study_trial_as_given(). @param point of the plan @param numbers memory for them, [slot]
+void make_trial(const TrialDraws& draws, std::size_t point, StudyTrial& trial, std::vector<double>& numbers) {
+  const StudyPlan& plan = draws.plan();
+  TrialInProgress t{trial, numbers, plan};
+  begin_trial(draws, point, t);
+  // Profiles come last, because they depend on the start position.
+  for (const std::uint32_t slot : plan.input_slots) {
+    const Value& value = *value_at_point(plan, slot, point);
+    if (value.kind != Value::Kind::profile) continue;
+    const std::shared_ptr<const friction::Profile> profile =
+        profile_at_age(draws, slot, point, trial.parameters.initial.position);
+    t.set(slot, friction::value_at(*profile, trial.parameters.initial.position));
+    trial.parameters.friction.profiled.push_back({plan.table.rows[slot].profiled, profile});
+  }
+  set_targets(draws.study, t.numbers, trial);
+  set_resolution(t.numbers, trial.parameters.dac);
+  trial.inputs.reserve(plan.inputs.size());
+  for (const InputSource& source : plan.inputs) {
+    trial.inputs.push_back(source.profile_mean ? profile_mean(draws, source.slot, point)
+                                               : t.numbers[source.slot]);
+  }
 }
 
 }  // namespace
@@ -355,38 +392,24 @@ TrialInProgress begin_trial(const TrialDraws& draws, std::size_t point) {
 StudyTrial study_trial_as_given(const Study& study, std::int64_t point, std::int64_t index,
                                 const GivenDraws& given) {
   const TrialPlace place = place_of(study, point, index);
-  const StudyPlan& plan = *study.plan;
-  const TrialDraws draws = draws_of(study, point, place.draw, given);
-  TrialInProgress t = begin_trial(draws, place.point);
-  StudyTrial& trial = t.trial;
-  // Profiles come last, because they depend on the start position.
-  for (const std::uint32_t slot : plan.input_slots) {
-    const Value& value = *value_at_point(plan, slot, place.point);
-    if (value.kind != Value::Kind::profile) continue;
-    const std::shared_ptr<const friction::Profile> profile =
-        profile_at_age(draws, slot, place.point, trial.parameters.initial.position);
-    t.set(slot, friction::value_at(*profile, trial.parameters.initial.position));
-    trial.parameters.friction.profiled.push_back({plan.table.rows[slot].profiled, profile});
-  }
-  set_targets(study, t.numbers, trial);
-  set_resolution(t.numbers, trial.parameters.dac);
-  trial.inputs.reserve(plan.inputs.size());
-  for (const InputSource& source : plan.inputs) {
-    trial.inputs.push_back(source.profile_mean ? profile_mean(draws, source.slot, place.point)
-                                               : t.numbers[source.slot]);
-  }
-  return std::move(trial);
+  StudyTrial trial;
+  std::vector<double> numbers;
+  make_trial(draws_of(study, point, place.draw, given), place.point, trial, numbers);
+  return trial;
 }
 
 StudyTrial commanded_trial(const Study& study, std::int64_t point, std::int64_t index) {
   const TrialPlace place = place_of(study, point, index);
   const GivenDraws none;
-  TrialInProgress t = begin_trial(draws_of(study, point, place.draw, none), place.point);
-  set_resolution(t.numbers, t.trial.parameters.dac);
-  set_targets(study, t.numbers, t.trial);
-  complete_trial(study.units, t.trial.parameters);
-  round_targets(t.trial);
-  return std::move(t.trial);
+  StudyTrial trial;
+  std::vector<double> numbers;
+  TrialInProgress t{trial, numbers, *study.plan};
+  begin_trial(draws_of(study, point, place.draw, none), place.point, t);
+  set_resolution(numbers, trial.parameters.dac);
+  set_targets(study, numbers, trial);
+  complete_trial(study.units, trial.parameters);
+  round_targets(trial);
+  return trial;
 }
 
 StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index) {
@@ -398,6 +421,22 @@ StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t inde
   complete_trial(study.units, trial.parameters);
   round_targets(trial);
   return trial;
+}
+
+TrialDrawer::TrialDrawer(const Study& study) : study_(study) {}
+
+void TrialDrawer::draw(std::int64_t point, std::int64_t index, StudyTrial& trial) {
+  if (plan_ != study_.plan) {
+    plan_ = study_.plan;
+    quantiles_.assign(plan_->distributions.size(), std::nullopt);
+  }
+  const TrialPlace place = place_of(study_, point, index);
+  const GivenDraws none;
+  TrialDraws draws = draws_of(study_, point, place.draw, none);
+  draws.quantiles = &quantiles_;
+  make_trial(draws, place.point, trial, numbers_);
+  complete_trial(study_.units, trial.parameters);
+  round_targets(trial);
 }
 
 std::vector<double> drawn_numbers(const Study& study, std::int64_t point, std::int64_t index,

@@ -35,9 +35,8 @@ KeptBlock reduce(const study::Study& study, TrialBlock&& block) {
     rest = rest.subspan(of_point);
   }
   if (layout::has_trials(study.retention)) {
-    std::erase_if(block.results, [](const shards::TrialResult& result) {
-      return trial::succeeded(result.outcome.moves);
-    });
+    std::erase_if(block.results,
+                  [](const shards::TrialResult& result) { return trial::succeeded(result.outcome.moves); });
     kept.trials = shards::columns_of(study, measures, block.results);
   }
   return kept;

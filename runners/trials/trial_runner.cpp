@@ -46,17 +46,16 @@ shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row,
   return run_reference(study, row, trial_of_row(study, row), stop);
 }
 
-TrialRunner::TrialRunner(const study::Study& study) : study_(&study) {
+TrialRunner::TrialRunner(const study::Study& study) : study_(&study), drawer_(study) {
   if (study.engine != study::Engine::batch) return;
   const batch::BatchSettings settings;
   engine_ = std::make_unique<batch::BatchEngine>(settings);
   drawn_.resize(static_cast<std::size_t>(settings.lanes));
 }
 
-study::StudyTrial TrialRunner::draw(std::int64_t row, const Drawn& drawn) const {
-  study::StudyTrial trial = trial_of_row(*study_, row);
+void TrialRunner::draw(std::int64_t row, const Drawn& drawn, study::StudyTrial& trial) {
+  drawer_.draw(row / study_->trials, row % study_->trials, trial);
   if (drawn) drawn(row, trial);
-  return trial;
 }
 
 std::vector<shards::TrialResult> TrialRunner::run(layout::RowRange rows, const std::stop_token& stop) {
@@ -86,10 +85,15 @@ std::vector<shards::TrialResult> TrialRunner::run_rows(std::span<const std::int6
   if (engine_) {
     run_in_lanes(stop, drawn, results);
   } else {
-    for (shards::TrialResult& one : results)
-      one = run_reference(*study_, one.row, draw(one.row, drawn), stop);
+    for (shards::TrialResult& one : results) run_alone(one, drawn, stop);
   }
   return results;
+}
+
+void TrialRunner::run_alone(shards::TrialResult& result, const Drawn& drawn, const std::stop_token& stop) {
+  study::StudyTrial trial;
+  draw(result.row, drawn, trial);
+  result = run_reference(*study_, result.row, std::move(trial), stop);
 }
 
 void TrialRunner::run_in_lanes(const std::stop_token& stop, const Drawn& drawn,
@@ -98,14 +102,14 @@ void TrialRunner::run_in_lanes(const std::stop_token& stop, const Drawn& drawn,
   places.reserve(results.size());
   for (shards::TrialResult& one : results) {
     if (is_retained(*study_, one.row % study_->trials)) {
-      one = run_reference(*study_, one.row, draw(one.row, drawn), stop);
+      run_alone(one, drawn, stop);
     } else {
       places.push_back(&one);
     }
   }
   const auto draw_next = [&](std::size_t trial, std::size_t slot) -> const trial::TrialParameters& {
     shards::TrialResult& result = *places[trial];
-    drawn_[slot] = draw(result.row, drawn);
+    draw(result.row, drawn, drawn_[slot]);
     result.inputs = std::move(drawn_[slot].inputs);
     return drawn_[slot].parameters;
   };

@@ -10,6 +10,7 @@
 #include "analysis/theory/theory_prediction.hpp"
 #include "core/batch/batch.hpp"
 #include "experiments/study/study.hpp"
+#include "experiments/study/trial_drawer.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/shards/shard.hpp"
 
@@ -40,13 +41,15 @@ class TrialRunner {
  private:
   /// Draws the trial of a row, which is told to `drawn`.
   using Drawn = std::function<void(std::int64_t row, const study::StudyTrial& trial)>;
-  study::StudyTrial draw(std::int64_t row, const Drawn& drawn) const;
+  void draw(std::int64_t row, const Drawn& drawn, study::StudyTrial& trial);
+  void run_alone(shards::TrialResult& result, const Drawn& drawn, const std::stop_token& stop);
   std::vector<shards::TrialResult> run_rows(std::span<const std::int64_t> rows, const std::stop_token& stop,
                                             const Drawn& drawn);
   void run_in_lanes(const std::stop_token& stop, const Drawn& drawn,
                     std::vector<shards::TrialResult>& results);
 
   const study::Study* study_;
+  study::TrialDrawer drawer_;
   std::unique_ptr<batch::BatchEngine> engine_;
   std::vector<study::StudyTrial> drawn_;  ///< [slot] trials in work
 };

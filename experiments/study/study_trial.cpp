@@ -428,8 +428,9 @@ TrialDrawer::TrialDrawer(const Study& study) : study_(study) {}
 void TrialDrawer::draw(std::int64_t point, std::int64_t index, StudyTrial& trial) {
   if (plan_ != study_.plan) {
     plan_ = study_.plan;
-    quantiles_.assign(plan_->distributions.size(), std::nullopt);
+    quantiles_.clear();
   }
+  quantiles_.resize(plan_->distributions.size());
   const TrialPlace place = place_of(study_, point, index);
   const GivenDraws none;
   TrialDraws draws = draws_of(study_, point, place.draw, none);

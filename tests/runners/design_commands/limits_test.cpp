@@ -1,4 +1,5 @@
 // `limits`: which causes a study has, and that the rate without one is that of the manifest which says so.
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/runners/design_commands/tune_fixture.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {
@@ -283,6 +285,41 @@ TEST_F(Limits, NoteThatTheGainsAreNotTunedAgain) {
                              cause.find("delay") != std::string::npos;
     EXPECT_EQ(one["note"] == Json(noted), of_the_loop) << one;
   }
+}
+
+class LimitsOfAxis : public Tune {};
+
+TEST_F(LimitsOfAxis, SwitchCausesOffOneByOne) {
+  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
+  const ProgramResult result = program({"limits", "axis.yaml", "--format", "json"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json limits = Json::parse(result.out)["limits"];
+  std::vector<std::string> causes;
+  for (const Json& one : limits) causes.push_back(one["cause"]);
+  EXPECT_EQ(causes.front(), "none");
+  EXPECT_EQ(std::count(causes.begin(), causes.end(), "no delay, no amplifier lag"), 1);
+  EXPECT_EQ(std::count(causes.begin(), causes.end(), "no noise"), 0) << "there is none";
+  // Without the cause of an idealisation the rate is that of the study with the cause switched off.
+  const ProgramResult judged =
+      program({"run", "axis.yaml", "-o", "no-delay.h5", "--set", "controller.delay=0"});
+  ASSERT_EQ(judged.code, 0);
+  const Json judgement = Json::parse(program({"judge", "no-delay.h5", "--format", "json"}).out);
+  for (const Json& one : limits) {
+    if (one["cause"] == "no delay, no amplifier lag") {
+      EXPECT_EQ(one["rate"], judgement["rate"]);
+    }
+  }
+}
+
+TEST_F(LimitsOfAxis, AreOfThePointThatIsAskedFor) {
+  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\nsweep: {grid: {controller.delay: [0, 1]}}\n");
+  EXPECT_NE(program({"limits", "axis.yaml"}).err.find("expected one with --point"), std::string::npos);
+  const auto rate_of = [this](const std::vector<std::string>& words) {
+    return Json::parse(program(words).out)["limits"][0]["rate"].get<double>();
+  };
+  const double swept = rate_of({"limits", "axis.yaml", "--point", "1", "--format", "json"});
+  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
+  EXPECT_EQ(rate_of({"limits", "axis.yaml", "--format", "json"}), swept);
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
-// `tune`, `limits` and `worst`, from the manifest to the proof.
+// `tune`, from the manifest to the proof.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -16,7 +15,6 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/study/study.hpp"
-#include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/design_commands/tune_fixture.hpp"
 
@@ -139,93 +137,6 @@ TEST_F(Tune, GoesOnAfterAnInterruption) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "tuned.h5.tuning"));
 }
 
-// As soon as the results file is there it is the whole proof; the answer is printed before any extra; Ctrl-C
-// keeps both, and the same command ends with the answer of a tuning without interruption.
-TEST_F(Tune, GivesTheProvenAnswerBeforeTheExtrasAndKeepsIt) {
-  write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
-  const std::vector<std::string> command{"tune", "axis.yaml", "-o", "tuned.h5", "--budget", "20000"};
-  const std::filesystem::path out = folder_.path() / "out.txt";
-  RunningProgram running(command, folder_.path(), out);
-  while (!std::filesystem::exists(folder_.path() / "tuned.h5"))
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  EXPECT_EQ(program({"judge", "tuned.h5"}).code, 0) << "complete at once";
-  for (int i = 0; i < 2000 && folder_.read("out.txt").find("wrote tuned.h5") == std::string::npos; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  running.send(SIGINT);
-  EXPECT_EQ(running.wait(), 130);
-  const std::string text = folder_.read("out.txt");
-  EXPECT_TRUE(text.starts_with("met: the goal is met by controller.ki")) << text;
-  const std::size_t proven = text.find("wrote tuned.h5");
-  ASSERT_NE(proven, std::string::npos) << text;
-  EXPECT_EQ(text.find("what limits it"), std::string::npos) << "interrupted before: " << text;
-  EXPECT_NE(text.find("limits; the same command goes on with them"), std::string::npos) << text;
-  EXPECT_EQ(program({"judge", "tuned.h5"}).code, 0) << "kept";
-
-  const auto numbers_of = [](const std::string& whole) { return whole.substr(0, whole.find("spent:")); };
-  const ProgramResult resumed = program(command);
-  EXPECT_EQ(resumed.code, 0) << resumed.err;
-  EXPECT_EQ(resumed.out.substr(0, proven), text.substr(0, proven));
-  std::vector<std::string> again = command;
-  again.emplace_back("--force");
-  EXPECT_EQ(numbers_of(program(again).out), numbers_of(resumed.out));
-  // The extras stand behind the answer, in their order.
-  std::size_t last = proven;
-  for (const char* const extra :
-       {"of controller.delay", "room of each parameter", "other controls", "what limits it", "searched:"}) {
-    const std::size_t at = resumed.out.find(extra, last);
-    ASSERT_NE(at, std::string::npos) << extra << resumed.out;
-    last = at;
-  }
-}
-
-TEST_F(Tune, MakesTheExtrasThatAreAskedFor) {
-  write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
-  EXPECT_EQ(tune({"--extras", "rooms"}).code, 2);
-  EXPECT_EQ(tune({"--extras", "maps"}).code, 2) << "without a page";
-  const Json none = Json::parse(tune({"--extras", "none"}, "6000").out);
-  EXPECT_TRUE(none["room"].empty() && none["alternatives"].empty() && none["limits"].empty());
-  EXPECT_TRUE(none["left_out"].empty()) << none["left_out"];
-  EXPECT_GE(none["margins"]["gain"], 6.0) << "asked for or not";
-  const Json room = Json::parse(tune({"--extras", "room"}, "6000").out);
-  EXPECT_FALSE(room["room"].empty());
-  EXPECT_TRUE(room["alternatives"].empty() && room["limits"].empty());
-  EXPECT_EQ(room["gains"], none["gains"]);
-
-  // Of a results file that is there: the same values and proof, and the extras beside them.
-  const ProgramResult later = program({"tune", "tuned.h5", "--extras", "limits,margins", "--format", "json"});
-  ASSERT_EQ(later.code, 0) << later.err;
-  const Json limits = Json::parse(later.out);
-  EXPECT_EQ(limits["gains"], none["gains"]);
-  EXPECT_EQ(limits["behaviour"][0]["peak_torque_max"], none["behaviour"][0]["peak_torque_max"]);
-  EXPECT_EQ(limits["limits"][0]["cause"], "none");
-  EXPECT_TRUE(limits["room"].empty());
-  EXPECT_EQ(limits["margins"]["machines"], 2048);
-  EXPECT_EQ(program({"tune", "tuned.h5", "--force"}).code, 2) << "nothing is written";
-  folder_.write("page.html", "another page");
-  const std::vector<std::string> page{"tune", "tuned.h5", "--extras", "none", "--report", "page.html"};
-  EXPECT_EQ(program(page).code, 2) << "it is there";
-  std::vector<std::string> replacing = page;
-  replacing.emplace_back("--force");
-  EXPECT_EQ(program(replacing).code, 0);
-}
-
-TEST_F(Tune, NamesTheExtrasThatABudgetLeavesOutWithTheCommandThatMakesThem) {
-  write_axis("goal: {band: 1, within: 0.06, moves: 0.9}\n" + std::string(two_gains));
-  const ProgramResult result = program({"tune", "axis.yaml", "-o", "tuned.h5", "--budget", "1500"});
-  ASSERT_EQ(result.code, 0) << result.err;
-  const std::size_t line = result.out.find("left out, because the budget is not enough: ");
-  ASSERT_NE(line, std::string::npos) << result.out;
-  const std::string makes = "zerocount tune tuned.h5 --extras ";
-  const std::size_t names = result.out.find(makes, line);
-  ASSERT_NE(names, std::string::npos) << result.out;
-  const std::size_t begin = names + makes.size();
-  const std::string extras = result.out.substr(begin, result.out.find(' ', begin) - begin);
-  const ProgramResult later = program({"tune", "tuned.h5", "--extras", extras, "--budget", "20000"});
-  EXPECT_EQ(later.code, 0) << later.err;
-  EXPECT_EQ(later.out.find("left out"), std::string::npos) << later.out;
-  EXPECT_NE(later.out.find("what limits it"), std::string::npos) << later.out;
-}
-
 /// The row of a table that has these members.
 const Json& row_with(const Json& rows, const Json& members) {
   for (const Json& row : rows) {
@@ -327,39 +238,6 @@ TEST_F(Tune, SaysWhatTheTunedValuesDo) {
   }
 }
 
-/// Trials of all parts of an answer.
-std::int64_t trials_in(const Json& answer) {
-  return answer["searched"]["trials"].get<std::int64_t>() + answer["proof"]["trials"].get<std::int64_t>();
-}
-
-// Of any size, on machines or trials of their own, with worlds, met or missed.
-TEST_F(Tune, HoldsItsBudgetOfTrialsInAllThatItRuns) {
-  const std::string moves = "goal: {band: 1, within: 0.06, moves: 0.9}\n";
-  const std::string machines = "goal: {band: 1, within: 0.06, moves: 0.9, machines: 0.8}\n";
-  const std::string missed = "goal: {band: 0, within: 0.004, moves: 0.9}\n";
-  const std::string worlds = "worlds: 5\n" + moves;
-  for (const std::string& kind : {machines, missed, worlds}) {
-    std::int64_t last = 0;
-    for (const std::int64_t budget : {1500, 6000}) {
-      write_axis(kind + std::string(two_gains));
-      const ProgramResult result = tune({}, std::to_string(budget));
-      if (result.code == 2) {
-        EXPECT_LT(budget, 6000) << kind;
-        EXPECT_NE(result.err.find("the smallest search takes"), std::string::npos) << result.err;
-        continue;
-      }
-      const Json answer = Json::parse(result.out);
-      EXPECT_LE(answer["spent_trials"], budget) << kind;
-      EXPECT_LE(trials_in(answer), answer["spent_trials"]) << kind;
-      EXPECT_GT(answer["searched"]["points"], last) << kind << ": a smaller budget makes a smaller search";
-      last = answer["searched"]["points"];
-      if (budget == 1500) {
-        EXPECT_FALSE(answer["left_out"].empty()) << result.out;
-      }
-    }
-  }
-}
-
 // The margins that are missing, and by how much, in the text, the JSON and the page.
 TEST_F(Tune, WithoutAPointThatKeepsTheMarginsNamesTheNearest) {
   const auto write = [this](const std::string& margins) {
@@ -383,75 +261,6 @@ TEST_F(Tune, WithoutAPointThatKeepsTheMarginsNamesTheNearest) {
   const double kept = nearest["margins"]["gain"].get<double>();
   write("gain: " + std::to_string(kept - 0.01) + ", phase: off, delay: off");
   EXPECT_FALSE(Json::parse(tune({}, "3000").out)["gains"].empty());
-}
-
-TEST_F(Tune, HoldsItsBudgetOfTime) {
-  write_axis("goal: {band: 1, within: 0.06, moves: 0.9}\n" + std::string(two_gains));
-  const auto start = std::chrono::steady_clock::now();
-  const ProgramResult result = tune({}, "2s");
-  const double taken = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  EXPECT_LE(taken, 1.1 * 2.0 + 0.5) << "half a second for a busy machine";
-  EXPECT_LE(Json::parse(result.out)["searched"]["seconds"], 1.1 * 2.0);
-  const ProgramResult none = tune({}, "0.06s");
-  EXPECT_EQ(none.code, 3);
-  EXPECT_NE(none.err.find("s are not enough"), std::string::npos) << none.err;
-}
-
-/// A control of an answer of 1000 machines at least.
-struct ControlInAnswer {
-  std::set<std::string> blocks;  ///< free parameters that are not fixed at 0
-  double rate;
-
-  bool has_all_blocks_of(const ControlInAnswer& other) const {
-    return std::ranges::includes(blocks, other.blocks);
-  }
-};
-
-std::vector<ControlInAnswer> controls_in(const Json& answer) {
-  std::set<std::string> free;
-  for (const auto& [name, value] : answer["gains"].items()) free.insert(name);
-  std::vector<ControlInAnswer> controls;
-  const auto add = [&](const Json& fixed, const Json& gains, double rate) {
-    std::set<std::string> blocks = free;
-    for (const auto& [name, value] : gains.items()) blocks.insert(name);
-    for (const auto& [name, value] : fixed.items()) blocks.erase(name);
-    controls.push_back({blocks, rate});
-  };
-  add(Json::object(), answer["gains"], answer["proof"]["rate"]);
-  for (const Json& one : answer["alternatives"]) {
-    if (!one["gains"].empty()) add(one["fixed"], one["gains"], one["rate"]);
-  }
-  return controls;
-}
-
-// Every pair of controls of which one has all blocks of the other: the rates are of 500 machines at least.
-TEST_F(Tune, AControlWithMoreBlocksIsWorseOnlyByChance) {
-  int pairs = 0;
-  for (const std::string goal :
-       {"{band: 1, within: 0.05, moves: 0.95}", "{band: 0, within: 0.1, moves: 0.9}"}) {
-    write_axis("goal: " + goal + "\n" + std::string(two_gains));
-    const std::vector<ControlInAnswer> controls =
-        controls_in(Json::parse(tune({"--extras", "controls"}, "9000").out));
-    for (const ControlInAnswer& more : controls) {
-      for (const ControlInAnswer& fewer : controls) {
-        if (more.blocks == fewer.blocks || !more.has_all_blocks_of(fewer)) continue;
-        ++pairs;
-        const double wanted = std::min(fewer.rate, 0.95);
-        EXPECT_GE(more.rate, wanted - 3.0 * std::sqrt(wanted * (1.0 - wanted) / 250.0)) << goal;
-      }
-    }
-  }
-  EXPECT_EQ(pairs, 6);
-}
-
-// The ranges of kp and kd are so wide that only their low ends keep the margins: the integral alone does.
-TEST_F(Tune, IsNotUnreachableWhereASimplerControlMeetsTheGoal) {
-  write_axis(
-      "goal: {band: 1, within: 0.2, moves: 0.9}\ntune: {free: {controller.ki: {log: [2.0e-6, 1.0e-4]}, "
-      "controller.kp: [0, 2.0e-2], controller.kd: [0, 1.5e-1]}}\n");
-  const Json answer = Json::parse(tune({"--set", "controller.delay=3"}, "6000").out);
-  EXPECT_EQ(answer["status"], "met") << answer.dump(1);
-  EXPECT_GE(answer["margins"]["gain"], 6.0);
 }
 
 // A tuning adds spreads that the study does not draw, and looks at every machine.
@@ -490,75 +299,6 @@ TEST_F(Tune, MinimisesTheTorqueNoiseAtRest) {
     noise.push_back(summary["points"][0]["rest_torque_noise"]["mean"].get<double>());
   }
   EXPECT_LT(noise[1], noise[0]);
-}
-
-TEST_F(Tune, LimitsSwitchCausesOffOneByOne) {
-  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
-  const ProgramResult result = program({"limits", "axis.yaml", "--format", "json"});
-  ASSERT_EQ(result.code, 0) << result.err;
-  const Json limits = Json::parse(result.out)["limits"];
-  std::vector<std::string> causes;
-  for (const Json& one : limits) causes.push_back(one["cause"]);
-  EXPECT_EQ(causes.front(), "none");
-  EXPECT_EQ(std::count(causes.begin(), causes.end(), "no delay, no amplifier lag"), 1);
-  EXPECT_EQ(std::count(causes.begin(), causes.end(), "no noise"), 0) << "there is none";
-  // Without the cause of an idealisation the rate is that of the study with the cause switched off.
-  const ProgramResult judged =
-      program({"run", "axis.yaml", "-o", "no-delay.h5", "--set", "controller.delay=0"});
-  ASSERT_EQ(judged.code, 0);
-  const Json judgement = Json::parse(program({"judge", "no-delay.h5", "--format", "json"}).out);
-  for (const Json& one : limits) {
-    if (one["cause"] == "no delay, no amplifier lag") {
-      EXPECT_EQ(one["rate"], judgement["rate"]);
-    }
-  }
-}
-
-// Stiffness alone decides, and more of it is worse: the worst machine is at the end of the box.
-TEST_F(Tune, WorstIsFoundAtTheEndOfTheBoxWhereItLies) {
-  folder_.write("soft.yaml", R"(zerocount: 1
-name: soft
-seed: 3
-trials: 40
-command: {targets: [20], hold: 0.2}
-friction: {model: spring, k1: {uniform: [100, 140]}, k2: 0}
-initial: {encoder_phase: {uniform: [0, 1]}}
-controller: {ki: 3.0e-5}
-goal: {band: 0, within: 0.06, moves: 0.9}
-)");
-  const Json box = Json::parse(program({"worst", "soft.yaml", "--format", "json"}).out)["box"];
-  const double quantile = box["quantiles"][0];
-  EXPECT_TRUE(quantile < 0.01 || quantile > 0.99) << quantile;
-}
-
-TEST_F(Tune, LimitsAreOfThePointThatIsAskedFor) {
-  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\nsweep: {grid: {controller.delay: [0, 1]}}\n");
-  EXPECT_NE(program({"limits", "axis.yaml"}).err.find("expected one with --point"), std::string::npos);
-  const auto rate_of = [this](const std::vector<std::string>& words) {
-    return Json::parse(program(words).out)["limits"][0]["rate"].get<double>();
-  };
-  const double swept = rate_of({"limits", "axis.yaml", "--point", "1", "--format", "json"});
-  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
-  EXPECT_EQ(rate_of({"limits", "axis.yaml", "--format", "json"}), swept);
-}
-
-TEST_F(Tune, WorstIsTheMachineWithTheFewestGoodMoves) {
-  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
-  ASSERT_EQ(program({"run", "axis.yaml", "-o", "out.h5"}).code, 0);
-  const Json of_manifest = Json::parse(program({"worst", "axis.yaml", "--format", "json"}).out);
-  const Json of_file = Json::parse(program({"worst", "out.h5", "--format", "json"}).out);
-  EXPECT_EQ(of_manifest, of_file);
-  const Json box = of_manifest["box"];
-  EXPECT_LE(box["met"], of_manifest["met"].get<double>() + 0.1) << "the box has the sampled machines' ranges";
-  for (const double quantile : box["quantiles"]) {
-    EXPECT_GE(quantile, 0.0005);
-    EXPECT_LE(quantile, 0.9995);
-  }
-  const ProgramResult set = program({"worst", "out.h5", "--set", "controller.delay=0"});
-  EXPECT_EQ(set.code, 2);
-  EXPECT_NE(set.err.find("changes a manifest"), std::string::npos) << set.err;
-  EXPECT_LT(of_manifest["rig"], 100);
-  EXPECT_GT(of_manifest["inputs"]["friction.k1"], 0.0);
 }
 
 TEST_F(Tune, SaysWhenTheGoalIsLostAndWhatTuningAgainBuys) {

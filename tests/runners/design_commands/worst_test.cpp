@@ -12,6 +12,7 @@
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/tuning/units/unit_runner.hpp"
+#include "tests/runners/design_commands/tune_fixture.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {
@@ -207,6 +208,44 @@ TEST_F(Worst, RefusesAManifestBeforeTheSearch) {
   EXPECT_NE(refused.err.find("plant.sliding_damping changes with age, and is drawn per study"),
             std::string::npos)
       << refused.err;
+}
+
+class WorstOfAxis : public Tune {};
+
+// Stiffness alone decides, and more of it is worse: the worst machine is at the end of the box.
+TEST_F(WorstOfAxis, IsFoundAtTheEndOfTheBoxWhereItLies) {
+  folder_.write("soft.yaml", R"(zerocount: 1
+name: soft
+seed: 3
+trials: 40
+command: {targets: [20], hold: 0.2}
+friction: {model: spring, k1: {uniform: [100, 140]}, k2: 0}
+initial: {encoder_phase: {uniform: [0, 1]}}
+controller: {ki: 3.0e-5}
+goal: {band: 0, within: 0.06, moves: 0.9}
+)");
+  const Json box = Json::parse(program({"worst", "soft.yaml", "--format", "json"}).out)["box"];
+  const double quantile = box["quantiles"][0];
+  EXPECT_TRUE(quantile < 0.01 || quantile > 0.99) << quantile;
+}
+
+TEST_F(WorstOfAxis, IsTheMachineWithTheFewestGoodMoves) {
+  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
+  ASSERT_EQ(program({"run", "axis.yaml", "-o", "out.h5"}).code, 0);
+  const Json of_manifest = Json::parse(program({"worst", "axis.yaml", "--format", "json"}).out);
+  const Json of_file = Json::parse(program({"worst", "out.h5", "--format", "json"}).out);
+  EXPECT_EQ(of_manifest, of_file);
+  const Json box = of_manifest["box"];
+  EXPECT_LE(box["met"], of_manifest["met"].get<double>() + 0.1) << "the box has the sampled machines' ranges";
+  for (const double quantile : box["quantiles"]) {
+    EXPECT_GE(quantile, 0.0005);
+    EXPECT_LE(quantile, 0.9995);
+  }
+  const ProgramResult set = program({"worst", "out.h5", "--set", "controller.delay=0"});
+  EXPECT_EQ(set.code, 2);
+  EXPECT_NE(set.err.find("changes a manifest"), std::string::npos) << set.err;
+  EXPECT_LT(of_manifest["rig"], 100);
+  EXPECT_GT(of_manifest["inputs"]["friction.k1"], 0.0);
 }
 
 }  // namespace

@@ -68,6 +68,8 @@ class LaneDrive {
   VibrationSeries::Coefficients vibration(std::int64_t k) { return vibration_.about_sample(k); }
   std::size_t vibration_terms() const { return vibration_.terms(); }
   bool jitters() const { return jitters_; }
+  /// δ_k (s) of sample k.
+  double lateness(std::int64_t k) const { return clock_.lateness(k); }
 
  private:
   void add(const loop::TorquePiece& piece);

@@ -79,10 +79,35 @@ double quiet_time(const BatchState& batch, int lane, const RestAhead& rest, cons
   return time;
 }
 
-/// The number of samples after the last processed one that are likely to be quiet.
-double quiet_samples(const BatchState& batch, int lane, const LanePlant& plant, double to_first) {
+/// The sampling instants of a lane at rest, which may be late.
+struct InstantsAhead {
+  double to_first;         ///< from now, s
+  double sample_time;      ///< T, s
+  const LaneDrive* drive;  ///< that knows when they are; null without late samples
+  double max_lateness;     ///< s
+  std::int64_t first;      ///< number of the next sample from the start of the trial
+
+  /// δ (s) of the next sample i, from 1.
+  double lateness(double i) const {
+    return drive ? drive->lateness(first + static_cast<std::int64_t>(i) - 1) : 0.0;
+  }
+  /// The time (s) from now (i = 0) or from the next sample i to the sample after that.
+  double to_next(double i) const {
+    return i == 0.0 ? to_first : sample_time + (lateness(i + 1.0) - lateness(i));
+  }
+  /// The same to the sample `samples` after that.
+  double to(double i, double samples) const {
+    return to_next(i) + (samples - 1.0) * sample_time + (lateness(i + samples) - lateness(i + 1.0));
+  }
+};
+
+/// The number of samples after the next sample i (now where it is 0) that are likely to be quiet.
+double quiet_samples(const BatchState& batch, int lane, const LanePlant& plant, const InstantsAhead& instants,
+                     double i) {
   const double time = quiet_time(batch, lane, rest_ahead(*plant.rest()), plant);
-  if (time == HUGE_VAL) return batch.time.samples_to_stop[lane];
+  if (time == HUGE_VAL) return HUGE_VAL;
+  // As if all were as late as they may be.
+  const double to_first = instants.to_next(i) + (instants.max_lateness - instants.lateness(i + 1.0));
   return std::max(std::ceil((time - to_first) * batch.time.sample_rate[lane]), 0.0);
 }
 
@@ -183,6 +208,22 @@ void pass_samples(BatchState& batch, int lane, double samples) {
   trial::for_each_of_arrival([lane](Lanes& to, double from) { to[lane] = from; }, q, arrival);
 }
 
+/// Whether the lane has late samples and a torque that stays as long as its count does. Its next stop is the
+/// next sample nevertheless, because the kernels know only that one's lateness.
+bool is_late_and_steady(const RunningBatch& run, int lane) {
+  return run.lanes.amplified.contains(lane) && run.state.drive.jitter[lane] > 0.0 &&
+         run.state.loop.steady[lane] != 0.0;
+}
+
+/// The next `max_samples` samples.
+InstantsAhead instants_ahead(const BatchState& batch, int lane, const LaneDrive* late, double max_samples) {
+  const double to_last = batch.time.time_to_stop[lane];
+  const double sample_time = batch.time.sample_time[lane];
+  if (!late) return {to_last - (max_samples - 1.0) * sample_time, sample_time, nullptr, 0.0, 0};
+  const DriveLanes& d = batch.drive;
+  return {to_last, sample_time, late, d.jitter[lane], static_cast<std::int64_t>(d.sample[lane])};
+}
+
 /// See come_to_rest().
 bool rest(RunningBatch& run, int lane) {
   BatchState& batch = run.state;
@@ -198,7 +239,10 @@ bool rest(RunningBatch& run, int lane) {
     trial.deepest = std::max(trial.deepest, plant.deepest());
     forget_ahead(batch, lane, trial);
   }
-  if (time.samples_to_stop[lane] > 1.0) {
+  const LaneDrive* const late = is_late_and_steady(run, lane) ? &*trial.drive : nullptr;
+  double max_samples = time.samples_to_stop[lane];
+  if (late) max_samples = std::max(batch.measures.limits.samples[lane] - batch.measures.samples[lane], 1.0);
+  if (max_samples > 1.0) {
     bring_up_to_date(batch, lane, trial);
   } else if (follow_ahead(run, lane, torque)) {
     return true;
@@ -206,16 +250,10 @@ bool rest(RunningBatch& run, int lane) {
   std::optional<LanePlant> before;
   if (run.observers->sample) before = plant;
 
-  const double max_samples = time.samples_to_stop[lane];
-  const double sample_time = time.sample_time[lane];
-  const double to_first = time.time_to_stop[lane] - (max_samples - 1.0) * sample_time;
+  const InstantsAhead instants = instants_ahead(batch, lane, late, max_samples);
   // Advances sample by sample (i, from 1), many at once where the count surely stays the same.
   double i = 0.0;
-  double to_next = to_first;
   bool edge_is_next = false;
-  const auto point_after = [&](double samples) {
-    return plant.point_at_rest(to_next + (samples - 1.0) * sample_time);
-  };
   const auto stays_within = [&](const LanePlant::RestPoint& point) {
     return is_quiet(batch, lane, plant.theta_at(point));
   };
@@ -223,22 +261,25 @@ bool rest(RunningBatch& run, int lane) {
   while (same && i < max_samples) {
     double ahead = 1.0;
     if (!edge_is_next && max_samples - i > 1.0)
-      ahead = std::clamp(quiet_samples(batch, lane, plant, to_next), 1.0, max_samples - i);
-    LanePlant::RestPoint point = point_after(ahead);
+      ahead = std::clamp(quiet_samples(batch, lane, plant, instants, i), 1.0, max_samples - i);
+    LanePlant::RestPoint point = plant.point_at_rest(instants.to(i, ahead));
     // The edge may be nearer than estimated.
     for (double back = 1.0; ahead > 1.0 && !stays_within(point); back *= 2.0) {
       ahead = std::max(1.0, ahead - back);
-      point = point_after(ahead);
+      point = plant.point_at_rest(instants.to(i, ahead));
     }
     plant.go_to(point);
     same = is_quiet(batch, lane, plant.theta());
     edge_is_next = ahead > 1.0;
     i += ahead;
-    to_next = sample_time;
   }
   for (double j = 1.0; before && j < i; j += 1.0) {
-    before->advance(motion::constant_torque(torque), j == 1.0 ? to_first : sample_time);
+    before->advance(motion::constant_torque(torque), instants.to_next(j - 1.0));
     report_sample_at_rest(run, lane, j, before->theta(), before->creep());
+  }
+  if (late) {
+    batch.drive.sample[lane] += i - 1.0;
+    batch.drive.late[lane] = instants.lateness(i);
   }
   if (plant.load()) motion::follow_rotor(*plant.load(), plant.omega());
   pass_samples(batch, lane, i - 1.0);

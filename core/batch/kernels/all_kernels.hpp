@@ -28,18 +28,17 @@ inline constexpr MotionKernels motion_kernels_with{
     .bristle_slow = bristle_kernel<V, false, Varies, false>,
     .free = free_kernel<V, Varies>};
 
-/// The same of lanes with a second mass, whose torque may vary with `Driven`. The torque of its coupling has
-/// no bound ahead, so that none of them counts as fast.
+/// The same of lanes with a second mass, whose torque may vary with `Driven`.
 template <class V, class E, class P, bool Driven>
 inline constexpr MotionKernels loaded_kernels_with{
     .stick_start = stick_start_kernel<V, false, true>,
     .stick_start_varying = Driven ? stick_start_kernel<V, true, true> : nullptr,
     .stick_step = stick_step_kernel<V, false, Driven, true>,
     .stick_event = stick_step_kernel<E, true, Driven, true>,
-    .slide_fast = slide_kernel<V, false, Driven, true>,
+    .slide_fast = slide_kernel<V, true, Driven, true>,
     .slide_slow = slide_kernel<V, false, Driven, true>,
     .bristle_rest = bristle_rest_kernel<P, true>,
-    .bristle_fast = bristle_kernel<V, false, Driven, true>,
+    .bristle_fast = bristle_kernel<V, true, Driven, true>,
     .bristle_slow = bristle_kernel<V, false, Driven, true>,
     .free = loaded_free_kernel<V, Driven>};
 

@@ -161,6 +161,8 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
     unfit = unfit & ((curvature_bound(signed_part, batch_order) > zero) | (signed_part[1] != zero));
   }
   if constexpr (!Fast) unfit = unfit | grows_too_much(curve.exponent);
+  if constexpr (Fast && Loaded)
+    unfit = unfit | ((excess > zero) & ~stays_fast(velocity, stribeck_velocity, h));
   step.too_long = step.inexact | unfit;
   step.done = ~step.too_long;
   const Mask seeks = at.taking_part() & step.halts & step.done;
@@ -186,7 +188,8 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
 /// Reports beyond_kernel. See friction::Bristle.
 ///
 /// `Fast` is for lanes whose level is that of Coulomb to the last bit: with Dahl's law, and far above the
-/// Stribeck velocity, where (ω/ωs)² > 64. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19.
+/// Stribeck velocity, where (ω/ωs)² > 64. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19. With `Loaded`
+/// see slide_kernel.
 template <class V, bool Fast, bool Varies, bool Loaded>
 void bristle_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;

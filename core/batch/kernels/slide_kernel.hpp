@@ -33,10 +33,8 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   P h = time_to_stop;
   if constexpr (Fast) {
     P resisting = breakaway_torque - direction * torque + damping * speed;
-    if constexpr (Varies) {
-      h = min(at.load(time.next_step), time_to_stop);
-      resisting = resisting + torque_range(batch, at, h);
-    }
+    if constexpr (Varies || Loaded) h = min(at.load(time.next_step), time_to_stop);
+    if constexpr (Varies) resisting = resisting + torque_range(batch, at, h);
     h = fast_step(speed, stribeck_velocity, max(resisting, zero) * per_inertia, h);
   } else {
     decay_start = exp(-per_velocity_squared * omega * omega);
@@ -85,6 +83,8 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
     unfit = grows_too_much(curve.exponent) |
             (~step.halts & ~keeps_sign(velocity[0], velocity_end, velocity[1], curvature));
     if constexpr (varies) unfit = unfit | (step.halts & ~crosses_once(velocity, batch_order));
+  } else if constexpr (Loaded) {
+    unfit = ~stays_fast(velocity, stribeck_velocity, h);
   }
   const Mask beyond = omega * direction <= zero;
   step.too_long = (step.inexact | unfit) & ~beyond;
@@ -107,7 +107,8 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
 /// Reports velocity_zero, and beyond_kernel where the slide starts at ω = 0. See PreslidingFriction::slide.
 ///
 /// `Fast` is for lanes far above the Stribeck velocity, where (ω/ωs)² > 64 and friction is that of Coulomb to
-/// the last bit. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19. With `Loaded` there is a second mass.
+/// the last bit. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19. With `Loaded` there is a second mass,
+/// whose torque has no bound ahead: a step at whose end, or within which, ω is less is too long.
 template <class V, bool Fast, bool Varies, bool Loaded>
 void slide_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;

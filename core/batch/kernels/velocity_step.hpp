@@ -35,6 +35,18 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const P* exponent) {
   return growth > max(P(6.0), P(-23.0) - exponent[0]);
 }
 
+/// Whether a motion that starts faster than that surely stays above the velocity at which the Stribeck curve
+/// begins to matter throughout a step of h (s). @param velocity the series of ω·h.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask stays_fast(const P* velocity, const P& stribeck_velocity,
+                                                    const P& h) {
+  const P slow = P(friction::slow_by_stribeck_velocity) * stribeck_velocity * h;
+  const P direction = sign(velocity[0]);
+  const P above_end = direction * sum_of(velocity, batch_order) - slow;
+  return (above_end > P(0.0)) & keeps_sign(direction * velocity[0] - slow, above_end, direction * velocity[1],
+                                           curvature_bound(velocity, batch_order));
+}
+
 /// The sum of the last two terms of a series at the end of the step.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P last_terms_of(const P* c) {

@@ -11,8 +11,8 @@ one's. Another --seed draws the trials anew.
 """
 
 import argparse
-import os
 import pathlib
+import resource
 import subprocess
 import tempfile
 
@@ -58,9 +58,9 @@ def user_time(program, workload, settings, trials, engine, folder):
     command += ["--engine", engine, "-o", str(output)]
     for setting in [f"trials={trials}", "friction.n=2", *settings]:
         command += ["--set", setting]
-    before = os.times().children_user
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime  # os.times() counts hundredths
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    used = os.times().children_user - before
+    used = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
     output.unlink()
     return used
 

@@ -7,6 +7,7 @@
 #include "core/batch/kernels/free_kernel.hpp"
 #include "core/batch/kernels/kernels.hpp"
 #include "core/batch/kernels/lane_sets_kernel.hpp"
+#include "core/batch/kernels/noisy_rest_kernel.hpp"
 #include "core/batch/kernels/sample_kernel.hpp"
 #include "core/batch/kernels/slide_kernel.hpp"
 #include "core/batch/kernels/stand_kernel.hpp"
@@ -48,6 +49,7 @@ template <class V, class E, class P>
 inline constexpr Kernels kernels_with{lanes_at_stop_kernel<P>,
                                       fast_lanes_kernel<P>,
                                       creep_ahead_kernel<V>,
+                                      noisy_rest_kernel<V>,
                                       stand_kernel<V>,
                                       sample_kernel<V, Decider::pid, false>,
                                       sample_kernel<V, Decider::blocks, false>,

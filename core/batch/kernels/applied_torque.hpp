@@ -15,8 +15,11 @@ struct ConstantTorque {
 /// A torque that varies (CourseLanes). With s = sin(q·θ + φ) and c its cosine a ripple obeys
 ///
 ///   ds/dt = q·ω·c,   dc/dt = −q·ω·s.
+///
+/// Over a short travel x it is a parabola, A·(s + c·qx − s·(qx)²/2), whose error is below A·|qx|³/6.
 template <class P>
 struct VaryingTorque {
+  using Mask = typename P::Mask;
   static constexpr bool varies = true;
   P fixed[batch_order];     ///< without the ripples; [0] is the whole torque
   P velocity[batch_order];  ///< coefficients of ω·h, in the unit of the motion's series
@@ -27,11 +30,57 @@ struct VaryingTorque {
   P sine[max_lane_ripples][batch_order];
   P cosine[max_lane_ripples][batch_order];
 
+  Mask parabolic;      ///< lanes whose ripples are parabolas; of them:
+  bool has_parabolas;  ///< there are some
+  bool has_waves;      ///< there are others
+  P linear;            ///< Σ A·c·q
+  P quadratic;         ///< −Σ A·s·q²/2
+  P cubic;             ///< Σ |A·q³|/6
+  P travel[batch_order];
+  P reach;  ///< Σ|coefficient of the travel|, which bounds it
+
+  /// Makes parabolas of the ripples of some lanes.
+  ZEROCOUNT_ALWAYS_INLINE void set_parabolic(const Mask& lanes) {
+    parabolic = lanes;
+    has_parabolas = ripples > 0 && lanes.any();
+    has_waves = ripples > 0 && (~lanes).any();
+    linear = quadratic = cubic = reach = P(0.0);
+    if (!has_parabolas) return;
+    for (int i = 0; i < ripples; ++i) {
+      const P q = per_travel[i];
+      linear = linear + amplitude[i] * cosine[i][0] * q;
+      quadratic = quadratic - P(0.5) * (amplitude[i] * sine[i][0] * q * q);
+      cubic = cubic + P(1.0 / 6.0) * abs(amplitude[i] * q * q * q);
+    }
+  }
+
   /// Coefficient k of the torque, in ascending order. @param velocity_k that of ω·h
   ZEROCOUNT_ALWAYS_INLINE P coefficient(int k, const P& velocity_k) {
     velocity[k] = velocity_k;
     P torque = fixed[k];
     if (k == 0) return torque;
+    P on_parabola = torque;
+    if (has_parabolas) on_parabola = torque + coefficient_of_parabolas(k);
+    if (has_waves) torque = torque_with_waves(k);
+    torque = select(parabolic, on_parabola, torque);
+    change = change + P(static_cast<double>(k)) * abs(torque);
+    return torque;
+  }
+
+ private:
+  ZEROCOUNT_ALWAYS_INLINE P coefficient_of_parabolas(int k) {
+    travel[k] = velocity[k - 1] * P(numerics::reciprocal.of[k]);
+    reach = reach + abs(travel[k]);
+    P half(0.0);
+#pragma GCC unroll 1
+    for (int j = 1; 2 * j < k; ++j) half = half + travel[j] * travel[k - j];
+    P square = half + half;
+    if (k % 2 == 0) square = square + travel[k / 2] * travel[k / 2];
+    return linear * travel[k] + quadratic * square;
+  }
+
+  ZEROCOUNT_ALWAYS_INLINE P torque_with_waves(int k) {
+    P torque = fixed[k];
 #pragma GCC unroll 1
     for (int i = 0; i < ripples; ++i) {
       P of_sine(0.0);
@@ -46,7 +95,6 @@ struct VaryingTorque {
       cosine[i][k] = factor * of_cosine;
       torque = torque + amplitude[i] * sine[i][k];
     }
-    change = change + P(static_cast<double>(k)) * abs(torque);
     return torque;
   }
 };
@@ -76,6 +124,7 @@ ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, 
     torque.sine[i][0] = at.load(c.ripples[i].sine);
     torque.cosine[i][0] = at.load(c.ripples[i].cosine);
   }
+  torque.set_parabolic(P::Mask::of_bits(0));
 }
 
 /// How far the torque may be from its present value within `duration` (s), N m.
@@ -121,12 +170,52 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask crosses_once(const P* c, int order) {
   return (abs(c[1]) > curvature_bound(c, order)) | (P(2.0) * abs(c[2]) > third);
 }
 
+/// The time since the nominal instant of the last sample, s.
+template <class At>
+ZEROCOUNT_ALWAYS_INLINE typename At::Vector time_since_sample(const BatchState& batch, const At& at) {
+  using P = typename At::Vector;
+  const TimeLanes& time = batch.time;
+  const P passing = (at.load(time.samples_to_stop) - P(1.0)) * at.load(time.sample_time);
+  return (at.load(batch.course.piece_end) + passing) - at.load(time.time_to_stop);
+}
+
 /// θ, rad.
 template <class At>
 ZEROCOUNT_ALWAYS_INLINE typename At::Vector theta_of(const BatchState& batch, const At& at) {
   const MotionLanes& m = batch.motion;
   return select(to_mask(at.load(m.slide_direction)), at.load(m.theta),
                 at.load(m.hook) + at.load(m.elongation) + at.load(m.extension));
+}
+
+/// Adds the lines of a vibration to the series of the torque about the present instant.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void add_lines(const BatchState& batch, const At& at, P* vibration) {
+  const CourseLanes& c = batch.course;
+  const P zero(0.0);
+  const P count = at.load(c.line_count);
+  if (!((count > zero) & at.taking_part()).any()) return;
+  const P last = max(at.load(c.move_start) + at.load(batch.measures.samples) - P(1.0), zero);
+  const P sample_time = at.load(batch.time.sample_time);
+  const P time = last * sample_time + time_since_sample(batch, at);
+  for (int i = 0; i < max_lane_lines && ((count > P(static_cast<double>(i))) & at.taking_part()).any(); ++i) {
+    const LineLanes& line = c.lines[i];
+    const P rate = at.load(line.rate);
+    const P amplitude = at.load(line.amplitude);
+    P sine, cosine;
+    sine_and_cosine(rate * time + at.load(line.phase), sine, cosine);
+    sine = amplitude * sine;
+    cosine = amplitude * cosine;
+    vibration[0] = vibration[0] + sine;
+    const P turn = rate * sample_time;
+#pragma GCC unroll 1
+    for (int k = 1; k < batch_order; ++k) {
+      const P step = turn * P(numerics::reciprocal.of[k]);
+      const P next = step * cosine;  // the derivatives of sin are cos, −sin, …
+      cosine = -step * sine;
+      sine = next;
+      vibration[k] = vibration[k] + sine;
+    }
+  }
 }
 
 /// The torque of one vector of lanes at the present instant; see course_kernel.
@@ -143,7 +232,7 @@ __attribute__((noinline)) void course_of(BatchState& batch, const At& at) {
   int terms = 0;
   while ((order > P(static_cast<double>(terms))).any()) ++terms;
   if (terms > 0) {
-    const P elapsed = (at.load(c.piece_end) - time_to_stop) * at.load(batch.time.sample_rate);
+    const P elapsed = time_since_sample(batch, at) * at.load(batch.time.sample_rate);
     for (int k = 0; k <= vibration_order; ++k) vibration[k] = k <= terms ? at.load(c.vibration[k]) : P(0.0);
       // The series about the present instant, by Horner's scheme.
 #pragma GCC unroll 1
@@ -154,6 +243,7 @@ __attribute__((noinline)) void course_of(BatchState& batch, const At& at) {
   } else {
     for (int k = 0; k < batch_order; ++k) vibration[k] = P(0.0);
   }
+  add_lines(batch, at, vibration);
   P torque = (at.load(c.settled) + lag) + vibration[0];
   const P count = at.load(c.ripple_count);
   for (int i = 0; i < max_lane_ripples && (count > P(static_cast<double>(i))).any(); ++i) {

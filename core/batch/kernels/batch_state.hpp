@@ -200,6 +200,15 @@ inline constexpr int max_lane_ripples = 8;
 /// truncation error is x²⁵/25! = 2e-13 of the amplitude.
 inline constexpr int vibration_order = 24;
 
+inline constexpr int max_lane_lines = 8;
+
+/// One line of a vibration: amplitude·sin(rate·t + phase).
+struct LineLanes {
+  Lanes amplitude;  ///< N m; 0 in lanes without this line
+  Lanes rate;       ///< rad/s
+  Lanes phase;      ///< rad
+};
+
 /// One ripple: amplitude·sin(per_angle·θ + phase).
 struct RippleLanes {
   Lanes amplitude;     ///< N m; 0 in lanes without this ripple
@@ -217,8 +226,11 @@ struct alignas(64) CourseLanes {
   Lanes piece;      ///< duration of the piece, s
   Lanes piece_end;  ///< from the nominal instant k·T of the last sample, s
   Lanes tolerance;  ///< MotionTolerance::elongation, rad
-  Lanes vibrates;   ///< highest order of the vibration's series that is not 0; 0 without a vibration
-  Lanes vibration[vibration_order + 1];  ///< about k·T, coefficients in t/T, N m
+  Lanes vibrates;   ///< highest order of the vibration's series that is not 0; 0 without a series
+  Lanes vibration[vibration_order + 1];  ///< of many lines, about k·T, coefficients in t/T, N m
+  Lanes move_start;                      ///< number of the move's first sample from the start of the trial
+  Lanes line_count;
+  LineLanes lines[max_lane_lines];  ///< few of them, in place of a series
   Lanes ripple_count;
   RippleLanes ripples[max_lane_ripples];
   Lanes applied[batch_order];  ///< without ripples, about the present instant, coefficients ≥ 1 in t/T, N m
@@ -238,6 +250,7 @@ struct alignas(64) DriveLanes {
   Lanes alike;                    ///< samples in a row with this torque
   Lanes waiting[max_lane_delay];  ///< of the samples before, N m
   Lanes disturbed;                ///< by a disturbance that varies
+  Lanes stops;                    ///< at each sample, although the motor's torque stays
   Lanes jitter;                   ///< s; 0 without late samples
   RandomLanes random;             ///< of the jitter
   Lanes sample;                   ///< k of the next sample

@@ -39,6 +39,14 @@ struct CoupledTorque {
   }
 };
 
+/// Whether a torque may have ripples.
+template <class Torque>
+inline constexpr bool has_ripples = false;
+template <class P>
+inline constexpr bool has_ripples<VaryingTorque<P>> = true;
+template <class P>
+inline constexpr bool has_ripples<CoupledTorque<P, VaryingTorque<P>>> = true;
+
 /// The torque on the rotors of the lanes. @tparam Varies without a load it varies. @tparam Loaded there is a
 /// load.
 template <class P, bool Varies, bool Loaded>

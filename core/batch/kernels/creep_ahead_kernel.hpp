@@ -5,47 +5,71 @@
 
 namespace zerocount::batch {
 
+/// The motion at rest by its description.
+template <class P>
+struct MotionAhead {
+  P elongation;  ///< xs, rad
+  P extension;   ///< xp, rad
+  P hardening;   ///< xh, rad
+};
+
+/// The motion at rest of the lanes of `wanted`, `elapsed` (s) after the start of its description.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE MotionAhead<P> motion_ahead(const BatchState& batch, const At& at, const P& elapsed,
+                                                    const typename P::Mask& wanted) {
+  using Mask = typename P::Mask;
+  const CreepAheadLanes& a = batch.ahead;
+  const P zero(0.0);
+  const P x = elapsed / at.load(a.duration);
+  const auto value_of = [&](const Lanes(&c)[4]) __attribute__((always_inline)) {
+    return at.load(c[0]) + x * (at.load(c[1]) + x * (at.load(c[2]) + x * at.load(c[3])));
+  };
+  MotionAhead<P> motion{value_of(a.elongation), value_of(a.extension), value_of(a.hardening)};
+  const P t = at.load(a.start) + elapsed;
+  const Mask oscillates = t < at.load(a.oscillation_end);
+  if (!(oscillates & wanted).any()) return motion;
+  const friction::OscillationConstants<P> of = load_struct(at, a.oscillation);
+  const friction::OscillationPhase<P> now = friction::oscillation_phase(of, P(1.0) - exp(-of.decay * t), t);
+  P sine, cosine;
+  sine_and_cosine(now.phase, sine, cosine);
+  const friction::OscillationState<P> state = friction::oscillation_state(of, now.amplitude, sine, cosine);
+  motion.elongation = motion.elongation + select(oscillates, state.elongation, zero);
+  motion.extension = motion.extension + select(oscillates, state.extension, zero);
+  motion.hardening = motion.hardening + select(oscillates, at.load(a.creep_sign) * state.extension, zero);
+  return motion;
+}
+
+/// Stores the motion at rest of the lanes of `where`.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void store_ahead(BatchState& batch, const At& at, const P& elapsed,
+                                         const P& time_to_stop, const typename P::Mask& where) {
+  const MotionAhead<P> motion = motion_ahead(batch, at, elapsed, where);
+  const auto store = [&](Lanes & to, const P& value) __attribute__((always_inline)) {
+    at.store(to, select(where, value, at.load(to)));
+  };
+  store(batch.ahead.elapsed, elapsed);
+  store(batch.motion.elongation, motion.elongation);
+  store(batch.motion.extension, motion.extension);
+  store(batch.motion.hardening, motion.hardening);
+  store(batch.time.time_to_stop, time_to_stop);
+}
+
+/// The lanes at rest that go on by their description for `elapsed` (s), up to the next sample.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask goes_on_ahead(const BatchState& batch, const At& at,
+                                                       const P& elapsed) {
+  const MotionLanes& m = batch.motion;
+  return at.taking_part() & (elapsed <= at.load(batch.ahead.duration)) &
+         (at.load(m.torque) == at.load(m.rest_torque)) & (at.load(batch.time.samples_to_stop) == P(1.0));
+}
+
 /// Goes on at rest to the next stop of one vector. @returns the lanes that do; see creep_ahead_kernel.
 template <class At>
 __attribute__((noinline)) typename At::Vector::Mask creep_ahead(BatchState& batch, const At& at) {
   using P = typename At::Vector;
-  using Mask = typename P::Mask;
-  MotionLanes& m = batch.motion;
-  TimeLanes& time = batch.time;
-  CreepAheadLanes& a = batch.ahead;
-  const P zero(0.0);
-  const P elapsed = at.load(a.elapsed) + at.load(time.time_to_stop);
-  const P duration = at.load(a.duration);
-  const P torque = at.load(m.torque);
-  const Mask goes_on = at.taking_part() & (elapsed <= duration) & (torque == at.load(m.rest_torque)) &
-                       (at.load(time.samples_to_stop) == P(1.0));
-  if (!goes_on.any()) return goes_on;
-
-  const P x = elapsed / duration;
-  const auto value_of = [&](Lanes(&c)[4]) {
-    return at.load(c[0]) + x * (at.load(c[1]) + x * (at.load(c[2]) + x * at.load(c[3])));
-  };
-  P elongation = value_of(a.elongation);
-  P extension = value_of(a.extension);
-  P hardening = value_of(a.hardening);
-  const P t = at.load(a.start) + elapsed;
-  const Mask oscillates = t < at.load(a.oscillation_end);
-  if ((oscillates & goes_on).any()) {
-    const friction::OscillationConstants<P> of = load_struct(at, a.oscillation);
-    const friction::OscillationPhase<P> now = friction::oscillation_phase(of, P(1.0) - exp(-of.decay * t), t);
-    P sine, cosine;
-    sine_and_cosine(now.phase, sine, cosine);
-    const friction::OscillationState<P> state = friction::oscillation_state(of, now.amplitude, sine, cosine);
-    elongation = elongation + select(oscillates, state.elongation, zero);
-    extension = extension + select(oscillates, state.extension, zero);
-    hardening = hardening + select(oscillates, at.load(a.creep_sign) * state.extension, zero);
-  }
-  const auto store = [&](Lanes& to, const P& value) { at.store(to, select(goes_on, value, at.load(to))); };
-  store(a.elapsed, elapsed);
-  store(m.elongation, elongation);
-  store(m.extension, extension);
-  store(m.hardening, hardening);
-  store(time.time_to_stop, zero);
+  const P elapsed = at.load(batch.ahead.elapsed) + at.load(batch.time.time_to_stop);
+  const typename P::Mask goes_on = goes_on_ahead(batch, at, elapsed);
+  if (goes_on.any()) store_ahead(batch, at, elapsed, P(0.0), goes_on);
   return goes_on;
 }
 

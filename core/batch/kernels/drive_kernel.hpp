@@ -56,7 +56,7 @@ __attribute__((noinline)) typename At::Vector::Mask drive(BatchState& batch, con
     duration = select(is_late, late_duration(batch, at, jitter), duration);
     at.store(d.decay, select(is_late, exp(-rate * duration), at.load(d.decay)));
   }
-  const Mask stays = ~varies & (alike > delay) & ~is_late;
+  const Mask stays = (now == leaving) & (alike > delay) & ~is_late & ~to_mask(at.load(d.stops));
   at.store(d.alike, alike);
   at.store(d.now, now);
   at.store(d.settled, leaving);
@@ -74,8 +74,8 @@ __attribute__((noinline)) typename At::Vector::Mask drive(BatchState& batch, con
 }
 
 /// Passes the torques of the converter at a sample through a delay of whole samples and through the
-/// amplifier, as loop::Drive does. The next stop of a lane whose torque may change is the next sample, which
-/// may be late. @returns the lanes whose torque varies until then.
+/// amplifier, as loop::Drive does. The next stop of a lane whose motor's torque may change is the next
+/// sample, which may be late. @returns the lanes whose torque varies until then.
 template <class V>
 LaneSet drive_kernel(BatchState& batch, const LaneSet& lanes) {
   LaneSet varying;

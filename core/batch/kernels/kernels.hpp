@@ -23,6 +23,7 @@ struct Kernels {
   LaneSet (*lanes_at_stop)(const BatchState&);  ///< and those without a trial
   LaneSet (*fast_lanes)(const BatchState&);     ///< faster than ContactLanes::fast_velocity
   LaneSet (*creep_ahead)(BatchState&, const LaneSet&);
+  LaneSet (*noisy_rest)(BatchState&, const LaneSet&, const LaneSet& active, int max_samples);
   void (*stand)(BatchState&, const LaneSet&);
   void (*sample)(BatchState&, const LaneSet&);         ///< with the PID law alone
   void (*sample_blocks)(BatchState&, const LaneSet&);  ///< with the blocks of the controller

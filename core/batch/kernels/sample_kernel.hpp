@@ -2,9 +2,8 @@
 
 #include "core/batch/kernels/lane_blocks.hpp"
 #include "core/batch/kernels/lane_group.hpp"
-#include "core/batch/kernels/random_numbers.hpp"
+#include "core/batch/kernels/noisy_reading.hpp"
 #include "core/loop/formulas.hpp"
-#include "core/numerics/normal_quantile_formula.hpp"
 
 namespace zerocount::batch {
 
@@ -40,24 +39,11 @@ template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P noisy_count(BatchState& batch, const At& at, const P& angle) {
   NoiseLanes& n = batch.noise;
   const P k = at.load(n.sample);
+  const NoisyReading<P> reading = noisy_reading(batch, at, angle, k, at.load(n.state));
   at.store(n.sample, k + P(1.0));
-  P uniform;
-  set_uniform_at(n.random, at, k, uniform);
-  const P state = loop::next_noise(load_struct(at, n.constants), at.load(n.state), k == P(0.0),
-                                   numerics::standard_normal_quantile(uniform));
-  at.store(n.state, state);
-
-  const P phase = at.load(batch.loop.phase);
-  const P resolution = at.load(batch.loop.resolution);
-  const P position = angle / resolution + phase;
-  const P count = floor(position + at.load(n.constants.deviation) * state);
-  const P coarse_resolution = at.load(n.coarse_resolution);
-  const P coarse = loop::ideal_count(angle, coarse_resolution, phase);
-  const P ratio = resolution / coarse_resolution;
-  const typename P::Mask possible =
-      loop::counts_may_coincide((count - phase) * ratio + phase, ratio, coarse) | (count == floor(position));
-  at.store(n.disagreements, at.load(n.disagreements) + select(possible, P(0.0), P(1.0)));
-  return count;
+  at.store(n.state, reading.state);
+  at.store(n.disagreements, at.load(n.disagreements) + reading.disagrees);
+  return reading.count;
 }
 
 /// One sampling instant of one vector; see sample_kernel.
@@ -121,11 +107,11 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   at.store(l.code, code);
   at.store(m.torque, applied + at.load(l.disturbance));
   Mask steady = (error == P(0.0)) & (last_error == P(0.0)) & (change == P(0.0));
-  if constexpr (noisy) steady = Mask::of_bits(0);
   if constexpr (decider == Decider::blocks) steady = steady & ~has_memory<P>(batch, at);
   if constexpr (decider == Decider::lane_loop)
     steady = (steady & to_mask(at.load(l.given_may_stay))) | to_mask(at.load(l.given_stays));
   at.store(l.steady, to_number<P>(steady));
+  if constexpr (noisy) steady = Mask::of_bits(0);  // the count is another one at any sample
 
   const P zero(0.0);
   const P one(1.0);

@@ -100,6 +100,47 @@ ZEROCOUNT_ALWAYS_INLINE void begin_step(const BatchState& batch, const At& at, S
   step.per_h = P(1.0) / step.h;
 }
 
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, const StickStep<P>& step);
+
+/// The lanes in which parabolas are accurate enough for ripples, to a tenth of the truncation error `allowed`
+/// (rad), over a travel of at most `reach`.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask is_parabolic(const StickStep<P>& step,
+                                                      const VaryingTorque<P>& ripples, const P& reach,
+                                                      const P& allowed) {
+  return ripples.cubic * (reach * reach * reach) * abs(step.length) <= P(0.1) * allowed * step.law.stiffness;
+}
+
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE VaryingTorque<P>& ripples_of(VaryingTorque<P>& torque) {
+  return torque;
+}
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE VaryingTorque<P>& ripples_of(CoupledTorque<P, VaryingTorque<P>>& torque) {
+  return torque.alone;
+}
+
+/// The series under a torque with ripples: parabolas of them, where the travel is short enough.
+template <class P, class At, class Applied>
+ZEROCOUNT_ALWAYS_INLINE void expand_with_ripples(const BatchState& batch, const At& at,
+                                                 const StickStart<P>& start, const P& per_torque,
+                                                 Applied& applied, StickStep<P>& step) {
+  using Mask = typename P::Mask;
+  VaryingTorque<P>& ripples = ripples_of(applied);
+  Mask parabolic = P(0.0) < P(1.0);
+  for (;;) {
+    load_torque(batch, at, step.h, per_torque, step.length, applied);
+    ripples.set_parabolic(parabolic);
+    expand(step.law, start, applied, step.series);
+    if (!ripples.has_parabolas) return;
+    const Mask accurate = is_parabolic(step, ripples, ripples.reach, allowed_error(batch, at, step));
+    const Mask failed = step.here & parabolic & ~accurate;
+    if (!failed.any()) return;
+    parabolic = parabolic & ~failed;  // the others keep their series
+  }
+}
+
 template <bool Loaded, class P, class At, class Applied>
 ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, StickStep<P>& step,
                                          Applied& applied) {
@@ -142,8 +183,12 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, 
   start.torque_power = at.load(m.torque_power);
   start.at_reversal = step.at_reversal;
   start.creeping = step.creeping & step.here;
-  load_torque(batch, at, h, per_torque, step.length, applied);
-  expand(law, start, applied, step.series);
+  if constexpr (has_ripples<Applied>) {
+    expand_with_ripples(batch, at, start, per_torque, applied, step);
+  } else {
+    load_torque(batch, at, h, per_torque, step.length, applied);
+    expand(law, start, applied, step.series);
+  }
   if constexpr (Applied::varies) step.forced_rate = P(4.0) * applied.change / law.stiffness;
 
   step.breakaway_torque = at.load(c.breakaway);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/batch/kernels/passed_measures.hpp"
 #include "core/batch/kernels/stick_events.hpp"
 
 namespace zerocount::batch {
@@ -96,16 +97,6 @@ ZEROCOUNT_ALWAYS_INLINE void store_motion_of(BatchState& batch, const At& at, co
   at.store(m.spring_torque, select(done, step.torque, at.load(m.spring_torque)));
 }
 
-/// Measures `passed` samples with zero error.
-template <class P, class At>
-ZEROCOUNT_ALWAYS_INLINE void store_measures(BatchState& batch, const At& at, const P& passed) {
-  MeasureLanes& q = batch.measures;
-  trial::ArrivalMeasures<P> arrival;
-  trial::for_each_of_arrival(LoadEach<At>{at}, arrival, q);
-  trial::measure_zeros(arrival, at.load(q.limits.dwell), passed);
-  trial::for_each_of_arrival(StoreEach<At>{at}, q, arrival);
-}
-
 /// Keeps the passed samples for the observer.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const At& at, const StickStep<P>& step,
@@ -152,7 +143,7 @@ __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
   store_time(batch, at, step, timing, done);
   store_motion_of(batch, at, step, timing, done);
   if constexpr (Loaded) store_load(batch, at, applied, step.x, step.h, done);
-  store_measures(batch, at, passed);
+  measure_passed(batch, at, passed);
   const typename P::Mask lost = step.beyond | (at.load(batch.time.steps) > P(max_steps_to_stop));
   const P event = select(done & (step.event != P(reversal)), step.event, zero);
   add_events(batch, at,

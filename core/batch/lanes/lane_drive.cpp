@@ -75,7 +75,8 @@ LaneDrive::LaneDrive(const trial::TrialParameters& p)
       clock_(p.controller, p.randomness),
       drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness, jitters_),
       disturbance_(varying_part(p)),
-      vibration_(disturbance_.vibration, sample_time_),
+      vibration_(lanes_have_lines() ? std::vector<motion::Vibration>{} : disturbance_.vibration,
+                 sample_time_),
       alike_(delayed_) {
   // Until the first sample, which may be late.
   late_.next = clock_.lateness(0);

@@ -64,6 +64,14 @@ void report_passed_samples(RunningBatch& run) {
   }
 }
 
+void report_passed_at_rest(RunningBatch& run, const LaneSet& lanes) {
+  const MotionLanes& m = run.state.motion;
+  for_each_lane(lanes, [&](int lane) {
+    if (run.state.time.time_to_stop[lane] == 0.0) return;
+    report_sample_at_rest(run, lane, 0.0, theta_of(run.state, lane), {m.extension[lane], m.hardening[lane]});
+  });
+}
+
 void report_sample_at_rest(RunningBatch& run, int lane, double passed, double theta,
                            const friction::CreepState& creep) {
   BatchSample sample =

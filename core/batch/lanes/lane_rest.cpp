@@ -212,7 +212,7 @@ void pass_samples(BatchState& batch, int lane, double samples) {
 /// next sample nevertheless, because the kernels know only that one's lateness.
 bool is_late_and_steady(const RunningBatch& run, int lane) {
   return run.lanes.amplified.contains(lane) && run.state.drive.jitter[lane] > 0.0 &&
-         run.state.loop.steady[lane] != 0.0;
+         run.state.loop.steady[lane] != 0.0 && !run.lanes.noisy.contains(lane);
 }
 
 /// The next `max_samples` samples.

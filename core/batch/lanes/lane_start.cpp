@@ -260,6 +260,7 @@ void start_move(BatchState& batch, int lane, LaneTrial& trial) {
   for (Lanes* of : {&q.in_jerk, &q.change, &q.first_error, &q.theta, &q.extension, &q.slid})
     (*of)[lane] = 0.0;
   q.max_error[lane] = p.verdict.stop && timing.judged ? p.verdict.limit : infinity;
+  if (trial.drive) batch.course.move_start[lane] = static_cast<double>(trial.first_sample);
   if (trial.loop) trial.loop->start_move(trial.move, target, trial.first_sample);
   if (trial.position) trial.position->start_move(trial.move);
   start_slides(batch, lane, trial);

@@ -8,6 +8,9 @@
 namespace zerocount::batch {
 namespace {
 
+/// Samples that the kernel of noisy lanes at rest may pass in one call.
+constexpr int max_passed_samples = 256;
+
 /// Advances the lane to its next stop by the scalar plant. Runs its trial anew if the motion does not stay
 /// finite. @returns whether it does.
 bool follow_reference(RunningBatch& run, int lane) {
@@ -205,13 +208,38 @@ void move_loaded_free(RunningBatch& run, const LaneSet& lanes) {
   }
 }
 
+/// The lanes at rest whose noisy encoder alone decides how long their torque stays.
+LaneSet waiting_for_noise(const RunningBatch& run, const LaneSet& ahead) {
+  LaneSet lanes = ahead.in_both(run.lanes.noisy).without(run.lanes.with_position);
+  const DriveLanes& d = run.state.drive;
+  for_each_lane(lanes.in_both(run.lanes.amplified), [&](int lane) {
+    const bool stays = d.jitter[lane] == 0.0 && d.alike[lane] > d.delay[lane];
+    if (!stays) lanes.erase(lane);
+  });
+  return lanes;
+}
+
+/// Moves lanes at rest along the description of their motion. @returns those that it has moved.
+LaneSet follow_descriptions(RunningBatch& run, const LaneSet& ahead) {
+  LaneSet moved;
+  if (const LaneSet noisy = waiting_for_noise(run, ahead); !noisy.empty()) {
+    const bool observed = static_cast<bool>(run.observers->sample);
+    moved = run.kernels.noisy_rest(run.state, noisy, run.lanes.active, observed ? 1 : max_passed_samples);
+    if (observed) report_passed_at_rest(run, moved);
+  }
+  const LaneSet others = ahead.without(moved);
+  const LaneSet also = run.kernels.creep_ahead(run.state, others);
+  for_each_lane(also, [&](int lane) { moved.insert(lane); });
+  return moved;
+}
+
 }  // namespace
 
 void move_sticking(RunningBatch& run) {
   LaneSet lanes = between_stops(run, run.lanes.sticking);
   if (lanes.empty() && run.lanes.waiting.empty()) return;
   const LaneSet ahead = lanes.in_both(run.lanes.ahead).without(run.lanes.varying);
-  if (!ahead.empty()) lanes = lanes.without(run.kernels.creep_ahead(run.state, ahead));
+  if (!ahead.empty()) lanes = lanes.without(follow_descriptions(run, ahead));
   wake_ahead(run, lanes);
   follow_torques_of(run, lanes);
   int stepped = 0;

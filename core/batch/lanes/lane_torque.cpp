@@ -35,16 +35,31 @@ void store_piece(BatchState& batch, int lane, const LaneDrive& drive) {
 }
 
 /// Starts the drive kernel for the lane.
-void start_drive_kernel(DriveLanes& d, int lane, const trial::TrialParameters& p, const LaneDrive& drive) {
+void start_drive_kernel(DriveLanes& d, int lane, const LaneTrial& trial) {
+  const trial::TrialParameters& p = *trial.parameters;
+  const LaneDrive& drive = *trial.drive;
   for_each_quantity(d, [lane](Lanes& quantity) { quantity[lane] = 0.0; });
   d.delay[lane] = d.alike[lane] = p.controller.delay;
   d.rate[lane] = loop::lag_rate(p.amplifier);
   d.decay[lane] = numerics::exp(-d.rate[lane] * (1.0 / p.controller.sample_rate));
   d.disturbed[lane] = drive.disturbance_varies() ? 1.0 : 0.0;
+  d.stops[lane] = drive.vibration_terms() > 0 || trial.motion != LaneMotion::contact ? 1.0 : 0.0;
   d.jitter[lane] = p.controller.jitter;
   if (!drive.jitters()) return;
   store_random(d.random, lane, p.randomness, p.randomness.jitter);
   d.late[lane] = drive.piece().duration;  // until the first sample
+}
+
+void start_lines(CourseLanes& c, int lane, const LaneDrive& drive) {
+  const std::vector<motion::Vibration>& lines = drive.disturbance().vibration;
+  const std::size_t count = drive.lanes_have_lines() ? lines.size() : 0;
+  c.line_count[lane] = static_cast<double>(count);
+  for (std::size_t i = 0; i < std::size(c.lines); ++i) {
+    const motion::Vibration line = i < count ? lines[i] : motion::Vibration{};
+    c.lines[i].amplitude[lane] = line.amplitude;
+    c.lines[i].rate[lane] = line.rate;
+    c.lines[i].phase[lane] = line.phase;
+  }
 }
 
 }  // namespace
@@ -58,7 +73,8 @@ void start_drive(BatchState& batch, int lane, LaneTrial& trial) {
   c.vibrates[lane] = static_cast<double>(drive.vibration_terms());
   for (Lanes& coefficient : c.vibration) coefficient[lane] = 0.0;
   store_vibration(batch, lane, drive, 0);
-  if (needs_drive_kernel(*trial.parameters)) start_drive_kernel(batch.drive, lane, *trial.parameters, drive);
+  start_lines(c, lane, drive);
+  if (needs_drive_kernel(*trial.parameters)) start_drive_kernel(batch.drive, lane, trial);
   c.ripple_count[lane] = static_cast<double>(varying.ripple.size());
   for (std::size_t i = 0; i < std::size(c.ripples); ++i) {
     const motion::Ripple ripple = i < varying.ripple.size() ? varying.ripple[i] : motion::Ripple{};

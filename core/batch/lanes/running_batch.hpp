@@ -150,6 +150,8 @@ void report_jerk(RunningBatch& run, LaneTrial& trial);
 void report_sample(RunningBatch& run, int lane);
 /// Reports the samples within steps, from their series. (lane_records.cpp)
 void report_passed_samples(RunningBatch& run);
+/// Reports the sample that each lane between two samples has passed last, at rest.
+void report_passed_at_rest(RunningBatch& run, const LaneSet& lanes);
 /// Reports a sample at rest, `passed` samples after the last one taken. (lane_records.cpp)
 void report_sample_at_rest(RunningBatch& run, int lane, double passed, double theta,
                            const friction::CreepState& creep);

@@ -11,7 +11,6 @@
 
 #include "tests/core/batch/bench_trials.hpp"
 #include "tests/core/batch/expect_agreement.hpp"
-#include "tests/core/loop/random_blocks.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -54,20 +53,6 @@ TEST(AReversalRightBeforeASample, IsFollowedAsByTheReference) {
   for (const std::int64_t index : {26759, 41027}) {
     expect_agreement_in_lanes(bench_trials("bench-creep", index, 1, {"trials=100000"}), "bench-creep");
   }
-}
-
-/// Between jerks the rotor creeps at rest. Its lanes pass the samples of those waits at once, however late
-/// each of them is.
-TEST(AWait, IsPassedWithLateSamplesAsByTheReference) {
-  RandomBlocks draw(20261128);
-  std::vector<trial::TrialParameters> trials = bench_trials("bench-creep", 0, 32);
-  for (trial::TrialParameters& p : trials) {
-    p.controller.jitter = draw.uniform(0.0, 0.99) / p.controller.sample_rate;
-    p.randomness.jitter = {9, 10};
-    if (draw.chance(0.3)) p.amplifier.bandwidth = draw.log_uniform(300.0, 1000.0);
-    if (draw.chance(0.3)) p.command.targets.push_back(p.command.targets.back() + 1);
-  }
-  expect_agreement_in_lanes(trials, "bench-creep with late samples");
 }
 
 /// Behind couplings of all stiffnesses, over waits of a second: creep decelerates both masses, which the rest

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "core/batch/kernels/creep_ahead_kernel.hpp"
+#include "core/batch/kernels/noisy_reading.hpp"
+#include "core/batch/kernels/passed_measures.hpp"
+
+namespace zerocount::batch {
+
+/// Passes samples of one vector. @returns the lanes that have moved; see noisy_rest_kernel.
+template <class At>
+__attribute__((noinline)) typename At::Vector::Mask noisy_rest(BatchState& batch, const At& at,
+                                                               const LaneSet& active, int max_samples) {
+  using P = typename At::Vector;
+  using Mask = typename P::Mask;
+  const int present = __builtin_popcount(active.stretch(at.lane(0), P::lanes));
+  const int enough = present - present / 4;
+  if (__builtin_popcount(at.taking_part().bits()) < enough) return Mask::of_bits(0);
+  const LoopLanes& l = batch.loop;
+  const TimeLanes& time = batch.time;
+  NoiseLanes& n = batch.noise;
+  const P zero(0.0);
+  const P one(1.0);
+  const P start = at.load(batch.ahead.elapsed);
+  P elapsed = start;
+  P to_next = at.load(time.time_to_stop);
+  const P to_pass = at.load(batch.measures.limits.samples) - at.load(batch.measures.samples) - one;
+  P passed = zero;
+  P state = at.load(n.state);
+  P disagreements = at.load(n.disagreements);
+  Mask running =
+      goes_on_ahead(batch, at, elapsed + to_next) & to_mask(at.load(l.steady)) & (at.load(l.driven) == zero);
+  for (int i = 0; i < max_samples && __builtin_popcount(running.bits()) >= enough; ++i) {
+    const P next = elapsed + to_next;
+    running = running & (next <= at.load(batch.ahead.duration));
+    const MotionAhead<P> motion = motion_ahead(batch, at, next, running);
+    const P theta = at.load(batch.motion.hook) + motion.elongation + motion.extension;
+    const NoisyReading<P> reading =
+        noisy_reading(batch, at, theta - at.load(l.read_twist), at.load(n.sample) + passed, state);
+    const Mask passes = running & (reading.count == at.load(l.count)) & (passed < to_pass);
+    elapsed = select(running, next, elapsed);
+    to_next = select(passes, at.load(time.sample_time), select(running, zero, to_next));
+    passed = passed + select(passes, one, zero);
+    state = select(passes, reading.state, state);
+    disagreements = disagreements + select(passes, reading.disagrees, zero);
+    running = passes;
+  }
+  const Mask moved = (elapsed != start) & at.taking_part();
+  if (!moved.any()) return moved;
+  store_ahead(batch, at, elapsed, to_next, moved);
+  at.store(n.sample, at.load(n.sample) + passed);
+  at.store(n.state, state);
+  at.store(n.disagreements, disagreements);
+  measure_passed(batch, at, passed);
+  return moved;
+}
+
+/// Moves lanes at rest with a noisy encoder through the samples at which it reads the last count, so that the
+/// torque stays: to the first one with another count, or the last one of the move, or as far as the
+/// description of their motion lasts, or by `max_samples` samples; and as long as most of the `active` lanes
+/// of a vector go on, because the others wait. @returns the lanes that it has moved; those that are between
+/// two samples then have passed one.
+template <class V>
+LaneSet noisy_rest_kernel(BatchState& batch, const LaneSet& lanes, const LaneSet& active, int max_samples) {
+  LaneSet moved;
+  for_each_stretch<V>(lanes, [&](const auto& at) {
+    moved.insert_stretch(at.lane(0), noisy_rest(batch, at, active, max_samples).bits());
+  });
+  return moved;
+}
+
+}  // namespace zerocount::batch

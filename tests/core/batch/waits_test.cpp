@@ -1,0 +1,140 @@
+// Waits between jerks with the premises of real machines. The lanes pass many samples of a wait at once,
+// where the reference takes one after the other.
+#include <functional>
+#include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/core/batch/bench_trials.hpp"
+#include "tests/core/batch/expect_agreement.hpp"
+#include "tests/core/loop/random_blocks.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using Change = std::function<void(trial::TrialParameters&, RandomBlocks&)>;
+
+std::vector<trial::TrialParameters> changed_trials(const std::string& workload, std::int64_t count,
+                                                   std::uint64_t seed, const Change& change) {
+  RandomBlocks draw(seed);
+  std::vector<trial::TrialParameters> trials = bench_trials(workload, 0, count);
+  for (trial::TrialParameters& p : trials) {
+    if (draw.chance(0.3)) p.command.targets.push_back(p.command.targets.back() + 1);
+    if (draw.chance(0.3)) p.disturbance.torque = draw.uniform(-0.02, 0.02);
+    p.randomness.jitter = {9, 10};
+    p.randomness.fine_noise = {13, 14};
+    change(p, draw);
+  }
+  return trials;
+}
+
+/// Without an observer the lanes may pass more samples at once.
+void expect_same_unobserved(const std::vector<trial::TrialParameters>& trials) {
+  const std::vector<BatchedTrial> observed = run_batch(trials);
+  for (const batch::InstructionSet instructions : available_instruction_sets()) {
+    const std::vector<BatchedTrial> others =
+        run_batch(trials, {.lanes = 23, .instructions = instructions}, Observed::jerks);
+    for (std::size_t i = 0; i < trials.size(); ++i)
+      EXPECT_EQ(difference_in_bits(observed[i], others[i]), "") << i;
+  }
+}
+
+TEST(AWait, IsPassedWithLateSamples) {
+  const auto trials = changed_trials("bench-creep", 32, 1, [](trial::TrialParameters& p, RandomBlocks& draw) {
+    p.controller.jitter = draw.uniform(0.0, 0.99) / p.controller.sample_rate;
+    if (draw.chance(0.3)) p.amplifier.bandwidth = draw.log_uniform(300.0, 1000.0);
+  });
+  expect_agreement_in_lanes(trials, "late samples");
+  expect_same_unobserved(trials);
+}
+
+TEST(AWait, IsPassedWithANoisyEncoder) {
+  const auto trials = changed_trials("bench-creep", 32, 2, [](trial::TrialParameters& p, RandomBlocks& draw) {
+    p.encoder.fine_errors.noise = draw.log_uniform(0.003, 0.3);
+    if (draw.chance(0.3)) p.encoder.fine_errors.noise_bandwidth = draw.log_uniform(10.0, 1000.0);
+    if (draw.chance(0.3)) p.controller.delay = draw.chance(0.5) ? 1.0 : 2.0;
+    if (draw.chance(0.2)) p.controller.jitter = draw.uniform(0.0, 0.99) / p.controller.sample_rate;
+    if (draw.chance(0.3)) p.controller.blocks.error_deadband = {draw.uniform(0.1, 1.5)};
+  });
+  expect_agreement_in_lanes(trials, "a noisy encoder");
+  expect_same_unobserved(trials);
+}
+
+/// Rounding decides the reversals of a rotor that stands still under a torque that varies.
+void expect_agreement_but_in_depth(const std::vector<trial::TrialParameters>& trials,
+                                   const std::string& name) {
+  const BatchAgreement agreement = agreement_of(trials, name);
+  std::cout << name << ": " << agreement.figures() << "\n";
+  EXPECT_EQ(agreement.in_lanes, agreement.trials);
+  EXPECT_EQ(agreement.other_counts, 0);
+  EXPECT_EQ(agreement.other_measures, 0);
+  EXPECT_EQ(agreement.stray, 0);
+  EXPECT_LE(agreement.on_edge, 1);
+  EXPECT_LT(agreement.theta, 1e-7);
+}
+
+TEST(AWait, IsPassedUnderRipples) {
+  const auto trials = changed_trials("bench-creep", 32, 3, [](trial::TrialParameters& p, RandomBlocks& draw) {
+    do {
+      p.disturbance.ripple.push_back({draw.log_uniform(1e-5, 1e-2),
+                                      std::round(draw.log_uniform(1.0, 30000.0)), 0.0,
+                                      draw.uniform(0.0, 6.28)});
+    } while (draw.chance(0.4) && p.disturbance.ripple.size() < 8);
+    if (draw.chance(0.3)) p.amplifier.bandwidth = draw.log_uniform(300.0, 1000.0);
+    if (draw.chance(0.3)) p.controller.delay = 1.0;
+  });
+  expect_agreement_but_in_depth(trials, "ripples");
+  expect_same_unobserved(trials);
+}
+
+TEST(AWait, IsPassedUnderLinesOfAVibration) {
+  const auto trials = changed_trials("bench-creep", 24, 4, [](trial::TrialParameters& p, RandomBlocks& draw) {
+    do {
+      p.disturbance.vibration.push_back(
+          {draw.log_uniform(1e-6, 1e-3), draw.log_uniform(0.5, 400.0), draw.uniform(0.0, 6.28)});
+    } while (draw.chance(0.8) && p.disturbance.vibration.size() < 12);
+    if (draw.chance(0.3)) p.disturbance.ripple = {{1e-3, 36.0, 0.0, 1.0}};
+    if (draw.chance(0.3)) p.controller.delay = 1.0;
+  });
+  expect_agreement_but_in_depth(trials, "lines");
+  expect_same_unobserved(trials);
+}
+
+/// Four of five trials slide, most of them fast.
+TEST(ASecondMass, SlidesAsInTheReference) {
+  for (const bool bristles : {false, true}) {
+    const auto trials =
+        changed_trials("bench-marginal", 120, 5, [&](trial::TrialParameters& p, RandomBlocks& draw) {
+          motion::LoadParameters& load = p.plant.load;
+          load.inertia = p.plant.inertia * draw.log_uniform(0.05, 3.0);
+          load.stiffness = draw.log_uniform(300.0, 30000.0);
+          load.encoder = draw.chance(0.5) ? motion::EncoderPlace::motor : motion::EncoderPlace::load;
+          if (draw.chance(0.3)) p.amplifier.bandwidth = draw.log_uniform(300.0, 1000.0);
+          if (!bristles) return;
+          p.friction.model = friction::FrictionModel::lugre;
+          p.friction.uniform.sigma0 = 400.0;
+        });
+    if (bristles) {
+      const BatchAgreement agreement = agreement_of(trials, "bristles with a second mass");
+      std::cout << agreement.figures() << "\n";
+      EXPECT_EQ(agreement.in_lanes, agreement.trials);
+      EXPECT_EQ(agreement.other_counts, 0);
+      EXPECT_EQ(agreement.stray, 0);
+    } else {
+      const BatchAgreement agreement = agreement_of(trials, "a second mass");
+      std::cout << agreement.figures() << "\n";
+      EXPECT_EQ(agreement.in_lanes, agreement.trials);
+      EXPECT_GT(agreement.slides, 40);
+      EXPECT_EQ(agreement.other_counts, 0);
+      EXPECT_EQ(agreement.other_measures, 0);
+      EXPECT_EQ(agreement.stray, 0);
+      EXPECT_LE(agreement.part, 1 + agreement.slides / 20);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

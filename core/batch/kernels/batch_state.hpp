@@ -17,7 +17,7 @@ inline constexpr int lane_slots = max_lanes + 8;
 inline constexpr int spare_lane = max_lanes;
 
 inline constexpr int batch_order = 14;  ///< of the Taylor series
-/// A lane with more steps since its last stop falls back to the reference.
+/// A lane with more steps since its last sample falls back to the reference.
 inline constexpr double max_steps_to_stop = 500.0;
 
 using Lanes = double[lane_slots];
@@ -106,7 +106,7 @@ struct alignas(64) TimeLanes {
   Lanes samples_to_stop;  ///< including the one at the stop
   Lanes time_scale;       ///< 1/ωn with ωn² = (k1 + k2)/J, s
   Lanes next_step;        ///< step that is expected to be accurate, s
-  Lanes steps;            ///< tried since the last stop
+  Lanes steps;            ///< tried since the last sample
   Lanes sample_time;      ///< T, s
   Lanes sample_rate;      ///< 1/T, Hz
   Lanes tolerance;        ///< of a torque step, rad

@@ -79,7 +79,8 @@ ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const S
            select(done, t.time_to_stop_then, select(t.count_may_change, to_next_sample, step.time_to_stop)));
   at.store(time.samples_to_stop,
            select(done, t.samples_to_stop_then, select(t.count_may_change, one, t.samples_to_stop)));
-  at.store(time.steps, at.load(time.steps) + select(step.has_event, zero, one));
+  const P tries = at.load(time.steps) + select(step.has_event, zero, one);
+  at.store(time.steps, select(done & (t.passed > zero), zero, tries));
 }
 
 template <class P, class At>

@@ -114,9 +114,7 @@ int step_sticking(RunningBatch& run, LaneSet lanes, const MotionKernels& kernels
     start_sticking_steps(run, lanes);
   }
   // The path of a load between samples is not monotonic.
-  for_each_lane(lanes.in_both(run.lanes.loaded), [&](int lane) {
-    if (run.state.load.reads[lane] != 0.0) stop_at_next_sample(run.state, lane);
-  });
+  for_each_lane(lanes.in_both(run.lanes.loaded), [&](int lane) { stop_at_next_sample(run.state, lane); });
   kernels.stick_step(run.state, lanes);
   end_sticking_steps(run);
   return lanes.count();

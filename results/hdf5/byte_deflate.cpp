@@ -371,8 +371,10 @@ bool recur(const std::vector<Segment>& segments) {
 }
 
 /// False if a search for strings that recur would save much: nothing is written then.
+/// @param to_examine number of further blocks whose strings are examined: values that recur do so in all
+/// bytes
 bool write_block(const std::byte* first, std::span<const std::byte> block, std::uint32_t is_last,
-                 BitWriter& writer) {
+                 int& to_examine, BitWriter& writer) {
   const auto store = [&] {
     write_stored(block, is_last, writer);
     return true;
@@ -384,9 +386,11 @@ bool write_block(const std::byte* first, std::span<const std::byte> block, std::
   const Lengths lengths = code_lengths(counts, max_bits);
   const LiteralCode literals = literal_code(counts, lengths);
   constexpr std::size_t bits_of_repetition = 3;  // of each byte: a length and a distance for eight
-  if (literals.bits > bits_of_repetition * literals.bytes && 8 * literals.bytes > block.size() &&
-      recur(segments))
-    return false;
+  if (to_examine > 0 && literals.bits > bits_of_repetition * literals.bytes &&
+      8 * literals.bytes > block.size()) {
+    --to_examine;
+    if (recur(segments)) return false;
+  }
   if (!is_worth_coding(counts, lengths, block.size())) return store();
   write_coded(segments, period, lengths, is_last, writer);
   return true;
@@ -400,10 +404,11 @@ std::vector<std::byte> zlib_stream(std::span<const std::byte> bytes) {
   std::vector<std::byte> stream(bytes.size() + (bytes.size() / block_size + 1) * max_bytes_of_codes);
   BitWriter writer(stream.data());
   writer.put({0x0178, 16});  // window of 32 kB, fastest
+  int to_examine = 2;
   for (std::size_t begin = 0; begin < bytes.size(); begin += block_size) {
     const std::span<const std::byte> block = bytes.subspan(begin, std::min(block_size, bytes.size() - begin));
     const std::uint32_t is_last = begin + block_size >= bytes.size() ? 1 : 0;
-    if (!write_block(bytes.data(), block, is_last, writer)) return searched_stream(bytes);
+    if (!write_block(bytes.data(), block, is_last, to_examine, writer)) return searched_stream(bytes);
   }
   writer.end_byte();
   const std::uint32_t checksum = libdeflate_adler32(1, bytes.data(), bytes.size());

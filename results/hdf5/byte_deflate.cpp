@@ -344,9 +344,10 @@ std::vector<std::byte> searched_stream(std::span<const std::byte> bytes) {
 
 /// Whether a code saves enough to be worth the time that it takes, and that of decoding.
 bool is_worth_coding(const Counts& counts, const Lengths& lengths, std::size_t bytes) {
-  std::size_t bits = 8 * 80;  // the codes
-  for (std::size_t symbol = 0; symbol < counts.size(); ++symbol) bits += counts[symbol] * lengths[symbol];
-  return 20 * bits < 19 * 8 * bytes;
+  std::size_t bits = std::size_t{8} * 80;  // the codes
+  for (std::size_t symbol = 0; symbol < counts.size(); ++symbol)
+    bits += std::size_t{counts[symbol]} * lengths[symbol];
+  return 20 * bits < std::size_t{19} * 8 * bytes;
 }
 
 /// Whether many of the literals stand in strings of eight that occurred before, as in recorded samples. Of

@@ -27,7 +27,8 @@ inline constexpr MotionKernels motion_kernels_with{
     .bristle_rest = Varies ? nullptr : bristle_rest_kernel<P, false>,
     .bristle_fast = bristle_kernel<V, true, Varies, false>,
     .bristle_slow = bristle_kernel<V, false, Varies, false>,
-    .free = free_kernel<V, Varies>};
+    .free = free_kernel<V, Varies>,
+    .stand = Varies ? stand_coupled_kernel<V, true, false> : stand_kernel<V>};
 
 /// The same of lanes with a second mass, whose torque may vary with `Driven`.
 template <class V, class E, class P, bool Driven>
@@ -41,7 +42,8 @@ inline constexpr MotionKernels loaded_kernels_with{
     .bristle_rest = bristle_rest_kernel<P, true>,
     .bristle_fast = bristle_kernel<V, true, Driven, true>,
     .bristle_slow = bristle_kernel<V, false, Driven, true>,
-    .free = loaded_free_kernel<V, Driven>};
+    .free = loaded_free_kernel<V, Driven>,
+    .stand = stand_coupled_kernel<V, Driven, true>};
 
 /// All kernels. @tparam V their vectors. @tparam E those of steps that locate events. @tparam P the vector of
 /// those that go over all lanes.
@@ -50,7 +52,6 @@ inline constexpr Kernels kernels_with{lanes_at_stop_kernel<P>,
                                       fast_lanes_kernel<P>,
                                       creep_ahead_kernel<V>,
                                       noisy_rest_kernel<V>,
-                                      stand_kernel<V>,
                                       sample_kernel<V, Decider::pid, false>,
                                       sample_kernel<V, Decider::blocks, false>,
                                       sample_kernel<V, Decider::pid, true>,

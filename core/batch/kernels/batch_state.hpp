@@ -72,6 +72,7 @@ struct alignas(64) ContactLanes {
   Lanes max_oscillation;       ///< amplitude that may count as rest at a reversal, rad
   Lanes bristle_stiffness;     ///< σ0, N m/rad
   Lanes bristle_damping;       ///< σ1, N m s/rad
+  Lanes spent;                 ///< StandingContact::spent
 };
 
 /// The motion without friction over one sample under the torque u + l·exp(−rt): θ ← θ + travel·ω + push·u +

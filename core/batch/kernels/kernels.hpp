@@ -16,6 +16,7 @@ struct MotionKernels {
   void (*bristle_fast)(BatchState&, const LaneSet&);
   void (*bristle_slow)(BatchState&, const LaneSet&);
   void (*free)(BatchState&, const LaneSet&);
+  void (*stand)(BatchState&, const LaneSet&);
 };
 
 /// The kernels, compiled for one instruction set.
@@ -24,7 +25,6 @@ struct Kernels {
   LaneSet (*fast_lanes)(const BatchState&);     ///< faster than ContactLanes::fast_velocity
   LaneSet (*creep_ahead)(BatchState&, const LaneSet&);
   LaneSet (*noisy_rest)(BatchState&, const LaneSet&, const LaneSet& active, int max_samples);
-  void (*stand)(BatchState&, const LaneSet&);
   void (*sample)(BatchState&, const LaneSet&);         ///< with the PID law alone
   void (*sample_blocks)(BatchState&, const LaneSet&);  ///< with the blocks of the controller
   void (*sample_noisy)(BatchState&, const LaneSet&);   ///< the same with a noisy encoder

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/batch/kernels/lane_group.hpp"
+#include "core/batch/kernels/coupled_torque.hpp"
+#include "core/batch/kernels/velocity_step.hpp"
 
 namespace zerocount::batch {
 
@@ -36,6 +37,54 @@ template <class V>
 void stand_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
   for_each_stretch<V>(lanes, [&](const auto& at) { stand(batch, at); });
+}
+
+/// The step of one vector; see stand_coupled_kernel.
+template <bool Varies, bool Loaded, class At>
+__attribute__((noinline)) void stand_coupled(BatchState& batch, const At& at) {
+  using P = typename At::Vector;
+  using Mask = typename P::Mask;
+  TimeLanes& time = batch.time;
+  const P zero(0.0);
+  const P one(1.0);
+  const P time_to_stop = at.load(time.time_to_stop);
+  P h = time_to_stop;
+  if constexpr (Loaded) h = without_short_remainder(min(at.load(time.next_step), h), time_to_stop);
+  typename TorqueOf<P, Varies, Loaded>::Type applied;
+  load_torque(batch, at, h, one, one, applied);
+  P bound = abs(torque_on_rotor<Loaded>(batch, at, zero));
+  applied.coefficient(0, zero);
+  for (int k = 1; k < batch_order; ++k) {
+    const P coefficient = abs(applied.coefficient(k, zero));
+    // The last two count twice: for the terms beyond them.
+    bound = bound + (k < batch_order - 2 ? coefficient : P(2.0) * coefficient);
+  }
+  ContactLanes& c = batch.contact;
+  Mask held = bound < P(1.0 - 1e-12) * at.load(c.breakaway);
+  at.store(c.spent, select(held, zero, at.load(c.spent)));
+  if constexpr (Loaded) {
+    VelocityStep<P> step = velocity_step(batch, at, time_to_stop, h, last_terms_of_load(applied));
+    step.too_long = step.inexact;
+    step.halts = zero < zero;
+    step.done = held & ~step.too_long;
+    store_time(batch, at, step);
+    store_load(batch, at, applied, step.x, h, step.done);
+    held = held | step.too_long;
+  } else {
+    at.store(time.time_to_stop, select(held, zero, time_to_stop));
+    at.store(time.steps, at.load(time.steps) + one);
+  }
+  held = held & ~(at.load(time.steps) > P(max_steps_to_stop));
+  add_events(batch, at, events_where<P>(~held, breakaway));
+}
+
+/// One step of lanes that Coulomb's friction holds under a torque that varies, or with a second mass
+/// (`Loaded`), one sample ahead. Reports breakaway where a bound of the torque is beyond that of breakaway;
+/// such a lane stays where it is.
+template <class V, bool Varies, bool Loaded>
+void stand_coupled_kernel(BatchState& batch, const LaneSet& lanes) {
+  batch.event_count = 0;
+  for_each_stretch<V>(lanes, [&](const auto& at) { stand_coupled<Varies, Loaded>(batch, at); });
 }
 
 }  // namespace zerocount::batch

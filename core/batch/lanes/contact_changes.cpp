@@ -88,6 +88,18 @@ void stop_at_next_sample(BatchState& batch, int lane) {
   time.samples_to_stop[lane] = 1.0;
 }
 
+double time_of(const BatchState& batch, int lane, const LaneTrial& trial) {
+  const auto k = static_cast<double>(std::max(last_sample(batch, lane, trial), std::int64_t{0}));
+  const double elapsed = batch.course.piece_end[lane] - batch.time.time_to_stop[lane];
+  return k * batch.time.sample_time[lane] + elapsed;
+}
+
+void store_load(BatchState& batch, int lane, const motion::Load& load) {
+  batch.load.twist[lane] = load.twist;
+  batch.load.omega[lane] = load.omega;
+  batch.loop.read_twist[lane] = load.twist * batch.load.reads[lane];
+}
+
 void load_motion(const BatchState& batch, int lane, LaneTrial& trial) {
   const MotionLanes& m = batch.motion;
   friction::PlantMotion motion;
@@ -123,11 +135,7 @@ void store_motion(BatchState& batch, int lane, LaneTrial& trial) {
   m.at_reversal[lane] = 0.0;
   m.rest_torque[lane] = std::numeric_limits<double>::quiet_NaN();
   trial.breakaway_spring_torque = motion.breakaway_spring_torque;
-  if (const std::optional<motion::Load>& load = trial.plant->load()) {
-    batch.load.twist[lane] = load->twist;
-    batch.load.omega[lane] = load->omega;
-    batch.loop.read_twist[lane] = load->twist * batch.load.reads[lane];
-  }
+  if (const std::optional<motion::Load>& load = trial.plant->load()) store_load(batch, lane, *load);
   store_branch(batch, lane, trial.plant->spring());
   remember_depth(trial);
 }
@@ -182,11 +190,7 @@ bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const m
   load_motion(batch, lane, trial);
   const std::int64_t before = trial.plant->breakaways();
   trial.plant->forget_deepest();
-  if (trial.drive) {
-    const double elapsed = batch.course.piece_end[lane] - batch.time.time_to_stop[lane];
-    const auto k = static_cast<double>(std::max(last_sample(batch, lane, trial), std::int64_t{0}));
-    trial.plant->set_time(k * batch.time.sample_time[lane] + elapsed);
-  }
+  if (trial.drive) trial.plant->set_time(time_of(batch, lane, trial));
   trial.plant->advance(torque, batch.time.time_to_stop[lane], plant::max_steps_of_sample);
   trial.breakaways += trial.plant->breakaways() - before;
   trial.deepest = std::max(trial.deepest, trial.plant->deepest());

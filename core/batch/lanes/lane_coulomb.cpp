@@ -1,9 +1,11 @@
-// Lanes with Coulomb friction alone (friction::CoulombFriction): they stand until they break away. Their
+// Lanes with Coulomb friction alone, friction::CoulombFriction: they stand until they break away. Their
 // slides are those of the kernels, but for the first step, which leaves ω = 0.
 #include <cmath>
+#include <utility>
 
 #include "core/batch/lanes/running_batch.hpp"
 #include "core/friction/sliding/sliding.hpp"
+#include "core/friction/sliding/standing.hpp"
 #include "core/numerics/sign.hpp"
 #include "core/trial/rig.hpp"
 
@@ -28,11 +30,13 @@ bool drives(const BatchState& batch, int lane, const LaneTrial& trial, double di
                                trial.parameters->plant.inertia, torque);
 }
 
-/// Takes the first step of a slide under the torque, which drives it.
-void begin_slide(RunningBatch& run, int lane, double direction, const motion::TorqueCourse& torque) {
+/// Takes the first step of a slide under the torque, which drives it. @param at_level Slide::at_level.
+void begin_slide(RunningBatch& run, int lane, double direction, const motion::TorqueCourse& torque,
+                 bool at_level = false) {
   BatchState& batch = run.state;
   LaneTrial& trial = run.trial_of(lane);
   friction::Slide slide = slide_from_rest(batch, lane, trial, direction);
+  slide.at_level = at_level;
   ++trial.breakaways;
   const friction::SlideStep step =
       friction::slide_step(slide, trial.parameters->plant.inertia, torque, trial.elongation_tolerance,
@@ -42,7 +46,8 @@ void begin_slide(RunningBatch& run, int lane, double direction, const motion::To
   m.omega[lane] = slide.omega;
   m.slide_direction[lane] = direction;
   batch.time.time_to_stop[lane] -= step.time;
-  batch.time.next_step[lane] = 2.0 * step.time;
+  batch.time.next_step[lane] = step.ended ? batch.time.sample_time[lane] : 2.0 * step.time;
+  if (torque.load != nullptr) store_load(batch, lane, *torque.load);
   if (step.ended) stand_still(batch, lane, trial);
   set_motion(run, lane);
 }
@@ -61,23 +66,47 @@ void leave_rest(RunningBatch& run, int lane) {
   }
 }
 
-/// The step of a standing lane under a torque that varies by the lag of the amplifier, as that of
-/// CoulombFriction.
-void stand_varying(RunningBatch& run, int lane) {
-  BatchState& batch = run.state;
-  const LaneTrial& trial = run.trial_of(lane);
-  const motion::TorqueCourse torque = present_course(batch, lane);
-  const double breakaway = batch.contact.breakaway[lane];
-  double& time_to_stop = batch.time.time_to_stop[lane];
-  const double towards = numerics::sign_of(torque.now);
-  if (std::abs(torque.now) > breakaway && drives(batch, lane, trial, towards, torque))
-    return begin_slide(run, lane, towards, torque);
+/// The torque on a standing rotor from now on, with what varies of it.
+class StandingTorque {
+ public:
+  StandingTorque(const RunningBatch& run, int lane, const LaneTrial& trial)
+      : load_{trial.parameters->plant.load, run.state.load.twist[lane], run.state.load.omega[lane]},
+        varying_{trial.drive ? trial.drive->disturbance() : none, 0.0, run.state.motion.hook[lane]} {
+    const BatchState& batch = run.state;
+    course = run.lanes.varying.contains(lane) ? present_course(batch, lane)
+                                              : motion::constant_torque(batch.motion.torque[lane]);
+    if (run.lanes.loaded.contains(lane)) course.load = &load_;
+    if (!motion::varies(varying_.of)) return;
+    varying_.time = time_of(batch, lane, trial);
+    course.disturbance = &varying_;
+  }
+  StandingTorque(const StandingTorque&) = delete;
+  StandingTorque& operator=(const StandingTorque&) = delete;
+
+  motion::TorqueCourse course;
+
+  /// Goes on by `time` (s); the load has moved.
+  void go_on(double time) {
+    course = motion::course_after(course, time);
+    varying_.time += time;
+  }
+
+ private:
+  static inline const motion::Disturbance none{};
+  motion::Load load_;
+  motion::VaryingTorque varying_;
+};
+
+/// The step of a standing lane under the lag of an amplifier alone, which is monotonic.
+void stand_under_lag(RunningBatch& run, int lane, const motion::TorqueCourse& torque) {
+  const double breakaway = run.state.contact.breakaway[lane];
+  double& time_to_stop = run.state.time.time_to_stop[lane];
   if (!motion::motor_is_constant(torque) && std::abs(torque.settled) > breakaway) {
     const double direction = numerics::sign_of(torque.settled);
     // Starts at the level itself, so that rounding does not decide whether it is passed.
     const motion::TorqueCourse release{direction * breakaway, torque.settled, torque.rate};
     const double waiting = motion::time_until(torque, release.now);
-    if (waiting < time_to_stop && drives(batch, lane, trial, direction, release)) {
+    if (waiting < time_to_stop && drives(run.state, lane, run.trial_of(lane), direction, release)) {
       time_to_stop -= waiting;
       return begin_slide(run, lane, direction, release);
     }
@@ -85,12 +114,53 @@ void stand_varying(RunningBatch& run, int lane) {
   time_to_stop = 0.0;
 }
 
+/// The step of a standing lane whose motor's torque alone may release it, as that of CoulombFriction.
+void stand_under_motor(RunningBatch& run, int lane, const motion::TorqueCourse& torque) {
+  const double towards = numerics::sign_of(torque.now);
+  const bool is_beyond = std::abs(torque.now) > run.state.contact.breakaway[lane];
+  if (is_beyond && drives(run.state, lane, run.trial_of(lane), towards, torque)) {
+    begin_slide(run, lane, towards, torque);
+  } else {
+    stand_under_lag(run, lane, torque);
+  }
+}
+
+/// The step of a standing lane whose torque may release it, as that of CoulombFriction.
+void stand_by_reference(RunningBatch& run, int lane) {
+  BatchState& batch = run.state;
+  if (batch.time.steps[lane] > max_steps_to_stop) return fall_back_to_scalar(run, lane);
+  const LaneTrial& trial = run.trial_of(lane);
+  StandingTorque torque(run, lane, trial);
+  if (!motion::is_coupled(torque.course)) return stand_under_motor(run, lane, torque.course);
+  ContactLanes& c = batch.contact;
+  const friction::StandingContact contact{c.breakaway[lane], c.inertia[lane],
+                                          std::exchange(c.spent[lane], 0.0) != 0.0};
+  double& time_to_stop = batch.time.time_to_stop[lane];
+  const friction::StandStep step =
+      friction::stand_step(contact, torque.course, trial.elongation_tolerance, time_to_stop);
+  if (torque.course.load != nullptr) store_load(batch, lane, *torque.course.load);
+  time_to_stop = step.time < time_to_stop ? time_to_stop - step.time : 0.0;
+  torque.go_on(step.time);
+  if (step.direction != 0.0) begin_slide(run, lane, step.direction, torque.course, step.at_level);
+}
+
+/// Stands for a step under torques that vary, or with a second mass.
+void stand_coupled(RunningBatch& run, const LaneSet& lanes) {
+  for_each_lane(lanes.in_both(run.lanes.loaded), [&](int lane) { stop_at_next_sample(run.state, lane); });
+  follow_torques_of(run, lanes);
+  for (const auto& [kernels, some] : by_kernels(run, lanes)) {
+    if (some.empty()) continue;
+    kernels.stand(run.state, some);
+    for (int i = 0; i < run.state.event_count; ++i) stand_by_reference(run, run.state.event_lanes[i]);
+  }
+}
+
 /// Stands up to the next stop, or until the torque releases the rotor.
 void stand_under_constant_torque(RunningBatch& run, const LaneSet& lanes) {
   BatchState& batch = run.state;
   double before[max_lanes];
   for_each_lane(lanes, [&](int lane) { before[lane] = batch.measures.samples[lane]; });
-  run.kernels.stand(batch, lanes);
+  run.kernels.constant.stand(batch, lanes);
   if (run.observers->sample) {
     for_each_lane(lanes, [&](int lane) {
       const double passed = batch.measures.samples[lane] - before[lane];
@@ -108,6 +178,8 @@ void stand_still(BatchState& batch, int lane, LaneTrial& trial) {
   const trial::TrialParameters& p = *trial.parameters;
   trial.standing = friction::friction_at(p.friction, p.initial.position + m.theta[lane], ++trial.contacts);
   store_contact_of_standing(batch, lane, trial.standing);
+  batch.contact.spent[lane] =
+      friction::leads_nowhere(m.hook[lane], m.theta[lane], trial.elongation_tolerance) ? 1.0 : 0.0;
   m.hook[lane] = m.theta[lane];
   m.omega[lane] = 0.0;
   m.slide_direction[lane] = 0.0;
@@ -123,16 +195,16 @@ void start_coulomb(BatchState& batch, int lane, LaneTrial& trial) {
   for (Lanes* of : {&m.theta, &m.hook, &m.elongation, &m.extension, &m.hardening}) (*of)[lane] = 0.0;
   m.omega[lane] = start.velocity;
   m.slide_direction[lane] = start.velocity == 0.0 ? 0.0 : numerics::sign_of(start.velocity);
+  batch.contact.spent[lane] = 0.0;
   batch.time.tolerance[lane] = trial.elongation_tolerance;
 }
 
 void move_standing(RunningBatch& run) {
   if (run.lanes.standing.empty()) return;
   const LaneSet lanes = run.lanes.standing.without(run.kernels.lanes_at_stop(run.state));
-  const LaneSet varying = lanes.in_both(run.lanes.varying);
-  if (const LaneSet constant = lanes.without(varying); !constant.empty())
-    stand_under_constant_torque(run, constant);
-  for_each_lane(varying, [&](int lane) { stand_varying(run, lane); });
+  const LaneSet constant = lanes.without(run.lanes.varying).without(run.lanes.loaded);
+  if (!constant.empty()) stand_under_constant_torque(run, constant);
+  if (const LaneSet coupled = lanes.without(constant); !coupled.empty()) stand_coupled(run, coupled);
 }
 
 }  // namespace zerocount::batch

@@ -76,9 +76,6 @@ std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMo
       if (vibrates) return "disturbance.vibration without friction";
       break;
     case LaneMotion::coulomb:
-      if (!ripple.empty()) return "disturbance.ripple with friction.model coulomb";
-      if (vibrates) return "disturbance.vibration with friction.model coulomb";
-      break;
     case LaneMotion::contact:
     case LaneMotion::bristle:
       break;
@@ -110,8 +107,6 @@ bool has_samples(const trial::TrialParameters& p) {
 std::string_view lacking(const trial::TrialParameters& p, LaneMotion motion) {
   [[maybe_unused]] const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial,
                                 verdict, randomness, disturbance] = p;
-  if (motion == LaneMotion::coulomb && motion::has_load(plant))
-    return "plant.load with friction.model coulomb";
   // After a late sample the series must reach up to the next one.
   const double max_frequency = 0.5 / (1.0 / controller.sample_rate + controller.jitter);
   for (const std::string_view feature :

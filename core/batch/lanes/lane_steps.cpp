@@ -83,25 +83,6 @@ void end_sticking_steps(RunningBatch& run) {
   }
 }
 
-/// Lanes that a kind of kernels moves.
-struct KernelLanes {
-  const MotionKernels& kernels;
-  LaneSet lanes;
-};
-
-/// Divides lanes by the kernels that move them.
-std::array<KernelLanes, 4> by_kernels(const RunningBatch& run, const LaneSet& lanes) {
-  const Kernels& k = run.kernels;
-  const LaneSet loaded = lanes.in_both(run.lanes.loaded);
-  const LaneSet alone = lanes.without(loaded);
-  const LaneSet& varying = run.lanes.varying;
-  const LaneSet& driven = run.lanes.loaded_driven;
-  return {{{k.constant, alone.without(varying)},
-           {k.varying, alone.in_both(varying)},
-           {k.loaded, loaded.without(driven)},
-           {k.loaded_driven, loaded.in_both(driven)}}};
-}
-
 /// @returns the number of lanes that took a step.
 int step_sticking(RunningBatch& run, LaneSet lanes, const MotionKernels& kernels) {
   const LaneSet varying = lanes.in_both(run.lanes.varying);
@@ -174,14 +155,6 @@ LaneSet between_stops(const RunningBatch& run, const LaneSet& lanes) {
   return lanes.without(run.kernels.lanes_at_stop(run.state));
 }
 
-/// Computes the torques whose series the steps of these lanes follow.
-void follow_torques_of(RunningBatch& run, const LaneSet& lanes) {
-  for (const LaneSet& set : {run.lanes.varying.without(run.lanes.loaded), run.lanes.loaded_driven}) {
-    const LaneSet some = lanes.in_both(set);
-    if (!some.empty()) run.kernels.course(run.state, some);
-  }
-}
-
 /// Moves lanes without friction through a part of a sample.
 void move_free_part(RunningBatch& run, const LaneSet& lanes) {
   MotionLanes& m = run.state.motion;
@@ -232,6 +205,25 @@ LaneSet follow_descriptions(RunningBatch& run, const LaneSet& ahead) {
 }
 
 }  // namespace
+
+std::array<KernelLanes, 4> by_kernels(const RunningBatch& run, const LaneSet& lanes) {
+  const Kernels& k = run.kernels;
+  const LaneSet loaded = lanes.in_both(run.lanes.loaded);
+  const LaneSet alone = lanes.without(loaded);
+  const LaneSet& varying = run.lanes.varying;
+  const LaneSet& driven = run.lanes.loaded_driven;
+  return {{{k.constant, alone.without(varying)},
+           {k.varying, alone.in_both(varying)},
+           {k.loaded, loaded.without(driven)},
+           {k.loaded_driven, loaded.in_both(driven)}}};
+}
+
+void follow_torques_of(RunningBatch& run, const LaneSet& lanes) {
+  for (const LaneSet& set : {run.lanes.varying.without(run.lanes.loaded), run.lanes.loaded_driven}) {
+    const LaneSet some = lanes.in_both(set);
+    if (!some.empty()) run.kernels.course(run.state, some);
+  }
+}
 
 void move_sticking(RunningBatch& run) {
   LaneSet lanes = between_stops(run, run.lanes.sticking);

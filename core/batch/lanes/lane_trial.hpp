@@ -69,6 +69,12 @@ void store_motion(BatchState& batch, int lane, LaneTrial& trial);
 /// store_motion(), and the contact's parameters, which a slide or a scalar step may have changed.
 void store_contact(BatchState& batch, int lane, LaneTrial& trial);
 
+/// Copies the state of the second mass into the batch state.
+void store_load(BatchState& batch, int lane, const motion::Load& load);
+
+/// The present time of a lane with a drive, s from the start of the trial.
+double time_of(const BatchState& batch, int lane, const LaneTrial& trial);
+
 /// Makes the next sampling instant the next stop.
 void stop_at_next_sample(BatchState& batch, int lane);
 

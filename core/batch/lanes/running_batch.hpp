@@ -118,6 +118,17 @@ void move_free(RunningBatch& run);
 /// Inserts the lane, which has a trial, into the set of its motion. (lane_steps.cpp)
 void set_motion(RunningBatch& run, int lane);
 
+/// Lanes that a kind of kernels moves.
+struct KernelLanes {
+  const MotionKernels& kernels;
+  LaneSet lanes;
+};
+
+/// Divides lanes by the kernels that move them. (lane_steps.cpp)
+std::array<KernelLanes, 4> by_kernels(const RunningBatch& run, const LaneSet& lanes);
+/// Computes the torques whose series the steps of these lanes follow. (lane_steps.cpp)
+void follow_torques_of(RunningBatch& run, const LaneSet& lanes);
+
 /// Passes the torques decided at this sample through the drive kernel. (lane_torque.cpp)
 void amplify(RunningBatch& run, const LaneSet& lanes);
 /// Starts the present piece of the torque of the lane's drive. (lane_torque.cpp)

@@ -3,47 +3,10 @@
 #include <cmath>
 #include <utility>
 
+#include "core/friction/sliding/standing.hpp"
 #include "core/numerics/sign.hpp"
 
 namespace zerocount::friction {
-namespace {
-
-struct StandingSeries {
-  numerics::Series position{};  ///< 0
-  numerics::Series omega{};     ///< 0
-  numerics::Series exponent{};  ///< 0
-  numerics::Series torque{};    ///< on the rotor, N m
-};
-
-/// A rotor at rest while the torque on it, u − Ts, is within the breakaway torque.
-struct StandingRotor {
-  using Expansion = StandingSeries;
-  enum class Event { none, released };
-
-  double breakaway;     ///< Fs, N m
-  double direction{0};  ///< of the torque on it at the end of the step: −1, 1
-
-  static StandingSeries start() { return {}; }
-  static double expand(StandingSeries& s, std::size_t k, double torque) {
-    s.torque[k] = torque;
-    return 0.0;
-  }
-  motion::NextEvent<Event> first_event(const StandingSeries& s, double step) const {
-    motion::NextEvent<Event> next{step};
-    for (const double sign : {1.0, -1.0}) {
-      numerics::Series margin = s.torque;
-      for (double& coefficient : margin) coefficient *= -sign;
-      margin[0] += breakaway;
-      if (margin[0] > 0.0) next.offer(motion::next_sign_change(margin, next.time), Event::released);
-    }
-    return next;
-  }
-  void go_to(const StandingSeries& s, const motion::NextEvent<Event>& next) {
-    direction = numerics::sign_of(numerics::value_at(s.torque, next.time));
-  }
-};
-
-}  // namespace
 
 CoulombFriction::CoulombFriction(const motion::PlantParameters& plant, FrictionAlongRotor friction,
                                  const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
@@ -61,7 +24,7 @@ double CoulombFriction::step(const motion::TorqueCourse& torque, double duration
 }
 
 double CoulombFriction::slide(const motion::TorqueCourse& torque, double duration) {
-  Slide slide{contact_, plant_.sliding_damping, theta_, omega_, direction_};
+  Slide slide{contact_, plant_.sliding_damping, theta_, omega_, direction_, std::exchange(at_level_, false)};
   const SlideStep step = slide_step(slide, plant_.inertia, torque, tolerance_, duration);
   theta_ = slide.theta;
   omega_ = slide.omega;
@@ -69,6 +32,7 @@ double CoulombFriction::slide(const motion::TorqueCourse& torque, double duratio
     contact_ = friction_at(friction_, position_ + theta_, ++contact_number_);
     omega_ = 0.0;
     sliding_ = false;
+    spent_ = leads_nowhere(slide_start_, theta_, tolerance_);
   }
   return step.time;
 }
@@ -81,13 +45,13 @@ bool CoulombFriction::torque_drives(double direction, const motion::TorqueCourse
 /// An excess of torque too small to change ω in rounding does not start a slide: otherwise the rotor would
 /// slide and stick without end.
 double CoulombFriction::stand(const motion::TorqueCourse& torque, double duration) {
+  if (motion::is_coupled(torque)) return stand_coupled(torque, duration);
   const double torque_now = motion::torque_on_rotor(torque, 0.0);
   const int towards = numerics::sign_of(torque_now);
   if (std::abs(torque_now) > contact_.breakaway && torque_drives(towards, torque)) {
     break_away(towards);
     return 0.0;
   }
-  if (motion::is_coupled(torque)) return stand_coupled(torque, duration);
   if (motion::is_constant(torque) || std::abs(torque.settled) <= contact_.breakaway) return duration;
   const double direction = numerics::sign_of(torque.settled);
   // Starts at the level itself, so that rounding does not decide whether it is passed.
@@ -99,14 +63,16 @@ double CoulombFriction::stand(const motion::TorqueCourse& torque, double duratio
 }
 
 double CoulombFriction::stand_coupled(const motion::TorqueCourse& torque, double duration) {
-  StandingRotor rotor{contact_.breakaway};
-  const auto next = motion::taylor_step(rotor, plant_.inertia, torque, tolerance_, duration);
-  if (next.event == StandingRotor::Event::released) break_away(rotor.direction);
-  return next.time;
+  const StandingContact contact{contact_.breakaway, plant_.inertia, std::exchange(spent_, false)};
+  const StandStep step = stand_step(contact, torque, tolerance_, duration);
+  if (step.direction != 0.0) break_away(step.direction, step.at_level);
+  return step.time;
 }
 
-void CoulombFriction::break_away(double direction) {
+void CoulombFriction::break_away(double direction, bool at_level) {
   direction_ = direction;
+  at_level_ = at_level;
+  slide_start_ = theta_;
   sliding_ = true;
   ++breakaways_;
 }

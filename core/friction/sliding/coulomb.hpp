@@ -44,7 +44,7 @@ class CoulombFriction : public WithoutCreepAndReversals {
   double stand_coupled(const motion::TorqueCourse& torque, double duration);
   double slide(const motion::TorqueCourse& torque, double duration);
   bool torque_drives(double direction, const motion::TorqueCourse& torque) const;
-  void break_away(double direction);
+  void break_away(double direction, bool at_level = false);
 
   motion::PlantParameters plant_;
   FrictionAlongRotor friction_;
@@ -55,7 +55,10 @@ class CoulombFriction : public WithoutCreepAndReversals {
   double theta_{0.0};
   double omega_;
   bool sliding_;
-  double direction_;  // −1, 1
+  double direction_;         // −1, 1
+  bool at_level_{false};     // Slide::at_level, of a slide that is to begin
+  double slide_start_{0.0};  // θ at the start of the slide, rad
+  bool spent_{false};        // StandingContact::spent
   std::int64_t breakaways_{0};
 };
 

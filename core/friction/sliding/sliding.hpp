@@ -35,11 +35,14 @@ struct Slide {
   double theta;      ///< rad
   double omega;      ///< rad/s
   double direction;  ///< d, −1 or 1
+  /// At ω = 0: u has just reached d·g(0). Its rounded value does not decide whether the slide begins.
+  bool at_level{false};
 
   SlidingSeries start() const;
   double expand(SlidingSeries& s, std::size_t k, double torque) const {
     const double decay = s.StribeckSeries::expand(s.curve, s.omega, k);
     s.position[k + 1] = s.omega[k] * numerics::reciprocal[k + 1];
+    if (at_level && k == 0) return 0.0;
     const double driving = k == 0 ? torque - s.curve.coulomb : torque;
     return driving - damping * s.omega[k] - s.curve.excess * decay;
   }

@@ -44,7 +44,6 @@ trial::TrialParameters trial_under(friction::FrictionModel model, TrialKind kind
   p.friction.model = model;
   // Without friction the lanes know delays of whole samples.
   if (model == friction::FrictionModel::none) p.controller.delay = std::round(p.controller.delay);
-  if (model == friction::FrictionModel::coulomb) p.plant.load = {};
   friction::FrictionParameters& f = p.friction.uniform;
   f.sigma0 = f.k1 + static_cast<double>(index % 5) * 0.25 * f.k2;
   f.sigma1 = index % 4 == 0 ? 0.0 : 0.4 * static_cast<double>(index % 4) * p.plant.presliding_damping;

@@ -113,16 +113,6 @@ TEST(RunsInLanes, IsFalseOfWhatLanesDoNotKnowWhichThenIsTheReferences) {
          p.friction.model = friction::FrictionModel::none;
          p.disturbance.ripple = {{1e-3, 10.0, 0.0, 0.0}};
        }},
-      {"a ripple with coulomb",
-       [](trial::TrialParameters& p) {
-         p.friction.model = friction::FrictionModel::coulomb;
-         p.disturbance.ripple = {{1e-3, 10.0, 0.0, 0.0}};
-       }},
-      {"a load with coulomb",
-       [](trial::TrialParameters& p) {
-         p.friction.model = friction::FrictionModel::coulomb;
-         p.plant.load.inertia = 1e-4;
-       }},
       {"gms", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::gms; }},
   };
   std::vector<trial::TrialParameters> trials;

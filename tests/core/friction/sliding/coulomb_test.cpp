@@ -218,6 +218,55 @@ TEST(CoulombPlant, FollowsEveryTorqueAtTheVeryLevel) {
   }
 }
 
+// A load, a ripple and a vibration take the torque through the level at any rate, and rounding puts it on
+// either side of the level at the instant found. A coupling at 1e5 rad/s takes some 200 steps a sample.
+TEST(CoulombPlant, IsReleasedByALoadOrADisturbanceInABoundedNumberOfSteps) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const auto log_uniform = [&](double low, double high) { return low * std::pow(high / low, unit(random)); };
+  std::int64_t breakaways = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    motion::PlantParameters rotor;
+    rotor.inertia = log_uniform(1e-4, 1e-2);
+    if (trial % 3 != 0) rotor.load = {log_uniform(1e-5, 1e-2), log_uniform(1.0, 1e5), log_uniform(1e-6, 0.1)};
+    CoulombPlant plant(rotor, coulomb(trial % 2 == 0 ? 1.0 : unit(random)), {}, {1e-10 * testing::count});
+    motion::Disturbance disturbance;
+    if (trial % 3 != 1) disturbance.vibration = {{log_uniform(1e-4, 0.1), log_uniform(1.0, 3000.0), 1.0}};
+    if (trial % 3 == 2) disturbance.ripple = {{log_uniform(1e-4, 0.1), log_uniform(1.0, 3000.0), 1.0}};
+    plant.disturb(disturbance);
+    for (int k = 0; k < 60; ++k) {
+      plant.advance(motion::constant_torque(1.3 * level * (2.0 * unit(random) - 1.0)), 5e-4, 400);
+      ASSERT_TRUE(plant.finite()) << trial << ' ' << k;
+    }
+    breakaways += plant.breakaways();
+  }
+  EXPECT_GT(breakaways, 10000);
+}
+
+// The torque of a fast amplifier is no polynomial over a sample. A vibration without amplitude has the rotor
+// stand by series in place of the closed form.
+TEST(CoulombPlant, IsReleasedByAnAmplifierBesideADisturbanceOfNoSizeAsWithoutIt) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int trial = 0; trial < 300; ++trial) {
+    CoulombPlant alone({}, coulomb(0.7), {}, coulomb_tolerance);
+    CoulombPlant beside({}, coulomb(0.7), {}, coulomb_tolerance);
+    motion::Disturbance disturbance;
+    disturbance.vibration = {{0.0, 100.0, 0.0}};
+    beside.disturb(disturbance);
+    const double rate = std::pow(10.0, 2.0 + 3.0 * unit(random));
+    motion::TorqueCourse course{0.0, 0.0, rate};
+    for (int k = 0; k < 4; ++k) {
+      course.settled = 1.2 * level * (2.0 * unit(random) - 1.0);
+      alone.advance(course, 5e-4);
+      beside.advance(course, 5e-4);
+      course = motion::course_after(course, 5e-4);
+      ASSERT_EQ(beside.breakaways(), alone.breakaways()) << trial << ' ' << k << ' ' << rate;
+      ASSERT_NEAR(beside.theta(), alone.theta(), 1e-13 + 1e-9 * std::abs(alone.theta())) << trial << ' ' << k;
+    }
+  }
+}
+
 TEST(CoulombPlant, SlidesUnderTheSameLawAsThePreslidingOne) {
   FrictionAlongRotor friction = coulomb(0.6);
   plant::Plant without({}, friction, {.velocity = 2.0, .sliding = true}, coulomb_tolerance);

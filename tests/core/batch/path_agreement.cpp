@@ -1,0 +1,65 @@
+#include "tests/core/batch/path_agreement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/loop/encoder.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+/// By how much θ of a reference trial changes at most up to a sample, in counts, when its inertia and its
+/// breakaway torque do by 2e-12.
+class Sensitivity {
+ public:
+  Sensitivity(const trial::TrialParameters& parameters, const BatchedTrial& reference)
+      : parameters_(parameters), reference_(reference) {}
+
+  /// Call with ascending k.
+  double up_to(std::size_t k) {
+    if (!twin_) {
+      trial::TrialParameters changed = parameters_;
+      changed.plant.inertia *= 1.0 + 2e-12;
+      changed.friction.uniform.breakaway *= 1.0 + 2e-12;
+      twin_ = run_by_reference(changed);
+    }
+    for (; next_ <= k; ++next_) {
+      const double difference = std::abs(twin_->samples[next_].theta - reference_.samples[next_].theta);
+      largest_ = std::max(largest_, difference / loop::fine_resolution(parameters_.encoder));
+    }
+    return largest_;
+  }
+
+ private:
+  const trial::TrialParameters& parameters_;
+  const BatchedTrial& reference_;
+  std::optional<BatchedTrial> twin_;
+  std::size_t next_{0};
+  double largest_{0.0};
+};
+
+}  // namespace
+
+PathAgreement path_agreement(const trial::TrialParameters& parameters, const BatchedTrial& batched,
+                             const BatchedTrial& reference) {
+  if (batched.samples.size() != reference.samples.size())
+    return {false, fmt::format("{} samples, not {}", batched.samples.size(), reference.samples.size())};
+  const double resolution = loop::fine_resolution(parameters.encoder);
+  Sensitivity sensitivity(parameters, reference);
+  double travel = 0.0;
+  for (std::size_t k = 0; k < reference.samples.size(); ++k) {
+    const batch::BatchSample& a = batched.samples[k];
+    const batch::BatchSample& b = reference.samples[k];
+    if (k > 0) travel += std::abs(b.theta - reference.samples[k - 1].theta) / resolution;
+    const double difference = std::abs(a.theta - b.theta) / resolution;
+    const bool agrees = difference < 1e-6 + 1e-9 * travel || difference < sensitivity.up_to(k);
+    if (!agrees) return {false, fmt::format("{} count at sample {}", difference, k)};
+    if (a.count != b.count || a.code != b.code) return {true, {}};
+  }
+  return {};
+}
+
+}  // namespace zerocount::testing

@@ -4,6 +4,7 @@
 #include "core/batch/kernels/bristle_kernel.hpp"
 #include "core/batch/kernels/creep_ahead_kernel.hpp"
 #include "core/batch/kernels/drive_kernel.hpp"
+#include "core/batch/kernels/elements_kernel.hpp"
 #include "core/batch/kernels/free_kernel.hpp"
 #include "core/batch/kernels/kernels.hpp"
 #include "core/batch/kernels/lane_sets_kernel.hpp"
@@ -27,6 +28,8 @@ inline constexpr MotionKernels motion_kernels_with{
     .bristle_rest = Varies ? nullptr : bristle_rest_kernel<P, false>,
     .bristle_fast = bristle_kernel<V, true, Varies, false>,
     .bristle_slow = bristle_kernel<V, false, Varies, false>,
+    .elements_rest = Varies ? nullptr : elements_rest_kernel<P, false>,
+    .elements = elements_kernel<V, Varies, false>,
     .free = free_kernel<V, Varies>,
     .stand = Varies ? stand_coupled_kernel<V, true, false> : stand_kernel<V>};
 
@@ -42,6 +45,8 @@ inline constexpr MotionKernels loaded_kernels_with{
     .bristle_rest = bristle_rest_kernel<P, true>,
     .bristle_fast = bristle_kernel<V, true, Driven, true>,
     .bristle_slow = bristle_kernel<V, false, Driven, true>,
+    .elements_rest = elements_rest_kernel<P, true>,
+    .elements = elements_kernel<V, Driven, true>,
     .free = loaded_free_kernel<V, Driven>,
     .stand = stand_coupled_kernel<V, Driven, true>};
 

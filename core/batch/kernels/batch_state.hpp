@@ -45,7 +45,7 @@ struct alignas(64) MotionLanes {
   Lanes creeping;                 ///< the creep law is on
   Lanes creep_onset;              ///< |σ| at which it sets in, N m
   Lanes slide_direction;  ///< −1, 1; 0 while the hook sticks; 1 for laws without a hook, which move θ itself
-  Lanes gradual_slide;    ///< the bristle slides at this instant
+  Lanes gradual_slide;    ///< the bristle, or all elements, slide at this instant
   Lanes rest_torque;      ///< torque under which the plant is at rest, N m; NaN: it moves
 
   Lanes spring_torque;  ///< σ at the start of the step, N m
@@ -270,6 +270,20 @@ struct alignas(64) LoadLanes {
   Lanes omega;               ///< ωL, rad/s
 };
 
+inline constexpr int max_lane_elements = 16;
+
+/// The elements of friction::GmsFriction. Lanes of other laws do not use them. Beyond `count` all is 0.
+struct alignas(64) ElementLanes {
+  Lanes count;
+  Lanes torque[max_lane_elements];     ///< Fi, N m
+  Lanes slips[max_lane_elements];      ///< at this instant
+  Lanes stiffness[max_lane_elements];  ///< κi, N m/rad
+  Lanes weight[max_lane_elements];     ///< ηi
+  Lanes attraction;                    ///< C, N m/s
+  Lanes stiffest;                      ///< largest κi, N m/rad
+  Lanes softest;                       ///< least κi, N m/rad
+};
+
 /// One error band of the lanes.
 struct BandLanes : trial::BandMeasures<Lanes> {
   Lanes limit;  ///< b, counts; infinite in lanes without this band
@@ -351,6 +365,7 @@ struct BatchState : LaneNumbers {
   DriveLanes drive;
   CourseLanes course;
   LoadLanes load;
+  ElementLanes elements;
 };
 
 }  // namespace zerocount::batch

@@ -15,6 +15,8 @@ struct MotionKernels {
   LaneSet (*bristle_rest)(BatchState&, const LaneSet&);  ///< null where all torques vary
   void (*bristle_fast)(BatchState&, const LaneSet&);
   void (*bristle_slow)(BatchState&, const LaneSet&);
+  LaneSet (*elements_rest)(BatchState&, const LaneSet&);  ///< null where all torques vary
+  void (*elements)(BatchState&, const LaneSet&);
   void (*free)(BatchState&, const LaneSet&);
   void (*stand)(BatchState&, const LaneSet&);
 };

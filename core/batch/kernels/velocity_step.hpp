@@ -98,7 +98,7 @@ ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const V
   const P shorter = shorter_step(s.h, s.inexact, factor);
   const P longer = s.h * min(max(factor, P(0.3)), P(4.0));
   at.store(time.next_step, select(s.too_long, shorter, select(s.done, longer, s.h)));
-  const auto stops_here = s.done & ~s.halts & ~(s.h < s.time_to_stop);
+  const auto stops_here = s.done & (s.x == P(1.0)) & ~(s.h < s.time_to_stop);
   at.store(time.time_to_stop,
            select(stops_here, zero, select(s.done, s.time_to_stop - s.x * s.h, s.time_to_stop)));
   at.store(time.steps, at.load(time.steps) + P(1.0));

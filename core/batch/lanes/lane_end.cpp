@@ -91,6 +91,7 @@ void move_lane(RunningBatch& run, int from, int to) {
   if (run.lanes.amplified.contains(from)) copy_lane(run.state.drive, from, to);
   if (run.trial_of(from).drive) copy_lane(run.state.course, from, to);
   if (run.lanes.loaded.contains(from)) copy_lane(run.state.load, from, to);
+  if (run.lanes.elements.contains(from)) copy_lane(run.state.elements, from, to);
   std::swap(run.trial_index[to], run.trial_index[from]);
   for (LaneSet* of : run.lanes.all()) {
     if (of->contains(from)) of->insert(to);

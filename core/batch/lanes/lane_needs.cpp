@@ -78,6 +78,7 @@ std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMo
     case LaneMotion::coulomb:
     case LaneMotion::contact:
     case LaneMotion::bristle:
+    case LaneMotion::elements:
       break;
   }
   const auto is_fast = [&](double frequency) { return frequency > max_frequency; };
@@ -113,6 +114,7 @@ std::string_view lacking(const trial::TrialParameters& p, LaneMotion motion) {
        {lacking(controller), lacking(command), lacking(disturbance, motion, max_frequency)}) {
     if (!feature.empty()) return feature;
   }
+  if (friction.gms_elements.size() > max_lane_elements) return "more than sixteen elements of gms";
   return has_samples(p) ? "" : "moves without a sample";
 }
 
@@ -131,7 +133,7 @@ std::optional<LaneMotion> lane_motion(friction::FrictionModel model) {
     case friction::FrictionModel::coulomb:
       return LaneMotion::coulomb;
     case friction::FrictionModel::gms:
-      break;
+      return LaneMotion::elements;
   }
   return std::nullopt;
 }

@@ -9,7 +9,7 @@
 namespace zerocount::batch {
 
 /// How the kernels move a lane, by its friction law.
-enum class LaneMotion { contact, coulomb, bristle, free };
+enum class LaneMotion { contact, coulomb, bristle, elements, free };
 
 /// Empty for a law that the kernels lack.
 std::optional<LaneMotion> lane_motion(friction::FrictionModel model);

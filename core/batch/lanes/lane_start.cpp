@@ -1,8 +1,10 @@
 // Start of the trials and moves of lanes.
+#include <algorithm>
 #include <limits>
 
 #include "core/batch/lanes/running_batch.hpp"
 #include "core/friction/bristles/bristle.hpp"
+#include "core/friction/bristles/gms.hpp"
 #include "core/friction/sliding/free_motion.hpp"
 #include "core/loop/controller/controller.hpp"
 #include "core/loop/controller/pid.hpp"
@@ -135,6 +137,36 @@ void start_bristle(BatchState& batch, int lane, const trial::TrialParameters& tr
   batch.time.tolerance[lane] = tolerance.elongation;
 }
 
+void start_elements(BatchState& batch, int lane, const trial::TrialParameters& trial, double resolution) {
+  const motion::PlantStart start = trial::plant_start(trial);
+  const motion::MotionTolerance tolerance = trial::motion_tolerance(resolution);
+  const friction::GmsFriction gms(trial.plant, trial.friction, start, tolerance);
+  start_without_hook(batch, lane, gms.omega());
+  batch.motion.gradual_slide[lane] = gms.sliding() ? 1.0 : 0.0;
+  batch.motion.rest_torque[lane] = std::numeric_limits<double>::quiet_NaN();
+  ElementLanes& e = batch.elements;
+  for_each_quantity(e, [lane](Lanes& quantity) { quantity[lane] = 0.0; });
+  e.softest[lane] = infinity;
+  for (const friction::GmsState& state : gms.elements()) {
+    const auto i = static_cast<std::size_t>(e.count[lane]++);
+    e.torque[i][lane] = state.torque;
+    e.slips[i][lane] = state.slips ? 1.0 : 0.0;
+    e.stiffness[i][lane] = state.element.stiffness;
+    e.weight[i][lane] = state.element.weight;
+    e.stiffest[lane] = std::max(e.stiffest[lane], state.element.stiffness);
+    e.softest[lane] = std::min(e.softest[lane], state.element.stiffness);
+  }
+  const friction::FrictionParameters contact = friction::friction_at(trial.friction, start.position);
+  e.attraction[lane] = contact.gms_attraction;
+  const friction::StribeckCurve level = friction::stribeck_curve(contact);
+  ContactLanes& c = batch.contact;
+  c.coulomb[lane] = level.coulomb;
+  c.breakaway[lane] = level.coulomb + level.excess;
+  // A constant level bounds no step.
+  c.per_velocity_squared[lane] = level.excess == 0.0 ? 1e-300 : level.per_velocity_squared;
+  batch.time.tolerance[lane] = tolerance.elongation;
+}
+
 void start_free(BatchState& batch, int lane, const trial::TrialParameters& p, double sample_time) {
   start_without_hook(batch, lane, p.initial.velocity);
   const friction::FreeMotion by_velocity =
@@ -178,6 +210,9 @@ void start_motion(BatchState& batch, int lane, LaneTrial& trial, double resoluti
       return;
     case LaneMotion::bristle:
       start_bristle(batch, lane, p, resolution);
+      return;
+    case LaneMotion::elements:
+      start_elements(batch, lane, p, resolution);
       return;
     case LaneMotion::free:
       start_free(batch, lane, p, batch.time.sample_time[lane]);

@@ -151,6 +151,18 @@ void step_bristles(RunningBatch& run, const LaneSet& lanes, const MotionKernels&
   rerun_lost_lanes(run);
 }
 
+void step_elements(RunningBatch& run, const LaneSet& lanes, const MotionKernels& kernels) {
+  kernels.elements(run.state, lanes);
+  rerun_lost_lanes(run);
+}
+
+/// Moves those lanes on whose torque stays and which are at rest. @returns the others.
+LaneSet without_resting(RunningBatch& run, const LaneSet& lanes,
+                        LaneSet (*rest)(BatchState&, const LaneSet&)) {
+  const LaneSet steady = lanes.without(run.lanes.varying);
+  return steady.empty() ? lanes : lanes.without(steady.without(rest(run.state, steady)));
+}
+
 LaneSet between_stops(const RunningBatch& run, const LaneSet& lanes) {
   return lanes.without(run.kernels.lanes_at_stop(run.state));
 }
@@ -256,11 +268,10 @@ void move_bristles(RunningBatch& run) {
   const LaneSet lanes = between_stops(run, run.lanes.bristles);
   follow_torques_of(run, lanes);
   for (const auto& [kernels, some] : by_kernels(run, lanes)) {
-    if (some.empty()) continue;
-    const LaneSet steady = some.without(run.lanes.varying);
-    LaneSet moving = some;
-    if (!steady.empty()) moving = moving.without(steady.without(kernels.bristle_rest(run.state, steady)));
-    step_bristles(run, moving, kernels);
+    const LaneSet elements = some.in_both(run.lanes.elements);
+    const LaneSet bristles = some.without(elements);
+    if (!bristles.empty()) step_bristles(run, without_resting(run, bristles, kernels.bristle_rest), kernels);
+    if (!elements.empty()) step_elements(run, without_resting(run, elements, kernels.elements_rest), kernels);
   }
 }
 
@@ -279,6 +290,9 @@ void move_free(RunningBatch& run) {
 void set_motion(RunningBatch& run, int lane) {
   LaneStates& lanes = run.lanes;
   switch (run.trial_of(lane).motion) {
+    case LaneMotion::elements:
+      lanes.elements.insert(lane);
+      return lanes.bristles.insert(lane);
     case LaneMotion::bristle:
       return lanes.bristles.insert(lane);
     case LaneMotion::free:

@@ -21,7 +21,8 @@ struct LaneStates {
   LaneSet waiting;   ///< the hook sticks, and an event lies in the step; located when enough lanes wait
   LaneSet standing;  ///< Coulomb's friction holds the rotor
   LaneSet sliding;   ///< the hook slides, or the rotor against Coulomb's friction
-  LaneSet bristles;  ///< with the friction of a bristle
+  LaneSet bristles;  ///< with the friction of a bristle, or of elements
+  LaneSet elements;  ///< of them, those with elements
   LaneSet free;      ///< without friction
 
   // Decision at a sample: the PID law alone, if in neither.
@@ -46,10 +47,10 @@ struct LaneStates {
 
   LaneSet ahead;  ///< at rest, with a plant that lags behind (CreepAheadLanes)
 
-  std::array<LaneSet*, 20> all() {
-    return {&active,      &sticking,  &waiting,  &standing,      &sliding,       &bristles,  &free,
-            &with_blocks, &with_loop, &noisy,    &with_position, &amplified,     &vibrating, &before_start,
-            &varying,     &part,      &changing, &loaded,        &loaded_driven, &ahead};
+  std::array<LaneSet*, 21> all() {
+    return {&active,       &sticking,    &waiting,   &standing, &sliding,       &bristles,      &elements,
+            &free,         &with_blocks, &with_loop, &noisy,    &with_position, &amplified,     &vibrating,
+            &before_start, &varying,     &part,      &changing, &loaded,        &loaded_driven, &ahead};
   }
 };
 

@@ -249,7 +249,7 @@ double GmsFriction::step(const motion::TorqueCourse& torque, double duration) {
     return duration;
   }
   const double direction = direction_under(torque);
-  begin_to_slip(direction);
+  if (direction != 0.0) begin_to_slip(direction);
   GmsMotion motion(elements_, curve_, attraction_, plant_.sliding_damping, direction, theta_, omega_);
   const auto next = motion::taylor_step(motion, plant_.inertia, torque, tolerance_.elongation, duration);
   if (next.event == GmsMotion::Event::velocity_zero) {

@@ -58,7 +58,8 @@ TEST_P(BatchEquality, TrialsThatDoNotRunInLanesAreTheReferencesToTheLastBit) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 100; ++i) {
     trials.push_back(random_trial(GetParam().kind, 40000 + i));
-    if (i % 2 == 0) trials.back().friction.model = friction::FrictionModel::gms;
+    if (i % 2 == 0)
+      trials.back().disturbance.vibration = {{1e-4, 0.75 * trials.back().controller.sample_rate, 0.0}};
   }
   const std::vector<BatchedTrial> batched = run_batch(trials);
   int others = 0;

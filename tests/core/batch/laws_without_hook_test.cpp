@@ -1,5 +1,5 @@
-// The batch engine against the reference under the laws that have no hook: an air bearing, Coulomb's, Dahl's
-// and LuGre's.
+// The batch engine against the reference under the laws that have no hook: an air bearing, Coulomb's, Dahl's,
+// LuGre's and the generalised Maxwell-slip model.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -9,6 +9,7 @@
 
 #include "core/loop/encoder.hpp"
 #include "tests/core/batch/batched_trials.hpp"
+#include "tests/core/loop/random_blocks.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -28,7 +29,8 @@ INSTANTIATE_TEST_SUITE_P(Random, LawsWithoutHook,
                          ::testing::Values(LawCase{friction::FrictionModel::none, "none"},
                                            LawCase{friction::FrictionModel::coulomb, "coulomb"},
                                            LawCase{friction::FrictionModel::dahl, "dahl"},
-                                           LawCase{friction::FrictionModel::lugre, "lugre"}),
+                                           LawCase{friction::FrictionModel::lugre, "lugre"},
+                                           LawCase{friction::FrictionModel::gms, "gms"}),
                          [](const ::testing::TestParamInfo<LawCase>& law) {
                            return std::string(law.param.name);
                          });
@@ -36,6 +38,21 @@ INSTANTIATE_TEST_SUITE_P(Random, LawsWithoutHook,
 constexpr TrialKind kinds_under_laws[] = {TrialKind::calm,          TrialKind::ringing,
                                           TrialKind::breaking_away, TrialKind::unlike_the_paper,
                                           TrialKind::arriving,      TrialKind::loaded};
+
+/// Up to sixteen elements that together are about as stiff as the spring.
+std::vector<friction::GmsElement> random_elements(const friction::FrictionParameters& f,
+                                                  std::uint64_t index) {
+  RandomBlocks draw(index);
+  std::vector<friction::GmsElement> elements(index % 20 == 0 ? 16 : 1 + index % 5);
+  double weights = 0.0;
+  for (friction::GmsElement& element : elements) {
+    element = {(f.k1 + f.k2) * draw.log_uniform(0.1, 1.0) / static_cast<double>(elements.size()),
+               draw.log_uniform(1e-3, 1.0)};
+    weights += element.weight;
+  }
+  for (friction::GmsElement& element : elements) element.weight /= weights;
+  return elements;
+}
 
 /// A random trial under this law, with bristles about as stiff and as damped as its spring and its contact.
 trial::TrialParameters trial_under(friction::FrictionModel model, TrialKind kind, std::uint64_t index) {
@@ -47,6 +64,8 @@ trial::TrialParameters trial_under(friction::FrictionModel model, TrialKind kind
   friction::FrictionParameters& f = p.friction.uniform;
   f.sigma0 = f.k1 + static_cast<double>(index % 5) * 0.25 * f.k2;
   f.sigma1 = index % 4 == 0 ? 0.0 : 0.4 * static_cast<double>(index % 4) * p.plant.presliding_damping;
+  f.gms_attraction = 0.1 * std::pow(10.0, static_cast<double>(index % 5));
+  if (index % 2 == 0) p.friction.gms_elements = random_elements(f, index);
   return p;
 }
 
@@ -82,7 +101,9 @@ SampleAgreement agreement_of_samples(const BatchedTrial& one, const BatchedTrial
 // Counts, codes and measures are the same. A trial parts where θ is on the edge of a count to within that
 // accuracy.
 TEST_P(LawsWithoutHook, AgreeSampleBySample) {
-  const std::vector<trial::TrialParameters> trials = trials_under(GetParam().model, 60);
+  // The reference takes long for many elements.
+  const std::uint64_t each = GetParam().model == friction::FrictionModel::gms ? 20 : 60;
+  const std::vector<trial::TrialParameters> trials = trials_under(GetParam().model, each);
   const std::vector<BatchedTrial> batched = run_batch(trials);
   int slid = 0;
   int parted = 0;

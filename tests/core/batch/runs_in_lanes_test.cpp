@@ -113,7 +113,11 @@ TEST(RunsInLanes, IsFalseOfWhatLanesDoNotKnowWhichThenIsTheReferences) {
          p.friction.model = friction::FrictionModel::none;
          p.disturbance.ripple = {{1e-3, 10.0, 0.0, 0.0}};
        }},
-      {"gms", [](trial::TrialParameters& p) { p.friction.model = friction::FrictionModel::gms; }},
+      {"seventeen elements",
+       [](trial::TrialParameters& p) {
+         p.friction.model = friction::FrictionModel::gms;
+         p.friction.gms_elements.assign(17, {100.0, 1.0 / 17.0});
+       }},
   };
   std::vector<trial::TrialParameters> trials;
   for (const Change& change : changes) {

@@ -232,9 +232,11 @@ TEST_F(EngineOption, RunAndCheckTellWhichPointsRunOnTheReferenceEngineAndWhy) {
       "laws.yaml",
       "zerocount: 1\nname: laws\nseed: 1\ntrials: 2\n"
       "command: {targets: [3], hold: 0.05}\nverdict: {window: 0.01}\n"
-      "sweep: {grid: {friction.model: [presliding, gms, lugre], controller.ki: [2.0e-5, 3.0e-5]}}\n");
+      "disturbance: {ripple: [{amplitude: 1.0e-5, periods: 36, phase: 0}]}\n"
+      "sweep: {grid: {friction.model: [presliding, none, lugre], controller.ki: [2.0e-5, 3.0e-5]}}\n");
   const std::string two =
-      "2 of 6 points run on the reference engine, about ten times slower, because of friction.model gms";
+      "2 of 6 points run on the reference engine, about ten times slower, because of disturbance.ripple "
+      "without friction";
   EXPECT_EQ(engine_line(program({"check", "laws.yaml"}).out), two);
   EXPECT_EQ(engine_line(program({"run", "laws.yaml", "-o", "a.h5"}).err), two);
   EXPECT_EQ(engine_line(program({"run", "laws.yaml", "-o", "b.h5", "--quiet"}).err), "");
@@ -245,7 +247,7 @@ TEST_F(EngineOption, RunAndCheckTellWhichPointsRunOnTheReferenceEngineAndWhy) {
   EXPECT_EQ(
       engine_line(all.out),
       "all trials run on the reference engine, about ten times slower, because of a vibration above half "
-      "the sample rate, friction.model gms");
+      "the sample rate, disturbance.ripple without friction");
 }
 
 }  // namespace

@@ -109,7 +109,8 @@ TEST(LaneDrive, MovesTheRotorAsTheReferenceDoes) {
 // In exact equilibrium under a ripple nothing moves the rotor until the first delayed torque arrives.
 TEST(LaneDrive, LeavesARotorInEquilibriumAlone) {
   for (const friction::FrictionModel model :
-       {friction::FrictionModel::presliding, friction::FrictionModel::lugre, friction::FrictionModel::dahl}) {
+       {friction::FrictionModel::presliding, friction::FrictionModel::lugre, friction::FrictionModel::dahl,
+        friction::FrictionModel::gms}) {
     trial::TrialParameters p;
     p.friction.model = model;
     p.controller.delay = 4.0;
@@ -151,8 +152,8 @@ TEST(LaneDrive, MovesOtherLawsAsTheReferenceDoes) {
   int parted = 0;
   int trials = 0;
   for (const friction::FrictionModel model :
-       {friction::FrictionModel::lugre, friction::FrictionModel::dahl, friction::FrictionModel::coulomb,
-        friction::FrictionModel::none}) {
+       {friction::FrictionModel::lugre, friction::FrictionModel::dahl, friction::FrictionModel::gms,
+        friction::FrictionModel::coulomb, friction::FrictionModel::none}) {
     for (const DriveKind kind : drive_kinds) {
       const bool varies =
           kind != DriveKind::amplifier && kind != DriveKind::fast_amplifier && kind != DriveKind::jitter;

@@ -118,6 +118,21 @@ TEST(Gms, SlidesAtTheLevelOfItsVelocity) {
 }
 
 // A slow torque before the start leaves the springs as the same torque applied slowly does.
+// In exact balance at rest no direction is ahead, in which an element could slip.
+TEST(Gms, KeepsItsElementsWhereNothingMovesThem) {
+  GmsPlant alone({}, elements(gms_like_the_spring(), 0.8, 30.0), {}, gms_tolerance);
+  GmsPlant beside({}, elements(gms_like_the_spring(), 0.8, 30.0), {}, gms_tolerance);
+  motion::Disturbance disturbance;
+  disturbance.ripple = {{0.0, 36.0, 0.0}};
+  beside.disturb(disturbance);
+  for (const double torque : {0.0, 0.01, -0.02, 0.25}) {
+    alone.advance(motion::constant_torque(torque), 5e-4);
+    beside.advance(motion::constant_torque(torque), 5e-4);
+    EXPECT_FALSE(beside.sliding()) << torque;
+    EXPECT_NEAR(beside.theta(), alone.theta(), 1e-13) << torque;
+  }
+}
+
 TEST(Gms, StartsWithTheMemoryOfItsPreload) {
   std::mt19937_64 random(11);
   for (int i = 0; i < 10; ++i) {

@@ -31,21 +31,21 @@ namespace {
 using tuning::UnitResult;
 using Results = std::vector<std::vector<UnitResult>>;
 
-/// Two conditions; a converter with levels of torque runs on the reference, not in lanes.
-study::Study study_with(double ki, const std::string& friction) {
+/// Two conditions. @param section a further one of the manifest.
+study::Study study_with(double ki, const std::string& section) {
   const std::string text = fmt::format(R"(zerocount: 1
 name: units
 seed: 5
 trials: 400
 command: {{targets: [{{integers: [1, 9]}}], hold: 0.05}}
 controller: {{ki: {}}}
-friction: {{{}}}
+{}
 initial: {{encoder_phase: {{uniform: [0, 1]}}}}
 verdict: {{dwell: 0.01, window: 0.01}}
 conditions: {{light: {{}}, heavy: {{plant.inertia: 7.0e-4}}}}
 goal: {{band: 1, within: 0.03, moves: 0.6}}
 )",
-                                       ki, friction);
+                                       ki, section);
   return manifest::parse_study(text, "axis.yaml", {});
 }
 
@@ -64,7 +64,8 @@ Entries random_entries(std::mt19937_64& random) {
     const bool in_lanes = number(0, 3) > 0;
     entries.studies.push_back(
         study_with(1e-5 * static_cast<double>(number(1, 9)),
-                   in_lanes ? "k1: {lognormal: {median: 120, cv: 0.3}}" : "model: gms"));
+                   in_lanes ? "friction: {k1: {lognormal: {median: 120, cv: 0.3}}}"
+                            : "disturbance: {vibration: [{amplitude: 1.0e-5, frequency: 1100, phase: 0}]}"));
     entries.from.push_back(number(0, 30));
     entries.to.push_back(entries.from.back() + number(0, 40));
   }

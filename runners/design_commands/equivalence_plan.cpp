@@ -19,6 +19,7 @@
 #include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/comparison/point_trials.hpp"
 #include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/study_argument.hpp"
@@ -112,9 +113,8 @@ void require_goals_of_margins(const comparison::GateRules& rules, const study::S
 }
 
 /// The first `trials` trials of a point.
-/// @param study under one condition @param claims as comparison::AlsoRead::claims
-comparison::PointTrials run_point(const study::Study& study, std::int64_t point, std::int64_t trials,
-                                  std::size_t claims) {
+/// @param study under one condition
+comparison::PointTrials run_point(const study::Study& study, std::int64_t point, std::int64_t trials) {
   const auto draw = [&](std::int64_t index) { return study::study_trial(study, point, index).parameters; };
   std::vector<trial::MoveOutcome> outcomes;
   for (const std::vector<trial::MoveOutcome>& moves : trials::results_of(
@@ -123,7 +123,6 @@ comparison::PointTrials run_point(const study::Study& study, std::int64_t point,
   comparison::AlsoRead also;
   also.rigs = also.goal_rigs = study.rigs;
   also.worlds = study.worlds;
-  also.claims = claims;
   const std::vector<measures::CountedGoal> counted = measures::counted_goals(study);
   for (std::size_t i = 0; i < study.goals.size(); ++i) also.judged.push_back({study.goals[i], counted[i]});
   return comparison::gather_trials(outcomes, std::ssize(outcomes) / trials, also);
@@ -137,13 +136,22 @@ struct PlannedMeasure {
   comparison::JudgementForecast forecast{};
 };
 
+/// A measure at a point that cannot be planned: too few trials of the pilot have a value.
+struct UnplannedMeasure {
+  std::string point;      ///< with the condition
+  std::string condition;  ///< empty without conditions
+  std::string measure;
+};
+
 struct EquivalencePlan {
   comparison::GateRules rules;
   double power{comparison::decision_probability};
   std::int64_t pilot{0};       ///< trials of each point under each condition
   std::int64_t conditions{1};  ///< under which each point is run
   comparison::Forecast forecast;
+  std::int64_t rigs{1};  ///< of each point; 1: no trials share one
   std::vector<PlannedMeasure> measures;
+  std::vector<UnplannedMeasure> unplanned;
 };
 
 /// Adds the measures of a point under a condition to the plan. The sample of the pilot stands for both
@@ -156,7 +164,10 @@ comparison::ForecastPoint planned_point(EquivalencePlan& plan, const std::string
   comparison::ForecastPoint point{plan.pilot, plan.pilot, {}, {}, {}};
   for (std::size_t k = 0; k < found.size(); ++k) {
     const comparison::MeasureComparison& one = found[k];
-    if (!comparison::has_finite_bounds(one)) continue;
+    if (!comparison::has_finite_bounds(one)) {
+      plan.unplanned.push_back({label, condition, one.measure});
+      continue;
+    }
     point.measures.push_back(samples[k]);
     point.found.push_back(one);
     plan.measures.push_back({label, condition, one});
@@ -171,13 +182,12 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   const study::Study study = planned_study(arguments);
   require_goals_of_margins(plan.rules, study, arguments.operands()[0]);
   plan.conditions = study::condition_count(study);
+  plan.rigs = std::max<std::int64_t>(study.rigs, 1);
   std::vector<study::Study> under;  // [condition]
   for (std::int64_t i = 0; i < plan.conditions; ++i) under.push_back(study::under_condition(study, i));
   const std::int64_t trials = under.front().trials;
   plan.pilot = study.rigs > 0 ? trials : std::min(trials, pilot_trials);
   const std::int64_t units = study.rigs > 0 ? study.rigs : plan.pilot;
-  const std::size_t claims =
-      std::max(study.goals.size(), std::size_t{1}) * static_cast<std::size_t>(plan.conditions);
   comparison::ForecastSamples samples({units, units}, true);
   status::Progress progress(study::point_count(study) * plan.conditions * plan.pilot, 0,
                             trials::samples_per_trial(study), false);
@@ -186,7 +196,7 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
     for (std::size_t condition = 0; condition < under.size(); ++condition) {
       samples.add(planned_point(plan, study.points.labels[static_cast<std::size_t>(i)],
                                 study.conditions.empty() ? "" : study.conditions[condition],
-                                run_point(under[condition], i, plan.pilot, claims)));
+                                run_point(under[condition], i, plan.pilot)));
       progress.update(done += plan.pilot);
     }
   }
@@ -207,19 +217,27 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   return plan;
 }
 
-/// The trials of a design point, under all conditions together. @param each under each of them
+/// The trials of a design point, under all conditions together: as many on each rig under each condition.
+/// @param each under each condition
 std::int64_t trials_of_point(const EquivalencePlan& plan, double each) {
-  return plan.conditions * static_cast<std::int64_t>(each);
+  const double on_rig = std::ceil(each / static_cast<double>(plan.rigs));
+  return plan.conditions * plan.rigs * static_cast<std::int64_t>(on_rig);
 }
 std::optional<std::int64_t> trials_of_point(const EquivalencePlan& plan, const std::optional<double>& each) {
   return each ? std::optional(trials_of_point(plan, *each)) : std::nullopt;
 }
 
-/// A measure of the plan, with the trials of its design point under all conditions.
+/// The same to people: rounded up, as far as every number of trials can be run.
+std::string trials_text(const EquivalencePlan& plan, double each) {
+  const std::int64_t trials = trials_of_point(plan, each);
+  return plan.conditions * plan.rigs > 1 ? std::to_string(trials)
+                                         : comparison::trials_text(static_cast<double>(trials));
+}
+
+/// A measure of the plan.
 struct MeasureRow {
+  const EquivalencePlan& plan;
   const PlannedMeasure& planned;
-  std::optional<std::int64_t> trials;
-  std::int64_t max_trials;  ///< the most that were tried
 
   std::string text(double value) const {
     return comparison::value_text(value, planned.found.measure, planned.found.unit);
@@ -228,17 +246,15 @@ struct MeasureRow {
 
 std::vector<MeasureRow> measure_rows(const EquivalencePlan& plan) {
   std::vector<MeasureRow> rows;
-  for (const PlannedMeasure& one : plan.measures) {
-    rows.push_back(
-        {one, trials_of_point(plan, one.forecast.trials), trials_of_point(plan, plan.forecast.max_trials)});
-  }
+  for (const PlannedMeasure& one : plan.measures) rows.push_back({plan, one});
   return rows;
 }
 
 std::string trials_cell(const MeasureRow& row) {
-  if (row.trials) return comparison::trials_text(static_cast<double>(*row.trials));
-  return fmt::format("{} decide a margin of {}", comparison::trials_text(static_cast<double>(row.max_trials)),
-                     row.text(row.planned.forecast.margin));
+  const comparison::JudgementForecast& forecast = row.planned.forecast;
+  if (forecast.trials) return trials_text(row.plan, *forecast.trials);
+  return fmt::format("{} decide a margin of {}", trials_text(row.plan, row.plan.forecast.max_trials),
+                     row.text(forecast.margin));
 }
 
 document::Description<MeasureRow> measure_columns() {
@@ -262,18 +278,37 @@ document::Description<MeasureRow> measure_columns() {
       .value({.heading = "margin", .shown = Shown::to_people, .numeric = true},
              [](Row row) { return "± " + row.text(row.planned.found.margin); })
       .value(in_data("trials", "trials of each study per design point for this measure alone"),
-             &MeasureRow::trials)
+             [](Row row) { return trials_of_point(row.plan, row.planned.forecast.trials); })
       .value({.heading = "trials", .shown = Shown::to_people, .numeric = true}, trials_cell);
+}
+
+document::Description<UnplannedMeasure> unplanned_columns() {
+  return document::Description<UnplannedMeasure>()
+      .value(in_data("point", "label of the design point, with the condition"), &UnplannedMeasure::point)
+      .value(in_data("condition", "its trials are under it; absent without conditions"),
+             [](const UnplannedMeasure& one) {
+               return one.condition.empty() ? std::nullopt : std::optional(one.condition);
+             })
+      .value(in_data("measure", "name of the measure"), &UnplannedMeasure::measure);
 }
 
 std::string equivalence_headline(const EquivalencePlan& plan) {
   return fmt::format(
-      "{} trials per design point in each of the two studies{} show with a probability of {} that all these "
-      "measures are equivalent{}",
-      comparison::trials_text(static_cast<double>(
-          trials_of_point(plan, plan.forecast.trials.value_or(plan.forecast.max_trials)))),
-      plan.forecast.trials ? "" : " do not", text::percent(plan.power),
-      plan.conditions > 1 ? fmt::format(" under each of the {} conditions", plan.conditions) : "");
+      "{} trials per design point{} in each of the two studies{} show with a probability of {} that all "
+      "these "
+      "measures are equivalent",
+      trials_text(plan, plan.forecast.trials.value_or(plan.forecast.max_trials)),
+      plan.conditions > 1 ? ", under all conditions together," : "", plan.forecast.trials ? "" : " do not",
+      text::percent(plan.power));
+}
+
+std::string unplanned_sentence(const EquivalencePlan& plan) {
+  if (plan.unplanned.empty()) return "";
+  std::vector<std::string> names;
+  for (const UnplannedMeasure& one : plan.unplanned)
+    names.push_back(fmt::format("{} at {}", one.measure, text::printable(one.point)));
+  return fmt::format("not planned, because fewer than {} of the pilot's trials have a value: {}",
+                     comparison::min_values, fmt::join(names, ", "));
 }
 
 std::string aim_sentence(const EquivalencePlan& plan) {
@@ -302,8 +337,10 @@ document::AnswerDescription<EquivalencePlan> equivalence_answer() {
              [](Of plan) { return trials_of_point(plan, plan.forecast.trials); })
       .value(in_data("max_trials", "the most trials that were tried"),
              [](Of plan) { return trials_of_point(plan, plan.forecast.max_trials); })
-      .table({.key = "measures", .meaning = "measures at the design points"}, measure_columns(),
-             measure_rows);
+      .table({.key = "measures", .meaning = "measures at the design points"}, measure_columns(), measure_rows)
+      .table(in_data("unplanned", "measures of which too few trials of the pilot have a value"),
+             unplanned_columns(), &EquivalencePlan::unplanned)
+      .sentence(unplanned_sentence);
   return answer;
 }
 

@@ -230,16 +230,29 @@ TEST_F(ConditionsOfResults, ArePlannedLikeStudiesOfTheirOwn) {
       EXPECT_EQ(both.at("pilot_trials"), 2 * alone.at("pilot_trials").get<std::int64_t>());
       // The trials depend on random numbers, of which each measure has its own.
       const std::set<std::string> others{"point", "condition", "trials"};
-      EXPECT_EQ(without(under(both.at("measures"), condition), others), without(alone.at("measures"), others));
+      const json mine = under(both.at("measures"), condition);
+      EXPECT_EQ(without(mine, others), without(alone.at("measures"), others));
+      if (condition == names_of_conditions.front()) {
+        EXPECT_EQ(mine[0].at("trials"), 2 * alone.at("measures")[0].at("trials").get<std::int64_t>());
+      }
       found += alone.at("measures").size();
     }
     EXPECT_EQ(both.at("measures").size(), found);
-    for (const json& one : both.at("measures")) {
-      if (one.at("trials").is_number() && both.at("trials").is_number()) {
-        EXPECT_LE(one.at("trials"), both.at("trials")) << one;
-      }
-    }
+    ASSERT_TRUE(both.at("trials").is_number());
+    EXPECT_EQ(both.at("trials").get<std::int64_t>() % (2 * (kind.name == "rigs" ? 24 : 1)), 0);
+    for (const json& one : both.at("measures")) EXPECT_LE(one.at("trials"), both.at("trials")) << one;
   }
+}
+
+// A measure of which a condition shows too little is named, not left out in silence.
+TEST_F(ConditionsOfResults, AreNamedWhereTheyCannotBePlanned) {
+  folder->write("never.yaml", manifest_of(kinds_with_conditions[1], 240, "5.54e-4", "",
+                                          "conditions: {empty: {}, loaded: {controller.ki: 0}}\n"));
+  const json plan = said({"plan", "never.yaml", "--margin", "settling_time=20%"});
+  ASSERT_EQ(plan.at("unplanned").size(), 1U);
+  EXPECT_EQ(plan.at("unplanned")[0].at("condition"), "loaded");
+  EXPECT_NE(run({"plan", "never.yaml", "--margin", "settling_time=20%"}).find("not planned"),
+            std::string::npos);
 }
 
 TEST_F(ConditionsOfResults, GiveThePlanThePilotWhoseRigsDifferMost) {

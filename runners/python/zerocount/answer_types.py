@@ -2833,6 +2833,13 @@ class PlanEquivalenceAnswer(Answer):
         - ``margin``: largest accepted difference, in its unit
         - ``trials``: trials of each study per design point for this measure alone
 
+    unplanned : pandas.DataFrame
+        Measures of which too few trials of the pilot have a value.
+
+        - ``point``: label of the design point, with the condition
+        - ``condition``: its trials are under it; absent without conditions
+        - ``measure``: name of the measure
+
     """
 
     confidence: float | None
@@ -2841,6 +2848,7 @@ class PlanEquivalenceAnswer(Answer):
     trials: int | None
     max_trials: int
     measures: pandas.DataFrame
+    unplanned: pandas.DataFrame
 
 
 class SensitivityAnswer(Answer):

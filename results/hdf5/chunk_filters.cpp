@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <new>
+#include <string_view>
 
 #include <libdeflate.h>
-
-#include "results/hdf5/byte_deflate.hpp"
 
 namespace zerocount::hdf5 {
 namespace {
@@ -44,6 +44,12 @@ std::uint32_t fletcher32(std::span<const std::byte> bytes) {
 /// Eight matrices of 8 × 8 bytes, [row][matrix], byte i of a row being its bits 8·i to 8·i + 7.
 using Matrices = std::array<std::array<std::uint64_t, 8>, 8>;
 constexpr std::size_t elements_of_matrices = 64;
+
+/// Whether elements of this size are copied to matrices, whose bytes are in the order of a little-endian
+/// machine.
+constexpr bool fit_in_matrices(std::size_t element_size) {
+  return element_size == 8 && std::endian::native == std::endian::little;
+}
 
 /// Exchanges the blocks of `size` × `size` bytes next to the diagonal. @param low mask of every other `size`
 /// bytes
@@ -94,7 +100,8 @@ std::size_t unshuffle_eight(std::span<const std::byte> shuffled, std::size_t cou
 std::vector<std::byte> shuffle(std::size_t element_size, std::span<const std::byte> elements) {
   const std::size_t count = elements.size() / element_size;
   std::vector<std::byte> shuffled(elements.size());
-  const std::size_t first = element_size == 8 ? shuffle_eight(elements, count, shuffled.data()) : 0;
+  const std::size_t first =
+      fit_in_matrices(element_size) ? shuffle_eight(elements, count, shuffled.data()) : 0;
   for (std::size_t byte = 0; byte < element_size; ++byte) {
     std::byte* const to = shuffled.data() + byte * count;
     for (std::size_t i = first; i < count; ++i) to[i] = elements[i * element_size + byte];
@@ -104,11 +111,76 @@ std::vector<std::byte> shuffle(std::size_t element_size, std::span<const std::by
 
 void unshuffle(std::size_t element_size, std::span<const std::byte> shuffled, std::span<std::byte> elements) {
   const std::size_t count = elements.size() / element_size;
-  const std::size_t first = element_size == 8 ? unshuffle_eight(shuffled, count, elements.data()) : 0;
+  const std::size_t first =
+      fit_in_matrices(element_size) ? unshuffle_eight(shuffled, count, elements.data()) : 0;
   for (std::size_t byte = 0; byte < element_size; ++byte) {
     const std::byte* const from = shuffled.data() + byte * count;
     for (std::size_t i = first; i < count; ++i) elements[i * element_size + byte] = from[i];
   }
+}
+
+constexpr std::size_t page = 4096;
+
+/// Whether deflate could hardly compress the first page. Its bytes are neither more even than random ones nor
+/// so uneven that a code of them would save a twentieth: the χ² of their frequencies is 255 ± 23 for random
+/// ones, and up to 1300 for the last digits of a rounded product or exponential. Neighbours are seldom equal,
+/// and its start does not recur within the distance at which deflate finds repetitions. (Each design point
+/// repeats the draws of the one before.)
+bool starts_randomly(std::span<const std::byte> bytes) {
+  std::array<std::uint32_t, 256> counts{};
+  std::size_t equal_neighbours = 0;  // 16 ± 4 of random bytes
+  for (std::size_t i = 0; i < page; ++i) {
+    ++counts[std::to_integer<std::size_t>(bytes[i])];
+    equal_neighbours += i > 0 && bytes[i] == bytes[i - 1];
+  }
+  constexpr double expected = static_cast<double>(page) / 256.0;
+  double chi_square = 0.0;
+  for (const std::uint32_t count : counts) chi_square += (count - expected) * (count - expected) / expected;
+  if (chi_square < 110.0 || chi_square > 1700.0 || equal_neighbours > page / 64) return false;
+  constexpr std::size_t window = 32768;
+  constexpr std::size_t sample = 8;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), window));
+  return text.find(text.substr(0, sample), 1) == std::string_view::npos;
+}
+
+/// Length of the pages at the front that look random: after shuffle, those of the low digits of doubles.
+std::size_t random_front(std::span<const std::byte> bytes) {
+  std::size_t length = 0;
+  while (length + page <= bytes.size() && starts_randomly(bytes.subspan(length))) length += page;
+  return length;
+}
+
+/// Appends a stored block of deflate, not the last, to a stream that ends at a whole byte (RFC 1951, section
+/// 3.2.4).
+void append_stored_block(std::vector<std::byte>& stream, std::span<const std::byte> bytes) {
+  const auto size = static_cast<unsigned>(bytes.size());
+  for (const unsigned byte : {0U, size & 0xffU, size >> 8U, ~size & 0xffU, ~size >> 8U & 0xffU})
+    stream.push_back(static_cast<std::byte>(byte));
+  stream.insert(stream.end(), bytes.begin(), bytes.end());
+}
+
+/// A zlib stream (RFC 1950), as the deflate filter of HDF5 reads it. Random bytes at the front are stored:
+/// compressing them would take most of the time and save nothing.
+std::vector<std::byte> deflate(std::span<const std::byte> bytes, int level) {
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(level), libdeflate_free_compressor);
+  if (!compressor) throw std::bad_alloc();
+  constexpr std::size_t max_block = 15 * page;                      // of at most 65 535 bytes
+  std::vector<std::byte> stream{std::byte{0x78}, std::byte{0x01}};  // window of 32 kB, fastest
+  const std::size_t stored = random_front(bytes);
+  const std::span<const std::byte> rest = bytes.subspan(stored);
+  const std::size_t bound = libdeflate_deflate_compress_bound(compressor.get(), rest.size());
+  stream.reserve(stored + stored / page + bound + 16);
+  for (std::size_t at = 0; at < stored; at += max_block)
+    append_stored_block(stream, bytes.subspan(at, std::min(max_block, stored - at)));
+  const std::size_t start = stream.size();
+  stream.resize(start + bound);
+  stream.resize(start + libdeflate_deflate_compress(compressor.get(), rest.data(), rest.size(),
+                                                    stream.data() + start, bound));
+  const std::uint32_t checksum = libdeflate_adler32(1, bytes.data(), bytes.size());
+  for (const unsigned shift : {24U, 16U, 8U, 0U})
+    stream.push_back(static_cast<std::byte>(checksum >> shift & 0xffU));
+  return stream;
 }
 
 bool inflate(std::span<const std::byte> stream, std::span<std::byte> bytes) {
@@ -139,7 +211,7 @@ std::optional<std::vector<std::byte>> encode_chunk(const ChunkFilters& filters,
                                                    std::span<const std::byte> elements) {
   std::vector<std::byte> stored;
   if (filters.deflate_level) {
-    stored = zlib_stream(shuffle(filters.element_size, elements));
+    stored = deflate(shuffle(filters.element_size, elements), *filters.deflate_level);
   } else {
     stored.assign(elements.begin(), elements.end());
   }

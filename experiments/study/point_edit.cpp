@@ -18,8 +18,8 @@ std::size_t slot_named(const StudyPlan& plan, std::string_view parameter) {
 }  // namespace
 
 PointEdit::PointEdit(const Study& study, std::int64_t point)
-    : study_(study), plan_(std::make_shared<StudyPlan>(*study.plan)), point_(plan_point(*study.plan, point)) {
-  plan_->axes.push_back({{0, 0}, {}});
+    : study_(study), plan_(*study.plan), point_(plan_point(*study.plan, point)) {
+  plan_.axes.push_back({{0, 0}, {}});
 }
 
 std::vector<std::size_t> PointEdit::points() const {
@@ -31,7 +31,7 @@ std::vector<std::size_t> PointEdit::points() const {
 
 ValueLimits PointEdit::limits(std::string_view parameter, std::int64_t condition) const {
   const std::size_t point = point_ + static_cast<std::size_t>(condition);
-  return limits_of_slot(*plan_, slot_named(*plan_, parameter), point);
+  return limits_of_slot(plan_, slot_named(plan_, parameter), point);
 }
 
 void PointEdit::set(std::size_t slot, double number) {
@@ -39,19 +39,19 @@ void PointEdit::set(std::size_t slot, double number) {
 }
 
 void PointEdit::set(std::string_view parameter, double number) {
-  set(slot_named(*plan_, parameter), number);
+  set(slot_named(plan_, parameter), number);
 }
 
 void PointEdit::scale(std::size_t slot, double factor) {
   const Value value = value_of(slot);
-  const std::optional<double> none = plan_->table.rows[slot].none;
+  const std::optional<double> none = plan_.table.rows[slot].none;
   switch (value.kind) {
     case Value::Kind::number:
       if (value.number != none && !std::isnan(value.number))
         assign(slot, {.kind = value.kind, .number = factor * value.number, .aging = value.aging});
       return;
     case Value::Kind::distribution: {
-      const distributions::Distribution& before = plan_->distributions[value.index];
+      const distributions::Distribution& before = plan_.distributions[value.index];
       distributions::Distribution after = distributions::scaled(before, factor);
       if (auto* choice = std::get_if<distributions::Choice>(&after)) {
         const std::vector<double>& values = std::get<distributions::Choice>(before).values;
@@ -68,33 +68,32 @@ void PointEdit::scale(std::size_t slot, double factor) {
 }
 
 void PointEdit::scale(std::string_view parameter, double factor) {
-  scale(slot_named(*plan_, parameter), factor);
+  scale(slot_named(plan_, parameter), factor);
 }
 
 Widened PointEdit::widen(double factor) {
   Widened widened;
-  for (std::size_t slot = 0; slot < plan_->table.rows.size(); ++slot) {
-    const parameters::Parameter& row = plan_->table.rows[slot];
+  for (std::size_t slot = 0; slot < plan_.table.rows.size(); ++slot) {
+    const parameters::Parameter& row = plan_.table.rows[slot];
     const std::string_view name = row.name;
-    const Value* const drawn = value_at_point(*plan_, slot, point_);
+    const Value* const drawn = value_at_point(plan_, slot, point_);
     if (drawn == nullptr || name.starts_with("initial.") || name.starts_with("command.")) continue;
-    const numerics::Interval range = parameters::range_of(row, plan_->units);
-    if (std::ranges::find(plan_->sampled_slots, static_cast<std::uint32_t>(slot)) !=
-        plan_->sampled_slots.end())
+    const numerics::Interval range = parameters::range_of(row, plan_.units);
+    if (std::ranges::find(plan_.sampled_slots, static_cast<std::uint32_t>(slot)) != plan_.sampled_slots.end())
       continue;
     Value value = *drawn;
     bool fits = true;
     if (value.kind == Value::Kind::distribution) {
-      const distributions::Distribution& before = plan_->distributions[value.index];
+      const distributions::Distribution& before = plan_.distributions[value.index];
       distributions::Distribution wider = distributions::widened(before, factor);
       if (wider == before) continue;
       fits = distributions::extremes_are_inside(wider, range);
       if (fits) value = drawn_from(value, std::move(wider));
     } else if (value.kind == Value::Kind::profile) {
-      std::shared_ptr<const Rotors> wider = plan_->profiles[value.index]->widened(factor);
+      std::shared_ptr<const Rotors> wider = plan_.profiles[value.index]->widened(factor);
       fits = numerics::contains(range, wider->bounds().low);
-      value.index = static_cast<std::uint32_t>(plan_->profiles.size());
-      if (fits) plan_->profiles.push_back(std::move(wider));
+      value.index = static_cast<std::uint32_t>(plan_.profiles.size());
+      if (fits) plan_.profiles.push_back(std::move(wider));
     } else {
       continue;
     }
@@ -105,10 +104,10 @@ Widened PointEdit::widen(double factor) {
 }
 
 void PointEdit::add(std::string_view parameter, std::int64_t number) {
-  const std::size_t slot = slot_named(*plan_, parameter);
+  const std::size_t slot = slot_named(plan_, parameter);
   const Value value = value_of(slot);
   if (value.kind == Value::Kind::number) return set(slot, value.number + static_cast<double>(number));
-  distributions::Distribution distribution = plan_->distributions[value.index];
+  distributions::Distribution distribution = plan_.distributions[value.index];
   if (auto* integers = std::get_if<distributions::Integers>(&distribution)) {
     integers->low += number;
     integers->high += number;
@@ -120,15 +119,15 @@ void PointEdit::add(std::string_view parameter, std::int64_t number) {
 }
 
 std::string PointEdit::out_of_range() const {
-  for (const Assignment& one : plan_->axes.back().assignments) {
-    const parameters::Parameter& parameter = plan_->table.rows[one.slot];
-    const ValueLimits limits = limits_of(*plan_, one.value);
-    const numerics::Interval range = parameters::range_of(parameter, plan_->units);
+  for (const Assignment& one : plan_.axes.back().assignments) {
+    const parameters::Parameter& parameter = plan_.table.rows[one.slot];
+    const ValueLimits limits = limits_of(plan_, one.value);
+    const numerics::Interval range = parameters::range_of(parameter, plan_.units);
     const auto is_allowed = [&](double value) {
       return value == parameter.none || numerics::contains(range, value);
     };
     const bool drawn = one.value.kind == Value::Kind::distribution;
-    if (drawn ? distributions::extremes_are_inside(plan_->distributions[one.value.index], range)
+    if (drawn ? distributions::extremes_are_inside(plan_.distributions[one.value.index], range)
               : is_allowed(limits.low))
       continue;
     return fmt::format("{}: it would be {}; expected {}", parameter.name,
@@ -141,17 +140,17 @@ std::string PointEdit::out_of_range() const {
 
 Study PointEdit::study() const {
   Study study = study_;
-  study.plan = plan_;
+  study.plan = std::make_shared<const StudyPlan>(plan_);
   return study;
 }
 
 const Value& PointEdit::value_of(std::size_t slot) const {
-  return *value_at_point(*plan_, slot, point_);
+  return *value_at_point(plan_, slot, point_);
 }
 
 void PointEdit::assign(std::size_t slot, const Value& value) {
   const auto number = static_cast<std::uint32_t>(slot);
-  PlanAxis& axis = plan_->axes.back();
+  PlanAxis& axis = plan_.axes.back();
   const auto same =
       std::ranges::find_if(axis.assignments, [number](const Assignment& one) { return one.slot == number; });
   if (same != axis.assignments.end()) {
@@ -160,14 +159,14 @@ void PointEdit::assign(std::size_t slot, const Value& value) {
   }
   axis.assignments.push_back({number, value});
   axis.first.back() = static_cast<std::uint32_t>(axis.assignments.size());
-  std::vector<std::uint32_t>& inputs = plan_->input_slots;
+  std::vector<std::uint32_t>& inputs = plan_.input_slots;
   if (std::ranges::find(inputs, number) == inputs.end()) inputs.push_back(number);
 }
 
 Value PointEdit::drawn_from(const Value& like, distributions::Distribution distribution) {
   Value value = like;
-  value.index = static_cast<std::uint32_t>(plan_->distributions.size());
-  plan_->distributions.push_back(std::move(distribution));
+  value.index = static_cast<std::uint32_t>(plan_.distributions.size());
+  plan_.distributions.push_back(std::move(distribution));
   return value;
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
 
 namespace zerocount::study {
@@ -25,8 +25,8 @@ class PointEdit {
 
   /// The points of the plan: the design point under each condition.
   std::vector<std::size_t> points() const;
-  const StudyPlan& plan() const { return *plan_; }
-  StudyPlan& plan() { return *plan_; }
+  const StudyPlan& plan() const { return plan_; }
+  StudyPlan& plan() { return plan_; }
   /// @param parameter dotted path
   ValueLimits limits(std::string_view parameter, std::int64_t condition = 0) const;
 
@@ -46,7 +46,7 @@ class PointEdit {
   /// none.
   std::string out_of_range() const;
 
-  /// Its trials at the point are those with the new values.
+  /// Its trials at the point are those with the new values. Later edits do not change it.
   Study study() const;
 
  private:
@@ -55,8 +55,8 @@ class PointEdit {
   Value drawn_from(const Value& like, distributions::Distribution distribution);
 
   Study study_;
-  std::shared_ptr<StudyPlan> plan_;  // its last axis has one option, the new values
-  std::size_t point_;                // of the plan, under the first condition
+  StudyPlan plan_;     // its last axis has one option, the new values
+  std::size_t point_;  // of the plan, under the first condition
 };
 
 }  // namespace zerocount::study

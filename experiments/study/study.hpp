@@ -264,7 +264,9 @@ struct Study {
   std::vector<SequenceMove> sequence;  ///< [move]; empty without a sequence
   bool open_loop{false};               ///< the moves are torque levels, without targets
   StudyFeatures features;
-  std::shared_ptr<const StudyPlan> plan;  ///< from which study_trial() makes the parameters of a trial
+  /// From which study_trial() makes the parameters of a trial. A plan does not change once a study has it:
+  /// what is made of it may be kept as long as the pointer stays.
+  std::shared_ptr<const StudyPlan> plan;
 };
 
 /// The parameters of one trial, and its inputs as stored in the results file.

@@ -224,6 +224,12 @@ void round_targets(StudyTrial& trial) {
     trial.parameters.command.exact_targets = trial.target_positions;
 }
 
+/// Completes a trial of which all numbers are set.
+void complete(const Study& study, StudyTrial& trial) {
+  complete_trial(study.units, trial.parameters);
+  round_targets(trial);
+}
+
 void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
   if (point < 0 || point >= point_count(study)) {
     throw Failure(ExitCode::bad_input, fmt::format("study {} has no design point {}; expected 0 to {}",
@@ -407,8 +413,7 @@ StudyTrial commanded_trial(const Study& study, std::int64_t point, std::int64_t 
   begin_trial(draws_of(study, point, place.draw, none), place.point, t);
   set_resolution(numbers, trial.parameters.dac);
   set_targets(study, numbers, trial);
-  complete_trial(study.units, trial.parameters);
-  round_targets(trial);
+  complete(study, trial);
   return trial;
 }
 
@@ -418,8 +423,7 @@ StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t inde
 
 StudyTrial study_trial(const Study& study, std::int64_t point, std::int64_t index, const GivenDraws& given) {
   StudyTrial trial = study_trial_as_given(study, point, index, given);
-  complete_trial(study.units, trial.parameters);
-  round_targets(trial);
+  complete(study, trial);
   return trial;
 }
 
@@ -436,8 +440,7 @@ void TrialDrawer::draw(std::int64_t point, std::int64_t index, StudyTrial& trial
   TrialDraws draws = draws_of(study_, point, place.draw, none);
   draws.quantiles = &quantiles_;
   make_trial(draws, place.point, trial, numbers_);
-  complete_trial(study_.units, trial.parameters);
-  round_targets(trial);
+  complete(study_, trial);
 }
 
 std::vector<double> drawn_numbers(const Study& study, std::int64_t point, std::int64_t index,

@@ -2,14 +2,15 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <iterator>
 #include <numeric>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "analysis/measures/point_accumulator.hpp"
+#include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
+#include "analysis/statistics/known_values.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
 #include "core/trial/divergence.hpp"
 #include "experiments/designs/random_key.hpp"
@@ -72,7 +73,7 @@ void MeasureAccumulator::add(const MovesOfTrials& some) {
 void MeasureAccumulator::add_qualities(const MovesOfTrials& some) {
   by_move_.resize(some.of_trial);
   const auto of_trial = static_cast<std::int64_t>(some.of_trial);
-  const std::int64_t wanted = measure_->reduction == layout::MoveReduction::all ? of_trial : 1;
+  const std::int64_t wanted = wanted_moves(*measure_, of_trial);
   values_.resize(some.moves.size());
   layout::qualities_of(*measure_, some.moves, values_);
   std::int64_t having = 0;  // without rigs
@@ -100,27 +101,23 @@ void MeasureAccumulator::add_sums(const MovesOfTrials& some) {
   std::vector<double> of_moves(some.moves.size());
   layout::values_of(measure_->field, some.moves, of_moves);
   values_.clear();
-  for (auto move = of_moves.cbegin(); move != of_moves.cend();
-       move += static_cast<std::ptrdiff_t>(some.of_trial))
-    values_.push_back(std::accumulate(move, move + static_cast<std::ptrdiff_t>(some.of_trial), 0.0));
+  for (std::span<const double> rest(of_moves); !rest.empty(); rest = rest.subspan(some.of_trial))
+    values_.push_back(sum_of_moves(rest.first(some.of_trial)));
   add_totals(some.first_trial, 1);
   clusters_.add_trials(some.first_trial, values_, 1, false);
 }
 
 void MeasureAccumulator::add_values(const MovesOfTrials& some) {
-  const layout::CountedValues& counted = measure_->values;
   values_.assign(some.moves.size(), statistics::unknown);
   if (is_known(*measure_, kind_.version)) layout::values_of(measure_->field, some.moves, values_);
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const trial::MoveOutcome& move = *some.moves[i];
-    values_[i] = (counted.magnitude ? std::abs(values_[i]) : values_[i]) + positive_zero;
-    const bool was_run = trial::was_run(move);
-    if (!was_run || (counted.needs_motion && move.outcome == trial::Outcome::nonfinite))
-      values_[i] = statistics::unknown;
-    if (!in_clusters_ && was_run) moments_.add(values_[i]);
+    values_[i] = counted_value(*measure_, move, values_[i]) + positive_zero;
+    if (!in_clusters_ && trial::was_run(move)) moments_.add(values_[i]);
   }
   add_totals(some.first_trial, some.of_trial);
-  if (in_clusters_) clusters_.add_trials(some.first_trial, values_, some.of_trial, counted.nan_is_late);
+  if (in_clusters_)
+    clusters_.add_trials(some.first_trial, values_, some.of_trial, measure_->values.nan_is_late);
 }
 
 /// Adds values_, [trial, value], to the totals of the clusters. @param trial index of the first
@@ -128,9 +125,7 @@ void MeasureAccumulator::add_totals(std::int64_t trial, std::size_t of_trial) {
   if (!has_mean_bounds_) return;
   std::vector<double> known;
   for (std::span<const double> values(values_); !values.empty(); values = values.subspan(of_trial)) {
-    known.clear();
-    std::ranges::copy_if(values.first(of_trial), std::back_inserter(known),
-                         [](double value) { return !std::isnan(value); });
+    statistics::find_known(values.first(of_trial), known);
     totals_.add(kind_.rigs > 0 ? trial % kind_.rigs : trial, known);
     ++trial;
   }

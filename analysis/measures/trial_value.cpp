@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
-#include "analysis/statistics/unknown.hpp"
-#include "core/trial/divergence.hpp"
 #include "results/layout/fields.hpp"
 
 namespace zerocount::measures {
 double counted_value(const layout::Measure& measure, const trial::MoveOutcome& move) {
-  if (!trial::was_run(move) || (measure.values.needs_motion && move.outcome == trial::Outcome::nonfinite))
-    return statistics::unknown;
-  const double value = layout::value_of(measure.field, move);
-  return measure.values.magnitude ? std::abs(value) : value;
+  return counted_value(measure, move, layout::value_of(measure.field, move));
 }
 
 bool has_targets(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves) {
@@ -22,28 +18,33 @@ bool has_targets(const layout::Measure& measure, std::span<const trial::MoveOutc
          });
 }
 
+std::int64_t wanted_moves(const layout::Measure& quality, std::int64_t moves_of_trial) {
+  return quality.reduction == layout::MoveReduction::all ? moves_of_trial : 1;
+}
+
 double value_of_trial(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves,
                       const std::function<double()>& late) {
   const auto has = [&](const trial::MoveOutcome& move) { return layout::has_quality(measure, move); };
+  const auto value_of_move = [&](const trial::MoveOutcome& move) {
+    return layout::value_of(measure.field, move);
+  };
   double result = 0.0;
   switch (measure.reduction) {
     case layout::MoveReduction::all:
-      return std::all_of(moves.begin(), moves.end(), has) ? 1.0 : 0.0;
     case layout::MoveReduction::any:
-      return std::any_of(moves.begin(), moves.end(), has) ? 1.0 : 0.0;
+      return std::ranges::count_if(moves, has) >= wanted_moves(measure, std::ssize(moves)) ? 1.0 : 0.0;
     case layout::MoveReduction::sum:
-      for (const trial::MoveOutcome& move : moves) result += layout::value_of(measure.field, move);
-      return result;
+      return sum_of_moves(moves | std::views::transform(value_of_move));
     case layout::MoveReduction::largest:
       for (const trial::MoveOutcome& move : moves) {
-        double value = std::abs(layout::value_of(measure.field, move));
+        double value = std::abs(value_of_move(move));
         if (std::isnan(value) && late && measure.values.nan_is_late) value = late();
         if (std::isnan(value)) return statistics::unknown;
         result = std::max(result, value);
       }
       return result;
     case layout::MoveReduction::last:
-      return layout::value_of(measure.field, moves.back());
+      return value_of_move(moves.back());
   }
   return statistics::unknown;
 }

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <span>
 #include <vector>
 
+#include "analysis/statistics/unknown.hpp"
+#include "core/trial/divergence.hpp"
 #include "core/trial/outcome.hpp"
 #include "results/layout/measure_table.hpp"
 #include "results/layout/table_io.hpp"
@@ -13,11 +17,25 @@
 
 namespace zerocount::measures {
 
-/// The value of a move for the statistics; NaN if it has none.
+/// The value of a move for the statistics; NaN if it has none. @param value that of the measure's field
+inline double counted_value(const layout::Measure& measure, const trial::MoveOutcome& move, double value) {
+  const bool is_lost = measure.values.needs_motion && move.outcome == trial::Outcome::nonfinite;
+  if (is_lost || !trial::was_run(move)) return statistics::unknown;
+  return measure.values.magnitude ? std::abs(value) : value;
+}
 double counted_value(const layout::Measure& measure, const trial::MoveOutcome& move);
 
 /// Whether the moves have targets where the measure needs them.
 bool has_targets(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves);
+
+/// How many of a trial's moves must have a quality for the trial to have it.
+std::int64_t wanted_moves(const layout::Measure& quality, std::int64_t moves_of_trial);
+
+/// The value of a trial for a measure that is summed over its moves. @param values of the moves, a range
+template <class Values>
+double sum_of_moves(const Values& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
 
 /// The value of a trial, combined from the values of its moves by Measure::reduction; 1 or 0 for a quality.
 /// The settling time of a trial is that of its slowest move.

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <span>
 
+#include "analysis/statistics/known_values.hpp"
+
 namespace zerocount::statistics {
 
 void TrialClusters::add_trial(std::int64_t trial, std::vector<double>& observed, std::int64_t size) {
@@ -22,8 +24,7 @@ void TrialClusters::add_trials(std::int64_t trial, std::span<const double> value
   std::vector<double> observed;
   observed.reserve(values.size());
   const auto observe = [&](std::span<const double> some) {
-    observed.clear();
-    std::ranges::copy_if(some, std::back_inserter(observed), [](double value) { return !std::isnan(value); });
+    find_known(some, observed);
     return nan_is_late ? std::ssize(some) : std::ssize(observed);
   };
   if (rigs_in_all_ == 0 && of_trial == 1) {

@@ -13,6 +13,7 @@
 #include "analysis/measures/point_columns.hpp"
 #include "core/failure/failure.hpp"
 #include "core/trial/divergence.hpp"
+#include "results/layout/fields.hpp"
 #include "tests/support/draws.hpp"
 
 namespace zerocount::measures {
@@ -161,6 +162,81 @@ TEST(DividedPoint, HasTheStatisticsOfTrialsThatWereAddedOneByOne) {
     }
     EXPECT_EQ(together.state().whole, one_by_one.state().whole) << "round " << round;
     EXPECT_EQ(bits_of(together.state().real), bits_of(one_by_one.state().real)) << "round " << round;
+  }
+}
+
+/// A measure of trials, moves in the order of the trials, by the words of its definition.
+struct PlainStatistics {
+  std::int64_t trials{0};  ///< that have the quality, or a value above 0
+  std::vector<std::int64_t> by_move;
+  std::vector<double> values;  ///< of the moves, or of a sum those of the trials
+};
+
+PlainStatistics plain_statistics(const layout::Measure& measure, const std::vector<JerkingTrial>& trials) {
+  PlainStatistics result;
+  for (const JerkingTrial& trial : trials) {
+    const std::vector<trial::MoveOutcome>& moves = trial.outcome.moves;
+    result.by_move.resize(moves.size());
+    bool some = false, every = true;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      const double value = layout::value_of(measure.field, moves[i]);
+      const bool has = measure.field.column.name == "outcome" ? moves[i].outcome == trial::Outcome::zero_count
+                                                              : value != 0.0;
+      result.by_move[i] += has ? 1 : 0;
+      some = some || has;
+      every = every && has;
+      sum += value;
+      const bool was_lost = measure.values.needs_motion && moves[i].outcome == trial::Outcome::nonfinite;
+      const bool was_not_run = moves[i].stopped && std::isnan(moves[i].final_position);
+      if (measure.reduction != layout::MoveReduction::sum && !was_lost && !was_not_run && !std::isnan(value))
+        result.values.push_back(measure.values.magnitude ? std::abs(value) : value);
+    }
+    if (measure.reduction == layout::MoveReduction::all) result.trials += every ? 1 : 0;
+    if (measure.reduction == layout::MoveReduction::any) result.trials += some ? 1 : 0;
+    if (measure.reduction == layout::MoveReduction::sum && !std::isnan(sum)) {
+      result.values.push_back(sum);
+      result.trials += sum > 0.0 ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+TEST(DividedPoint, HasTheSumsAndQualitiesOfEachTrial) {
+  testing::Draws draws(2309);
+  for (int round = 0; round < 16; ++round) {
+    const MoveKind kind{.rigs = round % 3 == 1 ? 7 : 0};
+    const auto of_trial = static_cast<std::size_t>(draws.integer(1, 4));
+    PointAccumulator point(kind);
+    std::vector<JerkingTrial> trials;
+    for (int i = 0; i < 700; ++i) {
+      trials.push_back(random_trial(draws, of_trial, false));
+      point.add(trials.back().outcome, trials.back().jerks);
+    }
+    const PointSummary summary = point.statistics();
+    for (const layout::Measure& measure : *summary.table) {
+      if (measure.point.texts.empty()) continue;
+      SCOPED_TRACE(measure.field.column.name);
+      const MeasureStatistics& found = summary.of(measure);
+      const PlainStatistics plain = plain_statistics(measure, trials);
+      if (layout::is_quality(measure)) {
+        EXPECT_EQ(found.trials, plain.trials);
+        EXPECT_EQ(found.by_move, plain.by_move);
+        continue;
+      }
+      const auto n = std::ssize(plain.values);
+      double sum = 0.0;
+      for (const double value : plain.values) sum += value;
+      EXPECT_EQ(found.n, n);
+      if (measure.reduction == layout::MoveReduction::sum) {
+        EXPECT_EQ(found.trials, plain.trials);
+        EXPECT_EQ(found.total, std::llround(sum));
+      }
+      if (n == 0) continue;
+      EXPECT_EQ(found.min, std::ranges::min(plain.values));
+      EXPECT_EQ(found.max, std::ranges::max(plain.values));
+      EXPECT_NEAR(found.mean, sum / static_cast<double>(n), 1e-12 * std::max(1.0, found.max - found.min));
+    }
   }
 }
 

@@ -39,8 +39,8 @@ class TrialRunner {
   std::vector<shards::TrialResult> run(std::span<const std::int64_t> rows, const std::stop_token& stop = {});
 
  private:
-  /// Draws the trial of a row, which is told to `drawn`.
   using Drawn = std::function<void(std::int64_t row, const study::StudyTrial& trial)>;
+  /// Makes `trial` that of the row, and calls drawn(row, trial).
   void draw(std::int64_t row, const Drawn& drawn, study::StudyTrial& trial);
   void run_alone(shards::TrialResult& result, const Drawn& drawn, const std::stop_token& stop);
   std::vector<shards::TrialResult> run_rows(std::span<const std::int64_t> rows, const std::stop_token& stop,

@@ -25,7 +25,8 @@ class ClusteredSample {
   void add_cluster(const Histogram<double>& observed, std::int64_t size);
   /// @param observed in any order; they are sorted
   void add_cluster(std::span<double> observed, std::int64_t size);
-  /// Adds clusters of one value each. @param censored number of further ones, whose value is
+  /// Adds clusters of one value each: the observed ones, in any order. @param censored number of further
+  /// clusters, whose only value is censored
   void add_single_values(std::span<const double> observed, std::int64_t censored);
   /// Adds the clusters of another sample.
   ClusteredSample& operator+=(const ClusteredSample& other);

@@ -57,7 +57,7 @@ struct MomentSums {
     ++n;
     sum.add(value);
     squares.add_square(value);
-    if (!(min <= value)) min = value;  // or NaN
+    if (!(min <= value)) min = value;  // also where it is NaN, before the first value
     if (!(max >= value)) max = value;
   }
 

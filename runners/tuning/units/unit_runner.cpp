@@ -90,9 +90,9 @@ std::size_t units_of_block(const UnitsToRun& entry, const trials::Replicates& un
   return static_cast<std::size_t>(std::max<std::int64_t>(1, trials / units.trials_each));
 }
 
-/// Units in as few blocks of at most `size` as there can be. Each block has units of all entries where there
-/// are enough, one after another: trials of one entry take about the same time, and blocks of different
-/// entries would not.
+/// Divides the units into the smallest number of blocks of at most `size` units. Block b of n takes the units
+/// b, b + n, b + 2n, …, and so has units of every entry that has at least n. The time of a trial depends on
+/// its entry: blocks of single entries would take different times.
 void add_blocks(std::span<const UnitOfEntry> units, std::size_t size, std::vector<Block>& blocks) {
   const std::size_t count = (units.size() + size - 1) / size;
   for (std::size_t block = 0; block < count; ++block) {

@@ -139,8 +139,8 @@ struct ElementSeries {
 
 /// Finds the first slip of an element before the fraction x of the step. @param x is moved there. @param
 /// exact lanes in which the level is as accurate as the torque of the elements. @returns the lanes in which
-/// that cannot be told: a margin may have a second zero, or the level is not accurate and an element is near
-/// it.
+/// the first slip is not known: a margin may have a second zero, or the level is not accurate and an element
+/// is near it.
 template <class At, class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask find_first_slip(const BatchState& batch, const At& at,
                                                          const ElementSeries<P>& s, const P& direction,

@@ -111,7 +111,7 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
   if constexpr (decider == Decider::lane_loop)
     steady = (steady & to_mask(at.load(l.given_may_stay))) | to_mask(at.load(l.given_stays));
   at.store(l.steady, to_number<P>(steady));
-  if constexpr (noisy) steady = Mask::of_bits(0);  // the count is another one at any sample
+  if constexpr (noisy) steady = Mask::of_bits(0);  // any sample may have another count
 
   const P zero(0.0);
   const P one(1.0);

@@ -64,7 +64,7 @@ class LaneDrive {
   /// Whether the torque ever varies between two stops.
   bool may_vary() const { return lags_ || disturbance_varies(); }
   bool disturbance_varies() const { return motion::varies(disturbance_); }
-  /// Whether the lanes have the lines of the vibration one by one. Otherwise it is a series:
+  /// Whether the lanes have the lines of the vibration one by one, in place of vibration().
   bool lanes_have_lines() const { return disturbance_.vibration.size() <= max_lane_lines; }
   /// About sample k.
   VibrationSeries::Coefficients vibration(std::int64_t k) { return vibration_.about_sample(k); }

@@ -127,7 +127,7 @@ TEST_P(LawsWithoutHook, AgreeSampleBySample) {
       slid += one.broke_away ? 1 : 0;
     }
   }
-  EXPECT_LE(parted, 3);
+  EXPECT_LE(parted, each < 60 ? 1 : 3);
   EXPECT_EQ(slid > 20, GetParam().model != friction::FrictionModel::none);
 }
 

@@ -99,8 +99,8 @@ TEST(Gms, IsTheSpringOfThePaperInTheLimitOfManyElements) {
     const double level = torque(random);
     go_slowly(plant, level);
     spring.move_to_torque(level);
-    EXPECT_NEAR(plant.theta(), spring.elongation(), 1e-7)
-        << i;  // of 1e-4: the last element stands for a wide cell  // of 1e-4
+    // Of 1e-4: the last element stands for a wide cell.
+    EXPECT_NEAR(plant.theta(), spring.elongation(), 1e-7) << i;
   }
 }
 
@@ -117,7 +117,6 @@ TEST(Gms, SlidesAtTheLevelOfItsVelocity) {
   }
 }
 
-// A slow torque before the start leaves the springs as the same torque applied slowly does.
 // In exact balance at rest no direction is ahead, in which an element could slip.
 TEST(Gms, KeepsItsElementsWhereNothingMovesThem) {
   GmsPlant alone({}, elements(gms_like_the_spring(), 0.8, 30.0), {}, gms_tolerance);
@@ -133,6 +132,7 @@ TEST(Gms, KeepsItsElementsWhereNothingMovesThem) {
   }
 }
 
+// A slow torque before the start leaves the springs as the same torque applied slowly does.
 TEST(Gms, StartsWithTheMemoryOfItsPreload) {
   std::mt19937_64 random(11);
   for (int i = 0; i < 10; ++i) {

@@ -24,6 +24,10 @@ BatchEngine::BatchEngine(const BatchSettings& settings)
     : running_(std::make_unique<RunningBatch>(settings)) {}
 BatchEngine::~BatchEngine() = default;
 
+std::int64_t BatchEngine::rounds() const {
+  return running_->rounds;
+}
+
 void BatchEngine::run(const TrialSource& source, std::span<trial::TrialOutcome> outcomes,
                       const BatchObservers& observers) {
   RunningBatch& run = *running_;
@@ -31,6 +35,7 @@ void BatchEngine::run(const TrialSource& source, std::span<trial::TrialOutcome> 
   run.outcomes = outcomes;
   run.observers = &observers;
   run.next_trial = 0;
+  run.rounds = 0;
   run.used_lanes = static_cast<int>(run.trials.size());
   run.state.passed = observers.sample ? run.passed_samples : nullptr;
   // Equal trials in equal lanes then need no new memory in the next run.
@@ -39,6 +44,7 @@ void BatchEngine::run(const TrialSource& source, std::span<trial::TrialOutcome> 
   for (int lane = 0; lane < run.used_lanes; ++lane) start_next_trial(run, lane);
   while (!run.lanes.active.empty()) {
     if (observers.stop.stop_requested()) throw trial::Interrupted{};
+    ++run.rounds;
     close_gaps(run);
     change_torques(run);
     take_samples(run, end_moves(run));

@@ -56,8 +56,7 @@ struct BatchSettings {
 };
 
 /// The first feature of a trial that lanes lack, as a noun phrase; empty if lanes run the trial. The engine
-/// runs such trials by run_trial: torque levels, the friction laws coulomb and gms, more than eight ripples,
-/// a vibration above half the sample rate, or a disturbance that varies without friction.
+/// runs such trials by run_trial (tests/benchmarks/README.md lists them).
 std::string lacking_in_lanes(const trial::TrialParameters& parameters);
 
 /// Whether the lanes run such a trial.
@@ -83,6 +82,10 @@ class BatchEngine {
   /// @param trials not changed while this runs.
   void run(std::span<const trial::TrialParameters* const> trials, std::span<trial::TrialOutcome> outcomes,
            const BatchObservers& observers = {});
+
+  /// Rounds of the last run: with one lane, the steps of its trials, and their samples where none passes
+  /// them.
+  std::int64_t rounds() const;
 
  private:
   std::unique_ptr<RunningBatch> running_;

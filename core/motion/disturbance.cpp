@@ -1,5 +1,7 @@
 #include "core/motion/disturbance.hpp"
 
+#include <cmath>
+
 #include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::motion {
@@ -29,6 +31,16 @@ double rate(const VaryingTorque& torque, double omega) {
     sum += ripple.amplitude * ripple.per_angle * omega * numerics::cos(angle(ripple, torque.theta));
   for (const Vibration& line : torque.of.vibration)
     sum += line.amplitude * line.rate * numerics::cos(angle(line, torque.time));
+  return sum;
+}
+
+double vibration_beyond(const Disturbance& disturbance, std::size_t order, double duration) {
+  double sum = 0.0;
+  for (const Vibration& line : disturbance.vibration) {
+    double term = std::abs(line.amplitude);
+    for (std::size_t k = 1; k <= order; ++k) term *= std::abs(line.rate) * duration / static_cast<double>(k);
+    sum += term;
+  }
   return sum;
 }
 

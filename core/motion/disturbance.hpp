@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/numerics/power_series.hpp"
@@ -31,6 +32,10 @@ struct Disturbance {
 inline bool varies(const Disturbance& disturbance) {
   return !disturbance.ripple.empty() || !disturbance.vibration.empty();
 }
+
+/// Bound of what a Taylor series of Σ vibration leaves out within `duration` (s), if it ends before `order`
+/// (Lagrange): Σ |amplitude|·(rate·duration)ᵒʳᵈᵉʳ/order!, N m.
+double vibration_beyond(const Disturbance& disturbance, std::size_t order, double duration);
 
 /// The varying part of a disturbance, at an instant.
 struct VaryingTorque {

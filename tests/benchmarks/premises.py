@@ -43,6 +43,8 @@ ROWS = {
     "lugre, amplifier": [*LUGRE, AMPLIFIER],
     "free, amplifier": ["friction.model=none", AMPLIFIER],
     "coulomb": ["friction.model=coulomb"],
+    "coulomb, delay": ["friction.model=coulomb", "controller.delay=1"],
+    "coulomb, amplifier": ["friction.model=coulomb", AMPLIFIER],
     "coulomb, load": ["friction.model=coulomb", *LOAD],
     "coulomb, ripple": ["friction.model=coulomb", RIPPLE],
     "coulomb, line": ["friction.model=coulomb", LINE],

@@ -232,6 +232,7 @@ struct alignas(64) CourseLanes {
   Lanes move_start;                      ///< number of the move's first sample from the start of the trial
   Lanes line_count;
   LineLanes lines[max_lane_lines];  ///< few of them, in place of a series
+  Lanes left_out;  ///< bound of what order batch_order on adds to the lines up to a stop, N m
   Lanes ripple_count;
   RippleLanes ripples[max_lane_ripples];
   Lanes applied[batch_order];  ///< without ripples, about the present instant, coefficients ≥ 1 in t/T, N m

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/batch/kernels/coupled_torque.hpp"
+#include "core/batch/kernels/passed_measures.hpp"
 #include "core/batch/kernels/velocity_step.hpp"
 
 namespace zerocount::batch {
@@ -12,7 +13,6 @@ __attribute__((noinline)) void stand(BatchState& batch, const At& at) {
   using Mask = typename P::Mask;
   const MotionLanes& m = batch.motion;
   const LoopLanes& l = batch.loop;
-  MeasureLanes& q = batch.measures;
   TimeLanes& time = batch.time;
   const P zero(0.0);
   const P one(1.0);
@@ -22,10 +22,7 @@ __attribute__((noinline)) void stand(BatchState& batch, const At& at) {
   const P samples = at.load(time.samples_to_stop);
   const P passed = select(released | ~quiet, zero, samples - one);
 
-  trial::ArrivalMeasures<P> arrival;
-  trial::for_each_of_arrival(LoadEach<At>{at}, arrival, q);
-  trial::measure_zeros(arrival, at.load(q.limits.dwell), passed);
-  trial::for_each_of_arrival(StoreEach<At>{at}, q, arrival);
+  measure_passed(batch, at, passed);
   at.store(time.samples_to_stop, select(released, samples, one));
   at.store(time.time_to_stop, select(released, at.load(time.time_to_stop), zero));
   add_events(batch, at, events_where<P>(released, breakaway));
@@ -56,9 +53,11 @@ __attribute__((noinline)) void stand_coupled(BatchState& batch, const At& at) {
   applied.coefficient(0, zero);
   for (int k = 1; k < batch_order; ++k) {
     const P coefficient = abs(applied.coefficient(k, zero));
-    // The last two count twice: for the terms beyond them.
+    // The last two count twice: for the terms of a lag and of a load beyond them.
     bound = bound + (k < batch_order - 2 ? coefficient : P(2.0) * coefficient);
   }
+  // Lines may cancel in any orders, but not in this bound.
+  if constexpr (Varies) bound = bound + at.load(batch.course.left_out);
   ContactLanes& c = batch.contact;
   Mask held = bound < P(1.0 - 1e-12) * at.load(c.breakaway);
   at.store(c.spent, select(held, zero, at.load(c.spent)));

@@ -43,7 +43,9 @@ void start_drive_kernel(DriveLanes& d, int lane, const LaneTrial& trial) {
   d.rate[lane] = loop::lag_rate(p.amplifier);
   d.decay[lane] = numerics::exp(-d.rate[lane] * (1.0 / p.controller.sample_rate));
   d.disturbed[lane] = drive.disturbance_varies() ? 1.0 : 0.0;
-  d.stops[lane] = drive.vibration_terms() > 0 || trial.motion != LaneMotion::contact ? 1.0 : 0.0;
+  const bool is_contact = trial.motion == LaneMotion::contact;
+  const bool stops = drive.vibration_terms() > 0 || (!is_contact && drive.disturbance_varies());
+  d.stops[lane] = stops ? 1.0 : 0.0;
   d.jitter[lane] = p.controller.jitter;
   if (!drive.jitters()) return;
   store_random(d.random, lane, p.randomness, p.randomness.jitter);
@@ -74,6 +76,9 @@ void start_drive(BatchState& batch, int lane, LaneTrial& trial) {
   for (Lanes& coefficient : c.vibration) coefficient[lane] = 0.0;
   store_vibration(batch, lane, drive, 0);
   start_lines(c, lane, drive);
+  const loop::ControllerParameters& controller = trial.parameters->controller;
+  const double longest = 1.0 / controller.sample_rate + controller.jitter;
+  c.left_out[lane] = motion::vibration_beyond(varying, batch_order, longest);
   if (needs_drive_kernel(*trial.parameters)) start_drive_kernel(batch.drive, lane, trial);
   c.ripple_count[lane] = static_cast<double>(varying.ripple.size());
   for (std::size_t i = 0; i < std::size(c.ripples); ++i) {

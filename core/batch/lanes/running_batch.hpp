@@ -73,7 +73,8 @@ struct RunningBatch {
   std::span<trial::TrialOutcome> outcomes;
   const BatchObservers* observers{nullptr};
   std::size_t next_trial{0};  ///< of the batch
-  int used_lanes{0};          ///< lanes from this one on are idle
+  std::int64_t rounds{0};
+  int used_lanes{0};  ///< lanes from this one on are idle
 };
 
 // The life of a lane. BatchEngine::run() calls the stages in this order; each takes all lanes that are due.

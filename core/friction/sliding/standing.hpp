@@ -21,8 +21,8 @@ struct StandStep {
 /// Lets a rotor stand under a torque with a load or a varying disturbance, as far as a Taylor step goes, or
 /// until the torque on it, u − Ts, exceeds the breakaway torque. Moves the load.
 ///
-/// Each step goes forward in time or releases the rotor, and no two releases at one instant have the same
-/// cause. Where the torque reaches the level of breakaway, its rounded value lies on either side. It counts
+/// Each step goes forward in time or releases the rotor, and a torque at the level releases it once at an
+/// instant. Where the torque reaches the level of breakaway, its rounded value lies on either side. It counts
 /// as that level, so that the slide begins with the rate of the torque. A slide that nevertheless leads
 /// nowhere leaves a contact that is `spent`: a torque within rounding of the level does not release it at
 /// this instant.

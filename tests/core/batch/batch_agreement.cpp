@@ -146,6 +146,7 @@ void Comparison::compare_move(std::size_t number, const trial::MoveOutcome& a, c
       result_.depth_by_steps = 1;
       return;
     }
+    result_.depth_apart = std::abs(a.reversal_depth - b.reversal_depth);
     fail(&BatchAgreement::other_depth,
          fmt::format("move {}: reversal_depth {} and {}", number, a.reversal_depth, b.reversal_depth));
   }
@@ -231,6 +232,7 @@ void BatchAgreement::add(const BatchAgreement& other) {
   other_measures += other.other_measures;
   theta = std::max(theta, other.theta);
   floating = std::max(floating, other.floating);
+  depth_apart = std::max(depth_apart, other.depth_apart);
   part += other.part;
   stray += other.stray;
   if (other.part == 0) {
@@ -243,11 +245,12 @@ void BatchAgreement::add(const BatchAgreement& other) {
 std::string BatchAgreement::figures() const {
   return fmt::format(
       "{} trials, {} in lanes, {} slide; {} samples before a slide compared: theta within {:.1e} count, "
-      "floating measures within {:.1e} count; other counts or codes {}, other reversal depth {} (and {} by "
+      "floating measures within {:.1e} count; other counts or codes {}, other reversal depth {} (by up to "
+      "{}; and {} by "
       "the steps), other discrete measure {}, on an edge {}; of the sliding ones {} part, {} not on an "
       "edge, the others stay within {:.1e} count ({:.1e} of what is promised)",
-      trials, in_lanes, slides, samples, theta, floating, other_counts, other_depth, depth_by_steps,
-      other_measures, on_edge, part, stray, theta_after, share_after);
+      trials, in_lanes, slides, samples, theta, floating, other_counts, other_depth, depth_apart,
+      depth_by_steps, other_measures, on_edge, part, stray, theta_after, share_after);
 }
 
 }  // namespace zerocount::testing

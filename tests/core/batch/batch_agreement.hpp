@@ -32,6 +32,9 @@ struct BatchAgreement {
   double theta{0.0};     ///< largest difference of θ before a slide, counts
   double floating{0.0};  ///< the same of the floating measures, counts
 
+  std::int64_t depth_apart{
+      0};  ///< largest difference of the reversal_depth of other_depth, in a trial's first move
+
   // Of the trials that slide.
   std::int64_t part{0};     ///< a count or a code of the two differs, some time after the slide
   std::int64_t stray{0};    ///< θ differs by more than promised after the slide, before or when a count does

@@ -69,6 +69,44 @@ trial::TrialParameters standing_trial(std::uint64_t number) {
   return p;
 }
 
+/// Of `lines` lines whose amplitudes add up to `peak` of the torque of breakaway; without control.
+trial::TrialParameters vibrated_trial(RandomBlocks& draw, double peak, int lines, int number) {
+  trial::TrialParameters p;
+  p.friction.model = friction::FrictionModel::coulomb;
+  p.friction.uniform.breakaway = 0.1;
+  p.controller.kp = p.controller.ki = p.controller.kd = 0.0;
+  p.command.targets = {0};
+  p.command.hold = 0.02;
+  constexpr double by_rate[] = {0.25, 0.5, 1.25, 1.5, 2.25};
+  for (int i = 0; i < lines; ++i) {
+    const double share = lines == 1 ? by_rate[number % 5] : draw.uniform(0.05, 0.5);
+    const double phase = number % 3 == 2 ? draw.uniform(0.0, 6.28) : 0.5 * M_PI * (number % 4);
+    p.disturbance.vibration.push_back({0.1 * peak / lines, share * p.controller.sample_rate, phase});
+  }
+  return p;
+}
+
+// The amplitudes of the lines bound the torque, that of a single one is its peak.
+TEST(LanesThatStand, AreReleasedByAVibrationWhosePeakIsBeyondTheLevelAlone) {
+  RandomBlocks draw(44);
+  std::vector<trial::TrialParameters> trials;
+  std::vector<double> peaks;
+  int in_lanes = 0;
+  for (const double peak : {0.2, 0.9, 0.999, 1.001})
+    for (const int lines : {1, 2, 3, 8, 12})
+      for (int i = 0; i < 60 && (peak < 1.0 || lines == 1); ++i) {
+        trials.push_back(vibrated_trial(draw, peak, lines, i));
+        in_lanes += batch::runs_in_lanes(trials.back()) ? 1 : 0;
+        peaks.push_back(peak);
+      }
+  EXPECT_GT(in_lanes, 600);
+  const std::vector<BatchedTrial> batched = run_batch(trials);
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    EXPECT_EQ(batched[i].outcome.moves.at(0).broke_away, peaks[i] > 1.0) << i;
+    EXPECT_EQ(run_by_reference(trials[i]).outcome.moves.at(0).broke_away, peaks[i] > 1.0) << i;
+  }
+}
+
 TEST(LanesThatStand, GoOnAsTheReferenceDoesUnderEveryTorque) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 1000; ++i) trials.push_back(standing_trial(i));

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/trial/trial.hpp"
 #include "tests/core/batch/bench_trials.hpp"
 #include "tests/core/batch/expect_agreement.hpp"
 #include "tests/core/loop/random_blocks.hpp"
@@ -73,6 +74,8 @@ void expect_agreement_but_in_depth(const std::vector<trial::TrialParameters>& tr
   EXPECT_EQ(agreement.other_measures, 0);
   EXPECT_EQ(agreement.stray, 0);
   EXPECT_LE(agreement.on_edge, 1);
+  EXPECT_LE(agreement.other_depth + agreement.depth_by_steps, agreement.trials / 3);
+  EXPECT_LE(agreement.depth_apart, 12);
   EXPECT_LT(agreement.theta, 1e-7);
 }
 
@@ -103,6 +106,52 @@ TEST(AWait, IsPassedUnderLinesOfAVibration) {
   expect_same_unobserved(trials);
 }
 
+/// Rounds of a trial in a lane of its own, by its samples: about 1 where none is passed.
+double rounds_by_samples(const trial::TrialParameters& p) {
+  batch::BatchEngine engine({.lanes = 1});
+  run_batch(engine, {p}, Observed::jerks);
+  return static_cast<double>(engine.rounds()) / static_cast<double>(trial::samples_of_move(p, 0));
+}
+
+TEST(AWait, UnderCoulombsFrictionTakesNoRoundPerSample) {
+  trial::TrialParameters plain;
+  plain.friction.model = friction::FrictionModel::coulomb;
+  plain.command.targets = {0};
+  plain.command.hold = 10.0;
+  for (const double delay : {0.0, 1.0, 2.0})
+    for (const double bandwidth : {0.0, 500.0}) {
+      trial::TrialParameters p = plain;
+      p.controller.delay = delay;
+      p.amplifier.bandwidth = bandwidth;
+      EXPECT_LT(rounds_by_samples(p), 0.01) << delay << ' ' << bandwidth;
+    }
+}
+
+TEST(AWait, OfAContactTakesFewRoundsPerSample) {
+  const auto mean_of = [](const TrialChange& change) {
+    double sum = 0.0;
+    const auto trials = changed_trials("bench-creep", 10, 6, change);
+    for (const trial::TrialParameters& p : trials) sum += rounds_by_samples(p);
+    return sum / static_cast<double>(trials.size());
+  };
+  const auto expect_fewer = [&](double than, const std::string& name, const TrialChange& change) {
+    const double rounds = mean_of(change);
+    std::cout << name << ": " << rounds << "\n";
+    EXPECT_LT(rounds, than) << name;
+  };
+  expect_fewer(0.5, "constant", [](trial::TrialParameters&, RandomBlocks&) {});
+  expect_fewer(0.5, "late samples",
+               [](trial::TrialParameters& p, RandomBlocks&) { p.controller.jitter = 1e-4; });
+  expect_fewer(0.5, "noise",
+               [](trial::TrialParameters& p, RandomBlocks&) { p.encoder.fine_errors.noise = 0.1; });
+  expect_fewer(0.5, "ripple", [](trial::TrialParameters& p, RandomBlocks&) {
+    p.disturbance.ripple = {{1e-3, 36.0, 0.0, 1.0}};
+  });
+  expect_fewer(0.5, "line", [](trial::TrialParameters& p, RandomBlocks&) {
+    p.disturbance.vibration = {{1e-4, 50.0, 1.0}};
+  });
+}
+
 /// Four of five trials slide, most of them fast.
 TEST(ASecondMass, SlidesAsInTheReference) {
   for (const bool bristles : {false, true}) {
@@ -124,6 +173,9 @@ TEST(ASecondMass, SlidesAsInTheReference) {
     EXPECT_EQ(agreement.other_counts, 0);
     EXPECT_EQ(agreement.other_measures, 0);
     EXPECT_EQ(agreement.stray, 0);
+    EXPECT_LE(agreement.on_edge, 1);
+    EXPECT_LE(agreement.other_depth + agreement.depth_by_steps, agreement.trials / 20);
+    EXPECT_LE(agreement.depth_apart, 2);
     EXPECT_LE(agreement.part, 1 + agreement.slides / 20);
   }
 }

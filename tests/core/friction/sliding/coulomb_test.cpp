@@ -243,6 +243,36 @@ TEST(CoulombPlant, IsReleasedByALoadOrADisturbanceInABoundedNumberOfSteps) {
   EXPECT_GT(breakaways, 10000);
 }
 
+// A line turns within its amplitude, and several of them within the sum. At an extreme every second
+// derivative of a line is 0, and those of lines may cancel.
+TEST(CoulombPlant, StandsUnderAVibrationWhosePeakIsBelowTheLevel) {
+  constexpr double pi = 3.14159265358979;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const double sample_time = 5e-4;
+  for (const double peak : {0.2, 0.9, 0.999, 1.001}) {
+    for (const double frequency : {0.25, 0.5, 1.25, 1.5, 2.25, 0.0}) {
+      for (int trial = 0; trial < 12; ++trial) {
+        motion::Disturbance disturbance;
+        const int lines = trial < 8 ? 1 : trial - 6;
+        for (int i = 0; i < lines; ++i) {
+          const double turns = frequency > 0.0 && i == 0 ? frequency : 2.5 * unit(random);
+          disturbance.vibration.push_back({peak * level / lines, 2.0 * pi * turns / sample_time,
+                                           trial < 5 ? 0.5 * pi * trial : 6.3 * unit(random)});
+        }
+        CoulombPlant plant({}, coulomb(0.5), {}, coulomb_tolerance);
+        plant.disturb(disturbance);
+        for (int k = 0; k < 20; ++k) plant.advance(motion::constant_torque(0.0), sample_time);
+        if (peak < 1.0) {
+          ASSERT_EQ(plant.breakaways(), 0) << peak << ' ' << frequency << ' ' << trial;
+        } else if (lines == 1 && frequency > 0.0) {
+          ASSERT_GT(plant.breakaways(), 0) << frequency << ' ' << trial;
+        }
+      }
+    }
+  }
+}
+
 // The torque of a fast amplifier is no polynomial over a sample. A vibration without amplitude has the rotor
 // stand by series in place of the closed form.
 TEST(CoulombPlant, IsReleasedByAnAmplifierBesideADisturbanceOfNoSizeAsWithoutIt) {

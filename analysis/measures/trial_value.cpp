@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "results/layout/fields.hpp"
 
 namespace zerocount::measures {
+
 double counted_value(const layout::Measure& measure, const trial::MoveOutcome& move) {
   return counted_value(measure, move, layout::value_of(measure.field, move));
 }
@@ -34,7 +34,7 @@ double value_of_trial(const layout::Measure& measure, std::span<const trial::Mov
     case layout::MoveReduction::any:
       return std::ranges::count_if(moves, has) >= wanted_moves(measure, std::ssize(moves)) ? 1.0 : 0.0;
     case layout::MoveReduction::sum:
-      return sum_of_moves(moves | std::views::transform(value_of_move));
+      return sum_of_moves(moves, value_of_move);
     case layout::MoveReduction::largest:
       for (const trial::MoveOutcome& move : moves) {
         double value = std::abs(value_of_move(move));

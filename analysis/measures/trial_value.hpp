@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -31,10 +30,12 @@ bool has_targets(const layout::Measure& measure, std::span<const trial::MoveOutc
 /// How many of a trial's moves must have a quality for the trial to have it.
 std::int64_t wanted_moves(const layout::Measure& quality, std::int64_t moves_of_trial);
 
-/// The value of a trial for a measure that is summed over its moves. @param values of the moves, a range
-template <class Values>
-double sum_of_moves(const Values& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0);
+/// The value of a trial for a measure that is summed over its moves. @param value of a move
+template <class Moves, class Value = std::identity>
+double sum_of_moves(const Moves& moves, const Value& value = {}) {
+  double sum = 0.0;
+  for (const auto& move : moves) sum += value(move);
+  return sum;
 }
 
 /// The value of a trial, combined from the values of its moves by Measure::reduction; 1 or 0 for a quality.

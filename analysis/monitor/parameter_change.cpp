@@ -43,7 +43,7 @@ class NormalScores {
     Matrix scores(measures, moves.size() / measures);
     for (std::size_t i = 0; i < moves.size(); ++i) {
       const std::vector<double>& values = sorted_[i % measures];
-      const auto [first, last] = std::ranges::equal_range(values, moves[i]);
+      const auto [first, last] = std::equal_range(values.begin(), values.end(), moves[i]);
       const auto below = static_cast<double>(first - values.begin());
       const auto equal = static_cast<double>(last - first);
       const double part = (below + 0.5 * equal + 0.5) / (static_cast<double>(values.size()) + 1.0);

@@ -139,6 +139,7 @@ std::vector<FailureInput> failure_inputs(const Question& question, const Estimat
   for (std::size_t i = 0; i < usual_trials; ++i)
     usual.push_back({numbers.normals(question.coordinates.size()), static_cast<std::int64_t>(i)});
   std::vector<TrialPoint> failing;
+  failing.reserve(failed.size());
   for (const WeightedTrial* trial : failed) failing.push_back(trial->point);
   const std::vector<std::vector<double>> usual_columns = sorted_columns(inputs_at(question, usual));
   const std::vector<std::vector<double>> columns = sorted_columns(inputs_at(question, failing));

@@ -155,9 +155,9 @@ std::int64_t max_array(const command_line::Arguments& arguments, std::int64_t pa
 /// This program as nodes are to start it. That of an archive is `lib/zerocount`, or a loader in `lib/libc`,
 /// and its launcher chooses the C library by the node.
 fs::path program_for_nodes() {
-  const fs::path program = fs::read_symlink("/proc/self/exe");
+  fs::path program = fs::read_symlink("/proc/self/exe");
   for (const fs::path& folder : {program.parent_path(), program.parent_path().parent_path()}) {
-    const fs::path launcher = folder.parent_path() / "bin" / "zerocount";
+    fs::path launcher = folder.parent_path() / "bin" / "zerocount";
     if (folder.filename() == "lib" && fs::exists(launcher)) return launcher;
   }
   return program;

@@ -40,14 +40,7 @@ LaneSet bristle_rest_kernel(BatchState& batch, const LaneSet& lanes) {
     moving.erase_stretch(base, resting);
     const LaneStretch<P> at(base, resting);
     at.store(m.elongation, at.load(m.torque) / at.load(batch.contact.bristle_stiffness));
-    at.store(m.omega, P(0.0));
-    at.store(m.gradual_slide, P(0.0));
-    if constexpr (Loaded) {
-      at.store(batch.load.twist, P(0.0));
-      at.store(batch.load.omega, P(0.0));
-      at.store(batch.loop.read_twist, P(0.0));
-    }
-    at.store(batch.time.time_to_stop, P(0.0));
+    halt_to_next_stop<Loaded>(batch, at);
   }
   return moving;
 }

@@ -101,6 +101,20 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask load_is_quiet(const BatchState& batch, 
          torque;
 }
 
+/// Lets lanes rest, with their loads, up to the next stop.
+template <bool Loaded, class At, class P = typename At::Vector>
+ZEROCOUNT_ALWAYS_INLINE void halt_to_next_stop(BatchState& batch, const At& at) {
+  const P zero(0.0);
+  at.store(batch.motion.omega, zero);
+  at.store(batch.motion.gradual_slide, zero);
+  if constexpr (Loaded) {
+    at.store(batch.load.twist, zero);
+    at.store(batch.load.omega, zero);
+    at.store(batch.loop.read_twist, zero);
+  }
+  at.store(batch.time.time_to_stop, zero);
+}
+
 /// The last two terms of the series of the load at the end of a step, rad.
 template <class P, class Alone>
 ZEROCOUNT_ALWAYS_INLINE P last_terms_of_load(const CoupledTorque<P, Alone>& t) {

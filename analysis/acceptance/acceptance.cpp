@@ -147,42 +147,87 @@ void compare_with_worlds(Claim& claim, const std::vector<measures::MoveCounts>& 
   claim.agreement.predicted = all;
 }
 
-Claim claim_of(const study::Goal& goal, const measures::MoveCounts& simulated,
-               const std::vector<std::vector<bool>>& met_of_machines, std::uint64_t seed,
-               double significance) {
-  Claim claim{.goal = goal};
+/// The goal for the measured machines alone. @param parts goals that must be met
+goal::Status status_of_these(const study::Goal& goal, const measures::MoveCounts& measured,
+                             std::size_t parts) {
+  if (!goal.machines) {
+    if (bounded_rate(measured.met, measured.moves, goal.confidence).low >= goal.moves)
+      return goal::Status::met;
+    const double confidence = statistics::confidence_of_each(goal.confidence, parts);
+    const bool is_missed = bounded_rate(measured.met, measured.moves, confidence).high < goal.moves;
+    return is_missed ? goal::Status::missed : goal::Status::undecided;
+  }
+  const std::size_t machines = measured.rigs.size();
+  std::int64_t meeting = 0, missing = 0;
+  for (const statistics::RigMoves& one : measured.rigs) {
+    const auto bounds = [&](std::size_t statements) {
+      return bounded_rate(one.met, one.moves, statistics::confidence_of_each(goal.confidence, statements));
+    };
+    meeting += bounds(machines).low >= goal.moves;
+    missing += bounds(machines * parts).high < goal.moves;
+  }
+  const double wanted = *goal.machines * static_cast<double>(machines);
+  if (static_cast<double>(meeting) >= wanted) return goal::Status::met;
+  return static_cast<double>(std::ssize(measured.rigs) - missing) < wanted ? goal::Status::missed
+                                                                           : goal::Status::undecided;
+}
+
+/// The moves of the machines, each a cluster. @param met_of_machines [machine, move]
+measures::MoveCounts measured_counts(const std::vector<std::vector<bool>>& met_of_machines) {
   measures::MoveCounts measured;
   for (std::size_t i = 0; i < met_of_machines.size(); ++i) {
     const std::vector<bool>& met = met_of_machines[i];
-    const auto all = std::ranges::count(met, true);
-    measured.add_rig(i, 0, {.trials = std::ssize(met), .moves = std::ssize(met), .met = all});
+    measured.add_rig(i, 0,
+                     {.trials = std::ssize(met),
+                      .moves = std::ssize(met),
+                      .met = std::count(met.begin(), met.end(), true)});
   }
-  claim.measured = goal::judge_goal(goal, measured, 1);
-  claim.moves = measured.moves;
-  claim.met = measured.met;
-  claim.rate = bounded_rate(claim.met, claim.moves, goal.confidence);
+  return measured;
+}
+
+/// The prediction of a claim, and whether the machines agree with it.
+void compare_with_prediction(Claim& claim, const measures::MoveCounts& simulated,
+                             const std::vector<std::vector<bool>>& met_of_machines, std::uint64_t seed,
+                             double significance) {
   const std::vector<measures::MoveCounts> worlds = measures::in_worlds(simulated);
-  if (!worlds.empty()) {
+  if (worlds.empty()) {
+    claim.predicted = goal::judge_goal(claim.goal, simulated, 1);
+    claim.agreement = agreement_with(met_of_machines, simulated, seed);
+  } else {
     compare_with_worlds(claim, worlds, met_of_machines, seed, significance);
-    return claim;
   }
-  claim.predicted = goal::judge_goal(goal, simulated, 1);
-  claim.agreement = agreement_with(met_of_machines, simulated, seed);
-  return claim;
+  claim.is_below_prediction = claim.agreement.p <= significance && claim.agreement.is_lower;
+}
+
+/// The verdict on each goal, [goal], of the machines that are judged.
+void judge(Acceptance& acceptance, std::span<const study::Goal> goals,
+           std::span<const measures::MoveCounts> measured) {
+  const goal::Verdict verdict = goal::judge_goals(goals, measured, 1);
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    Claim& claim = acceptance.claims[i];
+    claim.moves = measured[i].moves;
+    claim.met = measured[i].met;
+    claim.rate = bounded_rate(claim.met, claim.moves, goals[i].confidence);
+    claim.measured = verdict.goals.empty() ? verdict : verdict.goals[i];
+    claim.status = acceptance.judged == Judged::all_machines
+                       ? claim.measured.status
+                       : status_of_these(goals[i], measured[i], goals.size());
+  }
+  if (acceptance.judged == Judged::all_machines && verdict.status == goal::Status::undecided)
+    acceptance.needed_machines = goal::needs_of(goals, measured, 1).rigs;
 }
 
 }  // namespace
 
-Status status_of(const Claim& claim, double significance) {
-  const bool is_worse = claim.agreement.p <= significance && claim.agreement.is_lower;
-  if (claim.rate.high < claim.goal.moves || is_worse) return Status::rejected;
-  return claim.rate.low >= claim.goal.moves ? Status::accepted : Status::undecided;
+Status status_of(const Claim& claim) {
+  if (claim.status == goal::Status::missed || claim.is_below_prediction) return Status::rejected;
+  return claim.status == goal::Status::met ? Status::accepted : Status::undecided;
 }
 
 Status status_of(const Acceptance& acceptance) {
   Status worst = Status::accepted;
   for (const Claim& claim : acceptance.claims) {
-    const Status status = status_of(claim, acceptance.significance);
+    const Status status = status_of(claim);
     if (status == Status::rejected) return status;
     if (status == Status::undecided) worst = status;
   }
@@ -190,10 +235,11 @@ Status status_of(const Acceptance& acceptance) {
 }
 
 Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
-                  std::span<const monitor::MoveLog> logs) {
+                  std::span<const monitor::MoveLog> logs, Judged judged) {
   const study::Study& study = file.study();
   require_acceptable(study, file.path().string());
-  Acceptance acceptance;
+  Acceptance acceptance{.judged = judged};
+  acceptance.significance /= static_cast<double>(study.goals.size());
   for (const monitor::MoveLog& log : logs) {
     if (log.moves() == 0)
       throw Failure(ExitCode::bad_data,
@@ -201,6 +247,7 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
     acceptance.machines.push_back({.name = log.name()});
   }
   const std::vector<measures::MoveCounts> simulated = simulated_counts(file, point);
+  std::vector<measures::MoveCounts> measured;
   for (std::size_t i = 0; i < study.goals.size(); ++i) {
     std::vector<std::vector<bool>> met;
     for (std::size_t machine = 0; machine < logs.size(); ++machine) {
@@ -208,10 +255,12 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
       acceptance.machines[machine].moves.push_back(std::ssize(met.back()));
       acceptance.machines[machine].met.push_back(std::ranges::count(met.back(), true));
     }
-    acceptance.claims.push_back(
-        claim_of(study.goals[i], simulated[i], met, study.seed, acceptance.significance));
+    measured.push_back(measured_counts(met));
+    Claim& claim = acceptance.claims.emplace_back(Claim{.goal = study.goals[i]});
+    compare_with_prediction(claim, simulated[i], met, study.seed, acceptance.significance);
     acceptance.simulated = std::ssize(simulated[i].rigs);
   }
+  judge(acceptance, study.goals, measured);
   acceptance.worlds = study.worlds;
   acceptance.standard_values = standard_values(file, point, logs);
   for (const study::Premise& premise : study.premises)

@@ -16,9 +16,15 @@
 namespace zerocount::acceptance {
 
 enum class Status {
-  accepted,  ///< the moves of these machines are shown to meet every goal, and are not fewer than predicted
-  rejected,  ///< they are shown to miss a goal, or fewer of them meet it than predicted
+  accepted,  ///< every goal is shown to be met, and none is met less often than predicted
+  rejected,  ///< a goal is shown to be missed, or is met less often than predicted
   undecided  ///< neither
+};
+
+/// The machines that a goal is judged for.
+enum class Judged {
+  all_machines,   ///< all of which the measured ones are a sample: the goal's claim (goal_verdict.hpp)
+  these_machines  ///< the measured ones alone
 };
 
 /// One goal: what was predicted, and what was measured.
@@ -30,6 +36,8 @@ struct Claim {
   std::int64_t met{0};
   /// Of all moves of the measured machines, each one-sided with the confidence of the goal.
   goal::BoundedProportion rate{};
+  goal::Status status{goal::Status::undecided};  ///< of the goal, for the machines that are judged
+  bool is_below_prediction{false};               ///< significantly fewer moves meet the goal than predicted
   Agreement agreement{};
   /// Worlds of the study that the machines are like; the prediction is that of the one that they are most
   /// like, with the intervals of all. Null: it has none.
@@ -46,21 +54,28 @@ struct MeasuredMachine {
 struct Acceptance {
   std::vector<Claim> claims{};
   std::vector<MeasuredMachine> machines{};
+  Judged judged{Judged::all_machines};
+  /// Machines with which the goals would be decided for all machines; 0: none of up to 10⁵, or they are.
+  std::int64_t needed_machines{0};
   std::int64_t simulated{0};                     ///< machines
   std::int64_t worlds{0};                        ///< of the study; 0: none
   std::vector<StandardValue> standard_values{};  ///< of a study with a sequence, where the logs tell them
   std::vector<std::string>
       assumed{};              ///< effects that the study is without, which its manifest does not name
-  double significance{0.05};  ///< of a difference
+  double significance{0.05};  ///< of a difference from the prediction of one goal (Bonferroni)
 };
 
-Status status_of(const Claim& claim, double significance);
+Status status_of(const Claim& claim);
 /// Of all claims: rejected before undecided before accepted.
 Status status_of(const Acceptance& acceptance);
 
 /// Judges the machines whose logs these are by the goals of the study, and compares them with its machines at
-/// the point, its rigs.
+/// the point, its rigs. Machines as predicted are found below the prediction of any goal with a probability
+/// of 5 % at most.
 /// @param file of one condition, with goals
+///
+/// For these machines alone, a goal is about the moves of all of them, or about `machines` of them: each is
+/// judged by the bounds of its own moves, with the confidence 1 − (1 − γ)/m of m machines.
 ///
 /// A goal `on` some moves is judged by the rows that the column `move` of a log says are of these. Machines
 /// that live in one of the worlds of a study differ from it where they differ from each of them: the largest
@@ -69,6 +84,6 @@ Status status_of(const Acceptance& acceptance);
 /// with it in a unit of another dimension than the study has, and for one that does not number its moves
 /// where a goal asks for some; bad_data for a log without moves
 Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
-                  std::span<const monitor::MoveLog> logs);
+                  std::span<const monitor::MoveLog> logs, Judged judged = Judged::all_machines);
 
 }  // namespace zerocount::acceptance

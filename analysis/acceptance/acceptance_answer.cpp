@@ -51,18 +51,43 @@ std::string judged_text(const Acceptance& a) {
   return fmt::format("{} moves of {} machine{}", moves, a.machines.size(), a.machines.size() == 1 ? "" : "s");
 }
 
+std::string name_of(const Claim& claim) {
+  return claim.goal.name.empty() ? "the goal" : "goal " + claim.goal.name;
+}
+
+/// "missed: goal fast; met less often than predicted: goal near (80 % of the moves, predicted 97 %)".
+std::string reasons_to_reject(const Acceptance& a) {
+  std::vector<std::string> missed, fewer;
+  for (const Claim& claim : a.claims) {
+    if (claim.status == goal::Status::missed) missed.push_back(name_of(claim));
+    if (claim.is_below_prediction)
+      fewer.push_back(fmt::format("{} ({} of the moves, predicted {})", name_of(claim),
+                                  text::percent(claim.rate.value),
+                                  text::percent(claim.predicted.moves.value)));
+  }
+  std::vector<std::string> reasons;
+  if (!missed.empty()) reasons.push_back(fmt::format("missed: {}", fmt::join(missed, ", ")));
+  if (!fewer.empty())
+    reasons.push_back(fmt::format("met less often than predicted: {}", fmt::join(fewer, ", ")));
+  return fmt::format("{}", fmt::join(reasons, "; "));
+}
+
 std::string headline_of(const AcceptanceReading& r) {
   const Acceptance& a = r.acceptance;
   const std::string of = judged_text(a);
+  const std::string whose = a.judged == Judged::all_machines ? "all such machines" : "these machines";
+  const std::string goals = a.claims.size() == 1 ? "the goal" : "every goal";
   switch (status_of(a)) {
     case Status::accepted:
-      return fmt::format("accepted: {} show the goal, and are not fewer than predicted", of);
+      return fmt::format("accepted: {} show {} for {}, met as often as predicted", of, goals, whose);
     case Status::rejected:
-      return fmt::format("rejected: {} miss the goal, or fewer of them meet it than predicted", of);
+      return fmt::format("rejected by {}: {}", of, reasons_to_reject(a));
     case Status::undecided:
       break;
   }
-  return fmt::format("undecided: {} are too few to show the goal", of);
+  const std::string needed =
+      a.needed_machines == 0 ? "" : fmt::format("; about {} machines would decide", a.needed_machines);
+  return fmt::format("undecided: {} are too few to show {} for {}{}", of, goals, whose, needed);
 }
 
 std::string goal_name(const JudgedClaim& c) {
@@ -102,9 +127,13 @@ document::Description<JudgedClaim> claim_rows() {
   };
   return document::Description<JudgedClaim>()
       .value({"goal", "goal", "name of the goal"}, goal_name)
-      .value(with_words(document::everywhere("status", "status", "verdict on the goal"),
+      .value(with_words(document::everywhere("status", "status",
+                                             "verdict on the machines by the goal and its prediction"),
                         {"accepted", "rejected", "undecided"}),
-             [](Of c) { return word_of(status_of(c.claim, c.significance)); })
+             [](Of c) { return word_of(status_of(c.claim)); })
+      .value(with_words(in_data("goal_status", "verdict on the goal alone, whatever was predicted"),
+                        goal::status_words()),
+             [](Of c) { return goal::text_of(c.claim.status); })
       .value(percent("wanted", "wanted", "proportion of moves that should meet it"),
              [](Of c) { return c.claim.goal.moves; })
       .value(percent("predicted", "predicted",
@@ -235,6 +264,18 @@ document::AnswerDescription<AcceptanceReading> acceptance_answer() {
   answer.items.headline(headline_of)
       .value(with_words(in_data("status", "verdict on the machines"), {"accepted", "rejected", "undecided"}),
              [](Of r) { return word_of(status_of(r.acceptance)); })
+      .value(with_words(in_data("judged", "machines that the goals are judged for"),
+                        {"all_machines", "these_machines"}),
+             [](Of r) {
+               return r.acceptance.judged == Judged::all_machines ? "all_machines" : "these_machines";
+             })
+      .value(in_data("needed_machines",
+                     "machines, with as many moves each, that would decide the goals for all machines; null: "
+                     "they are decided, or no number is known"),
+             [](Of r) {
+               const std::int64_t needed = r.acceptance.needed_machines;
+               return needed > 0 ? std::optional(needed) : std::nullopt;
+             })
       .value({.key = "study", .heading = "study", .meaning = "the results file of the prediction"},
              [](Of r) { return r.study; })
       .value({.key = "point", .heading = "point", .meaning = "label of the design point"},

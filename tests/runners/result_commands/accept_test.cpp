@@ -52,7 +52,7 @@ TEST_F(Accept, JudgesTheMachinesByTheGoalAndThePrediction) {
   for (int i = 0; i < 3; ++i) write_log(fmt::format("good-{}.csv", i), 100, 0);
   write_log("bad.csv", 100, 30);
   write_log("few.csv", 5, 0);
-  const Json good = json_of({"good-0.csv", "good-1.csv", "good-2.csv"}, 0);
+  const Json good = json_of({"good-0.csv", "good-1.csv", "good-2.csv", "--these"}, 0);
   EXPECT_EQ(good["status"], "accepted");
   EXPECT_EQ(good["simulated_machines"], 40);
   EXPECT_EQ(good["goals"][0]["met"], 300);
@@ -62,12 +62,65 @@ TEST_F(Accept, JudgesTheMachinesByTheGoalAndThePrediction) {
   EXPECT_EQ(bad["goals"][0]["met"], 70) << "an empty cell is late, too";
   EXPECT_EQ(bad["goals"][0]["agreement"], "differs");
   EXPECT_EQ(json_of({"few.csv"}, 3)["status"], "undecided");
+  EXPECT_EQ(json_of({"few.csv", "--these"}, 3)["status"], "undecided");
+}
+
+// That 9 in 10 moves of all machines meet the goal is shown by 29 machines without a miss, and by no fewer.
+TEST_F(Accept, JudgesTheClaimOnAllMachines) {
+  std::vector<std::string> logs;
+  for (int i = 0; i < 29; ++i) {
+    logs.push_back(fmt::format("good-{}.csv", i));
+    write_log(logs.back(), 40, 0);
+  }
+  const Json enough = json_of(logs, 0);
+  EXPECT_EQ(enough["goals"][0]["goal_status"], "met");
+  EXPECT_NEAR(enough["goals"][0]["all_machines_low"].get<double>(), std::pow(0.05, 1.0 / 29.0), 1e-9);
+  logs.pop_back();
+  const Json too_few = json_of(logs, 3);
+  EXPECT_EQ(too_few["goals"][0]["goal_status"], "undecided");
+  EXPECT_GE(too_few["needed_machines"].get<int>(), 29);
+}
+
+TEST_F(Accept, JudgesAGoalOnMachinesByTheirNumber) {
+  run_study("rigs: 40\ngoal: {band: 1, within: 0.03, moves: 0.9, machines: 0.95}\n");
+  std::vector<std::string> logs;
+  for (int i = 0; i < 10; ++i) {
+    logs.push_back(fmt::format("{}.csv", i));
+    write_log(logs.back(), 400, i < 2 ? 60 : 0);
+  }
+  const Json all = json_of(logs, 3);
+  EXPECT_GT(all["goals"][0]["measured_low"].get<double>(), 0.9) << "of the moves of all together";
+  EXPECT_EQ(all["goals"][0]["goal_status"], "undecided") << "8 of 10 may be 95 of 100";
+  logs.push_back("--these");
+  EXPECT_EQ(json_of(logs, 1)["goals"][0]["goal_status"], "missed");
+  logs.erase(logs.begin(), logs.begin() + 2);
+  EXPECT_EQ(json_of(logs, 0)["goals"][0]["goal_status"], "met");
+}
+
+// Of 40 simulated machines one has a p-value of 2/41 at least: below 0.05, but not below 0.05 by two goals.
+TEST_F(Accept, CorrectsForTheNumberOfGoals) {
+  write_log("worse.csv", 60, 6);
+  EXPECT_EQ(json_of({"worse.csv"}, 1)["goals"][0]["agreement"], "differs");
+  run_study(
+      "rigs: 40\ngoals: {one: {band: 1, within: 0.03, moves: 0.8}, other: {band: 1, within: 0.03, moves: "
+      "0.85}}\n");
+  const Json two = json_of({"worse.csv"}, 3);
+  EXPECT_LT(two["goals"][0]["p_value"].get<double>(), 0.05);
+  EXPECT_EQ(two["goals"][0]["agreement"], "too_few");
+  write_log("bad.csv", 60, 40);
+  const std::string text = program({"accept", "study.h5", "bad.csv", "--these"}).out;
+  EXPECT_EQ(text.find("rejected by 60 moves of 1 machine: missed: goal one, goal other"), 0u) << text;
 }
 
 // Few moves that meet the goal are shown by nothing, but fewer of them than predicted meet it.
 TEST_F(Accept, RejectsFewerThanPredicted) {
   write_log("worse.csv", 60, 6);
   const Json worse = json_of({"worse.csv"}, 1);
+  EXPECT_EQ(worse["goals"][0]["goal_status"], "undecided");
+  const std::string text = program({"accept", "study.h5", "worse.csv"}).out;
+  EXPECT_EQ(text.find("rejected by 60 moves of 1 machine: met less often than predicted: the goal (90 % of"),
+            0u)
+      << text;
   EXPECT_GT(worse["goals"][0]["measured_high"], 0.9);
   EXPECT_EQ(worse["goals"][0]["agreement"], "differs");
 }
@@ -107,8 +160,8 @@ TEST_F(Accept, AsksForTheConditionAndTheAge) {
   const ProgramResult none = program({"accept", "study.h5", "good.csv", "--age", "100000"});
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.err.find("loaded"), std::string::npos) << none.err;
-  const Json empty = json_of({"good.csv", "--condition", "empty", "--age", "0"}, 0);
-  const Json loaded = json_of({"good.csv", "--condition", "loaded", "--age", "100000"}, 0);
+  const Json empty = json_of({"good.csv", "--condition", "empty", "--age", "0", "--these"}, 0);
+  const Json loaded = json_of({"good.csv", "--condition", "loaded", "--age", "100000", "--these"}, 0);
   EXPECT_EQ(loaded["goals"][0]["agreement"], "differs") << "these are better";
   EXPECT_EQ(loaded["simulated_machines"], 40);
   EXPECT_NE(loaded["goals"][0]["predicted"], empty["goals"][0]["predicted"]) << "a slower loop";
@@ -154,13 +207,14 @@ goals: {back: {on: [1], band: 1, within: 0.03, moves: 0.9}}
   std::string log = "move,band_settling_time[1]\n";
   for (int i = 0; i < 100; ++i) log += "0,\n1,0.012\n";
   folder_.write("numbered.csv", log);
-  const Json numbered = json_of({"numbered.csv"}, 0);
+  const Json numbered = json_of({"numbered.csv", "--these"}, 0);
   EXPECT_EQ(numbered["goals"][0]["moves"], 100) << "the late ones are not asked";
   EXPECT_EQ(numbered["goals"][0]["met"], 100);
   EXPECT_EQ(numbered["machines"][0]["moves"], Json({100}));
   EXPECT_EQ(numbered["machines"][0]["met"], Json({100}));
-  const std::string page = program({"accept", "study.h5", "numbered.csv"}).out;
-  EXPECT_NE(page.find("accepted: 100 moves of 1 machine show the goal"), std::string::npos) << page;
+  const std::string page = program({"accept", "study.h5", "numbered.csv", "--these"}).out;
+  EXPECT_NE(page.find("accepted: 100 moves of 1 machine show the goal for these machines"), std::string::npos)
+      << page;
   EXPECT_NE(page.find("100 of 100"), std::string::npos) << page;
   EXPECT_EQ(page.find("200"), std::string::npos) << page;
 }
@@ -172,7 +226,7 @@ TEST_F(Accept, ComparesWithEachWorld) {
       "goal: {band: 1, within: 0.03, moves: 0.9}\n");
   write_log("good.csv", 100, 0);
   write_log("bad.csv", 100, 80);
-  const Json good = json_of({"good.csv"}, 0);
+  const Json good = json_of({"good.csv", "--these"}, 0);
   EXPECT_GE(good["goals"][0]["like_worlds"], 1);
   const Json bad = json_of({"bad.csv"}, 1);
   EXPECT_EQ(bad["goals"][0]["like_worlds"], 0);
@@ -196,7 +250,7 @@ goal: {band: 1, within: 0.09, moves: 0.5}
 )");
   ASSERT_EQ(program({"run", "iso.yaml", "-o", "study.h5", "-q", "--force"}).code, 0);
   ASSERT_EQ(program({"export", "study.h5", "-o", "tables"}).code, 0);
-  const Json answer = json_of({"tables/outcomes.csv"}, 0);
+  const Json answer = json_of({"tables/outcomes.csv", "--these"}, 0);
   ASSERT_EQ(answer["standard"].size(), 12u);
   const Json summary = Json::parse(program({"summary", "study.h5", "--format", "json"}).out);
   for (const Json& value : answer["standard"]) {

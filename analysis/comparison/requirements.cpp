@@ -22,25 +22,9 @@ struct ProportionClaim {
 };
 
 /// @param quality 1 for each trial that has it, otherwise 0
-std::optional<statistics::ClusterSums> sums_by_rig(const std::vector<double>& quality, std::int64_t rigs) {
-  if (rigs == 0) return std::nullopt;
-  statistics::ClusterSums sums;
-  for (std::int64_t rig = 0; rig < rigs; ++rig) {
-    std::int64_t hits = 0;
-    std::int64_t trials = 0;
-    for (auto i = static_cast<std::size_t>(rig); i < quality.size(); i += static_cast<std::size_t>(rigs)) {
-      hits += quality[i] > 0.0;
-      ++trials;
-    }
-    sums.add(hits, trials);
-  }
-  return sums;
-}
-
-/// @param quality 1 for each trial that has it, otherwise 0
 ProportionClaim claim_of(const std::vector<double>& quality, std::int64_t rigs, double limit, bool at_least) {
   return {std::count(quality.begin(), quality.end(), 1.0), std::ssize(quality), limit, at_least,
-          sums_by_rig(quality, rigs)};
+          rigs == 0 ? std::nullopt : std::optional(statistics::sums_by_rig(quality, rigs))};
 }
 
 /// One-sided bounds: `low` with one confidence, `high` with another.

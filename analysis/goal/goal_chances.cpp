@@ -68,6 +68,7 @@ double ObservedWorld::planned_events(const PlannedSize& planned) const {
   return std::max(1.0, events / (t * t));
 }
 
+/// Single events stand for those that the clusters are worth; the number of clusters limits what they show.
 Chances ObservedWorld::of_moves(const PlannedSize& planned) const {
   const auto n = static_cast<std::int64_t>(planned_events(planned));
   const auto status = [&](std::int64_t hits) {
@@ -76,10 +77,14 @@ Chances ObservedWorld::of_moves(const PlannedSize& planned) const {
         .moves = n, .met = hits, .of_trials = {n, hits, n, k, k, static_cast<double>(n)}, .rigs = {}};
     return judge_goal(goal_, counts, points_, parts_).status;
   };
+  const auto clusters = static_cast<double>(planned.units);
+  const bool can_meet = statistics::shown_by_clusters(clusters, confidence_low_) >= goal_.moves;
+  const bool can_miss = 1.0 - statistics::shown_by_clusters(clusters, confidence_high_) < goal_.moves;
   const std::int64_t met =
-      first_where(0, n + 1, [&](std::int64_t hits) { return status(hits) == Status::met; });
+      can_meet ? first_where(0, n + 1, [&](std::int64_t hits) { return status(hits) == Status::met; })
+               : n + 1;
   const std::int64_t not_missed =
-      first_where(0, n + 1, [&](std::int64_t hits) { return status(hits) != Status::missed; });
+      can_miss ? first_where(0, n + 1, [&](std::int64_t hits) { return status(hits) != Status::missed; }) : 0;
   return {chance_of_at_least(of_all_moves_, n, met), 1.0 - chance_of_at_least(of_all_moves_, n, not_missed)};
 }
 

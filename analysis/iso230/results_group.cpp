@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "analysis/iso230/columns.hpp"
+#include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
@@ -219,7 +220,8 @@ std::size_t overall_repeatability(const SequenceShape& shape) {
 }
 
 PointRepeatability point_statistics(const PointReader& reader, const SequenceShape& shape,
-                                    std::int64_t trials, double confidence) {
+                                    const study::Study& study, double confidence) {
+  const std::int64_t trials = study.trials;
   const auto targets = static_cast<std::size_t>(shape.targets);
   constexpr std::size_t encoder = 1;  // of deviation_sources()
   PointRepeatability point;
@@ -230,7 +232,12 @@ PointRepeatability point_statistics(const PointReader& reader, const SequenceSha
     const std::int64_t zero = std::count(values.begin(), values.end(), 0.0);
     point.zero_repeatability = zero;
     point.zero_rate = statistics::rate(zero, trials);
-    point.zero_bounds = statistics::clopper_pearson(zero, trials, confidence);
+    std::vector<double> is_zero(values.size());
+    std::ranges::transform(values, is_zero.begin(), [](double value) { return value == 0.0; });
+    point.zero_bounds = study.rigs == 0 ? statistics::clopper_pearson(zero, trials, confidence)
+                                        : statistics::clustered_proportion(
+                                              statistics::sums_by_rig(is_zero, study.rigs), confidence)
+                                              .korn_graubard;
   }
   for (const std::vector<double>& positions : reader.target_column(0)) {
     statistics::Moments& moments = point.positions.emplace_back();
@@ -269,7 +276,7 @@ RepeatabilitySummary read_repeatability(const hdf5::Group& root, const study::St
     targets.row_scale().fail("it is of another number of targets");
   for (std::int64_t point = 0; point < study::point_count(study); ++point) {
     const PointReader reader{axis, targets, point * study.trials, study.trials};
-    summary.points.push_back(point_statistics(reader, summary.shape, study.trials, confidence));
+    summary.points.push_back(point_statistics(reader, summary.shape, study, confidence));
   }
   return summary;
 }

@@ -61,6 +61,12 @@ def adjusted_events(hits, events, tail):
     return max(1.0, n / design_effect) * (stats.t.isf(tail, n - 1) / stats.t.isf(tail, m - 1)) ** 2
 
 
+def shown_without_miss(events, tail):
+    """The lower bound that clusters of several events have without a miss, and no bound exceeds."""
+    whole_clusters = events.sum() ** 2 / (events**2).sum()
+    return tail ** (1 / whole_clusters) if len(events) < events.sum() else 1.0
+
+
 def judge_proportions(path):
     with open(path) as cases:
         lines = cases.readlines()
@@ -70,14 +76,16 @@ def judge_proportions(path):
         p = hits.sum() / events.sum()
         tail = 0.5 * (1 - confidence)
         n = adjusted_events(hits, events, tail)
-        close(low, stats.beta.ppf(tail, p * n, n - p * n + 1) if p > 0 else 0.0, 1e-8, "low")
-        close(high, stats.beta.isf(tail, p * n + 1, n - p * n) if p < 1 else 1.0, 1e-8, "high")
+        shown = shown_without_miss(events, tail)
+        close(low, min(shown, stats.beta.ppf(tail, p * n, n - p * n + 1)) if p > 0 else 0.0, 1e-8, "low")
+        close(high, max(1 - shown, stats.beta.isf(tail, p * n + 1, n - p * n)) if p < 1 else 1.0, 1e-8, "high")
         z = stats.norm.isf(tail)
         for found, sign in ((wilson_low, -1), (wilson_high, 1)):
             expected = (p + z**2 / (2 * n) + sign * z * numpy.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))) / (1 + z**2 / n)
-            close(found, expected, 1e-8, "wilson")
+            close(found, min(expected, shown) if sign < 0 else max(expected, 1 - shown), 1e-8, "wilson")
         n = adjusted_events(hits, events, 2 * tail)
-        close(at_least, stats.beta.ppf(2 * tail, p * n, n - p * n + 1) if p > 0 else 0.0, 1e-8, "at least")
+        shown = shown_without_miss(events, 2 * tail)
+        close(at_least, min(shown, stats.beta.ppf(2 * tail, p * n, n - p * n + 1)) if p > 0 else 0.0, 1e-8, "at least")
     print(len(lines), "samples")
 
 

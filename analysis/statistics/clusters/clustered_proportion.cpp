@@ -1,6 +1,9 @@
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
 
 #include "analysis/statistics/distributions.hpp"
 
@@ -16,16 +19,28 @@ bool are_single_events(const ClusterSums& sums) {
   return sums.clusters == sums.events;
 }
 
-/// Clopper–Pearson bounds for any number of events, not only whole ones.
-double lower_bound(double proportion, double events, double tail) {
-  if (!(proportion > 0.0)) return 0.0;
-  const double hits = proportion * events;
-  return lower_bound_on_p(hits, events, tail);
+/// Events whose clusters are each taken as one: n²/Σnᵢ², the number of clusters if they are of one size.
+double events_of_whole_clusters(const ClusterSums& sums) {
+  const auto n = static_cast<double>(sums.events);
+  return n * n / sums.events_squared;
 }
-double upper_bound(double proportion, double events, double tail) {
+
+/// The lower bound if no event were a miss. Of single events Clopper–Pearson shows no more.
+double shown_without_miss(const ClusterSums& sums, double tail) {
+  return are_single_events(sums) ? 1.0 : shown_by_clusters(events_of_whole_clusters(sums), 1.0 - tail);
+}
+
+/// Clopper–Pearson bounds for any number of events, not only whole ones, and no better than those of the
+/// same clusters without a miss, or without a hit.
+double lower_bound(const ClusterSums& sums, double events, double tail) {
+  const double proportion = rate(sums.hits, sums.events);
+  if (!(proportion > 0.0)) return 0.0;
+  return std::min(lower_bound_on_p(proportion * events, events, tail), shown_without_miss(sums, tail));
+}
+double upper_bound(const ClusterSums& sums, double events, double tail) {
+  const double proportion = rate(sums.hits, sums.events);
   if (!(proportion < 1.0)) return 1.0;
-  const double hits = proportion * events;
-  return upper_bound_on_p(hits, events, tail);
+  return std::max(upper_bound_on_p(proportion * events, events, tail), 1.0 - shown_without_miss(sums, tail));
 }
 
 }  // namespace
@@ -52,12 +67,25 @@ ClusterSums& ClusterSums::operator+=(const ClusterSums& other) {
   return *this;
 }
 
+ClusterSums sums_by_rig(std::span<const double> hits, std::int64_t rigs) {
+  ClusterSums sums;
+  for (std::int64_t rig = 0; rig < rigs; ++rig) {
+    std::int64_t of_rig = 0, trials = 0;
+    for (std::int64_t i = rig; i < std::ssize(hits); i += rigs) {
+      of_rig += hits[static_cast<std::size_t>(i)] > 0.0;
+      ++trials;
+    }
+    sums.add(of_rig, trials);
+  }
+  return sums;
+}
+
 double effective_events(const ClusterSums& sums) {
   if (sums.events == 0) return 0.0;
   const auto n = static_cast<double>(sums.events);
   const auto m = static_cast<double>(sums.clusters);
   if (are_single_events(sums)) return n;
-  if (!variance_is_known(sums)) return n * n / sums.events_squared;
+  if (!variance_is_known(sums)) return events_of_whole_clusters(sums);
   const double p = rate(sums.hits, sums.events);
   const double squares = sums.hits_squared - 2.0 * p * sums.hits_by_events + p * p * sums.events_squared;
   const double variance = m / (m - 1.0) * std::max(0.0, squares) / (n * n);
@@ -65,9 +93,13 @@ double effective_events(const ClusterSums& sums) {
   return variance > of_independent ? std::max(1.0, n * of_independent / variance) : n;
 }
 
+double shown_by_clusters(double clusters, double confidence) {
+  return std::pow(1.0 - confidence, 1.0 / clusters);
+}
+
 double adjusted_events(const ClusterSums& sums, double tail) {
   const double events = effective_events(sums);
-  if (!variance_is_known(sums) || are_single_events(sums)) return events;
+  if (!variance_is_known(sums) || are_single_events(sums) || tail == 0.5) return events;
   // The quantiles of 1 − tail have the same ratio.
   const double of_events = student_t_quantile(static_cast<double>(sums.events - 1), tail);
   const double of_clusters = student_t_quantile(static_cast<double>(sums.clusters - 1), tail);
@@ -82,21 +114,23 @@ ClusteredProportion clustered_proportion(const ClusterSums& sums, double confide
   const double events = adjusted_events(sums, tail);
   result.value = rate(sums.hits, sums.events);
   result.effective_events = effective_events(sums);
-  result.korn_graubard = {lower_bound(result.value, events, tail), upper_bound(result.value, events, tail)};
-  result.wilson = wilson_interval(result.value, events, -normal_quantile(tail));
+  result.korn_graubard = {lower_bound(sums, events, tail), upper_bound(sums, events, tail)};
+  const ConfidenceInterval wilson = wilson_interval(result.value, events, -normal_quantile(tail));
+  const double shown = shown_without_miss(sums, tail);
+  result.wilson = {std::min(wilson.low, shown), std::max(wilson.high, 1.0 - shown)};
   return result;
 }
 
 double clustered_at_least(const ClusterSums& sums, double confidence) {
   require_confidence(confidence);
   if (sums.events == 0) return 0.0;
-  return lower_bound(rate(sums.hits, sums.events), adjusted_events(sums, 1.0 - confidence), 1.0 - confidence);
+  return lower_bound(sums, adjusted_events(sums, 1.0 - confidence), 1.0 - confidence);
 }
 
 double clustered_at_most(const ClusterSums& sums, double confidence) {
   require_confidence(confidence);
   if (sums.events == 0) return 1.0;
-  return upper_bound(rate(sums.hits, sums.events), adjusted_events(sums, 1.0 - confidence), 1.0 - confidence);
+  return upper_bound(sums, adjusted_events(sums, 1.0 - confidence), 1.0 - confidence);
 }
 
 }  // namespace zerocount::statistics

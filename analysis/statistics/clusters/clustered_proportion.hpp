@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <type_traits>
 
 #include "analysis/statistics/proportion.hpp"
@@ -45,6 +46,10 @@ struct ClusterSums {
   }
 };
 
+/// The sums over rigs of trials, of which trial i runs on rig i mod rigs. @param hits 1 for each trial that
+/// is one, otherwise 0
+ClusterSums sums_by_rig(std::span<const double> hits, std::int64_t rigs);
+
 /// The equivalent number of independent events (effective sample size),
 ///
 ///   n* = n/deff,   deff = v/(p(1 − p)/n),   v = m/(m − 1)·Σ(kᵢ − p·nᵢ)²/n²,   p = k/n,
@@ -57,12 +62,19 @@ double effective_events(const ClusterSums& sums);
 
 /// n*·(t(n − 1)/t(m − 1))², with t(f) the quantile of 1 − tail of Student's distribution with f degrees of
 /// freedom: the effective number of events, reduced because v is an estimate from m clusters. Without the
-/// factor if v cannot be estimated.
-/// @param tail probability beyond each bound, in (0, ½)
+/// factor if v cannot be estimated, and for a tail of ½, whose quantiles are 0.
+/// @param tail probability beyond each bound, in (0, 1)
 double adjusted_events(const ClusterSums& sums, double tail);
 
+/// α^(1/m) with α = 1 − confidence: the largest lower bound of a proportion that m clusters can show. A
+/// population in which the proportion q of clusters consists of misses shows none of them among m with the
+/// probability (1 − q)^m, however many events each cluster has.
+double shown_by_clusters(double clusters, double confidence);
+
 /// The proportion with its bounds after Korn and Graubard: Clopper–Pearson for adjusted_events (as the method
-/// "beta" of svyciprop in the R package survey). [0, 1] without an event.
+/// "beta" of svyciprop in the R package survey). Where clusters have several events, no lower bound is above
+/// shown_by_clusters(n²/Σnᵢ²), that of the same clusters without a miss, and no upper bound below its
+/// complement. [0, 1] without an event.
 /// @throws Failure (bad_input) for a confidence outside (0, 1).
 ClusteredProportion clustered_proportion(const ClusterSums& sums, double confidence = summary_confidence);
 

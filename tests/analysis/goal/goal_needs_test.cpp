@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -106,8 +107,23 @@ INSTANTIATE_TEST_SUITE_P(
     Machines, GoalNeedsOf,
     ::testing::Values(Planned{"one_trial_each", {.within = 0.05, .moves = 0.95}, 0, 200, 0.0, 0.85},
                       Planned{"small_pilot", {.within = 0.05, .moves = 0.8}, 0, 30, 0.0, 0.5},
-                      Planned{"moves_of_rigs", {.within = 0.05, .moves = 0.9}, 30, 300, 0.05, 0.75}),
+                      Planned{"moves_of_rigs", {.within = 0.05, .moves = 0.9}, 30, 300, 0.05, 0.75},
+                      Planned{
+                          "moves_of_few_rigs_alike", {.within = 0.05, .moves = 0.95}, 20, 400, 0.0, 0.96}),
     [](const auto& info) { return info.param.name; });
+
+// 58 machines without a miss do not exclude that one in twenty always fails.
+TEST(GoalNeeds, CountMachinesWhereTheyHardlyMiss) {
+  const study::Goal goal{.within = 0.05, .moves = 0.95};
+  EXPECT_EQ(cheapest(smallest_studies(goal, true, 1, 1)).rigs, 59);
+  for (const std::int64_t misses : {0, 1, 4}) {
+    measures::MoveCounts pilot;
+    for (std::size_t rig = 0; rig < 20; ++rig)
+      pilot.add_rig(rig, 0, {100, 100, std::cmp_less(rig, misses) ? 99 : 100});
+    ASSERT_EQ(judge_goal(goal, pilot, 1).status, Status::undecided) << misses;
+    EXPECT_GE(needs_of(goal, pilot, 1).rigs, 59) << misses;
+  }
+}
 
 // A goal on machines is planned for machines like those of the pilot.
 TEST(GoalNeeds, OfMachinesDecideNineInTenStudiesOfMachinesAsThese) {

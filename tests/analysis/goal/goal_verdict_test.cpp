@@ -1,6 +1,7 @@
 // The verdict by a goal: its bounds, and the study that is expected to decide it.
 #include "analysis/goal/goal_verdict.hpp"
 
+#include <cmath>
 #include <random>
 #include <string>
 #include <vector>
@@ -62,6 +63,17 @@ TEST(Goal, OfMovesOnRigsAllowsForTheirDifferences) {
   EXPECT_EQ(judge_goal(goal, counts_of(1000, 1000), 1).status, Status::met);
   EXPECT_EQ(judge_goal(goal, counts_of(1000, 1000, 100), 1).status, Status::undecided);
   EXPECT_EQ(judge_goal(goal, counts_of(1000, 1000, 500), 1).status, Status::met);
+}
+
+// Ten machines cannot show more than 74 % of all moves, whether the last three moves of them miss or not.
+TEST(Goal, IsNotEasierToShowWithMissesThanWithout) {
+  const study::Goal goal{.within = 0.05, .moves = 0.8};
+  const Verdict some = judge_goal(goal, counts_of(157, 160, 10), 1);
+  const Verdict none = judge_goal(goal, counts_of(160, 160, 10), 1);
+  EXPECT_EQ(some.status, Status::undecided);
+  EXPECT_EQ(none.status, Status::undecided);
+  EXPECT_LE(some.moves.low, none.moves.low);
+  EXPECT_NEAR(none.moves.low, std::pow(0.05, 0.1), 1e-12);
 }
 
 // A goal that many equal points miss by little is claimed for their best in at most 5 % of the studies.

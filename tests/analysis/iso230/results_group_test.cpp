@@ -109,6 +109,22 @@ TEST(RepeatabilityFile, CountsTheTrialsThatRepeatExactlyByTheEncoder) {
   EXPECT_DOUBLE_EQ(points[1].zero_bounds.high, statistics::clopper_pearson(58, 60).high);
 }
 
+// All trials of one of six rigs repeat exactly, those of the others do not: one event of six, not ten of 60.
+TEST(RepeatabilityFile, TakesTheTrialsOfARigForOneAnother) {
+  const study::Study study = testing::sequence_study("cycles: 3", 60, "rigs: 6\n");
+  std::vector<shards::TrialResult> results = testing::sequence_results(study);
+  for (std::size_t row = 0; row < 60; ++row)
+    for (trial::MoveOutcome& move : results[row].outcome.moves)
+      move.final_error =
+          row % 6 == 0 ? 0 : static_cast<std::int64_t>(&move - results[row].outcome.moves.data());
+  const testing::TemporaryFolder folder;
+  testing::write_sequence_file(folder / "study.h5", study, results);
+  const PointRepeatability point =
+      study_repeatability(reading::AllTrialsFile(folder / "study.h5"), study).points[0];
+  EXPECT_EQ(point.zero_repeatability, 10);
+  EXPECT_GT(point.zero_bounds.high, statistics::clopper_pearson(1, 6).high - 0.02);
+}
+
 TEST(RepeatabilityFile, NoTrialLeftHasNoValuesButItsCounts) {
   const study::Study study = testing::sequence_study("cycles: 2", 4);
   std::vector<shards::TrialResult> results = testing::sequence_results(study);

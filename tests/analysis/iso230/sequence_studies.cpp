@@ -14,7 +14,7 @@
 
 namespace zerocount::testing {
 
-study::Study sequence_study(const std::string& sequence, std::int64_t trials) {
+study::Study sequence_study(const std::string& sequence, std::int64_t trials, const std::string& more) {
   return manifest::parse_study(
       fmt::format("zerocount: 1\n"
                   "name: back and forth\n"
@@ -25,8 +25,8 @@ study::Study sequence_study(const std::string& sequence, std::int64_t trials) {
                   "  hold: 0.1\n"
                   "initial: {{encoder_phase: {{uniform: [0, 1]}}}}\n"
                   "sweep: {{cases: {{fine: {{encoder.fine: 1620000}},\n"
-                  "                 \"rough, wide\": {{encoder.fine: 810000}}}}}}\n",
-                  trials, sequence),
+                  "                 \"rough, wide\": {{encoder.fine: 810000}}}}}}\n{}",
+                  trials, sequence, more),
       "test");
 }
 

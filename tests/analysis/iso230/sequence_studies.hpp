@@ -11,7 +11,9 @@ namespace zerocount::testing {
 
 /// A study with a sequence of moves: two points with different encoders, random targets and phases.
 /// @param sequence further keys of command.sequence, as "cycles: 3, approach: positive"
-study::Study sequence_study(const std::string& sequence = "cycles: 3", std::int64_t trials = 80);
+/// @param more lines of the manifest
+study::Study sequence_study(const std::string& sequence = "cycles: 3", std::int64_t trials = 80,
+                            const std::string& more = "");
 
 /// Made-up results of its trials, [row]: moves end a count or two from their targets, in every seventh trial
 /// in the middle of the target's count, and their final error is what the encoder reads there.

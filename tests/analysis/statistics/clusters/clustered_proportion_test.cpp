@@ -1,9 +1,11 @@
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <random>
+#include <string>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -53,6 +55,99 @@ TEST(ClusteredProportion, AClusterWithManyEventsDoesNotDecideAlone) {
   sums.add(1000, 1000);
   for (int i = 0; i < 9; ++i) sums.add(1, 1);
   EXPECT_LT(effective_events(sums), 1.02);  // n²/Σnᵢ²
+}
+
+// Machines that always fail may be among the others unseen, whatever the others do.
+TEST(ClusteredProportion, MissesNeverRaiseTheLowerBoundAndHitsNeverLowerTheUpperOne) {
+  std::mt19937_64 random(5);
+  for (int round = 0; round < 2000; ++round) {
+    const auto clusters = static_cast<std::int64_t>(2 + random() % 200);
+    const auto size = static_cast<std::int64_t>(1 + random() % 50);
+    const double miss = std::pow(10.0, -3.0 * std::uniform_real_distribution<double>()(random));
+    std::binomial_distribution<std::int64_t> misses(size, miss);
+    ClusterSums some, none, misses_only;
+    for (std::int64_t i = 0; i < clusters; ++i) {
+      const std::int64_t missed = misses(random);
+      some.add(size - missed, size);
+      misses_only.add(missed, size);
+      none.add(size, size);
+    }
+    for (const double confidence : {0.5, 0.9, 0.95, 0.999}) {
+      const double shown = std::pow(1.0 - confidence, 1.0 / static_cast<double>(clusters));
+      EXPECT_NEAR(clustered_at_least(none, confidence), shown, 1e-12);
+      EXPECT_LE(clustered_at_least(some, confidence), shown + 1e-12) << clusters << " of " << size;
+      EXPECT_NEAR(clustered_at_most(misses_only, confidence), 1.0 - clustered_at_least(some, confidence),
+                  1e-9);
+    }
+    const ClusteredProportion two_sided = clustered_proportion(some);
+    const double shown = std::pow(0.025, 1.0 / static_cast<double>(clusters));
+    EXPECT_LE(two_sided.korn_graubard.low, shown + 1e-12);
+    if (size > 1) {
+      EXPECT_LE(two_sided.wilson.low, shown + 1e-12);
+    }
+  }
+}
+
+/// Clusters of so many events, of which the proportion `weak` hits with `weak_rate`, the others with
+/// `others_rate`.
+struct Mixture {
+  std::int64_t clusters;
+  std::int64_t size;
+  double weak;
+  double weak_rate;
+  double others_rate{1.0};
+};
+
+/// How often the lower bound of the hits of all clusters is not above the truth.
+double coverage_of(const Mixture& mixture, int studies) {
+  std::mt19937_64 random(11);
+  std::binomial_distribution<std::int64_t> number_of_weak(mixture.clusters, mixture.weak);
+  std::binomial_distribution<std::int64_t> hits_of_weak(mixture.size, mixture.weak_rate);
+  std::binomial_distribution<std::int64_t> hits_of_others(mixture.size, mixture.others_rate);
+  const double truth = mixture.weak * mixture.weak_rate + (1.0 - mixture.weak) * mixture.others_rate;
+  int covered = 0;
+  for (int study = 0; study < studies; ++study) {
+    const std::int64_t weak = number_of_weak(random);
+    ClusterSums sums;
+    for (std::int64_t i = 0; i < mixture.clusters; ++i)
+      sums.add(i < weak ? hits_of_weak(random) : hits_of_others(random), mixture.size);
+    covered += clustered_at_least(sums, 0.95) <= truth;
+  }
+  return static_cast<double>(covered) / studies;
+}
+
+TEST(ClusteredProportion, LowerBoundsHoldWhereAFewClustersAlwaysOrHalfFail) {
+  constexpr int studies = 400;
+  const double lowest = 0.95 - 4.0 * std::sqrt(0.95 * 0.05 / studies);
+  for (const std::int64_t clusters : {5, 10, 25, 59, 100, 300, 1000}) {
+    for (const std::int64_t size : {2, 20}) {
+      const auto m = static_cast<double>(clusters);
+      for (const double weak : {0.5 / m, 1.0 / m, 2.0 / m, 3.0 / m, 0.3}) {
+        for (const double weak_rate : {0.0, 0.5})
+          EXPECT_GE(coverage_of({clusters, size, weak, weak_rate}, studies), lowest)
+              << clusters << " of " << size << ", weak " << weak << " at " << weak_rate;
+      }
+    }
+  }
+}
+
+// Prints the table of analysis/statistics/coverage.md.
+TEST(ClusteredProportion, DISABLED_CoversMixtures) {
+  constexpr int studies = 4000;
+  for (const double others : {1.0, 0.999, 0.99, 0.9}) {
+    for (const double weak_rate : {0.0, 0.5}) {
+      std::string row = fmt::format("| {} | {} |", others, weak_rate);
+      for (const std::int64_t clusters : {10, 25, 100, 300, 1000}) {
+        double lowest = 1.0;
+        for (const double weak : {0.5, 1.0, 2.0, 3.0})
+          lowest = std::min(
+              lowest,
+              coverage_of({clusters, 20, weak / static_cast<double>(clusters), weak_rate, others}, studies));
+        row += fmt::format(" {:.1f} |", 100.0 * lowest);
+      }
+      fmt::print("{}\n", row);
+    }
+  }
 }
 
 TEST(ClusteredProportion, WithoutAnEventNothingIsKnown) {

@@ -63,7 +63,7 @@ Learned learned_of(const Neighbours& neighbours, const std::vector<bool>& bad) {
     if (bad_others != 0 && bad_others != others) {
       ++learned.open;
     } else if ((bad_others != 0) != is_bad) {
-      ++learned.misjudged;
+      ++(is_bad ? learned.missed_bad : learned.rejected_good);
     } else {
       ++(is_bad ? learned.decided_bad : learned.decided_good);
     }
@@ -72,7 +72,7 @@ Learned learned_of(const Neighbours& neighbours, const std::vector<bool>& bad) {
 }
 
 std::int64_t net_of(const Learned& learned) {
-  return learned.decided() - learned.misjudged;
+  return learned.decided() - learned.misjudged();
 }
 
 /// Share of the values that are at least as large as one of them. @param sorted ascending

@@ -32,8 +32,11 @@ constexpr const char* learn_help =
     "judge', and what follows from it. If a world is the truth and the unknown were measured to ±10 %\n"
     "(--precision), the worlds near its value remain possible, at least the four nearest. Where all\n"
     "of them meet the goal, or all fall short of it, the measurement decides. Each world is judged by\n"
-    "the others, so that a measurement may misjudge it. Where few worlds fall short, any unknown\n"
-    "decides most of them: 'by chance' is the probability of as many if the unknowns did not matter.\n"
+    "the others, so that a measurement may misjudge it: reject a world that meets the goal, or miss\n"
+    "one that falls short. Where few worlds fall short, any unknown decides most of them: 'by chance'\n"
+    "is the probability of as many if the unknowns did not matter. A measurement is advised only if\n"
+    "it finds more worlds that fall short than it rejects of the others: to call all worlds good\n"
+    "without measuring finds and rejects none.\n"
     "Beside the unknowns it tests what follows from those of the friction, such as the extension at\n"
     "which creep ends. What decides need not be the cause.\n"
     "Without a goal, worlds fall short that are shown to succeed less often than the median world.\n"
@@ -81,10 +84,12 @@ struct Outcome {
     return static_cast<std::size_t>(std::count(worlds.bad.begin(), worlds.bad.end(), true));
   }
   bool worlds_differ() const { return bad() > 0 && bad() < worlds.bad.size(); }
-  /// The measurement that decides most, of those that are shown to decide more than chance.
+  /// The measurement that decides most, of those that are shown to decide more than chance, and do better than
+  /// no measurement.
   const worlds::Learned* best() const {
-    const auto found =
-        std::ranges::find_if(learned, [](const worlds::Learned& one) { return one.p_value <= significance; });
+    const auto found = std::ranges::find_if(learned, [](const worlds::Learned& one) {
+      return one.p_value <= significance && one.does_better_than_no_measurement();
+    });
     return found == learned.end() ? nullptr : &*found;
   }
   /// Worlds of which the verdict says this; none without a goal.
@@ -140,6 +145,16 @@ std::string undecided_worlds_sentence(const Outcome& outcome) {
       undecided, outcome.worlds.bad.size());
 }
 
+/// What to call all worlds good, or all bad, would get.
+std::string unmeasured_sentence(const Outcome& outcome) {
+  if (outcome.learned.empty()) return "";
+  const std::size_t all = outcome.worlds.bad.size();
+  return fmt::format(
+      "without a measurement: to call all worlds good is right in {} of {}, finds none of the {} bad ones and "
+      "rejects no good one; to call all bad is right in {}, and rejects the {} good ones",
+      all - outcome.bad(), all, outcome.bad(), outcome.bad(), all - outcome.bad());
+}
+
 /// What the derived quantities of the table are, a line each.
 std::string meanings_text(const Outcome& outcome) {
   std::string text;
@@ -170,15 +185,18 @@ std::string headline_of(const Outcome& outcome) {
           outcome.bad() == 0 ? std::string("none") : fmt::format("all {}", all));
     case Next::measure: {
       const worlds::Learned& best = *outcome.best();
-      return fmt::format("measure {}: it decides {} of {} worlds, and misjudges {}",
-                         outcome.inputs()[best.input].name, best.decided(), all, best.misjudged);
+      return fmt::format("measure {}: it finds {} of the {} worlds that fall short and rejects {} of the {} "
+                         "others; it leaves {} open",
+                         outcome.inputs()[best.input].name, best.decided_bad, outcome.bad(),
+                         best.rejected_good, all - outcome.bad(), best.open);
     }
     case Next::no_single:
       break;
   }
   return fmt::format(
-      "no single measurement is shown to decide more than chance does (at a significance of {}); more "
-      "worlds, or more trials in each, may show one",
+      "no single measurement is shown to decide more than chance does (at a significance of {}), and to find "
+      "more worlds that fall short than it rejects of the others; more worlds, or more trials in each, may "
+      "show one",
       text::percent(significance));
 }
 
@@ -211,14 +229,20 @@ document::Description<Measurement> measurement_description() {
              &Measurement::decided_proportion)
       .value(in_data("decided", "worlds that the measurement decides rightly"),
              [](Of m) { return m.learned.decided(); })
-      .value({"decided_good", "meets it", "those of them that meet the goal"},
+      .value({"decided_good", "good found", "worlds that meet the goal and are found to"},
              [](Of m) { return m.learned.decided_good; })
-      .value({"decided_bad", "falls short", "those of them that fall short"},
+      .value({"decided_bad", "bad found", "worlds that fall short and are found to"},
              [](Of m) { return m.learned.decided_bad; })
-      .value({"misjudged", "misjudged", "worlds that are unlike all that remain possible"},
-             [](Of m) { return m.learned.misjudged; })
+      .value({"rejected_good", "good rejected", "worlds that meet the goal and are taken to fall short"},
+             [](Of m) { return m.learned.rejected_good; })
+      .value({"missed_bad", "bad missed", "worlds that fall short and are taken to meet the goal"},
+             [](Of m) { return m.learned.missed_bad; })
+      .value(in_data("misjudged", "worlds that are unlike all that remain possible: both of these"),
+             [](Of m) { return m.learned.misjudged(); })
       .value({"open", "open", "worlds that the measurement does not decide"},
              [](Of m) { return m.learned.open; })
+      .value(in_data("better", "whether it does better than to call all worlds good, or all bad, unmeasured"),
+             [](Of m) { return m.learned.does_better_than_no_measurement(); })
       .value({"p_value", "by chance", "probability of as many decided if the unknowns did not matter", "1",
               document::Notation::two_digits},
              [](Of m) { return m.learned.p_value; })
@@ -255,6 +279,7 @@ document::AnswerDescription<Outcome> learn_answer() {
       })
       .table({.key = "unknowns", .meaning = "what a measurement of each unknown decides"},
              measurement_description(), &Outcome::measurements)
+      .sentence(unmeasured_sentence)
       .sentence(meanings_text)
       .sentence(undecided_worlds_sentence)
       .sentence([](Of o) {

@@ -1,6 +1,7 @@
 // A measurement of the parameter that separates good worlds from bad ones decides most of them.
 #include "analysis/worlds/learning.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ struct Worlds {
 };
 
 std::int64_t all_of(const Learned& learned) {
-  return learned.decided() + learned.misjudged + learned.open;
+  return learned.decided() + learned.misjudged() + learned.open;
 }
 
 TEST(Learning, NamesTheParameterThatDecides) {
@@ -39,7 +40,7 @@ TEST(Learning, NamesTheParameterThatDecides) {
     // A world within 5 % of the threshold, 0.06 of a range of 1 on either side, stays open.
     EXPECT_GT(learned[0].decided(), 75);
     EXPECT_GT(learned[0].decided_bad, 10);
-    EXPECT_LE(learned[0].misjudged, 2);  // next to the threshold
+    EXPECT_LE(learned[0].misjudged(), 2);  // next to the threshold
     EXPECT_LT(learned[1].decided(), 50);
     EXPECT_LT(learned[0].p_value, 0.02);
   }
@@ -66,9 +67,42 @@ TEST(Learning, DoesNotLetAWorldJudgeItself) {
     bad.push_back(world == 10);
   }
   const Learned learned = what_to_learn({input}, bad, 0.5, 1).front();
-  EXPECT_EQ(learned.misjudged, 1);
+  EXPECT_EQ(learned.misjudged(), 1);
   EXPECT_EQ(learned.open, 20);
   EXPECT_EQ(learned.decided(), 0);
+}
+
+// Few bad worlds that no unknown shows: a measurement "decides" most worlds for good and finds no bad one. To
+// call all worlds good does as well.
+TEST(Learning, DoesNotAdviseWhatFindsNoBadWorld) {
+  WorldInput input{"friction.n", "1", {}};
+  std::vector<bool> bad;
+  for (int world = 0; world < 40; ++world) {
+    input.values.push_back(1.0 + 0.5 * world);
+    bad.push_back(world % 20 == 10);
+  }
+  const Learned learned = what_to_learn({input}, bad, 0.01, 1).front();
+  EXPECT_GT(learned.decided(), 25);
+  EXPECT_EQ(learned.decided_bad, 0);
+  EXPECT_EQ(learned.missed_bad, 2);
+  EXPECT_FALSE(learned.does_better_than_no_measurement());
+}
+
+// What a measurement says of the worlds, and "all are good" or "all are bad" of those that it leaves open, is
+// right more often than the word alone.
+TEST(Learning, DoesBetterWhereItIsRightMoreOftenThanAWordForAll) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    const Worlds worlds(seed, 30);
+    for (const Learned& one : what_to_learn(worlds.inputs, worlds.bad, 0.05, seed)) {
+      const std::int64_t bad = std::count(worlds.bad.begin(), worlds.bad.end(), true);
+      const std::int64_t open_bad = bad - one.decided_bad - one.missed_bad;
+      const std::int64_t open_good = 30 - bad - one.decided_good - one.rejected_good;
+      EXPECT_EQ(open_bad + open_good, one.open);
+      EXPECT_EQ(one.does_better_than_no_measurement(),
+                one.decided() + open_good > 30 - bad && one.decided() + open_bad > bad)
+          << seed;
+    }
+  }
 }
 
 // Where one world in thirty is bad, an unknown that does not matter decides most worlds too.

@@ -164,6 +164,11 @@ std::string effort_sentence(Of tuning) {
 Description<TuneAnswer> search_description() {
   return Description<TuneAnswer>()
       .value(in_data("points", "points that were simulated"), &TuneAnswer::points)
+      .value(
+          in_data("telling_points",
+                  "points at which some moves meet the worst goal, more than 1 %, and too few; where hardly "
+                  "any point is one, the goal is not shown to be out of reach"),
+          [](const TuneAnswer& answer) { return answer.missed.landscape.telling; })
       .value(in_data("trials", "trials of the search, and of those for other controls"), &TuneAnswer::trials)
       .value(in_data("seconds", "time", "s"), &TuneAnswer::seconds)
       .value(in_data("converged", "whether the last generation improved no more"), &TuneAnswer::converged);

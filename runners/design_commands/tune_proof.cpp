@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -64,15 +65,45 @@ std::string met_headline(Of tuning) {
   return text + study::condition_text(study, static_cast<std::int64_t>(worst.condition)) + " by the least";
 }
 
+/// "; the converter clips in 98 % of the moves". An integral that stays within the range clips nothing, but a
+/// torque at its end is as little as the axis can have.
+std::string saturation_text(const std::vector<summary::MoveBehaviour>& moves) {
+  constexpr double some = 0.01;
+  constexpr double end_of_range = 0.999;
+  double saturated = 0.0;
+  double peak = 0.0;
+  for (const summary::MoveBehaviour& row : moves) {
+    saturated = std::max(saturated, row.saturated);
+    if (row.peak_of_range.p95 > peak) peak = row.peak_of_range.p95;
+  }
+  if (saturated > some)
+    return fmt::format("; the converter clips in {:.3g} % of the moves", 100.0 * saturated);
+  return peak > end_of_range ? "; the torque goes to the end of its range" : "";
+}
+
 /// "at the best values found, controller.ki = 5000, 28.2 % of the moves meet the goal, and at least 47.4 %
 /// are wanted".
 std::string missed_by(Of tuning) {
   const std::optional<double> machines = worst_goal(tuning).machines;
   const goal::Verdict& verdict = tuning.answer.proof->verdict;
-  return fmt::format("at the best values found, {}, {:.4g} % of the {}, and at least {:g} % are wanted",
+  return fmt::format("at the best values found, {}, {:.4g} % of the {}, and at least {:g} % are wanted{}",
                      tuned_text(tuning), 100.0 * (machines ? verdict.machines.value : verdict.moves.value),
                      rated_words(tuning.study, tuning::claim_at(tuning.study, worst_claim(verdict))),
-                     100.0 * machines.value_or(worst_goal(tuning).moves));
+                     100.0 * machines.value_or(worst_goal(tuning).moves),
+                     saturation_text(tuning.answer.behaviour));
+}
+
+/// Why a search whose best values miss the goal does not show that it is out of reach.
+std::string why_undecided(const tuning::MissedSearch& missed) {
+  const tuning::Landscape& landscape = missed.landscape;
+  if (landscape.points == 0) return "the file does not hold the search that found the values";
+  if (!landscape.leads())
+    return fmt::format(
+        "at {} of {} points that were tried hardly any move meets the goal, so that good values in a narrow "
+        "range between them would not be seen",
+        landscape.points - landscape.telling, landscape.points);
+  return missed.approaching ? "the effort ended while the search still came nearer to the goal"
+                            : "not all values that may meet the goal were tried on fresh machines";
 }
 
 std::string headline_of(Of tuning) {
@@ -87,14 +118,26 @@ std::string headline_of(Of tuning) {
   }
   if (tuning.answer.proof->verdict.status == goal::Status::missed)
     return fmt::format("undecided: {}; {}; a larger --budget may find better ones",
-                       tuning.answer.approaching
-                           ? "the effort ended while the search still came nearer to the goal"
-                           : "not all values that may meet the goal were tried on fresh machines",
-                       missed_by(tuning));
+                       why_undecided(tuning.answer.missed), missed_by(tuning));
   return fmt::format(
       "undecided: the trials of the proof do not decide whether the best values found, {}, meet the goal",
       tuned_text(tuning));
 }
+
+/// What theory says of a goal that is not met, such as a torque range that is too small for the move.
+std::string obstacles_sentence(Of tuning) {
+  std::string lines;
+  for (std::string obstacle : tuning.answer.obstacles) {
+    const std::string only_point = "point 0 (" + tuning.answer.proof->study.points.labels.front() + ")";
+    if (obstacle.starts_with(only_point)) {
+      obstacle.erase(0, only_point.size());
+      obstacle.erase(0, obstacle.find_first_not_of(": "));
+    }
+    lines += "in the way: " + obstacle + "\n";
+  }
+  return lines;
+}
+
 std::string worlds_line(const goal::Verdict& verdict) {
   return fmt::format(
       "by world: met in {}, missed in {}, undecided in {} ('zerocount summary' of the proof says what the "
@@ -257,7 +300,10 @@ std::string page_headline(Of tuning) {
 }
 
 void add_proof(Description<Tuning>& items) {
-  items.sentence(proof_sentence)
+  items.sentence(obstacles_sentence)
+      .value(in_data("obstacles", "what theory says of a goal that is not met"),
+             [](Of t) { return t.answer.obstacles; })
+      .sentence(proof_sentence)
       .table({.key = "claims",
               .heading = "each goal under each condition and at each age, by the proof",
               .meaning = "each goal under each condition, by the proof; the bounds allow for its attempts"},
@@ -277,7 +323,8 @@ void add_proof(Description<Tuning>& items) {
 }
 
 void add_proof_sentences(Description<Tuning>& items) {
-  items.sentence(proof_sentence)
+  items.sentence(obstacles_sentence)
+      .sentence(proof_sentence)
       .sentence(criterion_sentence)
       .sentence(late_sentence)
       .sentence(edges_sentence)

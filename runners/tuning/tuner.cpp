@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "analysis/parallel/parallel.hpp"
+#include "analysis/theory/goal_plausibility.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
 #include "core/trial/trial.hpp"
@@ -119,6 +120,8 @@ void describe_proof(study::Study proven, const reading::AllTrialsFile& file, con
   answer.gains = judged.candidate.values;
   answer.at_edges = edges_of(answer.free, answer.gains);
   answer.status = verdict.status;
+  if (answer.status == goal::Status::missed && !answer.missed.shows_unreachable())
+    answer.status = goal::Status::undecided;
   answer.worst = worst_machine(proven, 0, judged.candidate.units);
   const std::size_t worst_claim = claim_at(proven, {verdict.goal, verdict.condition});
   answer.criterion = estimate_of(aim_of(proven), judged.candidate, judged.units.count).criterion;
@@ -131,6 +134,7 @@ void describe_proof(study::Study proven, const reading::AllTrialsFile& file, con
                        {},
                        judged.attempts,
                        summary::claims_of_point(summary::summarise(file), 0, judged.correction)};
+  if (answer.status != goal::Status::met) answer.obstacles = theory::doubtful_goals(answer.proof->study);
   if (verdict.status == goal::Status::undecided)
     answer.proof->needs = goal::needs_of(answer.proof->study.goals, judged.counts, judged.correction);
 }
@@ -244,7 +248,8 @@ class Tuner {
     answer_.points = result_.points;
     answer_.trials = result_.trials;
     answer_.converged = result_.converged;
-    answer_.approaching = result_.approaching;
+    answer_.missed.approaching = result_.approaching;
+    answer_.missed.landscape = landscape_of(aim_of(study_), result_.tried);
     answer_.tried = result_.tried;
     answer_.frontier = frontier_of(result_.tried, std::min(units_of_frontier, plan_.size.max_units));
     constexpr std::int64_t enough_to_tell = 1000;
@@ -379,10 +384,8 @@ class Tuner {
                         proven.counts,
                         proven.attempt.number,
                         correction_of(proven.attempt.number)};
+    answer_.missed.all_tried = proven.all_tried;
     describe_proof(std::move(run.study), reading::AllTrialsFile(settings_.output), judged, answer_);
-    answer_.all_tried = proven.all_tried;
-    if (answer_.status == goal::Status::missed && (answer_.approaching || !answer_.all_tried))
-      answer_.status = goal::Status::undecided;
     add_rest_torque(answer_.behaviour, simulated_);
     answer_.refusals = refusals_of(answer_.behaviour, answer_.margins, study_);
   }

@@ -23,6 +23,7 @@
 #include "runners/tuning/effects/limits.hpp"
 #include "runners/tuning/effects/robustness.hpp"
 #include "runners/tuning/race/frontier.hpp"
+#include "runners/tuning/race/landscape.hpp"
 #include "runners/tuning/race/search.hpp"
 #include "runners/tuning/search/nearest_point.hpp"
 #include "runners/tuning/tune_plan.hpp"
@@ -126,9 +127,8 @@ struct TuneAnswer {
   std::int64_t points{0};             ///< that were simulated
   std::int64_t trials{0};             ///< of the search, and of those for other controls
   bool converged{false};
-  // A proof that misses the goal decides it only if neither of these says that others may meet it.
-  bool approaching{false};  ///< SearchResult::approaching
-  bool all_tried{true};     ///< ProvenFinalist::all_tried
+  MissedSearch missed{};               ///< decides the status of a goal that the proof misses
+  std::vector<std::string> obstacles;  ///< what keeps the tuned axis from a goal that is not met, in theory
   double seconds{0.0};
   TuneBudget budget{};
   std::int64_t spent_trials{0};       ///< of all: search, proof, and what follows

@@ -311,7 +311,7 @@ TEST(TuneAnswer, IsUndecidedWhereAnotherFinalistMayMeetTheGoal) {
   const study::Study study = axis();
   TuneAnswer answer = answer_for(study, goal::Status::undecided);
   answer.proof->verdict.status = goal::Status::missed;
-  answer.all_tried = false;
+  answer.missed = {.all_tried = false, .landscape = {.points = 100, .telling = 50}};
   EXPECT_THAT(text_of(answer, study),
               HasSubstr("undecided: not all values that may meet the goal were tried"));
 }

@@ -276,8 +276,56 @@ TEST_F(Tune, TheReportOfItsFileHasTheMarginsOfTuning) {
   EXPECT_NE(page.find(fmt::format("{:.4g} degrees (at least 30 wanted)", phase)), std::string::npos) << phase;
 }
 
-TEST_F(Tune, OfAGoalBeyondReachSaysSo) {
+// A rate that is 0 nearly everywhere leads nowhere: it does not show that no values meet the goal.
+TEST_F(Tune, IsUndecidedWhereHardlyAnyMoveMeetsTheGoalAnywhere) {
   write_axis("goal: {band: 0, within: 0.004, moves: 0.98}\n" + std::string(two_gains));
+  const ProgramResult result = tune({"--extras", "none"}, "5000");
+  EXPECT_EQ(result.code, 3) << result.out << result.err;
+  const Json answer = Json::parse(result.out);
+  EXPECT_EQ(answer["status"], "undecided");
+  EXPECT_EQ(answer["searched"]["telling_points"], 0);
+  const std::string headline = answer["headline"];
+  EXPECT_NE(headline.find("points that were tried hardly any move meets the goal"), std::string::npos)
+      << headline;
+}
+
+// All moves meet this goal with a feed-forward near the inertia, none elsewhere: a search that does not find
+// it knows nothing of it.
+TEST_F(Tune, OfANarrowRangeOfGoodValuesNeverSaysThatItIsUnreachable) {
+  folder_.write("axis.yaml", R"(zerocount: 1
+name: needle
+seed: 1
+rigs: 100
+trials: 100
+plant: {inertia: 8.0e-4, presliding_damping: 0}
+friction: {model: none}
+encoder: {fine: 1000000}
+dac: {bits: 24, resolution: 1.0e-7}
+controller: {units: si, sample_rate: 10000, ki: 0, kp: 0, feedforward: {acceleration: 1.0e-3}}
+command: {targets: [1000], hold: 0.12, profile: {shape: trapezoidal, velocity_limit: 0.2, acceleration_limit: 10}}
+verdict: {dwell: 0.01, window: 0.02}
+initial: {encoder_phase: {uniform: [0, 1]}}
+goal: {band: 2, within: 0.1, moves: 0.9}
+tune: {free: {controller.feedforward.acceleration: [0, 1.0e-2]}, margins: off}
+)");
+  for (const char* seed : {"seed=1", "seed=2", "seed=3"}) {
+    const ProgramResult result = tune({"--extras", "none", "--set", seed}, "3000");
+    EXPECT_TRUE(result.code == 0 || result.code == 3) << seed << result.out << result.err;
+  }
+}
+
+// What stands in the way stands in the answer: no torque of this range moves the axis as far.
+TEST_F(Tune, OfAMissedGoalNamesATorqueRangeThatIsUsedUp) {
+  write_axis("dac: {bits: 24, range: 0.004}\ngoal: {band: 1, within: 0.03, moves: 0.98}\n" +
+             std::string(two_gains));
+  const ProgramResult result = tune({"--extras", "none"}, "5000");
+  EXPECT_NE(result.code, 0) << result.out << result.err;
+  const std::string headline = Json::parse(result.out)["headline"];
+  EXPECT_NE(headline.find("the torque goes to the end of its range"), std::string::npos) << headline;
+}
+
+TEST_F(Tune, OfAGoalBeyondReachSaysSo) {
+  write_axis("goal: {band: 0, within: 0.06, moves: 0.98}\n" + std::string(two_gains));
   const ProgramResult result = tune({}, "5000");
   EXPECT_EQ(result.code, 1) << result.out << result.err;
   const Json answer = Json::parse(result.out);

@@ -43,11 +43,13 @@ std::vector<Parameter> disturbance_rows() {
   constexpr std::size_t ripple = beyond_moves(192);
   constexpr std::size_t vibration = ripple + max_ripples * dimensions_of_ripple;
   return {
-      real_row("disturbance.torque", beyond_moves(30), "N m", "constant $torque on the $rotor", assumed,
-               numerics::all_numbers(), [](auto& p) { return &p.disturbance.torque; }),
-      number_of<ripples, &R::amplitude>("disturbance.ripple.#.amplitude", ripple, dimensions_of_ripple, "N m",
-                                        "amplitude of a $torque that varies along the $track",
-                                        numerics::at_least(0)),
+      idealised_by(no_constant_disturbance,
+                   real_row("disturbance.torque", beyond_moves(30), "N m", "constant $torque on the $rotor",
+                            assumed, numerics::all_numbers(), [](auto& p) { return &p.disturbance.torque; })),
+      ideal_at(0, "no ripple",
+               number_of<ripples, &R::amplitude>(
+                   "disturbance.ripple.#.amplitude", ripple, dimensions_of_ripple, "N m",
+                   "amplitude of a $torque that varies along the $track", numerics::at_least(0))),
       only_on(
           AxisKind::rotary, "pitch, m",
           number_of<ripples, &R::periods>("disturbance.ripple.#.periods", ripple + 1, dimensions_of_ripple,
@@ -58,9 +60,10 @@ std::vector<Parameter> disturbance_rows() {
       zero_by_default(number_of<ripples, &R::phase>(
           "disturbance.ripple.#.phase", ripple + 2, dimensions_of_ripple, "1",
           "its phase at the zero of the $track, of 2 pi in a period", numerics::all_numbers())),
-      number_of<vibrations, &V::amplitude>(
-          "disturbance.vibration.#.amplitude", vibration, dimensions_of_vibration, "N m",
-          "amplitude of a $torque that varies in time", numerics::at_least(0)),
+      ideal_at(0, "no vibration",
+               number_of<vibrations, &V::amplitude>(
+                   "disturbance.vibration.#.amplitude", vibration, dimensions_of_vibration, "N m",
+                   "amplitude of a $torque that varies in time", numerics::at_least(0))),
       number_of<vibrations, &V::frequency>("disturbance.vibration.#.frequency", vibration + 1,
                                            dimensions_of_vibration, "Hz", "its frequency",
                                            numerics::above(0)),

@@ -35,6 +35,14 @@ constexpr std::size_t beyond_moves(std::size_t i) {
 
 constexpr std::string_view assumed = "assumed";
 
+// Names of effects that idealise several parameters.
+constexpr std::string_view finer_converter = "a converter 16 times finer";
+constexpr std::string_view wider_torque_range = "a torque range 10 times wider";
+constexpr std::string_view finer_encoder = "an encoder 4 times finer";
+constexpr std::string_view faster_sampling = "twice the sample rate";
+constexpr std::string_view rigid_axis = "a rigid axis";
+constexpr std::string_view no_constant_disturbance = "no constant disturbance";
+
 /// Maximum |target| and maximum counts per revolution: far above those of real machines, and small enough for
 /// exact arithmetic of counts in double.
 constexpr double max_count = 1e12;
@@ -131,6 +139,18 @@ inline Parameter none_is(double none, Parameter row) {
 inline Parameter none_by_default(double none, Parameter row) {
   row.get = [none](const trial::TrialParameters&) { return none; };
   return none_is(none, std::move(row));
+}
+
+/// Adds the value at which a parameter costs no moves. @param name Ideal::name
+inline Parameter ideal_at(double value, std::string_view name, Parameter row) {
+  row.ideal = Ideal{name, value};
+  return row;
+}
+
+/// Marks a parameter that an effect of several changes idealises. @param name Ideal::name
+inline Parameter idealised_by(std::string_view name, Parameter row) {
+  row.ideal = Ideal{name, std::nullopt};
+  return row;
 }
 
 /// Lets the key of the section alone stand for this row.

@@ -36,6 +36,14 @@ struct ElementKey {
   std::function<void(trial::TrialParameters&, std::size_t element, std::size_t index, double value)> set{};
 };
 
+/// How a parameter that can cost moves is idealised.
+struct Ideal {
+  std::string_view name;  ///< of the axis without this cause of failures: "no encoder noise"
+  /// The value that costs no moves. Nothing where more changes with it: idealisations.cpp in
+  /// runners/tuning/effects has an effect of this name.
+  std::optional<double> value{};
+};
+
 /// One row of the table of parameters: the complete description of one parameter of a trial.
 struct Parameter {
   std::string_view name;  ///< dotted path in the manifest: "plant.inertia", "controller.coarse.kp"
@@ -56,6 +64,7 @@ struct Parameter {
   std::string_view short_name{};  ///< of the section, where its key alone stands for this parameter
   bool is_position{false};        ///< a target of the command, in counts or, with command.units: si, in rad
   bool of_machine{false};         ///< a property of the machine, not of the trial
+  std::optional<Ideal> ideal{};   ///< empty for what is chosen or asked for, and has no ideal value
   std::optional<ListOfValues> list{};   ///< set if its value is a list
   std::optional<ElementKey> element{};  ///< set if it stands for a key of each element of a list
   std::function<double(const trial::TrialParameters&)> get{};  ///< empty without a default

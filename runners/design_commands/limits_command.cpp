@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,11 +15,15 @@
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/text/percent.hpp"
 #include "runners/answers/answer_format.hpp"
+#include "runners/command_line/option_values.hpp"
 #include "runners/commands/command.hpp"
+#include "runners/commands/stage_progress.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/examined_point.hpp"
 #include "runners/status/interruption.hpp"
 #include "runners/tuning/effects/additions.hpp"
+#include "runners/tuning/effects/idealisations.hpp"
+#include "runners/tuning/tune_plan.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -30,12 +35,15 @@ using tuning::Limit;
 
 constexpr const char* limits_help =
     "Tells what stands between a point and its goal: the rate of the goal with each cause of\n"
-    "failures switched off alone, and with the best pair of causes: creep, the converter (16 times\n"
-    "finer), the encoder (4 times finer), the sample rate (twice), delay and amplifier lag, noise,\n"
-    "disturbance, missed and late samples. The gains are not tuned again. Where nothing is missed,\n"
-    "none of them is simulated. Then with effects added that a study may assume away: encoder\n"
-    "noise, a sample of delay, and the lowest mode of the load that costs at most 1 %. All are\n"
-    "simulated with the same random numbers, on all machines; a mode, which takes long, on the first.\n"
+    "failures switched off alone, and with the best pair of causes. Each parameter that has an ideal\n"
+    "value is a cause where the point has another one: creep, friction's fall, delays, each error of\n"
+    "encoder and converter, each disturbance and so on; and a rigid axis, a wider torque range, a\n"
+    "finer converter and encoder and twice the sample rate are tried. The gains are not tuned again.\n"
+    "A cause is named where machines, or trials, gain by it more often than chance allows; the\n"
+    "bound allows for the number of causes. Where nothing is missed, none is simulated. Then with\n"
+    "effects added that a study may assume away: encoder noise, a sample of delay, and the lowest\n"
+    "mode of the load that costs at most 1 %. All are simulated with the same random numbers, on all\n"
+    "machines, or as many as --budget is enough for; a mode, which takes long, on the first.\n"
     "Without a goal the rate is that of moves that end at zero counts. Of several goals, conditions\n"
     "and ages each rate is that of the worst; --condition and --age choose one. Of several points\n"
     "--point chooses one.\n"
@@ -62,6 +70,12 @@ std::string failures_cell(const LimitRow& row) {
   if (&row.limit == &row.base || !row.limit.rate || base == 1.0 || !is_comparable) return "";
   const double avoided = (*row.limit.rate - base) / (1.0 - base);
   return fmt::format("{:.0f} % {}", std::abs(100.0 * avoided), avoided >= 0.0 ? "fewer" : "more");
+}
+
+template <class Member>
+auto gain_of(const LimitRow& row, Member member) {
+  const std::optional<tuning::PairedGain>& gain = row.limit.gain;
+  return gain ? std::optional((*gain).*member) : std::nullopt;
 }
 
 /// @param effect the column of Limit::effect
@@ -94,6 +108,29 @@ document::Description<LimitRow> limit_columns(const document::Item& effect) {
              [](Row row) { return row.limit.rates; })
       .value({.key = "failures", .heading = "failures", .shown = Shown::to_people, .numeric = true},
              failures_cell)
+      .value({.key = "gained",
+              .heading = "gained",
+              .meaning = "machines, or trials, that meet the worst goal more often without the cause",
+              .optional = true},
+             [](Row row) { return gain_of(row, &tuning::PairedGain::gained); })
+      .value({.key = "lost",
+              .heading = "lost",
+              .meaning = "machines, or trials, that meet it less often",
+              .optional = true},
+             [](Row row) { return gain_of(row, &tuning::PairedGain::lost); })
+      .value(
+          {.key = "p_value",
+           .heading = "by chance",
+           .meaning = "probability of as many gained if as many were to lose (sign test), for this row alone",
+           .unit = "1",
+           .notation = Notation::two_digits,
+           .optional = true},
+          [](Row row) { return gain_of(row, &tuning::PairedGain::p_value); })
+      .value({.key = "shown",
+              .meaning = "whether it is shown to raise the rate, allowing for the number of causes",
+              .shown = Shown::in_json,
+              .optional = true},
+             [](Row row) { return gain_of(row, &tuning::PairedGain::shown); })
       .value(in_data("note", "what the rate does not show, what is assumed, or why there is none"),
              [](Row row) { return row.limit.note.empty() ? std::nullopt : std::optional(row.limit.note); })
       .value({.key = "remark", .heading = "remark", .shown = Shown::to_people},
@@ -114,6 +151,30 @@ std::string not_simulated(const std::vector<Limit>& limits) {
     lines += fmt::format("{} {} not simulated: {}\n", fmt::join(effects, ", "),
                          effects.size() == 1 ? "is" : "are", reason);
   return lines;
+}
+
+/// Names the causes that are shown, and what was tried and what was not.
+std::string causes_sentence(const std::vector<Limit>& limits) {
+  std::vector<std::string> tried;
+  std::vector<std::string> shown;
+  std::int64_t units = 0;
+  for (const Limit& one : limits) {
+    if (!one.gain) continue;
+    tried.push_back(one.effect);
+    units = one.gain->units;
+    if (one.is_shown_cause())
+      shown.push_back(fmt::format("{} ({})", one.effect, text::percent_near(*one.rate)));
+  }
+  if (tried.empty()) return "";
+  const std::int64_t alternatives = std::ssize(tried);
+  const std::int64_t needed = tuning::units_to_show_a_gain(alternatives);
+  std::string text = shown.empty() ? fmt::format("shown to raise the rate: none of these {}", tried.size())
+                                   : fmt::format("shown to raise the rate: {}", fmt::join(shown, ", "));
+  if (units < needed) text += fmt::format("; {} units cannot show it, at least {} can", units, needed);
+  return text + fmt::format(
+                    "\ntried: {}\nnot tried: other values of {} that have no ideal one, other gains, "
+                    "another friction law\n",
+                    fmt::join(tried, ", "), fmt::join(tuning::sections_with_other_values(), ", "));
 }
 
 /// 95 % bounds of the rate of a limit, as if each machine, or trial, met or missed the goal as a whole.
@@ -176,30 +237,34 @@ std::vector<LimitRow> addition_rows(const PointLimits& found) {
 /// Tells what was simulated.
 std::string simulated_sentence(const PointLimits& found) {
   const bool on_rigs = found.study.rigs > 0;
+  const std::int64_t all = trials::replicates_of(found.study, found.units.point).count;
   return fmt::format(
-      "simulated: the {} {} of the study{}, in each row with the same random numbers; pairs of "
+      "simulated: the {} {} of the study{}{}, in each row with the same random numbers; pairs of "
       "causes first on some of them",
-      found.units.count, on_rigs ? "machines" : "trials",
+      found.units.count < all ? fmt::format("first {} of {}", found.units.count, all) : std::to_string(all),
+      on_rigs ? "machines" : "trials",
       on_rigs                          ? fmt::format(" with {} trial{} each", found.units.trials_each,
                             found.units.trials_each == 1 ? "" : "s")
       : found.study.conditions.empty() ? std::string()
-                                       : " under each condition");
+                                       : " under each condition",
+      found.units.count < all ? ", as many as the budget is enough for" : "");
 }
 
-/// "96.5 % of the moves meet the goal; most of them, 100 %, with twice the sample rate".
+/// "96.5 % of the moves meet the goal; with no delay 100 %".
 std::string limits_headline(const PointLimits& found) {
   const Limit& base = found.limits.front();
-  const std::string rate = fmt::format("{} of the {}", text::percent_near(base.rate.value()),
-                                       rated_words(found.study, base.estimate.worst));
-  const Limit& best = *std::ranges::max_element(found.limits, tuning::is_lower);
+  const std::size_t worst = base.estimate.worst;
+  const std::string rate =
+      fmt::format("{} of the {}", text::percent_near(base.rate.value()), rated_words(found.study, worst));
   if (misses_nothing(base)) return rate + ": these trials show no limit";
-  if (!is_lower(base, best)) return rate + "; no cause of failures that is switched off raises it";
-  return fmt::format(
-      "{}; the most, {}{}, with {}", rate, text::percent_near(*best.rate),
-      best.estimate.worst == base.estimate.worst
-          ? ""
-          : tuning::text_of_claim(found.study, tuning::place_of_claim(found.study, best.estimate.worst)),
-      best.effect);
+  const Limit* const main = tuning::main_cause(found.limits);
+  if (main == nullptr) return rate + "; no cause of failures is shown";
+  std::string text =
+      fmt::format("{}; with {} {}", rate, main->effect, text::percent_near(main->estimate.rates[worst]));
+  if (main->estimate.worst != worst)
+    text += fmt::format(", and the worst is then {} of the {}", text::percent_near(*main->rate),
+                        rated_words(found.study, main->estimate.worst));
+  return text;
 }
 
 document::AnswerDescription<PointLimits> limits_answer() {
@@ -217,25 +282,68 @@ document::AnswerDescription<PointLimits> limits_answer() {
   return answer;
 }
 
+/// About how often the units are run.
+double runs_of(const study::Study& study, const trials::Replicates& units) {
+  constexpr double additions = 10.0;  // two, and the modes that are tried
+  return tuning::runs_of_limits(study, units.point, units.count) + additions;
+}
+
+/// So many of the units as the effort is enough for.
+/// @throws trials::Spent if these are too few to show anything
+trials::Replicates affordable_units(const study::Study& study, std::int64_t point,
+                                    const trials::Effort& effort) {
+  constexpr std::int64_t fewest = 16;
+  constexpr double part_of_speed = 0.5;  // some causes double the samples, and the speed is a guess
+  trials::Replicates units = trials::replicates_of(study, point);
+  double speed = std::numeric_limits<double>::infinity();
+  if (!std::isinf(effort.seconds_left())) speed = part_of_speed * tuning::measured_speed(study, effort);
+  const std::int64_t trials = tuning::affordable_trials(effort, speed);
+  const double each = runs_of(study, units) * static_cast<double>(units.trials_each);
+  const auto affordable = static_cast<std::int64_t>(static_cast<double>(trials) / each);
+  if (affordable >= units.count) return units;
+  const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
+  units.count = affordable / worlds * worlds;
+  if (units.count < fewest) throw trials::Spent{};
+  return units;
+}
+
 ExitCode limits(const command_line::Arguments& arguments) {
   const ExaminedPoint examined = point_to_examine(arguments);
+  const command_line::Budget budget = command_line::budget_option(arguments);
   const status::InterruptionWatch interruption;
-  return answers::print(arguments, unless_interrupted([&] {
-                          return limits_of(examined.study, examined.point, interruption.token());
-                        }));
+  const trials::Effort effort = trials::Effort(interruption.token()).share(budget.trials, budget.seconds);
+  commands::StageProgress progress("zerocount limits", false);
+  std::optional<document::Answer> answer;
+  const bool ended = unless_interrupted([&] {
+    return trials::within(effort, [&] {
+      answer = limits_of(examined.study, examined.point, effort,
+                         [&](const std::string& stage) { progress.enter(stage); });
+    });
+  });
+  if (ended) return answers::print(arguments, *answer);
+  throw Failure(budget.trials ? ExitCode::bad_input : ExitCode::inconclusive,
+                fmt::format("option '--budget': it is not enough: the causes of failures of this point take "
+                            "about {} trials on all its machines; expected more",
+                            trials_of_limits(examined.study, examined.point)));
 }
 
 }  // namespace
 
-document::Answer limits_of(const study::Study& study, std::int64_t point, const trials::Effort& effort) {
-  const trials::Replicates units = trials::replicates_of(study, point);
+document::Answer limits_of(const study::Study& study, std::int64_t point, const trials::Effort& effort,
+                           const tuning::TellStage& tell) {
+  if (tell) tell("the point as it is");
+  const trials::Replicates units = affordable_units(study, point, effort);
   const tuning::EffectRuns runs(study, units, effort);
-  return limits_answer().of({study, units, tuning::limits_of(runs), tuning::additions_to(runs)});
+  std::vector<Limit> found = tuning::limits_of(runs, tell);
+  std::vector<Limit> additions;
+  if (!trials::within(effort, [&] { additions = tuning::additions_to(runs, tell); }))
+    additions = {{"what a study may assume away", std::nullopt, "the budget ended"}};
+  return limits_answer().of({study, units, std::move(found), std::move(additions)});
 }
 
 std::int64_t trials_of_limits(const study::Study& study, std::int64_t point) {
-  constexpr std::int64_t usual_rows = 24;
-  return usual_rows * trials::replicates_of(study, point).trials();
+  const trials::Replicates units = trials::replicates_of(study, point);
+  return std::llround(runs_of(study, units) * static_cast<double>(units.trials()));
 }
 
 std::string rated_words(const study::Study& study, std::size_t claim) {
@@ -257,6 +365,7 @@ document::Description<std::vector<Limit>> limits_description(const std::string& 
                             .heading = "switched off",
                             .meaning = "cause of failures that is switched off"}),
              limit_rows)
+      .sentence(causes_sentence)
       .sentence(not_simulated)
       .figures(limits_figures);
 }
@@ -264,7 +373,12 @@ document::Description<std::vector<Limit>> limits_description(const std::string& 
 commands::Command limits_command() {
   return {{"limits",
            "MANIFEST|FILE",
-           {answers::format_option(), named_point_option(), condition_option(), age_option(), set_option()}},
+           {answers::format_option(),
+            named_point_option(),
+            condition_option(),
+            age_option(),
+            set_option(),
+            {"budget", "B", "of all that is simulated: a number of trials, or a time such as 60s or 5min"}}},
           "what stands between a point and its goal",
           limits_help,
           limits,

@@ -20,7 +20,6 @@ namespace {
 constexpr std::int64_t points_of_delay = 13;  // that are simulated to find it
 constexpr std::int64_t points_of_room = 24;   // at most, of a parameter
 constexpr std::int64_t points_of_robustness = 14;
-constexpr std::int64_t points_of_limits = 24;  // usually
 constexpr std::int64_t trials_of_control = 125'000;
 
 constexpr std::array<std::pair<Extra, std::string_view>, all_extras.size()> names{
@@ -71,7 +70,7 @@ ExtrasMaker::ExtrasMaker(const Context& context, TuneAnswer& answer)
       details_{tuned_, answer.free, answer.gains, of_.search.units(), 0, of_.effort} {
   const auto points_if = [&](Extra extra, std::int64_t points) { return wants(extra) ? points : 0; };
   const std::int64_t points =
-      points_if(Extra::limits, points_of_limits) + points_if(Extra::ages, points_of_ages()) +
+      points_if(Extra::limits, points_of_limits()) + points_if(Extra::ages, points_of_ages()) +
       (is_met()
            ? points_if(Extra::margins, points_of_delay) + points_if(Extra::robustness, points_of_robustness) +
                  points_if(Extra::room, points_of_room * std::ssize(answer_.free))
@@ -94,6 +93,10 @@ bool ExtrasMaker::wants(Extra extra) const {
 std::int64_t ExtrasMaker::points_of_ages() const {
   const std::int64_t ages = std::ssize(of_.study.ages.at);
   return ages == 0 ? 0 : (points_of_lost_ages(of_.study) + ages - 1) / ages;
+}
+
+std::int64_t ExtrasMaker::points_of_limits() const {
+  return std::llround(runs_of_limits(tuned_, 0, of_.search.units().count));
 }
 
 /// Machines of one age, as many as take the trials of the planned units, and enough to show that the goals
@@ -126,7 +129,7 @@ std::int64_t ExtrasMaker::trials_of(Extra extra) const {
                                  affordable_trials(one_of_shares(static_cast<double>(searches)), of_.speed));
     }
     case Extra::limits:
-      return points_of_limits * units_of_limits().trials();
+      return points_of_limits() * units_of_limits().trials();
     case Extra::maps:
       return trials_of_maps(of_.search.units(), answer_.free.size());
   }
@@ -288,7 +291,7 @@ void ExtrasMaker::add_controls() {
 trials::Effort ExtrasMaker::one_of_shares(double parts) const {
   if (!has_budget()) return of_.effort.share(trials_of_control, {});
   const std::int64_t later =
-      (wants(Extra::limits) ? points_of_limits * plan_.units * of_.search.units().trials_each : 0) +
+      (wants(Extra::limits) ? points_of_limits() * plan_.units * of_.search.units().trials_each : 0) +
       plan_.trials_of_maps;
   parts = std::max(parts, 1.0);
   if (of_.settings.budget.trials) {

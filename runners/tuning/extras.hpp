@@ -69,6 +69,7 @@ class ExtrasMaker {
   bool is_met() const { return answer_.status == goal::Status::met; }
   bool wants(Extra extra) const;
   std::int64_t points_of_ages() const;
+  std::int64_t points_of_limits() const;
   trials::Replicates units_of_ages() const;
 
   Context of_;

@@ -1235,10 +1235,13 @@ class LearnAnswer(Answer):
         - ``unit``: unit of the unknown
         - ``derived``: what the derived quantity is
         - ``decided``: worlds that the measurement decides rightly
-        - ``decided_good``: those of them that meet the goal
-        - ``decided_bad``: those of them that fall short
-        - ``misjudged``: worlds that are unlike all that remain possible
+        - ``decided_good``: worlds that meet the goal and are found to
+        - ``decided_bad``: worlds that fall short and are found to
+        - ``rejected_good``: worlds that meet the goal and are taken to fall short
+        - ``missed_bad``: worlds that fall short and are taken to meet the goal
+        - ``misjudged``: worlds that are unlike all that remain possible: both of these
         - ``open``: worlds that the measurement does not decide
+        - ``better``: whether it does better than to call all worlds good, or all bad, unmeasured
         - ``p_value``: probability of as many decided if the unknowns did not matter
         - ``record``: record of identify that tells the unknown; null: none
 
@@ -1492,6 +1495,9 @@ class Searched(Record):
     ----------
     points : int
         Points that were simulated.
+    telling_points : int
+        Points at which some moves meet the worst goal, more than 1 %, and too few; where hardly any point is one, the
+        goal is not shown to be out of reach.
     trials : int
         Trials of the search, and of those for other controls.
     seconds : float or None
@@ -1501,6 +1507,7 @@ class Searched(Record):
     """
 
     points: int
+    telling_points: int
     trials: int
     seconds: float | None
     converged: bool
@@ -1528,6 +1535,8 @@ class TuneAnswer(Answer):
 
     nearest : Nearest or None
         The point that comes nearest to the margins, where none keeps them.
+    obstacles : list[str]
+        What theory says of a goal that is not met.
     claims : pandas.DataFrame
         Each goal under each condition, by the proof; the bounds allow for its attempts.
 
@@ -1684,6 +1693,10 @@ class TuneAnswer(Answer):
         - ``goal``: the worst of several goals, which the rate is of
         - ``condition``: the worst condition, which the rate is of
         - ``rates``: the rates of all goals under all conditions, where there are several
+        - ``gained``: machines, or trials, that meet the worst goal more often without the cause
+        - ``lost``: machines, or trials, that meet it less often
+        - ``p_value``: probability of as many gained if as many were to lose (sign test), for this row alone
+        - ``shown``: whether it is shown to raise the rate, allowing for the number of causes
         - ``note``: what the rate does not show, what is assumed, or why there is none
 
     frontier : pandas.DataFrame
@@ -1710,6 +1723,7 @@ class TuneAnswer(Answer):
     gains: dict[str, float | None]
     refusals: pandas.DataFrame
     nearest: Nearest | None
+    obstacles: list[str]
     claims: pandas.DataFrame
     proof: Proof | None
     needed: Needed | None
@@ -1755,6 +1769,10 @@ class LimitsAnswer(Answer):
         - ``goal``: the worst of several goals, which the rate is of
         - ``condition``: the worst condition, which the rate is of
         - ``rates``: the rates of all goals under all conditions, where there are several
+        - ``gained``: machines, or trials, that meet the worst goal more often without the cause
+        - ``lost``: machines, or trials, that meet it less often
+        - ``p_value``: probability of as many gained if as many were to lose (sign test), for this row alone
+        - ``shown``: whether it is shown to raise the rate, allowing for the number of causes
         - ``note``: what the rate does not show, what is assumed, or why there is none
 
     additions : pandas.DataFrame
@@ -1765,6 +1783,10 @@ class LimitsAnswer(Answer):
         - ``goal``: the worst of several goals, which the rate is of
         - ``condition``: the worst condition, which the rate is of
         - ``rates``: the rates of all goals under all conditions, where there are several
+        - ``gained``: machines, or trials, that meet the worst goal more often without the cause
+        - ``lost``: machines, or trials, that meet it less often
+        - ``p_value``: probability of as many gained if as many were to lose (sign test), for this row alone
+        - ``shown``: whether it is shown to raise the rate, allowing for the number of causes
         - ``note``: what the rate does not show, what is assumed, or why there is none
 
     """

@@ -189,6 +189,24 @@ bool can_have_load(const EffectRuns& runs) {
   });
 }
 
+/// Whether a goal is met so often that an effect could cost more than is allowed. Where it is not, every
+/// effect would seem to cost nothing.
+bool can_lose(const EffectRuns& runs) {
+  const Estimate as_it_is = estimate_of(runs.aim(), runs.base().run, runs.units());
+  return std::ranges::any_of(as_it_is.rates, [](double rate) { return rate > allowed_loss; });
+}
+
+std::vector<Limit> nothing_to_lose(const EffectRuns& runs, const std::vector<ConditionEffects>& effects) {
+  constexpr const char* why = "hardly any move meets the goal as it is, so that nothing can be lost";
+  std::vector<Limit> rows;
+  for (const ConditionEffects& one : effects) {
+    const std::string refusal = runs.changed(std::array{&one}).refusal;
+    rows.push_back({one.name, std::nullopt, refusal.empty() ? why : refusal});
+  }
+  if (!can_have_load(runs)) rows.push_back({"a load mode", std::nullopt, why});
+  return rows;
+}
+
 }  // namespace
 
 std::vector<Effect> added_effects(const study::Study& study, std::int64_t point) {
@@ -210,8 +228,10 @@ Effect load_mode(const study::Study& study, std::int64_t point, double frequency
           }};
 }
 
-std::vector<Limit> additions_to(const EffectRuns& runs) {
+std::vector<Limit> additions_to(const EffectRuns& runs, const TellStage& tell) {
   const std::vector<ConditionEffects> effects = runs.effects(added_effects);
+  if (!can_lose(runs)) return nothing_to_lose(runs, effects);
+  if (tell) tell("effects that the study may assume away");
   std::vector<ChangedPoint> points;
   points.reserve(effects.size());
   for (const ConditionEffects& one : effects) points.push_back(runs.changed(std::array{&one}));

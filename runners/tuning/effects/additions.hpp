@@ -23,8 +23,10 @@ Effect load_mode(const study::Study& study, std::int64_t point, double frequency
 ///
 /// A mode takes ten times as long to simulate as a rigid axis, so these are the first units with 800 000
 /// samples together, and the few are 1/8 of them; there one missing unit more is allowed. A frequency is
-/// given up as soon as no result of the other units could save it.
+/// given up as soon as no result of the other units could save it. Nothing is simulated where every goal is
+/// met by 1 % at most.
+/// @param tell gets what is being simulated
 /// @throws trial::Interrupted, trials::Spent
-std::vector<Limit> additions_to(const EffectRuns& runs);
+std::vector<Limit> additions_to(const EffectRuns& runs, const TellStage& tell = {});
 
 }  // namespace zerocount::tuning

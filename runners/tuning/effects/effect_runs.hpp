@@ -42,6 +42,7 @@ class EffectRuns {
   std::int64_t units() const { return units_.count; }
   std::int64_t trials_each() const { return units_.trials_each; }
   const std::vector<study::Study>& conditions() const { return conditions_; }
+  const trials::Effort& effort() const { return effort_; }
   /// The point as it is, with the results of all units.
   const ChangedPoint& base() const { return base_; }
 

@@ -1,13 +1,26 @@
 #include "runners/tuning/effects/idealisations.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <span>
 #include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
 #include "core/friction/friction_model.hpp"
+#include "core/friction/law.hpp"
+#include "core/friction/profile.hpp"
 #include "core/loop/controller/filter.hpp"
+#include "experiments/parameters/element_lists.hpp"
+#include "experiments/parameters/parameter_rows.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/rules/effect_rules.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::tuning {
@@ -18,8 +31,8 @@ using study::ValueLimits;
 
 constexpr const char* not_tuned_again = "same gains, not tuned again";
 
-bool can_differ_from_zero(const ValueLimits& limits) {
-  return limits.low != 0.0 || limits.high != 0.0;
+bool can_differ_from(double value, const ValueLimits& limits) {
+  return limits.low != value || limits.high != value;
 }
 
 bool is_within(std::string_view name, std::string_view section) {
@@ -56,15 +69,100 @@ bool is_sampled_gain(const PointEdit& at, const parameters::Parameter& row) {
   return !row.si_unit.empty() && at.plan().units.gains == parameters::GainUnits::count;
 }
 
-// Creep.
+// Ideal values.
 
-bool has_creep(const PointEdit& at) {
-  const auto model = static_cast<friction::FrictionModel>(static_cast<int>(at.limits("friction.model").low));
-  return friction::has_creep(model) && at.limits("friction.alpha").high > 0.0;
+/// Whether the parameter acts in trials of the point.
+bool acts(const PointEdit& at, std::span<const rules::EffectRule> rules, std::string_view name) {
+  const study::StudyPlan& plan = at.plan();
+  return std::ranges::all_of(rules, [&](const rules::EffectRule& rule) {
+    if (!rules::covers(rule, name)) return true;
+    const std::vector<ValueLimits> limits =
+        study::limits_at(plan, study::slots_named(plan.table, rule.depends_on), at.points().front());
+    return !study::are_readable(limits) || rule.has_effect(limits);
+  });
 }
 
-void without_creep(PointEdit& at) {
-  at.set("friction.alpha", 0.0);
+/// Whether the parameter can be a cause of failures at the point, for reasons that are no effect rules.
+bool can_be_a_cause(const PointEdit& at, std::string_view name) {
+  // The error is measured with the fine encoder, whichever closes the loop.
+  if (is_within(name, "encoder.coarse_errors")) return encoders_of(at).coarse;
+  // An integral holds the load: it goes with the disturbance.
+  if (name == "initial.integral") return !can_differ_from(0.0, at.limits("disturbance.torque"));
+  // A law without a Stribeck velocity has one level of friction.
+  if (name == "friction.coulomb_ratio") {
+    const auto model =
+        static_cast<friction::FrictionModel>(static_cast<int>(at.limits("friction.model").low));
+    return friction::uses(friction::traits_of(model), &friction::FrictionParameters::stribeck_velocity);
+  }
+  return true;
+}
+
+/// Whether other gains may be better without it, because the loop is another one.
+bool changes_the_loop(std::string_view name) {
+  return is_within(name, "controller") || is_within(name, "amplifier");
+}
+
+/// "no ripple disturbance.ripple.0", "no dead band of the error in the coarse phase".
+std::string name_of(const parameters::Parameter& row) {
+  std::string name(row.ideal->name);
+  if (is_within(row.name, "controller.coarse")) name += " in the coarse phase";
+  if (parameters::without_indices(row.name) != row.name)
+    name += fmt::format(" {}", row.name.substr(0, row.name.rfind('.')));
+  return name;
+}
+
+/// An effect for each parameter that has another value than its ideal one.
+void add_ideal_values(const PointEdit& at, std::vector<Effect>& all) {
+  const std::vector<rules::EffectRule> rules = rules::effect_rules(at.plan());
+  visit_values(at, [&](std::size_t slot, const parameters::Parameter& row) {
+    if (!row.ideal || !row.ideal->value || !parameters::exists_on(row, at.plan().units.axis)) return;
+    const double ideal = *row.ideal->value;
+    if (!can_differ_from(ideal, at.limits(row.name)) || !can_be_a_cause(at, row.name) ||
+        !acts(at, rules, row.name))
+      return;
+    all.push_back({.name = name_of(row),
+                   .note = changes_the_loop(row.name) ? not_tuned_again : "",
+                   .edit = [slot, ideal](PointEdit& edit) { edit.set(slot, ideal); }});
+  });
+}
+
+// Friction that differs from place to place, or from contact to contact, gets the mean of the track, or the
+// value of the first contact.
+
+bool has_friction(const PointEdit& at, const std::function<bool(const study::Value&)>& of_kind) {
+  bool found = false;
+  visit_values(at, [&](std::size_t slot, const parameters::Parameter& row) {
+    const study::Value* const value = study::value_at_point(at.plan(), slot, at.points().front());
+    found = found || (row.profiled != nullptr && value != nullptr && of_kind(*value));
+  });
+  return found;
+}
+
+void with_even_friction(trial::TrialParameters& p) {
+  constexpr int places = 256;
+  for (const friction::ProfiledParameter& one : p.friction.profiled) {
+    double sum = 0.0;
+    for (int i = 0; i < places; ++i)
+      sum += friction::value_at(*one.profile, 2.0 * std::numbers::pi * i / places);
+    p.friction.uniform.*one.parameter = sum / places;
+  }
+  p.friction.profiled.clear();
+}
+
+void add_even_friction(const PointEdit& at, std::vector<Effect>& all) {
+  if (has_friction(at, [](const study::Value& value) { return value.kind == study::Value::Kind::profile; }))
+    all.push_back({.name = "friction even along the track", .change = with_even_friction});
+  if (has_friction(at, study::is_drawn_per_contact))
+    all.push_back({.name = "friction equal in all contacts",
+                   .change = [](trial::TrialParameters& p) { p.friction.per_contact.clear(); }});
+}
+
+// Second mass.
+
+/// The motor carries the load's inertia.
+void with_a_rigid_load(trial::TrialParameters& p) {
+  p.plant.inertia += p.plant.load.inertia;
+  p.plant.load = {};
 }
 
 // Converter. Its range and its non-linearity stay, the latter in codes.
@@ -75,6 +173,17 @@ void with_finer_converter(PointEdit& at) {
   at.add("dac.bits", more_bits);
   at.scale("dac.resolution", 1.0 / ratio);
   at.scale("dac.nonlinearity", ratio);
+}
+
+/// Of a step that the limit tames a range without end is not the best one: three are tried.
+constexpr std::array<int, 3> wider_ranges{2, 10, 50};
+
+/// A code becomes no smaller, so that the range alone can help.
+void with_wider_torque_range(PointEdit& at, int ratio) {
+  const auto more_bits = static_cast<std::int64_t>(std::floor(std::log2(ratio)));
+  at.add("dac.bits", more_bits);
+  at.scale("dac.range", ratio);  // where it is given, the resolution follows from it
+  at.scale("dac.resolution", ratio / std::exp2(more_bits));
 }
 
 // Encoder. All lengths that the manifest gives in counts stay the same in rad or m, and so do gains per
@@ -148,46 +257,11 @@ void resample_biquads(trial::TrialParameters& p) {
   }
 }
 
-// Delay and lag.
-
-bool has_delay(const PointEdit& at) {
-  return at.limits("controller.delay").high > 0.0 || at.limits("amplifier.bandwidth").high > 0.0;
-}
-
-void without_delay(PointEdit& at) {
-  at.set("controller.delay", 0.0);
-  at.set("amplifier.bandwidth", 0.0);
-}
-
-// Noise. That of the fine encoder acts in any case, because the error is measured with it.
-
-constexpr std::string_view coarse_noise = "encoder.coarse_errors.noise";
-
-bool has_noise(const PointEdit& at) {
-  return at.limits("encoder.fine_errors.noise").high > 0.0 || at.limits("dac.noise").high > 0.0 ||
-         (encoders_of(at).coarse && at.limits(coarse_noise).high > 0.0);
-}
-
-void without_noise(PointEdit& at) {
-  at.set("encoder.fine_errors.noise", 0.0);
-  at.set(coarse_noise, 0.0);
-  at.set("dac.noise", 0.0);
-}
-
-// Disturbance. Its terms are in lists, so each trial loses what it has drawn.
-
-bool has_disturbance(const PointEdit& at) {
-  bool found = !at.plan().common.disturbance.spectra.empty();
-  visit_values(at, [&](std::size_t, const parameters::Parameter& row) {
-    const bool amplitude = is_within(row.name, "disturbance") && row.name.ends_with(".amplitude");
-    if (amplitude || row.name == "disturbance.torque") found |= can_differ_from_zero(at.limits(row.name));
-  });
-  return found;
-}
+// Disturbance.
 
 /// A load goes together with what holds it at the start: the integral against it, up to the largest load of
 /// the study, a contact that carries it, and a preload of its size.
-Change without_disturbance(const ValueLimits& load) {
+Change without_constant_disturbance(const ValueLimits& load) {
   return [load](trial::TrialParameters& p) {
     double& integral = p.initial.integral;
     integral = integral > 0.0 ? std::max(0.0, integral - std::max(0.0, -load.low))
@@ -197,19 +271,40 @@ Change without_disturbance(const ValueLimits& load) {
     if (torque > 0.0 && std::abs(std::abs(p.initial.preload) - torque) <= rounding * torque)
       p.initial.preload = 0.0;
     p.initial.holding = false;
-    p.disturbance = {};
+    p.disturbance.torque = 0.0;
   };
 }
 
-// Clock of the controller.
-
-bool has_irregular_clock(const PointEdit& at) {
-  return at.limits("controller.missed").high > 0.0 || at.limits("controller.jitter").high > 0.0;
+/// A spectrum is no parameter. It stays in the list, so that the others keep their random numbers.
+Effect without_spectrum(const std::shared_ptr<const trial::SpectrumParameters>& spectrum,
+                        std::size_t number) {
+  auto quiet = std::make_shared<trial::SpectrumParameters>(*spectrum);
+  for (trial::SpectrumPoint& point : quiet->density) point.density = 0.0;
+  return {.name = fmt::format("no vibration of spectrum {}", number),
+          .change = [spectrum, silent = std::shared_ptr<const trial::SpectrumParameters>(std::move(quiet))](
+                        trial::TrialParameters& p) {
+            std::ranges::replace(p.disturbance.spectra, spectrum, silent);
+          }};
 }
 
-void with_a_regular_clock(PointEdit& at) {
-  at.set("controller.missed", 0.0);
-  at.set("controller.jitter", 0.0);
+/// The constant disturbance, each spectrum and, where there are several disturbances, all of them together.
+/// @param all has those of ripples and vibrations
+void add_disturbances(const PointEdit& at, std::vector<Effect>& all) {
+  const ValueLimits torque = at.limits("disturbance.torque");
+  const Change without_torque = without_constant_disturbance(torque);
+  auto disturbances = std::ranges::count_if(
+      all, [](const Effect& effect) { return effect.name.find(" disturbance.") != std::string::npos; });
+  if (can_differ_from(0.0, torque)) {
+    all.push_back({.name = std::string(parameters::no_constant_disturbance), .change = without_torque});
+    ++disturbances;
+  }
+  const auto& spectra = at.plan().common.disturbance.spectra;
+  for (std::size_t i = 0; i < spectra.size(); ++i) all.push_back(without_spectrum(spectra[i], i));
+  if (disturbances + std::ssize(spectra) > 1)
+    all.push_back({.name = "no disturbance", .change = [without_torque](trial::TrialParameters& p) {
+                     without_torque(p);
+                     p.disturbance = {};
+                   }});
 }
 
 }  // namespace
@@ -219,25 +314,35 @@ std::vector<Effect> idealisations_of(const study::Study& study, std::int64_t poi
   const std::string belongs =
       study.plan->plugin ? "the parameters of a plugin belong to its sample rate and encoder" : "";
   std::vector<Effect> all;
-  if (has_creep(at)) all.push_back({.name = "creep off", .edit = without_creep});
-  all.push_back({.name = "a converter 16 times finer", .edit = with_finer_converter});
-  all.push_back({.name = "an encoder 4 times finer",
+  add_ideal_values(at, all);
+  add_even_friction(at, all);
+  add_disturbances(at, all);
+  if (can_differ_from(0.0, at.limits("plant.load.inertia")))
+    all.push_back(
+        {.name = std::string(parameters::rigid_axis), .note = not_tuned_again, .change = with_a_rigid_load});
+  all.push_back({.name = std::string(parameters::finer_converter), .edit = with_finer_converter});
+  for (const int ratio : wider_ranges)
+    all.push_back({.name = fmt::format("a torque range {} times wider", ratio),
+                   .edit = [ratio](PointEdit& edit) { with_wider_torque_range(edit, ratio); }});
+  all.push_back({.name = std::string(parameters::finer_encoder),
                  .note = not_tuned_again,
                  .refusal = belongs,
                  .edit = with_finer_encoder});
-  all.push_back({.name = "twice the sample rate",
+  all.push_back({.name = std::string(parameters::faster_sampling),
                  .note = not_tuned_again,
                  .refusal = belongs,
                  .edit = with_twice_the_rate,
                  .change = resample_biquads});
-  if (has_delay(at))
-    all.push_back({.name = "no delay, no amplifier lag", .note = not_tuned_again, .edit = without_delay});
-  if (has_noise(at)) all.push_back({.name = "no noise", .edit = without_noise});
-  if (has_disturbance(at))
-    all.push_back({.name = "no disturbance", .change = without_disturbance(at.limits("disturbance.torque"))});
-  if (has_irregular_clock(at))
-    all.push_back({.name = "no missed or late samples", .edit = with_a_regular_clock});
   return all;
+}
+
+std::vector<std::string> sections_with_other_values() {
+  std::vector<std::string> sections;
+  for (const parameters::Parameter& row : parameters::parameter_table()) {
+    const std::string section(row.name.substr(0, row.name.find('.')));
+    if (!row.ideal && std::ranges::find(sections, section) == sections.end()) sections.push_back(section);
+  }
+  return sections;
 }
 
 }  // namespace zerocount::tuning

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
+#include "experiments/study/condition_study.hpp"
 #include "runners/tuning/effects/idealisations.hpp"
 
 namespace zerocount::tuning {
@@ -56,23 +58,76 @@ void keep_promising(const EffectRuns& runs, std::span<const ChangedPoint> alone,
   std::erase_if(pairs, [&](const ChangedPoint& one) { return margin_on(runs, one, count) < least; });
 }
 
-/// The best of the pairs that are still promising on all units.
-std::optional<Limit> best_pair(const EffectRuns& runs, std::span<const ChangedPoint> alone,
-                               std::vector<ChangedPoint> pairs) {
-  constexpr std::int64_t min_first = 64;
-  std::int64_t count = std::max(min_first, runs.units() / 8);
-  for (; count < runs.units() && !pairs.empty(); count *= 2) {
+std::int64_t first_units_of_pairs(std::int64_t units) {
+  constexpr std::int64_t fewest = 64;
+  constexpr std::int64_t most = 1024;
+  return std::min(units, std::clamp(units / 8, fewest, most));
+}
+
+/// The best of the pairs that are still promising on all units; null: none is.
+const ChangedPoint* best_pair(const EffectRuns& runs, std::span<const ChangedPoint> alone,
+                              std::vector<ChangedPoint>& pairs) {
+  for (std::int64_t count = first_units_of_pairs(runs.units()); count < runs.units() && !pairs.empty();
+       count *= 2) {
     count = trials::in_equal_worlds(runs.study(), count);
     runs.run(pairs, count);
     keep_promising(runs, alone, count, pairs);
   }
   runs.run(pairs, runs.units());
-  std::optional<Limit> best;
-  for (const ChangedPoint& one : pairs) {
-    const Limit limit = limit_of(runs, one);
-    if (!best || is_lower(*best, limit)) best = limit;
+  const auto best = std::ranges::max_element(
+      pairs, {}, [&](const ChangedPoint& one) { return margin_on(runs, one, runs.units()); });
+  return best == pairs.end() || !best->refusal.empty() ? nullptr : &*best;
+}
+
+/// Units that gain from one point to another, in the claim that is the worst as it is.
+PairedGain gain_between(const EffectRuns& runs, const ChangedPoint& before, const ChangedPoint& after,
+                        std::int64_t alternatives) {
+  const std::size_t worst = estimate_of(runs.aim(), runs.base().run, runs.units()).worst;
+  return paired_gain(runs.aim().claims[worst], worst, before.run.units, after.run.units, alternatives);
+}
+
+/// The row of a cause, or of a pair of causes, that is switched off.
+Limit cause_of(const EffectRuns& runs, const ChangedPoint& without, const Limit& base,
+               std::int64_t alternatives) {
+  Limit limit = limit_of(runs, without);
+  if (!limit.rate) return limit;
+  limit.gain = gain_between(runs, runs.base(), without, alternatives);
+  limit.gain->shown = limit.gain->shown && is_lower(base, limit);
+  return limit;
+}
+
+/// Runs each cause on all units, in a few parts so that who waits is told how far it is.
+void run_alone(const EffectRuns& runs, std::vector<ChangedPoint>& alone, const TellStage& tell) {
+  constexpr std::int64_t trials_of_part = 2000;
+  constexpr std::int64_t most_parts = 100;
+  const std::int64_t trials = runs.units() * runs.trials_each() * std::ssize(runs.conditions()) *
+                              std::max<std::int64_t>(std::ssize(alone), 1);
+  const std::int64_t parts = std::clamp<std::int64_t>(trials / trials_of_part, 1, most_parts);
+  for (std::int64_t part = 1; part <= parts; ++part) {
+    if (tell)
+      tell(fmt::format("{} causes of failures, each switched off: {} %", alone.size(),
+                       100 * (part - 1) / parts));
+    runs.run(alone, runs.units() * part / parts);
   }
-  return best;
+}
+
+/// Adds the best pair of causes, if it is better than each alone.
+void add_best_pair(const EffectRuns& runs, const std::vector<ConditionEffects>& causes,
+                   std::span<const ChangedPoint> alone, const TellStage& tell, std::vector<Limit>& limits) {
+  const auto best = std::ranges::max_element(limits, is_lower);
+  if (misses_nothing(*best)) return;
+  if (tell) tell("pairs of causes");
+  std::vector<ChangedPoint> pairs = pairs_of(runs, causes);
+  const std::int64_t alternatives = std::ssize(pairs);
+  const ChangedPoint* const together = best_pair(runs, alone, pairs);
+  if (together == nullptr) return;
+  Limit limit = cause_of(runs, *together, limits.front(), alternatives);
+  if (!is_lower(*best, limit)) return;
+  if (const Limit* const main = main_cause(limits)) {
+    const auto single = std::ranges::find(alone, main->effect, &ChangedPoint::name);
+    limit.gain->shown = limit.gain->shown && gain_between(runs, *single, *together, alternatives).shown;
+  }
+  limits.push_back(std::move(limit));
 }
 
 }  // namespace
@@ -102,7 +157,7 @@ Estimate estimate_on(const study::Study& study, const trials::Replicates& units,
   return estimate_of(aim_of(study), candidate, units.count);
 }
 
-std::vector<Limit> limits_of(const EffectRuns& runs) {
+std::vector<Limit> limits_of(const EffectRuns& runs, const TellStage& tell) {
   const std::vector<ConditionEffects> causes = runs.effects(idealisations_of);
   std::vector<Limit> limits{limit_of(runs, runs.base())};
   std::vector<ChangedPoint> alone;
@@ -113,13 +168,29 @@ std::vector<Limit> limits_of(const EffectRuns& runs) {
       limits.push_back({one.name, std::nullopt, one.refusal.empty() ? "nothing is missed" : one.refusal});
     return limits;
   }
-  runs.run(alone, runs.units());
-  for (const ChangedPoint& one : alone) limits.push_back(limit_of(runs, one));
-  const Limit best_alone = *std::ranges::max_element(limits, is_lower);
-  if (misses_nothing(best_alone)) return limits;
-  const std::optional<Limit> together = best_pair(runs, alone, pairs_of(runs, causes));
-  if (together && is_lower(best_alone, *together)) limits.push_back(*together);
+  run_alone(runs, alone, tell);
+  for (const ChangedPoint& one : alone)
+    limits.push_back(cause_of(runs, one, limits.front(), std::ssize(alone)));
+  if (!trials::within(runs.effort(), [&] { add_best_pair(runs, causes, alone, tell, limits); }))
+    limits.push_back({"pairs of causes", std::nullopt, "the budget ended"});
   return limits;
+}
+
+double runs_of_limits(const study::Study& study, std::int64_t point, std::int64_t units) {
+  const auto causes = static_cast<double>(idealisations_of(under_condition(study, 0), point).size());
+  // Half of the pairs remain whenever their units double.
+  const double part = static_cast<double>(first_units_of_pairs(units)) /
+                      static_cast<double>(std::max<std::int64_t>(units, 1));
+  const double each_pair = part * (1.0 - 0.5 * std::log2(part));
+  return 1.0 + causes + 0.5 * causes * (causes - 1.0) * each_pair;
+}
+
+const Limit* main_cause(const std::vector<Limit>& limits) {
+  const Limit* best = nullptr;
+  for (const Limit& one : limits) {
+    if (one.is_shown_cause() && (best == nullptr || is_lower(*best, one))) best = &one;
+  }
+  return best;
 }
 
 }  // namespace zerocount::tuning

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "runners/tuning/effects/effect_runs.hpp"
+#include "runners/tuning/effects/paired_gain.hpp"
 
 namespace zerocount::tuning {
 
@@ -19,7 +22,15 @@ struct Limit {
   /// Of several goals and conditions: the worst ones, which the rate is of, and each with its rate.
   std::optional<std::string> goal{}, condition{};
   std::optional<std::vector<std::pair<std::string, double>>> rates{};
+  /// Of a cause that is switched off: units that gain by it, of the goal that is the worst with nothing
+  /// switched off. It is shown only where the rate rises too.
+  std::optional<PairedGain> gain{};
+
+  bool is_shown_cause() const { return gain && gain->shown; }
 };
+
+/// Gets what is being simulated, for people who wait.
+using TellStage = std::function<void(const std::string&)>;
 
 /// Whether less is known to be met; least of all where nothing was simulated.
 bool is_lower(const Limit& a, const Limit& b);
@@ -37,16 +48,26 @@ Estimate estimate_on(const study::Study& study, const trials::Replicates& units,
 /// Rates of the goal on all units, with each cause of failures switched off that a trial of the point can
 /// have, and with the best pair of them, if that is better than each alone. The first entry is "none". A
 /// change that makes a study which its manifest could not describe is not simulated, and none where nothing
-/// is missed.
+/// is missed; nor are pairs, if the effort ends before.
 ///
 ///     for each cause: the study under each condition with the cause switched off, on the same draws;
-///       rate = that of the worst goal under its worst condition
-///     pairs, on the first 1/8 of the units (64 at least), then twice as many, … until all:
+///       rate = that of the worst goal under its worst condition; paired_gain() in the goal that is missed
+///     pairs, on the first 1/8 of the units (64 to 1024), then twice as many, … until all:
 ///       the better half goes on, and of it those that are on these units at least as good as each cause
 ///       alone
+///     the best pair is a cause if paired_gain() shows that it is better than the point as it is, and than
+///     the
+///       best cause alone
 ///
 /// Of pairs whose rates are nearly equal another one may be the best.
+/// @param tell gets what is being simulated
 /// @throws trial::Interrupted, trials::Spent
-std::vector<Limit> limits_of(const EffectRuns& runs);
+std::vector<Limit> limits_of(const EffectRuns& runs, const TellStage& tell = {});
+
+/// About how often limits_of() runs so many units.
+double runs_of_limits(const study::Study& study, std::int64_t point, std::int64_t units);
+
+/// The cause, or pair of causes, that is shown to raise the rate most; null: none is shown.
+const Limit* main_cause(const std::vector<Limit>& limits);
 
 }  // namespace zerocount::tuning

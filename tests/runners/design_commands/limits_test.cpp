@@ -124,8 +124,14 @@ goal: {band: 1, within: 0.1, moves: 0.9}
       {counts,
        "a converter 16 times finer",
        {"dac.bits=16", "dac.resolution=1.5e-5", "dac.nonlinearity=9.6"}},
-      {counts, "no delay, no amplifier lag", {"controller.delay=0"}},
-      {counts, "no noise", {"encoder.fine_errors.noise=0", "dac.noise=0"}},
+      {counts, "no delay", {"controller.delay=0"}},
+      {counts, "no encoder noise", {"encoder.fine_errors.noise=0"}},
+      {counts, "no converter noise", {"dac.noise=0"}},
+      {counts, "no interpolation error", {"encoder.fine_errors.interpolation=0"}},
+      {counts, "no converter non-linearity", {"dac.nonlinearity=0"}},
+      {counts, "no zone of the integral", {"controller.integrator_zone=none"}},
+      {counts, "no fall of friction from breakaway", {"friction.coulomb_ratio=1"}},
+      {counts, "a torque range 10 times wider", {"dac.bits=15", "dac.resolution=3.0e-4"}},
       {counts, "creep off", {"friction.alpha=0"}},
       {phases, "twice the sample rate", {"controller.sample_rate=8000", "controller.coarse.fine_rate=1"}},
       {phases,
@@ -134,9 +140,11 @@ goal: {band: 1, within: 0.1, moves: 0.9}
         "encoder.coarse_errors.noise=0.8", "controller.coarse.coarse_beyond=240",
         "controller.coarse.fine_within=120", "controller.coarse.fine_rate=8", "goal.band=14"}},
       {phases, "a converter 16 times finer", {"dac.bits={choice: [15, 16]}"}},
-      {phases, "no noise", {"encoder.fine_errors.noise=0", "encoder.coarse_errors.noise=0"}},
+      {phases, "no encoder noise", {"encoder.fine_errors.noise=0"}},
+      {phases, "no noise of the coarse encoder", {"encoder.coarse_errors.noise=0"}},
+      {phases, "a torque range 2 times wider", {"dac.bits={choice: [12, 13]}", "dac.range=120"}},
       {cascade, "twice the sample rate", {"controller.sample_rate=4000"}},
-      {cascade, "no missed or late samples", {"controller.missed=0"}},
+      {cascade, "no missed samples", {"controller.missed=0"}},
   };
   std::map<std::string, Json> found_for;
   for (const std::string* manifest : {&counts, &phases, &cascade})
@@ -183,16 +191,18 @@ goal: {band: 1, within: 0.1, moves: 0.9}
 )";
   for (int seed = 1; seed < 8; ++seed) {
     const Json limits = limits_of(manifest, {"--set", fmt::format("seed={}", seed)});
-    for (const char* cause :
-         {"creep off", "no delay, no amplifier lag", "no disturbance", "no missed or late samples"})
+    for (const char* cause : {"creep off", "no delay", "no ripple disturbance.ripple.0", "no missed samples"})
       EXPECT_FALSE(row(limits, cause).is_null()) << cause << " with seed " << seed;
-    EXPECT_TRUE(row(limits, "no noise").is_null()) << "the coarse encoder does not close the loop";
+    EXPECT_TRUE(row(limits, "no noise of the coarse encoder").is_null())
+        << "the coarse encoder does not close the loop";
   }
   const Json limits = limits_of(manifest, {"--set", "friction.model=spring", "--set", "controller.delay=0",
                                            "--set", "controller.missed=0", "--set", "disturbance.ripple=[]"});
   for (const Json& one : limits) {
     const std::string cause = one["cause"];
     EXPECT_TRUE(cause == "none" || cause.find("finer") != std::string::npos ||
+                cause.find("a torque range") != std::string::npos ||
+                cause == "no fall of friction from breakaway" ||
                 cause.find("twice the sample rate") != std::string::npos)
         << cause;
   }
@@ -240,7 +250,7 @@ goal: {band: 2, within: 0.25, moves: 0.9}
 )";
   const Json limits = limits_of(manifest);
   EXPECT_EQ(limits[0]["rate"], 1.0);
-  EXPECT_EQ(limits.size(), 5U) << limits;
+  EXPECT_GE(limits.size(), 5U) << limits;
   for (std::size_t i = 1; i < limits.size(); ++i) {
     EXPECT_TRUE(limits[i]["rate"].is_null()) << limits[i];
     EXPECT_EQ(limits[i]["note"], "nothing is missed") << limits[i];
@@ -269,20 +279,20 @@ goal: {band: 2, within: 0.1, moves: 0.95}
                            "initial: {integral: 100}\n",
                            "disturbance: {torque: 9}\ninitial: {holding: true}\n",
                            "disturbance: {torque: 9}\ninitial: {preload: -9}\n"}) {
-    EXPECT_EQ(row(limits_of(manifest + load), "no disturbance")["rate"], without) << load;
+    EXPECT_EQ(row(limits_of(manifest + load), "no constant disturbance")["rate"], without) << load;
   }
   // An integral that no load explains stays.
   EXPECT_EQ(row(limits_of(manifest + "disturbance: {torque: -1}\ninitial: {integral: 80}\n"),
-                "no disturbance")["rate"],
+                "no constant disturbance")["rate"],
             rate_with(manifest, {"initial.integral=79"}));
 }
 
 TEST_F(Limits, NoteThatTheGainsAreNotTunedAgain) {
   for (const Json& one : limits_of(std::string(in_counts))) {
     const std::string cause = one["cause"];
-    const bool of_the_loop = cause.find("rate") != std::string::npos ||
-                             cause.find("encoder") != std::string::npos ||
-                             cause.find("delay") != std::string::npos;
+    const bool of_the_loop =
+        cause.find("rate") != std::string::npos || cause.find("an encoder") != std::string::npos ||
+        cause.find("delay") != std::string::npos || cause.find("zone") != std::string::npos;
     EXPECT_EQ(one["note"] == Json(noted), of_the_loop) << one;
   }
 }
@@ -297,15 +307,15 @@ TEST_F(LimitsOfAxis, SwitchCausesOffOneByOne) {
   std::vector<std::string> causes;
   for (const Json& one : limits) causes.push_back(one["cause"]);
   EXPECT_EQ(causes.front(), "none");
-  EXPECT_EQ(std::count(causes.begin(), causes.end(), "no delay, no amplifier lag"), 1);
-  EXPECT_EQ(std::count(causes.begin(), causes.end(), "no noise"), 0) << "there is none";
+  EXPECT_EQ(std::count(causes.begin(), causes.end(), "no delay"), 1);
+  EXPECT_EQ(std::count(causes.begin(), causes.end(), "no encoder noise"), 0) << "there is none";
   // Without the cause of an idealisation the rate is that of the study with the cause switched off.
   const ProgramResult judged =
       program({"run", "axis.yaml", "-o", "no-delay.h5", "--set", "controller.delay=0"});
   ASSERT_EQ(judged.code, 0);
   const Json judgement = Json::parse(program({"judge", "no-delay.h5", "--format", "json"}).out);
   for (const Json& one : limits) {
-    if (one["cause"] == "no delay, no amplifier lag") {
+    if (one["cause"] == "no delay") {
       EXPECT_EQ(one["rate"], judgement["rate"]);
     }
   }

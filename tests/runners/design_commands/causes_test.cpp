@@ -1,0 +1,261 @@
+// `limits`: a study for each parameter that has an ideal value, in which this parameter is the cause of
+// failures. Every such parameter of the table has one here.
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "experiments/parameters/parameter_table.hpp"
+#include "tests/runners/program.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using Json = nlohmann::json;
+using Words = std::vector<std::string>;
+
+// Every move meets the goal.
+constexpr const char* faultless_axis = R"(zerocount: 1
+name: cause
+seed: 1
+trials: 24
+plant: {inertia: 1.0e-3, presliding_damping: 1.0e-2}
+friction: {model: none}
+encoder: {fine: 100000}
+dac: {bits: 24, range: 20}
+controller: {units: si, sample_rate: 4000, kp: 40, ki: 0, kd: 0.28}
+command:
+  targets: [400, 0]
+  hold: 0.3
+  profile: {shape: s_curve, velocity_limit: 1, acceleration_limit: 20, jerk_limit: 2000}
+initial: {encoder_phase: {uniform: [0, 1]}}
+goal: {band: 2, within: 0.2, moves: 0.9}
+)";
+
+const std::string by_position = "goal={tolerance: 3.0e-4, within: 0.2, moves: 0.9}";
+const std::string settled_soon = "goal={band: 2, within: 0.05, moves: 0.9}";
+const std::string of_the_coarse_encoder = "controller.encoder=coarse";
+
+Words under_a_load(const std::string& block) {
+  return {block, "disturbance.torque=1", "controller.ki=2000", "command.hold=0.6", "goal.within=0.5"};
+}
+
+Words on_the_coarse_encoder(Words with) {
+  with.insert(with.end(), {of_the_coarse_encoder, "encoder.coarse=100000", by_position});
+  return with;
+}
+
+// [parameter] what makes it the cause
+const std::map<std::string, Words, std::less<>>& causes_of_failures() {
+  static const std::map<std::string, Words, std::less<>> all{
+      {"plant.load.inertia", {"plant.load={inertia: 1.0e-3, stiffness: 60, damping: 1.0e-3, encoder: load}"}},
+      {"friction.alpha",
+       {"friction={k1: 100, k2: 700, beta: 4000, alpha: 20, lambda: 3, n: 1, breakaway: 0.05}",
+        "plant.presliding_damping=0.2", "disturbance.torque=0.03", "initial.holding=true",
+        "controller={sample_rate: 4000, ki: 0}", "command.targets=[0]"}},
+      {"friction.coulomb_ratio",
+       {"friction={model: coulomb, breakaway: 0.4, coulomb_ratio: 0.4, stribeck_velocity: 5.0e-3}",
+        "plant.sliding_damping=0.01", "controller.ki=1000", "command.hold=0.8", "goal.within=0.3"}},
+      {"encoder.fine",
+       {"encoder.fine=2000", "command.targets=[8, 0]", "goal={tolerance: 1.0e-3, within: 0.2, moves: 0.9}"}},
+      {"encoder.coarse",
+       {"encoder.coarse=2000", of_the_coarse_encoder, "goal={tolerance: 1.0e-3, within: 0.2, moves: 0.9}"}},
+      {"encoder.fine_errors.eccentricity", {"encoder.fine_errors.eccentricity=5.0e-2", by_position}},
+      {"encoder.fine_errors.interpolation",
+       {"encoder.fine_errors={interpolation: 20, interpolation_period: 1000}", by_position,
+        "initial.position={uniform: [0, 6.28]}"}},
+      {"encoder.fine_errors.noise", {"encoder.fine_errors.noise=2"}},
+      {"encoder.fine_errors.missed", {"encoder.fine_errors.missed=0.05", by_position}},
+      {"encoder.coarse_errors.eccentricity",
+       on_the_coarse_encoder({"encoder.coarse_errors.eccentricity=5.0e-2"})},
+      {"encoder.coarse_errors.interpolation",
+       on_the_coarse_encoder({"encoder.coarse_errors={interpolation: 20, interpolation_period: 1000}",
+                              "initial.position={uniform: [0, 6.28]}"})},
+      {"encoder.coarse_errors.noise", on_the_coarse_encoder({"encoder.coarse_errors.noise=10"})},
+      {"encoder.coarse_errors.missed", on_the_coarse_encoder({"encoder.coarse_errors.missed=0.05"})},
+      {"dac.bits", {"dac.bits=8"}},
+      {"dac.range", {"dac.range=0.01"}},
+      {"dac.offset", {"dac.offset=0.5"}},
+      {"dac.gain_error", {"dac.gain_error=-0.97"}},
+      {"dac.nonlinearity", {"dac.nonlinearity=2.0e6"}},
+      {"dac.noise", {"dac.noise=2"}},
+      {"amplifier.bandwidth", {"amplifier.bandwidth=15"}},
+      {"controller.sample_rate", {"controller.sample_rate=130"}},
+      {"controller.delay", {"controller.delay=20"}},
+      {"controller.dither.amplitude", {"controller.dither={amplitude: 1, frequency: 50}"}},
+      {"controller.missed", {"controller.missed=0.97"}},
+      {"controller.jitter", {"controller.sample_rate=250", "controller.jitter=3.9e-3"}},
+      {"controller.deadband.enter", under_a_load("controller.deadband={enter: 30}")},
+      {"controller.integrator_zone", under_a_load("controller.integrator_zone=5")},
+      {"controller.integrator_leak", under_a_load("controller.integrator_leak=0.01")},
+      {"controller.derivative_cutoff", {"controller.derivative_cutoff=3"}},
+      {"controller.error_deadband.band", {"controller.error_deadband={band: 20, form: subtract}"}},
+      {"controller.hold.enter", {"controller.hold={enter: 30, leave: 60, dwell: 0}"}},
+      {"disturbance.torque", {"disturbance.torque=1"}},
+      {"disturbance.ripple.#.amplitude",
+       {"disturbance.ripple=[{amplitude: 1.0e-4, periods: 7}, {amplitude: 1, periods: 40}]"}},
+      {"disturbance.vibration.#.amplitude",
+       {"disturbance.vibration=[{amplitude: 1.0e-4, frequency: 30}, {amplitude: 1, frequency: 20}]"}},
+      {"initial.velocity", {"initial.velocity=100", settled_soon, "command.targets=[0]"}},
+      {"initial.integral", {"initial.integral=5", "controller.ki=400", settled_soon, "command.targets=[0]"}}};
+  return all;
+}
+
+class Causes : public ProgramTest {
+ protected:
+  Json limits_with(const Words& values) {
+    folder_.write("axis.yaml", faultless_axis);
+    Words words{"limits", "axis.yaml", "--format", "json"};
+    for (const std::string& value : values) words.insert(words.end(), {"--set", value});
+    const ProgramResult result = program(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.code == 0 ? Json::parse(result.out) : Json{};
+  }
+};
+
+/// Parameters of the second phase have the rows of the first, and those of a linear axis the rows of a rotary
+/// one.
+bool has_a_twin(const parameters::Parameter& row) {
+  return row.name.starts_with("controller.coarse.") || row.name == "encoder.resolution" ||
+         row.name == "encoder.coarse_resolution" || row.name == "dac.resolution";
+}
+
+TEST_F(Causes, AreNamedForEveryParameterThatHasAnIdealValue) {
+  std::size_t swept = 0;
+  for (const parameters::Parameter& row : parameters::parameter_table()) {
+    if (!row.ideal || has_a_twin(row)) continue;
+    const auto found = causes_of_failures().find(row.name);
+    ASSERT_NE(found, causes_of_failures().end())
+        << "a study is missing in which this is the cause: " << row.name;
+    ++swept;
+    const Json answer = limits_with(found->second);
+    const Json& limits = answer["limits"];
+    EXPECT_LT(limits[0]["rate"], 0.9) << row.name;
+    bool shown = false;
+    for (const Json& one : limits) {
+      const bool names_it = one["cause"].get<std::string>().starts_with(row.ideal->name);
+      shown = shown || (names_it && one.value("shown", false) && one["rate"] > 0.9);
+    }
+    EXPECT_TRUE(shown) << row.name << limits;
+  }
+  EXPECT_EQ(swept, causes_of_failures().size());
+}
+
+// What the axis is, what is chosen, and what is asked for. A parameter that is neither here nor has an ideal
+// value may cost moves and would never be named.
+TEST(IdealValues, AreMissingOnlyWhereThereIsNone) {
+  const std::vector<std::string_view> without{"plant.inertia",
+                                              "plant.presliding_damping",
+                                              "plant.sliding_damping",
+                                              "plant.load.stiffness",
+                                              "plant.load.damping",
+                                              "plant.load.encoder",
+                                              "friction.model",
+                                              "friction.k1",
+                                              "friction.k2",
+                                              "friction.beta",
+                                              "friction.lambda",
+                                              "friction.n",
+                                              "friction.breakaway",
+                                              "friction.stribeck_velocity",
+                                              "friction.sigma0",
+                                              "friction.sigma1",
+                                              "friction.gms.attraction",
+                                              "friction.gms.stiffness",
+                                              "friction.gms.weight",
+                                              "encoder.fine_errors.eccentricity_angle",
+                                              "encoder.fine_errors.interpolation_period",
+                                              "encoder.fine_errors.noise_bandwidth",
+                                              "encoder.coarse_errors.eccentricity_angle",
+                                              "encoder.coarse_errors.interpolation_period",
+                                              "encoder.coarse_errors.noise_bandwidth",
+                                              "dac.sigma_delta",
+                                              "disturbance.ripple.#.periods",
+                                              "disturbance.ripple.#.pitch",
+                                              "disturbance.ripple.#.phase",
+                                              "disturbance.vibration.#.frequency",
+                                              "disturbance.vibration.#.phase"};
+  const auto is_chosen = [](std::string_view name) {
+    return name.starts_with("controller.") || name.starts_with("command.") || name.starts_with("initial.") ||
+           name.starts_with("verdict.") || name.starts_with("friction.measured.");
+  };
+  for (const parameters::Parameter& row : parameters::parameter_table()) {
+    const bool known = std::ranges::find(without, row.name) != without.end();
+    EXPECT_TRUE(row.ideal.has_value() != known || is_chosen(row.name)) << row.name;
+    if (row.ideal && row.ideal->value) {
+      EXPECT_TRUE(row.none == row.ideal->value || numerics::contains(row.range, *row.ideal->value))
+          << row.name;
+    }
+  }
+}
+
+// A spectrum is no parameter of the table, and neither is friction that varies.
+TEST_F(Causes, AreNamedThatAreNoParameters) {
+  const auto is_shown = [](const Json& answer, std::string_view cause) {
+    return std::ranges::any_of(answer["limits"], [&](const Json& one) {
+      return one["cause"] == cause && one.value("shown", false);
+    });
+  };
+  EXPECT_TRUE(
+      is_shown(limits_with({"disturbance.vibration=[{spectrum: [[1, 1.0e-2], [100, 1.0e-2]], lines: 5}]"}),
+               "no vibration of spectrum 0"));
+}
+
+// Where nothing that is tried helps no cause is named, and the answer says what was tried and what was not.
+TEST_F(Causes, AreNotNamedWhereNothingHelps) {
+  const Json answer = limits_with({"goal.within=0.005"});
+  for (const Json& one : answer["limits"]) EXPECT_FALSE(one.value("shown", false)) << one;
+  const std::string headline = answer["headline"];
+  EXPECT_NE(headline.find("no cause of failures is shown"), std::string::npos) << headline;
+  const std::string text = program({"limits", "axis.yaml", "--set", "goal.within=0.005"}).out;
+  EXPECT_NE(text.find("tried: a converter 16 times finer"), std::string::npos) << text;
+  EXPECT_NE(text.find("not tried: other values of plant, friction"), std::string::npos) << text;
+}
+
+// Nothing that is missed everywhere can get worse: no effect "costs at most 1 %" there.
+TEST_F(Causes, DoNotSayWhatCostsNothingWhereNothingIsMet) {
+  const Json answer = limits_with({"goal.within=0.005"});
+  ASSERT_EQ(answer["limits"][0]["rate"], 0.0);
+  for (const Json& one : answer["additions"]) {
+    EXPECT_TRUE(one["rate"].is_null()) << one;
+    EXPECT_NE(one["note"].get<std::string>().find("nothing can be lost"), std::string::npos) << one;
+  }
+}
+
+// The rate before and after is that of one goal.
+TEST_F(Causes, AreComparedWithinOneGoal) {
+  std::string two_goals = faultless_axis;
+  two_goals.replace(two_goals.find("goal:"), std::string::npos,
+                    "goals: {close: {band: 2, within: 0.2, moves: 0.9},\n"
+                    "        soon: {band: 350, within: 0.02, moves: 0.5}}\n");
+  folder_.write("axis.yaml", two_goals);
+  const ProgramResult result =
+      program({"limits", "axis.yaml", "--set", "encoder.fine_errors.noise=2", "--format", "json"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json answer = Json::parse(result.out);
+  const std::string headline = answer["headline"];
+  EXPECT_EQ(headline.find("0 % of the moves meet the goal 'close'; with no encoder noise 100 %"), 0U)
+      << headline;
+}
+
+// A budget takes fewer machines, and says so.
+TEST_F(Causes, TakeAsManyTrialsAsTheBudgetAllows) {
+  folder_.write("axis.yaml", faultless_axis);
+  const Words words{"limits", "axis.yaml", "--set", "trials=5000", "--set", "encoder.fine_errors.noise=2"};
+  Words few = words;
+  few.insert(few.end(), {"--budget", "2000"});
+  const ProgramResult result = program(few);
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("of 5000 trials of the study"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("with no encoder noise 100 %"), std::string::npos) << result.out;
+  few.back() = "100";
+  const ProgramResult too_few = program(few);
+  EXPECT_EQ(too_few.code, 2);
+  EXPECT_NE(too_few.err.find("option '--budget': "), std::string::npos) << too_few.err;
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -76,6 +76,10 @@ class Terminals(unittest.TestCase):
         clean = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
         return subprocess.run([PROGRAM, *words], cwd=self.folder.name, env={**clean, **environment}, capture_output=True, text=True)
 
+    def test_limits_of_many_trials_shows_what_it_does(self):
+        shown = on_terminal(100, "limits", "axis.yaml", "--point", "0", cwd=self.folder.name, seconds=2)
+        self.assertIn("zerocount limits: the point as it is, ", shown)
+
     def test_everything_for_people_fits(self):
         commands = [["check", "short.yaml"], ["check", "--help"], ["verify", "--help"], ["--help"], ["parameters"], ["new", "--list"],
                     ["plan", "short.yaml"], ["plan", "short.yaml", "--success", "0.99"], ["parameters", "--guides"],

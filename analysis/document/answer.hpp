@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -65,9 +67,17 @@ std::string html(const Answer& answer);
 /// The figures of the answer, in their order.
 std::vector<Figure> figures(const Answer& answer);
 
-/// {"answer": name, "version": …, "headline": …, …}: values, objects and lists by their keys, a table as a
-/// list of objects. Unknown numbers and items without content are null; every number reads back to the same
-/// double.
+/// Gives the text of {"answer": name, "version": …, "headline": …, …}, ending with a line break, to `take` in
+/// pieces: values, objects and lists by their keys, a table as a list of objects. Unknown numbers and items
+/// without content are null; every number reads back to the same double. Bytes that are not UTF-8 are
+/// replaced.
+/// @param indent blanks of a level; text::one_line: no line breaks
+void write_json(const Answer& answer, int indent, const std::function<void(std::string_view)>& take);
+
+/// The same as one text.
+std::string json_text(const Answer& answer, int indent = 2);
+
+/// The same as a tree, for answers that are not large.
 nlohmann::ordered_json json(const Answer& answer);
 
 /// The object of these items, as in json() of an answer.

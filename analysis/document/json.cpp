@@ -1,84 +1,187 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <nlohmann/json.hpp>
 
 #include "analysis/document/answer.hpp"
+#include "analysis/text/report_json.hpp"
 
 namespace zerocount::document {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using TakeText = std::function<void(std::string_view)>;
 
-Json number_json(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
+/// Writes JSON as nlohmann's dump() does, but in pieces: a tree of an answer with 10⁵ rows would take several
+/// times the memory of its text.
+class JsonWriter {
+ public:
+  JsonWriter(int indent, const TakeText& take) : indent_(indent), take_(take) {}
 
-Json content_json(const Item& item, const Content& content);
+  void object(const std::vector<Item>& items, const Members& members) {
+    open('{');
+    add_members(items, members);
+    close('}');
+  }
 
-void add_member(Json& object, const Item& item, const Content& content) {
-  if (!is_shown(item.shown, Audience::json) || (item.optional && content.is_empty())) return;
-  if (item.bounded) {
+  /// The answer without its last line break.
+  void answer(const Answer& answer) {
+    open('{');
+    key("answer");
+    text(answer.type.name);
+    key("version");
+    text_ += std::to_string(answer.type.version);
+    add_members(answer.type.items, answer.contents);
+    close('}');
+  }
+
+  void finish() {
+    take_(text_);
+    text_.clear();
+  }
+
+  // The JSON of each alternative of Content, of the item that is being written.
+
+  void operator()(std::monostate) { text_ += "null"; }
+  void operator()(bool value) { text_ += value ? "true" : "false"; }
+  void operator()(std::int64_t value) { text_ += std::to_string(value); }
+  void operator()(std::uint64_t value) { text_ += std::to_string(value); }
+  void operator()(double value) { text_ += std::isfinite(value) ? Json(value).dump() : "null"; }
+  void operator()(const Bounded& value) { (*this)(value.value); }
+  void operator()(const std::string& value) { text(value); }
+  void operator()(const std::shared_ptr<const Figure>&) { text_ += "null"; }
+  void operator()(const Members& members) { object(item_->members, members); }
+  void operator()(const List& list) {
+    const Item& element = item_->members[0];
+    open('[');
+    for (const Content& one : list.values) {
+      next();
+      content(element, one);
+    }
+    close(']');
+  }
+  void operator()(const Named& named) {
+    const Item& element = item_->members[0];
+    open('{');
+    for (const auto& [name, one] : named.values) {
+      key(name);
+      content(element, one);
+    }
+    close('}');
+  }
+  void operator()(const Rows& rows) {
+    const std::vector<Item>& columns = item_->members;
+    open('[');
+    for (const Members& row : rows.rows) {
+      next();
+      object(columns, row);
+    }
+    close(']');
+  }
+
+ private:
+  void add_members(const std::vector<Item>& items, const Members& members) {
+    for (std::size_t i = 0; i < items.size(); ++i) add_member(items[i], members.contents[i]);
+  }
+
+  void add_member(const Item& item, const Content& value) {
+    if (!is_shown(item.shown, Audience::json) || (item.optional && value.is_empty())) return;
+    if (!item.bounded) {
+      key(item.key);
+      content(item, value);
+      return;
+    }
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    const auto* const found = std::get_if<Bounded>(&content.value);
+    const auto* const found = std::get_if<Bounded>(&value.value);
     const Bounded number = found == nullptr ? Bounded{unknown, unknown, unknown} : *found;
-    object[item.key] = number_json(number.value);
-    object[item.key + "_low"] = number_json(number.low);
-    object[item.key + "_high"] = number_json(number.high);
-    return;
+    key(item.key);
+    (*this)(number.value);
+    key(item.key + "_low");
+    (*this)(number.low);
+    key(item.key + "_high");
+    (*this)(number.high);
   }
-  object[item.key] = content_json(item, content);
-}
 
-Json members_json(const std::vector<Item>& items, const Members& members) {
-  Json object = Json::object();
-  for (std::size_t i = 0; i < items.size(); ++i) add_member(object, items[i], members.contents[i]);
-  return object;
-}
+  void content(const Item& item, const Content& value) {
+    item_ = &item;
+    std::visit(*this, value.value);
+  }
 
-/// The JSON of each alternative of Content.
-struct ContentJson {
-  const Item& item;
+  void key(const std::string& name) {
+    next();
+    text(name);
+    text_ += indent_ < 0 ? ":" : ": ";
+  }
 
-  Json operator()(std::monostate) const { return nullptr; }
-  Json operator()(bool value) const { return value; }
-  Json operator()(std::int64_t value) const { return value; }
-  Json operator()(std::uint64_t value) const { return value; }
-  Json operator()(double value) const { return number_json(value); }
-  Json operator()(const Bounded& value) const { return number_json(value.value); }
-  Json operator()(const std::string& value) const { return value; }
-  Json operator()(const Members& members) const { return members_json(item.members, members); }
-  Json operator()(const List& list) const {
-    Json array = Json::array();
-    for (const Content& value : list.values) array.push_back(content_json(item.members[0], value));
-    return array;
+  void text(const std::string& value) {
+    const bool plain =
+        std::ranges::all_of(value, [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; });
+    text_ += plain ? '"' + value + '"' : Json(value).dump(-1, ' ', false, Json::error_handler_t::replace);
   }
-  Json operator()(const Named& named) const {
-    Json object = Json::object();
-    for (const auto& [name, value] : named.values) object[name] = content_json(item.members[0], value);
-    return object;
+
+  void open(char bracket) {
+    text_ += bracket;
+    ++depth_;
+    is_empty_ = true;
   }
-  Json operator()(const Rows& rows) const {
-    Json array = Json::array();
-    for (const Members& row : rows.rows) array.push_back(members_json(item.members, row));
-    return array;
+
+  /// Before each member or element.
+  void next() {
+    constexpr std::size_t piece = 1 << 16;
+    if (!is_empty_) text_ += ',';
+    if (text_.size() >= piece) finish();
+    line();
+    is_empty_ = false;
   }
-  Json operator()(const std::shared_ptr<const Figure>&) const { return nullptr; }
+
+  void close(char bracket) {
+    --depth_;
+    if (!is_empty_) line();
+    text_ += bracket;
+    is_empty_ = false;
+  }
+
+  void line() {
+    if (indent_ < 0) return;
+    text_ += '\n';
+    text_.append(static_cast<std::size_t>(indent_ * depth_), ' ');
+  }
+
+  int indent_;
+  const TakeText& take_;
+  const Item* item_{nullptr};
+  std::string text_;  ///< that is not taken yet
+  int depth_{0};
+  bool is_empty_{true};  ///< nothing stands behind the bracket that was opened last
 };
-
-Json content_json(const Item& item, const Content& content) {
-  return std::visit(ContentJson{item}, content.value);
-}
 
 }  // namespace
 
+void write_json(const Answer& answer, int indent, const std::function<void(std::string_view)>& take) {
+  JsonWriter writer(indent, take);
+  writer.answer(answer);
+  writer.finish();
+  take("\n");
+}
+
+std::string json_text(const Answer& answer, int indent) {
+  std::string text;
+  write_json(answer, indent, [&](std::string_view piece) { text += piece; });
+  return text;
+}
+
 Json json(const std::vector<Item>& items, const Members& contents) {
-  return members_json(items, contents);
+  std::string text;
+  const TakeText take = [&](std::string_view piece) { text += piece; };
+  JsonWriter writer(text::one_line, take);
+  writer.object(items, contents);
+  writer.finish();
+  return Json::parse(text);
 }
 
 Json json(const Answer& answer) {
-  Json json{{"answer", answer.type.name}, {"version", answer.type.version}};
-  json.update(members_json(answer.type.items, answer.contents));
-  return json;
+  return Json::parse(json_text(answer, text::one_line));
 }
 
 }  // namespace zerocount::document

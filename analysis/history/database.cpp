@@ -158,8 +158,8 @@ double number(Statement& row, int column) {
 }
 
 RunRecord run_of(Statement& row) {
-  RunRecord run{text(row, 1),    text(row, 2), text(row, 3), text(row, 4), text(row, 5),
-                integer(row, 6), text(row, 7), text(row, 8), text(row, 9)};
+  RunRecord run{{text(row, 1), text(row, 2), text(row, 3), text(row, 4), text(row, 5), integer(row, 6),
+                 text(row, 7), text(row, 8), text(row, 9)}};
   if (!row.isColumnNull(10))
     run.comparison = RunComparison{text(row, 10), text(row, 11), text(row, 12), text(row, 13)};
   return run;

@@ -24,7 +24,7 @@ struct RunReading {
   const Series& series;
   std::size_t run;
 
-  const RunRecord& record() const { return series.runs[run].run; }
+  const RunIdentity& record() const { return *series.runs[run].run; }
   const RunValue& value() const { return series.runs[run].value; }
   auto changes(std::size_t SeriesChange::*at) const { return std::ranges::count(series.changes, run, at); }
 };
@@ -33,11 +33,11 @@ struct ChangeReading {
   const Series& series;
   const SeriesChange& change;
 
-  const RunRecord& run(std::size_t index) const { return series.runs[index].run; }
+  const RunIdentity& run(std::size_t index) const { return *series.runs[index].run; }
 };
 
 struct ComparisonReading {
-  const RunRecord& run;
+  const RunIdentity& run;
   ValueComparison compared;
 };
 
@@ -47,7 +47,7 @@ struct RunPlace {
   std::string git_commit;
 };
 
-RunPlace place_of(const RunRecord& run) {
+RunPlace place_of(const RunIdentity& run) {
   return {run.created, run.git_commit};
 }
 
@@ -167,7 +167,7 @@ Description<Series> series_description() {
       .value(in_data("unit", "unit of the values"), &Series::unit)
       .value(document::with_words(in_data("test", "how the series is tested"), {"levels", "baseline"}),
              [](Of s) { return s.test == SeriesTest::levels ? "levels" : "baseline"; })
-      .value(to_people("since"), [](Of s) { return s.runs.front().run.created.substr(0, 10); })
+      .value(to_people("since"), [](Of s) { return s.runs.front().run->created.substr(0, 10); })
       .value(to_people("runs"), [](Of s) { return s.runs.size(); })
       .value(to_people("first"), [](Of s) { return value_text(s, s.runs.front().value.value); })
       .value(to_people("last"), [](Of s) { return value_text(s, s.runs.back().value.value); })

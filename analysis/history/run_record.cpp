@@ -142,15 +142,10 @@ RunRecord record_of(const reading::AllTrialsFile& file) {
                     name));
   }
   const layout::FileHeader& header = file.header();
-  RunRecord run{header.name,
-                series_sha256(file),
-                header.study_sha256,
-                storage::recorded_checksum(file.path()),
-                std::to_string(header.seed),
-                header.trials,
-                header.provenance.zerocount_version,
-                header.provenance.git_commit,
-                header.provenance.created};
+  RunRecord run{{header.name, series_sha256(file), header.study_sha256,
+                 storage::recorded_checksum(file.path()), std::to_string(header.seed), header.trials,
+                 header.provenance.zerocount_version, header.provenance.git_commit,
+                 header.provenance.created}};
   reading::for_each_condition(file, [&](const reading::AllTrialsFile& one, const std::string& condition) {
     add_values(run.values, summary::summarise(one, statistics::summary_confidence, /*bootstrap=*/true),
                condition);

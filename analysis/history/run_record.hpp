@@ -46,8 +46,8 @@ struct RunValue {
   std::optional<ValueComparison> comparison{};
 };
 
-/// One run of a study, as a history keeps it.
-struct RunRecord {
+/// One run of a study, without its values.
+struct RunIdentity {
   std::string study;  ///< name
   std::string
       series_sha256;  ///< equal for runs whose true values would be equal without a change of the code
@@ -59,6 +59,10 @@ struct RunRecord {
   std::string git_commit;
   std::string created;  ///< UTC, as 2002-07-21T12:00:00Z
   std::optional<RunComparison> comparison{};
+};
+
+/// One run of a study, as a history keeps it.
+struct RunRecord : RunIdentity {
   std::vector<RunValue> values{};  ///< by point, then by measure
 };
 

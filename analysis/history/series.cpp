@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 #include <tuple>
 
@@ -21,12 +22,6 @@ bool matches(const std::optional<std::string>& wanted, const std::string& value)
   return !wanted || *wanted == value;
 }
 
-RunRecord without_values(const RunRecord& run) {
-  RunRecord copy = run;
-  copy.values.clear();
-  return copy;
-}
-
 bool is_of_goal(const RunValue& value) {
   return std::ranges::any_of(comparison::goal_measures(), [&](const comparison::GateMeasure& measure) {
     return measure.name == comparison::without_goal(value.measure);
@@ -39,6 +34,7 @@ std::vector<Series> sorted_into_series(const std::vector<RunRecord>& runs, const
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
   for (const RunRecord& run : runs) {
     if (!matches(filter.study, run.study) || !matches(filter.series_sha256, run.series_sha256)) continue;
+    const auto identity = std::make_shared<const RunIdentity>(run);
     const bool by_goal = !filter.measure && std::ranges::any_of(run.values, is_of_goal);
     for (const RunValue& value : run.values) {
       if (!matches(filter.point, value.point) || !matches(filter.measure, value.measure)) continue;
@@ -50,19 +46,19 @@ std::vector<Series> sorted_into_series(const std::vector<RunRecord>& runs, const
           places.try_emplace({run.series_sha256, value.point, value.measure}, all.size());
       if (is_new)
         all.push_back({run.study, run.series_sha256, value.point, value.measure, value.unit, {}, {}, {}});
-      all[place->second].runs.push_back({without_values(run), value});
+      all[place->second].runs.push_back({identity, value});
     }
   }
   std::stable_sort(all.begin(), all.end(), [](const Series& one, const Series& other) {
-    return std::tie(one.study, one.runs.front().run.created) <
-           std::tie(other.study, other.runs.front().run.created);
+    return std::tie(one.study, one.runs.front().run->created) <
+           std::tie(other.study, other.runs.front().run->created);
   });
   return all;
 }
 
 SeriesTest test_of(const Series& series) {
   const bool one_seed = std::all_of(series.runs.begin(), series.runs.end(), [&](const SeriesRun& one) {
-    return one.run.seed == series.runs.front().run.seed;
+    return one.run->seed == series.runs.front().run->seed;
   });
   const bool compared = std::any_of(series.runs.begin(), series.runs.end(),
                                     [](const SeriesRun& one) { return one.value.comparison.has_value(); });
@@ -83,7 +79,7 @@ std::vector<SeriesChange> changes_of_levels(const Series& series, double thresho
   for (std::size_t i = 0; i < series.runs.size(); ++i) {
     std::optional<statistics::Measurement> measured = measurement_of(series.runs[i].value);
     if (!measured) continue;
-    measured->draws = draws.try_emplace(series.runs[i].run.seed, draws.size()).first->second;
+    measured->draws = draws.try_emplace(series.runs[i].run->seed, draws.size()).first->second;
     measurements.push_back(*measured);
     places.push_back(i);
   }
@@ -129,8 +125,8 @@ std::vector<SeriesChange> changes_since_baseline(const Series& series, double ma
   bool found = false;     // against this baseline
   for (std::size_t i = 0; i < series.runs.size(); ++i) {
     const auto& [run, value] = series.runs[i];
-    if (!value.comparison || !run.comparison) continue;
-    const std::string against = run.comparison->baseline_created + run.comparison->baseline_commit;
+    if (!value.comparison || !run->comparison) continue;
+    const std::string against = run->comparison->baseline_created + run->comparison->baseline_commit;
     if (against != baseline) {
       baseline = against;
       start = i;
@@ -170,13 +166,13 @@ std::string place_text(const std::string& created, const std::string& commit) {
                      is_hash && dirty ? "-dirty" : "");
 }
 
-std::string place_text(const RunRecord& run) {
+std::string place_text(const RunIdentity& run) {
   return place_text(run.created, run.git_commit);
 }
 
 std::string place_before(const Series& series, const SeriesChange& change) {
-  if (!change.since_baseline) return place_text(series.runs[change.first - 1].run);
-  const RunComparison& compared = *series.runs[change.significant].run.comparison;
+  if (!change.since_baseline) return place_text(*series.runs[change.first - 1].run);
+  const RunComparison& compared = *series.runs[change.significant].run->comparison;
   return "the baseline of " + place_text(compared.baseline_created, compared.baseline_commit);
 }
 
@@ -205,8 +201,8 @@ std::string change_sentence(const Series& series, const SeriesChange& change) {
   return fmt::format("{} from {} to {} between {} and {}; significant since {}",
                      change.after > change.before ? "rose" : "fell", value(change.before),
                      value(change.after), place_before(series, change),
-                     place_text(series.runs[change.first].run),
-                     place_text(series.runs[change.significant].run));
+                     place_text(*series.runs[change.first].run),
+                     place_text(*series.runs[change.significant].run));
 }
 
 std::string false_alarm_sentence(const History& history) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -32,7 +33,7 @@ enum class SeriesTest {
 
 /// One run of a series.
 struct SeriesRun {
-  RunRecord run{};  ///< without its values
+  std::shared_ptr<const RunIdentity> run{};  ///< which all series of the run share
   RunValue value{};
 };
 

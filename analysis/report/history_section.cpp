@@ -23,11 +23,11 @@ std::string short_commit(const std::string& commit) {
 FigureData runs_data(const Series& series) {
   return data_of<SeriesRun>(
       "runs", series.runs,
-      {{{"date", "", ""}, [](const SeriesRun& one) { return one.run.created; }},
-       {{"run", "run", ""}, [](const SeriesRun& one) { return one.run.created; }},
-       {{"commit", "commit", ""}, [](const SeriesRun& one) { return short_commit(one.run.git_commit); }},
-       {{"seed", "seed", ""}, [](const SeriesRun& one) { return one.run.seed; }},
-       {{"trials", "trials per point", "1"}, [](const SeriesRun& one) { return one.run.trials; }},
+      {{{"date", "", ""}, [](const SeriesRun& one) { return one.run->created; }},
+       {{"run", "run", ""}, [](const SeriesRun& one) { return one.run->created; }},
+       {{"commit", "commit", ""}, [](const SeriesRun& one) { return short_commit(one.run->git_commit); }},
+       {{"seed", "seed", ""}, [](const SeriesRun& one) { return one.run->seed; }},
+       {{"trials", "trials per point", "1"}, [](const SeriesRun& one) { return one.run->trials; }},
        {{"value", series.measure, series.unit}, [](const SeriesRun& one) { return datum(one.value.value); }},
        {{"low", "lower 95 % bound", series.unit},
         [](const SeriesRun& one) { return datum(one.value.bounds.low); }},
@@ -41,9 +41,9 @@ FigureData runs_data(const Series& series) {
 FigureData changes_data(const Series& series) {
   return data_of<SeriesChange>(
       "changes", series.changes,
-      {{{"date", "", ""}, [&](const SeriesChange& one) { return series.runs[one.first].run.created; }},
+      {{{"date", "", ""}, [&](const SeriesChange& one) { return series.runs[one.first].run->created; }},
        {{"commit", "", ""},
-        [&](const SeriesChange& one) { return short_commit(series.runs[one.first].run.git_commit); }},
+        [&](const SeriesChange& one) { return short_commit(series.runs[one.first].run->git_commit); }},
        {{"sentence", "", ""}, [&](const SeriesChange& one) { return change_sentence(series, one); }}});
 }
 

@@ -3,92 +3,155 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
-#include <set>
+#include <utility>
 #include <vector>
 
 #include "analysis/sensitivity/rank_correlation.hpp"
 #include "analysis/statistics/distributions.hpp"
+#include "analysis/statistics/sums/moments.hpp"
 
 namespace zerocount::sensitivity {
 namespace {
 
 constexpr std::size_t min_trials = 20;
-constexpr std::size_t max_parts = 32;
 
-// The class of each trial, 0 … M − 1, some of which may be empty.
-std::vector<std::size_t> classes_by(std::span<const double> x) {
-  const std::vector<double> f = mid_distribution(x);
-  const std::size_t parts =
-      std::min(max_parts, static_cast<std::size_t>(std::sqrt(static_cast<double>(x.size()))));
-  std::set<double> levels;
-  for (std::size_t i = 0; i < f.size() && levels.size() <= parts; ++i) levels.insert(f[i]);
-  std::vector<std::size_t> classes;
-  classes.reserve(f.size());
-  for (const double value : f) {
-    classes.push_back(levels.size() > parts
-                          ? static_cast<std::size_t>(value * static_cast<double>(parts))
-                          : static_cast<std::size_t>(std::distance(levels.begin(), levels.find(value))));
+struct Trial {
+  double x;
+  double y;
+};
+
+/// Trials in the order of x.
+std::vector<Trial> by_factor(std::span<const double> x, std::span<const double> y) {
+  std::vector<Trial> trials;
+  trials.reserve(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) trials.push_back({x[i], y[i]});
+  std::sort(trials.begin(), trials.end(),
+            [](const Trial& a, const Trial& b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
+  return trials;
+}
+
+/// Neighbours in x. @param lines whether a class has several values of x, and a line in place of a mean
+struct Classes {
+  std::vector<std::span<const Trial>> parts;
+  bool lines{false};
+};
+
+Classes classes_of(std::span<const Trial> trials) {
+  const auto most = static_cast<std::size_t>(0.5 * std::pow(static_cast<double>(trials.size()), 2.0 / 3.0));
+  std::vector<std::size_t> levels;  // starts of equal x
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    if (i == 0 || trials[i].x != trials[i - 1].x) levels.push_back(i);
+  Classes classes{.parts = {}, .lines = levels.size() > most};
+  const std::size_t size = classes.lines ? trials.size() / most : 1;
+  std::vector<std::size_t> starts;
+  for (const std::size_t level : levels) {
+    const bool room = starts.empty() || trials.size() - level >= size;
+    if (room && (starts.empty() || level - starts.back() >= size)) starts.push_back(level);
+  }
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const std::size_t end = k + 1 < starts.size() ? starts[k + 1] : trials.size();
+    classes.parts.push_back(trials.subspan(starts[k], end - starts[k]));
   }
   return classes;
 }
 
-struct ClassMean {
-  double n{0.0};
-  double sum{0.0};
-
-  double mean() const { return sum / n; }
+/// The squares of the trials about m, by the divisors of their classes, [trial], and the coefficients of m.
+struct Noise {
+  std::vector<double> squares;
+  double mean{0.0};
+  double coefficients{0.0};
 };
 
-std::vector<ClassMean> means_of(const std::vector<std::size_t>& classes, std::span<const double> y) {
-  std::vector<ClassMean> means(1 + *std::max_element(classes.begin(), classes.end()));
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    means[classes[i]].n += 1.0;
-    means[classes[i]].sum += y[i];
+/// Appends the squares of a class. @returns its coefficients
+double add_squares(std::span<const Trial> part, bool line, std::vector<double>& squares) {
+  const auto n = static_cast<double>(part.size());
+  double x = 0.0;
+  double y = 0.0;
+  for (const Trial& trial : part) {
+    x += trial.x / n;
+    y += trial.y / n;
   }
-  return means;
+  double xx = 0.0;
+  double xy = 0.0;
+  for (const Trial& trial : part) {
+    xx += (trial.x - x) * (trial.x - x);
+    xy += (trial.x - x) * (trial.y - y);
+  }
+  const bool sloped = line && xx > 0.0;
+  const double slope = sloped ? xy / xx : 0.0;
+  const double coefficients = sloped ? 2.0 : 1.0;
+  const double scale = n > coefficients ? n / (n - coefficients) : std::nan("");
+  for (const Trial& trial : part) squares.push_back(std::pow(trial.y - y - slope * (trial.x - x), 2) * scale);
+  return coefficients;
 }
 
-// How far below S the chi-squared distribution of the classes' part puts its lower bound.
-double null_reach(double index, double classes, double n, double confidence) {
-  const double extreme = statistics::chi_squared_quantile(classes - 1.0, 0.5 + 0.5 * confidence);
-  return (1.0 - index) * (extreme - (classes - 1.0)) / n;
+Noise noise_of(const Classes& classes) {
+  Noise noise;
+  for (const std::span<const Trial> part : classes.parts)
+    noise.coefficients += add_squares(part, classes.lines, noise.squares);
+  statistics::Moments known;
+  for (const double square : noise.squares) known.add(square);
+  noise.mean = known.mean;
+  for (double& square : noise.squares)
+    if (std::isnan(square)) square = noise.mean;
+  return noise;
+}
+
+/// ln(E/V), its standard error and the degrees of freedom of that.
+struct Logarithm {
+  double value{0.0};
+  double error{0.0};
+  double degrees{0.5};
+};
+
+Logarithm logarithm_of(const Noise& noise, std::span<const Trial> trials, const statistics::Moments& y) {
+  const auto n = static_cast<double>(trials.size());
+  const double variance = y.sd() * y.sd();
+  double squares = 0.0;
+  double fourths = 0.0;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    // Both terms have the mean 1, and their difference 0.
+    const double of_all = std::pow(trials[i].y - y.mean, 2) / (variance * (n - 1.0) / n);
+    const double influence = noise.squares[i] / noise.mean - of_all;
+    squares += influence * influence;
+    fourths += std::pow(influence, 4);
+  }
+  const double carrying = fourths > 0.0 ? squares * squares / fourths : n;
+  return {std::log(noise.mean / variance), std::sqrt(squares + 2.0 * (noise.coefficients - 1.0)) / n,
+          std::max(0.5 * carrying - 1.0, 0.5)};
+}
+
+/// The upper bound of an index that is hardly above 0.
+double bound_near_zero(double index, double coefficients, double n, double confidence) {
+  const double z2 = std::pow(statistics::two_sided_normal_quantile(confidence), 2);
+  const double a = 1.0 + 4.0 * z2 / n;
+  const double b = index + 2.0 * z2 / n;
+  const double c = index * index - 2.0 * z2 * (coefficients - 1.0) / (n * n);
+  return (b + std::sqrt(std::max(b * b - a * c, 0.0))) / a;
 }
 
 }  // namespace
 
 BoundedNumber given_data_first_order(std::span<const double> x, std::span<const double> y,
                                      double confidence) {
-  if (x.size() < min_trials) return {};
-  const std::vector<std::size_t> classes = classes_by(x);
-  const std::vector<ClassMean> means = means_of(classes, y);
-  const double n = static_cast<double>(x.size());
-  const auto filled = static_cast<double>(
-      std::count_if(means.begin(), means.end(), [](const ClassMean& m) { return m.n > 0.0; }));
-  const double mean = std::accumulate(y.begin(), y.end(), 0.0) / n;
-  double within = 0.0;
-  double total = 0.0;
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    within += std::pow(y[i] - means[classes[i]].mean(), 2);
-    total += std::pow(y[i] - mean, 2);
-  }
-  const bool constant = std::all_of(y.begin(), y.end(), [&](double value) { return value == y.front(); });
-  if (constant || filled < 2.0 || n < 2.0 * filled) return {};
+  if (x.size() < min_trials || is_constant(x) || is_constant(y)) return {};
+  const std::vector<Trial> trials = by_factor(x, y);
+  const Noise noise = noise_of(classes_of(trials));
+  statistics::Moments moments;
+  for (const Trial& trial : trials) moments.add(trial.y);
+  if (!(noise.mean > 0.0)) return {1.0, 1.0, 1.0};
 
-  const double index = 1.0 - (n - 1.0) / (n - filled) * within / total;
-  const double variance = total / n;
-  double squares = 0.0;
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    const double between = means[classes[i]].mean() - mean;
-    const double influence = 2.0 * between * (y[i] - means[classes[i]].mean()) + between * between -
-                             index * std::pow(y[i] - mean, 2);
-    squares += std::pow(influence / variance, 2) * n / (n - filled);
-  }
-  const double at_zero = 2.0 * (filled - 1.0) * std::pow(1.0 - index, 2);
-  const double half =
-      statistics::two_sided_normal_quantile(confidence) * std::sqrt(std::max(squares - at_zero, at_zero)) / n;
-  return {index, std::max(index - std::max(half, null_reach(index, filled, n, confidence)), -1.0),
-          std::min(index + half, 1.0)};
+  const auto n = static_cast<double>(x.size());
+  const double extreme = 0.5 + 0.5 * confidence;
+  const Logarithm logarithm = logarithm_of(noise, trials, moments);
+  const double half = statistics::student_t_quantile(logarithm.degrees, extreme) * logarithm.error;
+  const double by_chance =
+      (statistics::chi_squared_quantile(noise.coefficients - 1.0, extreme) - (noise.coefficients - 1.0)) / n;
+  const double index = 1.0 - std::exp(logarithm.value);
+  const double low = 1.0 - std::exp(logarithm.value + std::max(half, by_chance));
+  double high = 1.0 - std::exp(logarithm.value - half);
+  if (low <= 0.0) high = std::max(high, bound_near_zero(index, noise.coefficients, n, confidence));
+  return clamped_index({index, low, high});
 }
 
 }  // namespace zerocount::sensitivity

@@ -86,6 +86,32 @@ void note_uncertain_totals(OutputSensitivity& result) {
   }
 }
 
+// About how many values the variance comes from: of normal ones a third, of skewed ones the largest few.
+double values_of_variance(const std::vector<double>& y) {
+  statistics::Moments moments;
+  for (const double value : y) moments.add(value);
+  double fourths = 0.0;
+  for (const double value : y) fourths += std::pow(value - moments.mean, 4);
+  return moments.squares * moments.squares / fourths;
+}
+
+// Of which factors the trials leave more than half of what is possible open.
+void note_uncertain_first_orders(const std::vector<double>& y, OutputSensitivity& result) {
+  constexpr double few = 30.0;
+  std::vector<std::string> open;
+  for (const FactorSensitivity& factor : result.factors)
+    if (factor.first_order.high - factor.first_order.low > 0.5) open.push_back(factor.name);
+  if (open.empty()) return;
+  const double carrying = values_of_variance(y);
+  result.notes.push_back(fmt::format(
+      "the trials are too few to say how much is explained alone: the bounds of first order are wider than "
+      "0.5 for {}{}",
+      fmt::join(open, ", "),
+      carrying < few ? fmt::format("; most of the variance of {} comes from about {:.0f} of the {} trials",
+                                   result.output, std::ceil(carrying), y.size())
+                     : ""));
+}
+
 void add_design_indices(const PointInputs& point, const std::vector<double>& values, const UsedTrials& used,
                         double confidence, const random::RandomStream& bootstrap, OutputSensitivity& result) {
   if (used.row_starts.size() < min_rows) {
@@ -232,6 +258,7 @@ OutputSensitivity output_sensitivity(const PointInputs& inputs, const Sensitivit
     const Varying varying = varying_inputs(inputs, used, result);
     if (from_saltelli) add_design_indices(inputs, trials.values, used, confidence, bootstrap, result);
     add_correlations(varying, y, !from_saltelli, confidence, result);
+    if (!from_saltelli) note_uncertain_first_orders(y, result);
     if (output.yes_or_no && inputs.subject != Subject::worlds) add_log_odds(varying, y, confidence, result);
     rank_factors(from_saltelli, result);
   }

@@ -157,6 +157,7 @@ OutputSensitivity between_worlds(const study::Study& study, const PointInputs& w
 struct PointsAsked {
   const SensitivityQuestion& question;
   std::vector<std::int64_t> points;
+  std::vector<std::string> labels;  ///< [point of the study]
   std::vector<SensitivityOutput> outputs;
   random::RandomStream bootstrap;  ///< the same for all outputs and points, as the trials are
   std::function<void()> done;      ///< one output of one point
@@ -168,7 +169,7 @@ PointSensitivity sensitivity_at(const reading::AllTrialsFile& file, const std::s
   const study::Study& study = file.study();
   const std::int64_t trials = trials_read(study, asked.question);
   PointSensitivity at_point{
-      point, study::label_under(file.point_labels().at(static_cast<std::size_t>(point)), condition), {}, {}};
+      point, study::label_under(asked.labels.at(static_cast<std::size_t>(point)), condition), {}, {}};
   if (!condition.empty()) at_point.condition = condition;
   const PointInputs inputs = point_inputs(file, point, !condition.empty(), trials);
   const PointInputs worlds = inputs_of_worlds(study, point);
@@ -201,6 +202,7 @@ StudySensitivity study_sensitivity(const reading::AllTrialsFile& file, const Sen
                                .points = {}};
   PointsAsked asked{.question = question,
                     .points = points_asked(file, question),
+                    .labels = file.point_labels(),
                     .outputs = outputs_asked(question, file.table(), goal::question_of(study)),
                     .bootstrap = {designs::random_key(header.seed, "sensitivity/bootstrap"), 0},
                     .done = {}};

@@ -232,6 +232,26 @@ StudySummary summarise_file(const std::filesystem::path& path, double confidence
                                          : summarise(reading::ResultsFile(path), confidence, bootstrap);
 }
 
+void add_mean_bounds(StudySummary& summary, const std::filesystem::path& path,
+                     std::span<const std::int64_t> points) {
+  const auto take = [&](std::int64_t number, measures::PointSummary&& found) {
+    measures::PointSummary& point = summary.points[static_cast<std::size_t>(number)];
+    found.hold = point.hold;
+    point = std::move(found);
+  };
+  if (!shards::keeps_every_trial(path)) {
+    const reading::ResultsFile file(path);
+    for (const std::int64_t point : points)
+      take(point, restored_point(file, file.study(), point).statistics(summary.confidence, true));
+    return;
+  }
+  const reading::AllTrialsFile file(path);
+  for (const std::int64_t point : points) {
+    take(point, point_statistics(file, file.study(), point,
+                                 {.undecided = true, .confidence = summary.confidence, .bootstrap = true}));
+  }
+}
+
 StudySummary summarise_unfinished(const std::filesystem::path& output, double confidence, bool bootstrap) {
   constexpr int tries = 5;
   for (int i = 1;; ++i) {

@@ -86,6 +86,11 @@ StudySummary summarise(const reading::ResultsFile& file, double confidence = sta
 StudySummary summarise_file(const std::filesystem::path& path,
                             double confidence = statistics::summary_confidence, bool bootstrap = false);
 
+/// Computes the bounds of means by resampling of these points of a summary that has none.
+/// @param path of the complete results file that it is of
+void add_mean_bounds(StudySummary& summary, const std::filesystem::path& path,
+                     std::span<const std::int64_t> points);
+
 /// The summary of a run that has not ended: of the trials in its shards and parts (shards::finished_pieces).
 /// In a study with rigs, only the trials of a point before the first that is missing count, so that rigs have
 /// equal numbers of them. Points without trials at the end are left out, and so are statements about all

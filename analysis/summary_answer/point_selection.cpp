@@ -234,6 +234,13 @@ std::vector<std::string> columns_needed(const StudySummary& summary, const Point
   return columns;
 }
 
+bool needs_mean_bounds(const PointSelection& selection) {
+  std::string names = selection.sort.value_or("");
+  for (const std::string& condition : selection.where) names += " " + condition;
+  names = column_name(names);
+  return names.find("_mean_low") != std::string::npos || names.find("_mean_high") != std::string::npos;
+}
+
 void require_columns(const StudySummary& summary, const PointSelection& selection) {
   for (const std::string& column : columns_needed(summary, selection)) values_of(summary, column, {});
 }

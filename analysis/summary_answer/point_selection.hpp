@@ -22,6 +22,9 @@ struct PointSelection {
 std::vector<std::string> columns_needed(const summary::StudySummary& summary,
                                         const PointSelection& selection);
 
+/// Whether it names a bound of a mean by resampling ("settling_time.mean_low").
+bool needs_mean_bounds(const PointSelection& selection);
+
 /// @throws Failure (bad_input) where the summary has no value of a name that is needed
 void require_columns(const summary::StudySummary& summary, const PointSelection& selection);
 

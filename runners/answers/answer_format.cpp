@@ -27,8 +27,8 @@ command_line::OptionSpec format_option(std::vector<std::string> more) {
 }
 
 std::string rendered(const document::Answer& answer, std::string_view format) {
-  if (format == "json") return text::json_text(document::json(answer));
-  if (format == json_line) return text::json_text(document::json(answer), text::one_line);
+  if (format == "json") return document::json_text(answer);
+  if (format == json_line) return document::json_text(answer, text::one_line);
   if (format == "markdown") return document::markdown(answer);
   if (format == "html") return report::html_page(report::answer_page(answer));
   if (format == "csv") return document::csv(answer);
@@ -45,7 +45,9 @@ document::Audience audience_of(std::string_view format) {
 
 ExitCode print(const command_line::Arguments& arguments, const document::Answer& answer) {
   const std::string format = arguments.choice("format");
-  if (format == "text") {
+  if (format == "json") {
+    document::write_json(answer, 2, [](std::string_view piece) { standard_output::write(piece); });
+  } else if (format == "text") {
     standard_output::write_fitted(rendered(answer, format));
   } else {
     standard_output::write(rendered(answer, format));

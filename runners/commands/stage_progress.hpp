@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include "runners/status/status.hpp"
 
@@ -38,5 +39,13 @@ class StageProgress {
   bool ended_{false};
   std::thread printer_;
 };
+
+/// What `work` returns, while a StageProgress shows the stage.
+template <class Work>
+auto with_progress(std::string verb, std::string_view stage, const Work& work) {
+  StageProgress progress(std::move(verb), /*quiet=*/false);
+  progress.enter(stage);
+  return work();
+}
 
 }  // namespace zerocount::commands

@@ -19,6 +19,7 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/figure_picture.hpp"
+#include "runners/commands/stage_progress.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/status/status.hpp"
 
@@ -66,7 +67,9 @@ history::SeriesFilter filter_of(const command_line::Arguments& arguments) {
 
 history::History history_shown(const command_line::Arguments& arguments) {
   const std::filesystem::path database = database_of(arguments);
-  return history::history_of(history::read_runs(database, patience_with(database)), filter_of(arguments));
+  const std::vector<history::RunRecord> runs = history::read_runs(database, patience_with(database));
+  return commands::with_progress("zerocount history", "testing for changes",
+                                 [&] { return history::history_of(runs, filter_of(arguments)); });
 }
 
 ExitCode add(const command_line::Arguments& arguments) {
@@ -77,7 +80,9 @@ ExitCode add(const command_line::Arguments& arguments) {
   if (of_monitor && arguments.has("compare"))
     arguments.refuse("option '--compare': an answer of monitor is compared already; expected a results file");
   history::RunRecord run =
-      of_monitor ? std::move(*of_monitor) : history::record_of(reading::AllTrialsFile(file));
+      of_monitor ? std::move(*of_monitor)
+                 : commands::with_progress("zerocount history", "computing statistics",
+                                           [&] { return history::record_of(reading::AllTrialsFile(file)); });
   if (const auto json = arguments.value("compare")) history::add_comparison(run, *json);
   switch (history::add_run(database, run, patience_with(database))) {
     case history::Addition::added:
@@ -109,8 +114,10 @@ ExitCode plot_history(const command_line::Arguments& arguments) {
         fmt::format("a picture shows one series, but {} are selected; choose with --study, --point and "
                     "--measure, or write a page (.html)",
                     shown.series.size()));
-  command_line::write_text(output,
-                           commands::drawing(report::answer_page(report::history_answer().of(shown)), kind));
+  command_line::write_text(output, commands::with_progress("zerocount history", "drawing", [&] {
+                             return commands::drawing(report::answer_page(report::history_answer().of(shown)),
+                                                      kind);
+                           }));
   return ExitCode::success;
 }
 

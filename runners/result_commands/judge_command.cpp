@@ -16,6 +16,7 @@
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/command.hpp"
+#include "runners/commands/stage_progress.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/result_commands/result_commands.hpp"
 
@@ -162,7 +163,9 @@ void require_judgeable(const command_line::Arguments& arguments) {
 
 ExitCode judge(const command_line::Arguments& arguments) {
   require_judgeable(arguments);
-  const summary::StudySummary summary = summary::summarise_file(arguments.operands()[0]);
+  const summary::StudySummary summary =
+      commands::with_progress("zerocount judge", "computing statistics",
+                              [&] { return summary::summarise_file(arguments.operands()[0]); });
   const auto point = command_line::point_option(arguments, summary.labels);
   const summary::ChosenPoint chosen = summary::choose_point(summary, point);
   const Judgement judgement{

@@ -19,6 +19,7 @@
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/command.hpp"
+#include "runners/commands/stage_progress.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/result_commands/changed_parameters.hpp"
 #include "runners/result_commands/machine_logs.hpp"
@@ -93,7 +94,9 @@ std::optional<monitor::ChangeExplanation> explanation_of(const LoadedBaseline& b
                                                          const monitor::MoveLog& log,
                                                          const std::stop_token& stop) {
   if (!baseline.file || state.alarm == nullptr || baseline.file->header().plugin) return std::nullopt;
-  return explain_alarm(*baseline.file, baseline.of_file, machine, log, stop);
+  return commands::with_progress("zerocount monitor", "simulating what may have changed", [&] {
+    return explain_alarm(*baseline.file, baseline.of_file, machine, log, stop);
+  });
 }
 
 std::optional<double> change_from(const command_line::Arguments& arguments) {

@@ -7,6 +7,7 @@
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/command.hpp"
+#include "runners/commands/stage_progress.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/status/status.hpp"
 
@@ -49,11 +50,14 @@ ExitCode print_sensitivity(const command_line::Arguments& arguments) {
       command_line::probability_option(arguments, "confidence").value_or(question.confidence);
   question.max_trials =
       arguments.whole_number("max-trials", 100, std::int64_t{1} << 53).value_or(question.max_trials);
-  status::StatusLine line;
-  question.progress = [&](std::int64_t done, std::int64_t all) {
-    line.show([&] { return fmt::format("sensitivity: {} of {} outputs", done, all); });
-  };
-  const sensitivity::StudySensitivity sensitivity = sensitivity::study_sensitivity(file, question);
+  const sensitivity::StudySensitivity sensitivity = [&] {
+    commands::StageProgress progress("zerocount sensitivity", /*quiet=*/false);
+    progress.enter("reading trials");
+    question.progress = [&](std::int64_t done, std::int64_t all) {
+      progress.enter(fmt::format("{} of {} outputs", done, all));
+    };
+    return sensitivity::study_sensitivity(file, question);
+  }();
   const ExitCode code = sensitivity::any_estimated(sensitivity) ? ExitCode::success : ExitCode::inconclusive;
   return answers::print(arguments, report::sensitivity_answer().of(sensitivity, code));
 }

@@ -20,6 +20,7 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/plugin_option.hpp"
+#include "runners/commands/stage_progress.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/status/status.hpp"
@@ -94,7 +95,8 @@ std::optional<summary_answer::Confirmation> confirmation_of(const command_line::
   return study_run::confirm_point(file, point, *trials, commands::plugin_option(arguments));
 }
 
-/// Bounds of means take their time: people are shown only those of the true motion.
+/// Bounds of means take their time: people are shown only those of the true motion, and data have them of the
+/// points that are asked for.
 bool shows_data(const command_line::Arguments& arguments) {
   return answers::audience_of(arguments.choice("format")) != document::Audience::people;
 }
@@ -135,13 +137,22 @@ std::optional<summary_answer::SelectedSummary> summary_of_selected(const command
 summary_answer::SelectedSummary summary_of_all(const command_line::Arguments& arguments, double confidence) {
   const fs::path path = arguments.operands()[0];
   const bool table = !shows_data(arguments);
-  summary::StudySummary summary = summary_of(path, confidence, !table);
-  if (table && (summary.features.motion || summary.features.following))
-    summary = summary.unfinished ? summary::summarise_unfinished(path, confidence, true)
-                                 : summary::summarise_file(path, confidence, true);
   const summary_answer::PointSelection selection = selection_of(arguments);
+  const bool is_whole = !selection.sort && !selection.top && selection.where.empty();
+  const bool with_bounds = (is_whole && !table) || summary_answer::needs_mean_bounds(selection);
+  summary::StudySummary summary = summary_of(path, confidence, with_bounds);
   std::vector<std::int64_t> points =
       selected_by(arguments, [&] { return summary_answer::selected_points(summary, selection); });
+  constexpr std::ptrdiff_t one_by_one = 200;  // points; more are read quicker with all others
+  if (with_bounds || (table && !summary.features.motion && !summary.features.following)) {
+    // They have what is shown.
+  } else if (summary.unfinished) {
+    summary = summary::summarise_unfinished(path, confidence, true);
+  } else if (std::ssize(points) <= one_by_one) {
+    summary::add_mean_bounds(summary, path, points);
+  } else {
+    summary = summary::summarise_file(path, confidence, true);
+  }
   return {std::move(summary), std::move(points), {}};
 }
 
@@ -150,11 +161,14 @@ ExitCode summarise_file(const command_line::Arguments& arguments) {
   const double confidence =
       command_line::probability_option(arguments, "confidence").value_or(statistics::summary_confidence);
   if (csv && arguments.has("confirm")) arguments.refuse("option '--confirm' does not go with the format csv");
-  std::optional<summary_answer::SelectedSummary> selected = summary_of_selected(arguments, confidence);
-  if (!selected) selected = summary_of_all(arguments, confidence);
-  const summary::StudySummary& summary = selected->summary;
+  summary_answer::SelectedSummary selected =
+      commands::with_progress("zerocount summary", "computing statistics", [&] {
+        std::optional<summary_answer::SelectedSummary> some = summary_of_selected(arguments, confidence);
+        return some ? *std::move(some) : summary_of_all(arguments, confidence);
+      });
+  const summary::StudySummary& summary = selected.summary;
   summary_answer::SummaryReading reading = summary_answer::read_summary(
-      summary, {std::move(selected->points), command_line::point_option(arguments, summary.labels),
+      summary, {std::move(selected.points), command_line::point_option(arguments, summary.labels),
                 arguments.has("legend")});
   reading.confirmation = confirmation_of(arguments, summary, reading.chosen.point);
   if (csv && summary.unfinished) status::tell("{}\n", summary_answer::unfinished_sentence(summary));

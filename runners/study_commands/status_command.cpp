@@ -6,7 +6,6 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "analysis/statistics/unknown.hpp"
@@ -179,7 +178,7 @@ run_status::RunStatus print_status(const command_line::Arguments& arguments, boo
   run_status::RunStatus status = run_status::status_of(output);
   const document::Answer answer = answer_of(status, output, answers::audience_of(format));
   if (watched && format == "json") {
-    standard_output::write(text::json_text(document::json(answer), text::one_line));
+    standard_output::write(document::json_text(answer, text::one_line));
   } else {
     answers::print(arguments, answer);
   }

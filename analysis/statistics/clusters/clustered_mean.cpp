@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
@@ -57,7 +58,67 @@ Estimate estimate_of(const Clusters& totals, const std::vector<std::int32_t>& dr
   return {mean, std::sqrt(clusters / (clusters - 1.0) * squares) / number};
 }
 
-/// (θ* − θ)/e* of every resample, sorted. Infinite for a resample without spread.
+/// (θ* − θ)/e*; infinite for a resample without spread, NaN for one without values.
+double studentised(const Clusters& totals, double mean, const std::vector<std::int32_t>& drawn) {
+  const Estimate estimate = estimate_of(totals, drawn, static_cast<double>(drawn.size()));
+  const double difference = estimate.mean - mean;
+  if (std::isnan(difference) || estimate.error > 0.0) return difference / estimate.error;
+  return difference > 0.0 ? infinite : -infinite;
+}
+
+/// Quantiles of (θ* − θ)/e*.
+struct Tails {
+  double low{unknown};
+  double high{unknown};
+};
+
+/// Of all samples of m clusters drawn with replacement, each with its probability m!/(Π kᵢ!·mᵐ), kᵢ the
+/// number of times that cluster i is drawn.
+class EverySample {
+ public:
+  EverySample(const Clusters& totals, double mean)
+      : totals_(totals), mean_(mean), drawn_(totals.sums.size(), 0) {
+    draw(0, static_cast<std::int32_t>(drawn_.size()), 1.0);
+    std::sort(values_.begin(), values_.end());
+  }
+
+  /// The smallest value below or at which the probability is at least `tail`, and 1 − `tail`.
+  Tails tails(double tail) const {
+    constexpr double rounding = 1e-12;
+    double all = 0.0;
+    for (const auto& [value, weight] : values_) all += weight;
+    Tails found;
+    double below = 0.0;
+    for (const auto& [value, weight] : values_) {
+      below += weight / all;
+      if (std::isnan(found.low) && below >= tail - rounding) found.low = value;
+      if (std::isnan(found.high) && below >= 1.0 - tail - rounding) found.high = value;
+    }
+    return found;
+  }
+
+ private:
+  /// @param left to be drawn among the clusters from this one on @param weight 1/Π kᵢ! of those before
+  void draw(std::size_t cluster, std::int32_t left, double weight) {
+    const bool is_last = cluster + 1 == drawn_.size();
+    for (std::int32_t times = is_last ? left : 0; times <= left; ++times) {
+      drawn_[cluster] = times;
+      const double with = weight / std::tgamma(times + 1.0);
+      if (!is_last) {
+        draw(cluster + 1, left - times, with);
+      } else if (const double value = studentised(totals_, mean_, drawn_); !std::isnan(value)) {
+        values_.emplace_back(value, with);
+      }
+    }
+  }
+
+  const Clusters& totals_;
+  double mean_;
+  std::vector<std::int32_t> drawn_;
+  std::vector<std::pair<double, double>> values_;  ///< with their weights
+};
+
+/// (θ* − θ)/e* of every resample, sorted.
 std::vector<double> studentised_means(const Clusters& totals, double mean, const random::RandomStream& stream,
                                       std::int64_t resamples) {
   const std::size_t clusters = totals.sums.size();
@@ -71,17 +132,19 @@ std::vector<double> studentised_means(const Clusters& totals, double mean, const
                            static_cast<double>(clusters);
       ++drawn[static_cast<std::size_t>(place)];
     }
-    const Estimate estimate = estimate_of(totals, drawn, static_cast<double>(clusters));
-    if (std::isnan(estimate.mean)) continue;
-    const double difference = estimate.mean - mean;
-    if (estimate.error > 0.0) {
-      result.push_back(difference / estimate.error);
-    } else {
-      result.push_back(difference > 0.0 ? infinite : -infinite);
-    }
+    const double value = studentised(totals, mean, drawn);
+    if (!std::isnan(value)) result.push_back(value);
   }
   std::sort(result.begin(), result.end());
   return result;
+}
+
+Tails tails_of(const Clusters& totals, double mean, const random::RandomStream& stream,
+               std::int64_t resamples, double tail) {
+  if (std::ssize(totals.sums) <= max_enumerated_clusters) return EverySample(totals, mean).tails(tail);
+  const std::vector<double> drawn = studentised_means(totals, mean, stream, resamples);
+  if (drawn.empty()) return {};
+  return {interpolated_quantile(drawn, tail), interpolated_quantile(drawn, 1.0 - tail)};
 }
 
 std::int64_t number_of_positive(const std::vector<double>& values) {
@@ -115,12 +178,11 @@ ConfidenceInterval mean_bounds(const Clusters& totals, const random::RandomStrea
   const auto clusters = static_cast<double>(totals.sums.size());
   const Estimate estimate = estimate_of(totals, std::vector<std::int32_t>(totals.sums.size(), 1), clusters);
   if (!(estimate.error > 0.0)) return none;
-  const std::vector<double> studentised = studentised_means(totals, estimate.mean, stream, resamples);
-  if (studentised.empty()) return none;
-  const double tail = 0.5 * (1.0 - confidence);
+  const Tails tails = tails_of(totals, estimate.mean, stream, resamples, 0.5 * (1.0 - confidence));
+  if (std::isnan(tails.low)) return none;
   const double t = student_limit(clusters - 1.0, confidence);
-  const double above = std::max(t, interpolated_quantile(studentised, 1.0 - tail));
-  const double below = std::min(-t, interpolated_quantile(studentised, tail));
+  const double above = std::max(t, tails.high);
+  const double below = std::min(-t, tails.low);
   return {finite_or_unknown(estimate.mean - above * estimate.error),
           finite_or_unknown(estimate.mean - below * estimate.error)};
 }

@@ -16,6 +16,9 @@ inline constexpr std::int64_t max_clusters = 4096;
 
 inline constexpr std::int64_t bootstrap_resamples = 2000;
 
+/// With so few clusters there are fewer different resamples, C(2m − 1, m), than are drawn otherwise: 1716.
+inline constexpr std::int64_t max_enumerated_clusters = 7;
+
 /// Sum and number of the values of each cluster. The mean is Σ sums/Σ numbers. Totals of parts of a sample,
 /// added in any order, are those of the whole.
 struct ClusterTotals {
@@ -43,7 +46,8 @@ struct ClusterTotals {
 ///   e² = m/(m − 1)·Σ(sᵢ − θ·nᵢ)²/(Σnᵢ)²,
 ///
 /// Student's is θ ± t(m − 1)·e, and the studentised bootstrap's θ − q·e, q the quantiles of (θ* − θ)/e* over
-/// samples of m clusters drawn with replacement.
+/// samples of m clusters drawn with replacement: `resamples` of them, or all with their probabilities where
+/// m is at most max_enumerated_clusters.
 ///
 /// Student's interval alone lies too low if long times are rare. The bootstrap's alone covers too rarely with
 /// heavy tails. The outer bounds have the stated coverage if the sample contains some of the rare values. NaN

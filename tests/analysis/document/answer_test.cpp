@@ -1,14 +1,18 @@
 #include "analysis/document/answer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "analysis/text/report_json.hpp"
 
 namespace zerocount::document {
 namespace {
@@ -73,6 +77,26 @@ TEST(Answer, StatesItsNameVersionAndHeadlineInJson) {
   EXPECT_EQ(json["answer"], "example");
   EXPECT_EQ(json["version"], 1);
   EXPECT_EQ(json["headline"], "the goal is met");
+}
+
+TEST(Answer, WritesTheTextOfItsTreeInPieces) {
+  Subject subject = example();
+  for (const char* name : {"a \"quoted\" name", "back\\slash", "line\nbreak", "Größe", "broken \xff UTF-8"})
+    subject.axes.push_back({.name = name, .torque = -0.0});
+  for (std::size_t i = 0; i < 2000; ++i) subject.axes.push_back({.name = "z", .torque = 1.0 / 3.0});
+  for (const Subject& one : {subject, example(), Subject{}}) {
+    const Answer answer = description().of(one);
+    const Json tree = document::json(answer);
+    std::string text;
+    std::size_t longest = 0;
+    document::write_json(answer, 2, [&](std::string_view piece) {
+      text += piece;
+      longest = std::max(longest, piece.size());
+    });
+    EXPECT_EQ(text, text::json_text(tree));
+    EXPECT_EQ(document::json_text(answer, text::one_line), text::json_text(tree, text::one_line));
+    EXPECT_LT(longest, 100'000U);
+  }
 }
 
 TEST(Answer, WritesBoundsBesideTheirValueAndUnknownNumbersAsNull) {

@@ -9,15 +9,9 @@
 namespace zerocount::testing {
 
 history::RunRecord run_of_day(int day, double rate_a, double rate_b, double settling_time) {
-  history::RunRecord run{"gains",
-                         "series",
-                         "study",
-                         fmt::format("file {}", day),
-                         std::to_string(day),
-                         200,
-                         "0.1.0",
-                         fmt::format("{:040x}", day),
-                         fmt::format("2026-{:02}-{:02}T02:30:00Z", day / 28 + 1, day % 28 + 1)};
+  history::RunRecord run{{"gains", "series", "study", fmt::format("file {}", day), std::to_string(day), 200,
+                          "0.1.0", fmt::format("{:040x}", day),
+                          fmt::format("2026-{:02}-{:02}T02:30:00Z", day / 28 + 1, day % 28 + 1)}};
   for (const auto& [point, rate] : {std::pair("a", rate_a), std::pair("b", rate_b)}) {
     run.values.push_back({point, "success_rate", "1", statistics::MeasurementKind::proportion, rate,
                           statistics::clopper_pearson(std::llround(200.0 * rate), 200), 200});

@@ -60,6 +60,15 @@ TEST(HistorySeries, NameTheCommitOfAStep) {
   EXPECT_NE(text_of(history).find(sentence), std::string::npos);
 }
 
+TEST(HistorySeries, HaveEachRunOnce) {
+  const History history = history::history_of(nights_with_step(40));
+  for (const history::Series& series : history.series) {
+    ASSERT_EQ(series.runs.size(), history.series[0].runs.size());
+    for (std::size_t i = 0; i < series.runs.size(); ++i)
+      EXPECT_EQ(series.runs[i].run, history.series[0].runs[i].run) << "memory would grow with points squared";
+  }
+}
+
 TEST(HistorySeries, ShowOnlyWhatIsAskedFor) {
   const std::vector<RunRecord> runs = nights_with_step(40);
   const History one = history::history_of(runs, {"gains", "b", "success_rate"});

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "analysis/sensitivity/given_data_index.hpp"
 #include "analysis/sensitivity/logistic_fit.hpp"
 #include "analysis/sensitivity/rank_correlation.hpp"
 #include "core/random/variates.hpp"
@@ -244,29 +243,6 @@ TEST(SensitivityCoverage, BoundsOfRankCorrelations) {
       }
       EXPECT_GE(coverage.proportion(), n == 50 ? 0.88 : 0.92) << name << ", " << n << " trials";
       EXPECT_LE(coverage.proportion(), 0.98) << name << ", " << n << " trials";
-    }
-  }
-}
-
-TEST(SensitivityCoverage, BoundsOfFirstOrderIndicesFromAnySample) {
-  for (const auto& [name, function] : column_functions) {
-    const auto many = uniform_columns(2, 100000, 1000000);
-    const double truth = given_data_first_order(many[0], outputs_of(function, many), 0.95).value;
-    for (const std::size_t n : {50UL, 200UL, 1000UL}) {
-      Coverage coverage;
-      int above = 0;
-      for (std::uint64_t sample = 0; sample < 400; ++sample) {
-        const auto u = uniform_columns(2, n, sample);
-        const BoundedNumber proportion = given_data_first_order(u[0], outputs_of(function, u), 0.95);
-        coverage.add(proportion, truth);
-        above += proportion.low > 0.0;
-      }
-      EXPECT_GE(coverage.proportion(), n == 50 ? 0.87 : 0.91) << name << ", " << n << " trials";
-      if (truth < 0.01) {
-        EXPECT_LE(above, 16) << name << ", " << n << " trials: found what is not there";
-      } else {
-        EXPECT_LE(coverage.proportion(), 0.98) << name << ", " << n << " trials";
-      }
     }
   }
 }

@@ -1,14 +1,18 @@
 #include "analysis/statistics/clusters/clustered_mean.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <boost/math/distributions/students_t.hpp>
 #include <gtest/gtest.h>
 
 #include "analysis/statistics/mean_bounds.hpp"
+#include "analysis/statistics/quantile.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::statistics {
@@ -87,6 +91,52 @@ TEST(ClusteredMean, ResamplesDependOnTheirStreamAlone) {
   const ConfidenceInterval once = clustered_mean_bounds(totals, stream);
   EXPECT_EQ(clustered_mean_bounds(totals, stream).high, once.high);
   EXPECT_NE(clustered_mean_bounds(totals, {{12, 34}, 6}).high, once.high);
+}
+
+/// Quantiles of (θ* − θ)/e* of the mm equally probable draws of m clusters, one by one.
+std::pair<double, double> tails_of_every_draw(const std::vector<double>& values, double tail) {
+  const std::size_t m = values.size();
+  const double mean = moments_of(values).mean;
+  std::vector<double> studentised;
+  const auto draws = static_cast<std::size_t>(std::llround(std::pow(m, m)));
+  for (std::size_t draw = 0; draw < draws; ++draw) {
+    Moments drawn;
+    for (std::size_t i = 0, rest = draw; i < m; ++i, rest /= m) drawn.add(values[rest % m]);
+    const double error = drawn.sd() / std::sqrt(static_cast<double>(m));
+    const double difference = drawn.mean - mean;
+    studentised.push_back(error > 1e-9 ? difference / error
+                                       : std::copysign(std::numeric_limits<double>::infinity(), difference));
+  }
+  return {sample_quantile(studentised, tail), sample_quantile(studentised, 1.0 - tail)};
+}
+
+TEST(ClusteredMean, OfFewClustersIsThatOfEverySample) {
+  std::mt19937_64 random(55);
+  std::exponential_distribution<double> exponential;
+  for (const std::size_t m : {2UL, 3UL, 4UL, 5UL, 6UL, 7UL}) {
+    std::vector<double> values(m);
+    for (double& value : values) value = exponential(random);
+    for (const double confidence : {0.5, 0.8, 0.95}) {
+      const double tail = 0.5 * (1.0 - confidence);
+      const auto [low, high] = tails_of_every_draw(values, tail);
+      const Moments moments = moments_of(values);
+      const double error = moments.sd() / std::sqrt(static_cast<double>(m));
+      const double t = boost::math::quantile(
+          boost::math::students_t_distribution<double>(static_cast<double>(m) - 1.0), 1.0 - tail);
+      const ConfidenceInterval found = clustered_mean_bounds(totals_of(values), stream, confidence);
+      const auto expect = [&](double bound, double quantile) {
+        if (std::isinf(quantile)) {
+          EXPECT_TRUE(std::isnan(bound)) << m << " clusters, " << confidence;
+        } else {
+          EXPECT_NEAR(bound, moments.mean - quantile * error, 1e-9) << m << " clusters, " << confidence;
+        }
+      };
+      expect(found.low, std::max(t, high));
+      expect(found.high, std::min(-t, low));
+      EXPECT_TRUE(clustered_mean_bounds(totals_of(values), {{1, 2}, 3}, confidence).low == found.low ||
+                  std::isnan(found.low));
+    }
+  }
 }
 
 TEST(ClusteredMean, SaysNothingWhereThereIsNothingToResample) {

@@ -140,7 +140,7 @@ std::string written_text(const command_line::Arguments& arguments, const std::fi
 ExitCode write_controller(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
   const std::filesystem::path output = command_line::text_place(arguments, "output").value_or("-");
-  const study::Study study = commands::load_study(input, arguments, std::span(&output, 1));
+  const study::Study study = commands::load_study(input, arguments, commands::StudyUse::to_make_files);
   const std::int64_t point = commands::study_point(arguments, study).value_or(0);
   require_values(arguments, study);
   const trial::TrialParameters p = study::study_trial(study, point, 0).parameters;
@@ -177,7 +177,7 @@ commands::Command controller_command() {
            "MANIFEST|FILE",
            {{"point", "P",
              "the design point, by label or number, or 'best' of a results file; default: the first"},
-            {"output,o", "FILE", "the file to write; default: standard output"},
+            command_line::written_file({"output,o", "FILE", "the file to write; default: standard output"}),
             command_line::choice_option("language", "LANGUAGE", {"c", "linuxcnc", "st"}),
             command_line::choice_option("precision", "PRECISION", {"double", "single"}),
             {"set", "KEY=VALUE", "override a manifest key, e.g. controller.ki=3e-5; may be repeated", true},

@@ -40,10 +40,11 @@ constexpr const char* trace_help =
     "Columns: k, t (s), target, count, coarse_count, error (counts), code, torque (N m),\n"
     "theta (rad), omega (rad/s), xp, xh (rad), depth (reversal points), mode (stick or\n"
     "slide). Values are those at the sampling instant; code and torque are commanded there.\n"
-    "Only if the study uses them: reference (counts), phase (fine or coarse), drive_torque (N m,\n"
-    "of the motor; if it differs from the code's torque by more than a delay of the closed\n"
-    "loop). A trial that is stopped early ends there. On a linear axis read N for N m and m for\n"
-    "rad. Of an estimate by 'zerocount rare' it replays a trial that was drawn.\n"
+    "Only if the study uses them: reference (counts), phase (fine or coarse), load_theta (rad) and\n"
+    "load_omega (rad/s) of the second mass, drive_torque (N m, of the motor; if it differs from the\n"
+    "code's torque by more than a delay of the closed loop). A trial that is stopped early ends\n"
+    "there. On a linear axis read N for N m and m for rad. Of an estimate by 'zerocount rare' it\n"
+    "replays a trial that was drawn.\n"
     "\n"
     "Example: zerocount trace gains.h5 --point 2 --trial 17 -o trial.csv\n";
 

@@ -11,6 +11,7 @@
 #include "analysis/comparison/gate_rules.hpp"
 #include "core/numerics/interval.hpp"
 #include "experiments/parameters/unknown_key.hpp"
+#include "experiments/study/point_label.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 #include "experiments/yaml/scalars.hpp"
 #include "experiments/yaml/text_file.hpp"
@@ -179,18 +180,20 @@ void read_points(const yaml::Field& field, std::span<const std::string> labels, 
     return;
   for (const yaml::YamlEntry& entry : field.node->entries) {
     const yaml::Field point = yaml::entry_of(field, entry);
-    if (std::find(labels.begin(), labels.end(), entry.key) == labels.end()) {
+    const auto named = study::point_named(entry.key, labels);
+    if (!named) {
       problems.add(
           entry.place, point.path, "no design point of the files has this label",
           fmt::format("one of theirs, such as {}", yaml::in_quotes(yaml::nearest_name(entry.key, labels))));
       continue;
     }
+    const std::string& label = labels[static_cast<std::size_t>(*named)];
     if (!yaml::check_map(point, "a map from measures to margins, and require", problems)) continue;
     for (const yaml::YamlEntry& own : point.node->entries) {
       if (own.key == "require") {
-        read_requirements(yaml::entry_of(point, own), rules.requirements_at[entry.key], problems);
+        read_requirements(yaml::entry_of(point, own), rules.requirements_at[label], problems);
       } else {
-        read_margin_of(point, own, rules.margins_at[entry.key], problems);
+        read_margin_of(point, own, rules.margins_at[label], problems);
       }
     }
   }

@@ -86,7 +86,7 @@ nlohmann::ordered_json json(const std::vector<Item>& items, const Members& conte
 /// The rows of the type's csv_table: RFC 4180 with \n, a line with the names of the columns first. A member
 /// of an object has the name "<object>_<member>", unless its item has a column; a column of an outer table
 /// that is named like an inner one is "<table>_<name>"; an unknown number is `nan`, a list is written as in
-/// JSON.
+/// JSON; a text that is a formula of spreadsheets begins with an apostrophe (text::csv_field).
 std::string csv(const Answer& answer);
 
 /// Name in CSV and cell of each column of an item.

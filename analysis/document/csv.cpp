@@ -5,20 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/document/answer.hpp"
+#include "core/text/csv_field.hpp"
 
 namespace zerocount::document {
 namespace {
-
-/// A cell of CSV (RFC 4180).
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += c;
-    quoted += c;
-  }
-  return quoted + '"';
-}
 
 std::string csv_number(double value) {
   return std::isnan(value) ? "nan" : fmt::format("{}", value);
@@ -81,7 +71,7 @@ class CsvLine {
 
   static std::string line(const std::vector<std::string>& texts) {
     std::string line;
-    for (std::size_t i = 0; i < texts.size(); ++i) line += (i == 0 ? "" : ",") + csv_cell(texts[i]);
+    for (std::size_t i = 0; i < texts.size(); ++i) line += (i == 0 ? "" : ",") + text::csv_field(texts[i]);
     return line + '\n';
   }
 

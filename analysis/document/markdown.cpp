@@ -10,14 +10,28 @@
 namespace zerocount::document {
 namespace {
 
-/// Plain text as Markdown on one line.
+/// Plain text as Markdown on one line. A bracket ends the text of a link, or the name of its destination,
+/// only before (, [ or a colon; other brackets, such as those of bounds, stay as they are.
 std::string escaped(std::string_view text) {
+  const std::string plain = text::printable(text);
   std::string escaped;
-  for (const char c : text::printable(text)) {
-    if (std::string_view("|\\`*_<").find(c) != std::string_view::npos) escaped += '\\';
-    escaped += c;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const bool ends_link = plain[i] == ']' && i + 1 < plain.size() &&
+                           std::string_view("([:").find(plain[i + 1]) != std::string_view::npos;
+    if (ends_link || std::string_view("|\\`*_<&~").find(plain[i]) != std::string_view::npos) escaped += '\\';
+    escaped += plain[i];
   }
   return escaped;
+}
+
+/// The same at the start of a line, where some characters begin a heading, a list, a quotation or a rule.
+std::string escaped_line(std::string_view text) {
+  std::string line = escaped(text);
+  const std::size_t digits = std::min(line.find_first_not_of("0123456789"), line.size());
+  const std::string_view special = digits == 0 ? "#-+=>" : ".)";
+  if (digits < line.size() && special.find(line[digits]) != std::string_view::npos)
+    line.insert(digits, 1, '\\');
+  return line;
 }
 
 /// A paragraph of each line.
@@ -27,7 +41,7 @@ std::string paragraphs(std::string_view text) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
     const std::size_t begin = line.find_first_not_of(' ');
-    if (begin != std::string_view::npos) paragraphs += escaped(line.substr(begin)) + "\n\n";
+    if (begin != std::string_view::npos) paragraphs += escaped_line(line.substr(begin)) + "\n\n";
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return paragraphs;
@@ -45,7 +59,7 @@ std::string table_markdown(const TableBlock& table) {
         escaped(column.unit.empty() ? column.head : fmt::format("{} ({})", column.head, column.unit)));
     rules.emplace_back(column.numeric ? "---:" : "---");
   }
-  std::string markdown = table.title.empty() ? "" : fmt::format("{}:\n\n", escaped(table.title));
+  std::string markdown = table.title.empty() ? "" : fmt::format("{}\n\n", escaped_line(table.title + ":"));
   markdown += table_row(heads) + table_row(rules);
   for (std::size_t row = 0; !table.columns.empty() && row < table.columns.front().cells.size(); ++row) {
     std::vector<std::string> cells;
@@ -64,7 +78,7 @@ struct BlockMarkdown {
   std::string operator()(const FactsBlock& block) const {
     std::string list;
     for (const Fact& fact : block.facts)
-      list += fmt::format("- {}: {}\n", escaped(fact.name), escaped(fact.value));
+      list += fmt::format("- {}\n", escaped_line(fmt::format("{}: {}", fact.name, fact.value)));
     return list + "\n";
   }
   std::string operator()(const TableBlock& block) const { return table_markdown(block); }
@@ -72,8 +86,12 @@ struct BlockMarkdown {
     return fmt::format("### {}\n\n", escaped(block.title));
   }
   std::string operator()(const VerbatimBlock& block) const {
-    const std::string title = block.title.empty() ? "" : fmt::format("{}:\n\n", escaped(block.title));
-    return fmt::format("{}```\n{}{}```\n\n", title, block.lines, block.lines.ends_with('\n') ? "" : "\n");
+    const std::string title =
+        block.title.empty() ? "" : fmt::format("{}\n\n", escaped_line(block.title + ":"));
+    std::string fence = "```";
+    while (block.lines.find(fence) != std::string::npos) fence += '`';
+    return fmt::format("{}{}\n{}{}{}\n\n", title, fence, block.lines, block.lines.ends_with('\n') ? "" : "\n",
+                       fence);
   }
 };
 

@@ -14,6 +14,7 @@
 #include "analysis/text/quantity.hpp"
 #include "analysis/text/text.hpp"
 #include "core/numerics/bisection.hpp"
+#include "core/text/counted.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "results/layout/measure_table.hpp"
 
@@ -34,7 +35,7 @@ std::string band_text(const study::Goal& goal) {
     return "|position error| ≤ " +
            text::quantity_text(*goal.tolerance, parameters::unit_on(goal.axis, "rad"), goal_digits);
   if (goal.band == 0) return "error 0";
-  return fmt::format("|error| ≤ {} count{}", goal.band, goal.band == 1 ? "" : "s");
+  return fmt::format("|error| ≤ {}", text::counted(goal.band, "count"));
 }
 
 /// The largest value of a limit with its unit: "200 counts", "45 N", "1 µm".
@@ -199,14 +200,15 @@ std::string readings_text(const study::Goal& goal, const measures::MoveCounts& c
   if (counts.rigs.empty()) return text;
   const std::int64_t rigs = std::ssize(counts.rigs);
   const std::int64_t moves = counts.rigs.front().moves;
-  text += fmt::format("  machines without a miss in their {} moves: {} of {}", moves,
+  text += fmt::format("  machines without a miss in their {}: {} of {}", text::counted(moves, "move"),
                       verdict.rigs_without_miss, rigs);
   if (!goal.machines) return text + '\n';
   text += fmt::format("; {} of all machines\n", with_bounds(verdict.without_miss));
   text += fmt::format(
-      "  machines that meet it in at least {} of their moves: {} of {} by their {} moves; {} of all "
+      "  machines that meet it in at least {} of their moves: {} of {} by their {}; {} of all "
       "machines\n",
-      text::percent(goal.moves), verdict.rigs_meeting, rigs, moves, with_bounds(verdict.machines));
+      text::percent(goal.moves), verdict.rigs_meeting, rigs, text::counted(moves, "move"),
+      with_bounds(verdict.machines));
   return text + indented(one_machine_text(goal, shape_of(counts), verdict));
 }
 
@@ -244,11 +246,11 @@ std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_
         on_rigs ? " on 10⁵ rigs" : "", chance);
   }
   if (needs.rigs == 0)
-    return fmt::format("About {} trials decide it with a probability of {}, by what these leave likely",
-                       needs.trials, chance);
+    return fmt::format("About {} decide it with a probability of {}, by what these leave likely",
+                       text::counted(needs.trials, "trial"), chance);
   const std::int64_t each = needs.trials / needs.rigs;
-  return fmt::format("About {} rigs with {} trial{} each decide it with a probability of {}, {}", needs.rigs,
-                     each, each == 1 ? "" : "s", chance,
+  return fmt::format("About {} with {} each decide it with a probability of {}, {}",
+                     text::counted(needs.rigs, "rig"), text::counted(each, "trial"), chance,
                      goal.machines ? "if machines are as these" : "by what these leave likely");
 }
 

@@ -5,6 +5,7 @@
 #include "analysis/jerks/jerk_report.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
+#include "core/text/counted.hpp"
 
 namespace zerocount::jerks {
 namespace {
@@ -160,8 +161,8 @@ Description<JerkStatistics> statistics_description() {
 std::string counts_sentence(const PointReading& point) {
   const JerkStatistics& jerks = point.statistics();
   return fmt::format(
-      "{} jerks in {} of {} trials; {} of {} moves arrived{}", jerks.jerks, jerks.with_jerks, jerks.trials,
-      jerks.arrived, jerks.moves,
+      "{} in {} of {}; {} of {} arrived{}", text::counted(jerks.jerks, "jerk"), jerks.with_jerks,
+      text::counted(jerks.trials, "trial"), jerks.arrived, text::counted(jerks.moves, "move"),
       jerks.lost > 0 ? fmt::format(", {} of these failed numerically and are excluded", jerks.lost) : "");
 }
 
@@ -248,8 +249,8 @@ std::string headline(const JerkReport& report) {
     all.with_jerks += point.statistics.with_jerks;
     all.trials += point.statistics.trials;
   }
-  return fmt::format("{}: {} jerks in {} of {} trials", text::printable(report.name), all.jerks,
-                     all.with_jerks, all.trials);
+  return fmt::format("{}: {} in {} of {}", text::printable(report.name), text::counted(all.jerks, "jerk"),
+                     all.with_jerks, text::counted(all.trials, "trial"));
 }
 
 constexpr const char* legend =

@@ -11,6 +11,7 @@
 #include "analysis/report/report_sections.hpp"
 #include "analysis/report/reported_study.hpp"
 #include "analysis/text/text.hpp"
+#include "core/text/counted.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -74,9 +75,10 @@ std::vector<HtmlFact> facts_of(const ReportedStudy& reported) {
       {"Compiler, processor", fmt::format("{}; {}", made.compiler, made.cpu)},
       {"SHA-256 of the manifest", header.manifest_sha256},
       {"To repeat it", commands_text(reported)},
-      {"Trials", fmt::format("{} at each of {} design point{}, {} move{} each: {} trials", header.trials,
-                             header.points, header.points == 1 ? "" : "s", reported.file.moves(),
-                             reported.file.moves() == 1 ? "" : "s", header.points * header.trials)},
+      {"Trials",
+       fmt::format("{} at each of {}, {} each: {}", header.trials,
+                   text::counted(header.points, "design point"), text::counted(reported.file.moves(), "move"),
+                   text::counted(header.points * header.trials, "trial"))},
       {"Design", design_text(reported.study)}};
   if (!header.overrides.empty())
     facts.push_back({"Set on the command line", fmt::format("{}", fmt::join(header.overrides, ", "))});

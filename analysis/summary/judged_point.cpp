@@ -1,6 +1,10 @@
 #include "analysis/summary/judged_point.hpp"
 
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/summary/worlds_of_point.hpp"
@@ -15,6 +19,19 @@ const measures::PointSummary& statistics_of(const StudySummary& summary, std::in
 /// The goal that the verdict is of.
 const study::Goal& worst_goal(const StudySummary& summary, const goal::Verdict& verdict) {
   return *summary.question.parts[verdict.goal].claim;
+}
+
+/// "'large' and 'small'"; empty where fewer than two goals are missed.
+std::string missed_goals(const goal::Question& question, const goal::Verdict& verdict) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < verdict.goals.size(); ++i) {
+    if (verdict.goals[i].status == goal::Status::missed)
+      names.push_back(fmt::format("'{}'", question.parts[i].claim->name));
+  }
+  if (names.size() < 2) return "";
+  const std::string last = names.back();
+  names.pop_back();
+  return fmt::format("{} and {}", fmt::join(names, ", "), last);
 }
 
 std::size_t points_of(const ChosenPoint& chosen) {
@@ -58,6 +75,8 @@ std::string judgement_headline(const StudySummary& summary, const JudgedPoint& j
                            under);
       return fmt::format("{}: the goal is met{}", name, under.empty() ? "" : ", by the least" + under);
     case goal::Status::missed:
+      if (const std::string all = missed_goals(question, judged.verdict); !all.empty())
+        return fmt::format("{}: the goals {} are missed,{} by the most{}", name, all, worst, under);
       return fmt::format("{}: the goal{} is missed{}", name, worst, under);
     case goal::Status::undecided:
       break;

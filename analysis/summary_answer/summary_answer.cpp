@@ -16,6 +16,7 @@
 #include "analysis/summary_answer/point_description.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
+#include "core/text/counted.hpp"
 
 namespace zerocount::summary_answer {
 namespace {
@@ -37,12 +38,11 @@ std::int64_t rigs_of(const StudySummary& summary) {
 
 /// "paper-gains: 8 points × 2000 trials on 100 rigs".
 std::string size_line(const StudySummary& summary) {
-  const std::size_t points = summary.points.size();
   std::string line =
-      fmt::format("{}: {} point{}", text::printable(summary.name), points, points == 1 ? "" : "s");
+      fmt::format("{}: {}", text::printable(summary.name), text::counted(summary.points.size(), "point"));
   if (const std::optional<std::int64_t> trials = trials_of_each(summary))
-    line += fmt::format(" × {} trials", *trials);
-  if (summary.features.rigs) line += fmt::format(" on {} rigs", rigs_of(summary));
+    line += " × " + text::counted(*trials, "trial");
+  if (summary.features.rigs) line += " on " + text::counted(rigs_of(summary), "rig");
   return line;
 }
 

@@ -97,6 +97,11 @@ Json by_path(Json patterns) {
   return {{"type", "object"}, {"patternProperties", std::move(patterns)}, {"additionalProperties", false}};
 }
 
+// A name that the user gives to a case, a condition or a goal, which stands on one line.
+Json name_schema() {
+  return {{"pattern", "^[^\\t\\r\\n]*$"}};
+}
+
 // The values that a case or a condition gives to parameters, by pattern.
 Json assignments_schema() {
   Json assignments = Json::object();
@@ -133,7 +138,10 @@ Json sweep_schema() {
   const std::string of_plugin = fmt::format("^controller\\.parameters\\.{}$", plugin_name);
   grid[of_plugin] = {{"anyOf", {list_of(value_schema(plugin_value()), 1), spacing_schema()}}};
   return object_of({{"grid", by_path(std::move(grid))},
-                    {"cases", {{"type", "object"}, {"additionalProperties", assignments_schema()}}}});
+                    {"cases",
+                     {{"type", "object"},
+                      {"propertyNames", name_schema()},
+                      {"additionalProperties", assignments_schema()}}}});
 }
 
 // The ranges of tune.free.
@@ -165,7 +173,7 @@ Json own_schemas() {
   const Json text{{"type", "string"}};
   return {
       {"zerocount", {{"const", keys::manifest_version}}},
-      {"name", {{"type", "string"}, {"pattern", "\\S"}}},
+      {"name", {{"type", "string"}, {"pattern", "^[^\\t\\r\\n]*[^\\s][^\\t\\r\\n]*$"}}},
       {"seed", {{"type", "integer"}, {"minimum", 0}, {"maximum", std::numeric_limits<std::uint64_t>::max()}}},
       {"retain",
        object_of(
@@ -203,7 +211,10 @@ Json own_schemas() {
                  {"text", text}},
                 {"successes", "of"})}}}}}},
       {"conditions",
-       {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", assignments_schema()}}},
+       {{"type", "object"},
+        {"minProperties", 1},
+        {"propertyNames", name_schema()},
+        {"additionalProperties", assignments_schema()}}},
       {"ages",
        object_of({{"at", list_of(number_in(numerics::at_least(0)), 1)},
                   {"unit", {{"type", "string"}, {"pattern", "^\\S+$"}, {"default", study::Ages{}.unit}}}},
@@ -243,6 +254,7 @@ Json own_schema(std::string_view name) {
   if (name == "goals") {
     return {{"type", "object"},
             {"minProperties", 1},
+            {"propertyNames", name_schema()},
             {"additionalProperties", form_schema(*keys::find_general_key("goal"))}};
   }
   static const Json schemas = own_schemas();

@@ -53,7 +53,7 @@ void check_version(Manifest& m) {
 void read_name(Manifest& m) {
   const auto field = yaml::find_field(m.root, "name");
   if (!field) return;
-  m.study().name = yaml::read_text(*field, m.problems()).value_or("");
+  m.study().name = yaml::read_line(*field, m.problems()).value_or("");
   if (field->node->kind == yaml::YamlNode::Kind::scalar &&
       field->node->text.find_first_not_of(" \t\r\n") == std::string::npos) {
     m.problems().add(*field, "the name is empty", "a name for the study");

@@ -137,7 +137,13 @@ std::vector<ValueRule> rules_of_holding(const std::string& torque_unit) {
          const double largest = max_abs(l[torque]);
          // The bristle of dahl yields at the Coulomb level.
          const double level = l[breakaway].low * (law == friction::FrictionModel::dahl ? l[ratio].low : 1.0);
-         if (largest >= level && largest > 0.0)
+         if (level == 0.0 && largest > 0.0)
+           faults.push_back({fmt::format("a disturbance of {} {} can reach the friction that is to hold it: "
+                                         "friction.breakaway is drawn without a smallest value above 0",
+                                         largest, torque_unit),
+                             fmt::format("a distribution of friction.breakaway with a smallest value above "
+                                         "that, such as uniform or truncated_normal")});
+         else if (largest >= level && largest > 0.0)
            faults.push_back({fmt::format("a disturbance of {} {} can reach the friction of {} {} that is to "
                                          "hold it",
                                          largest, torque_unit, level, torque_unit),

@@ -39,7 +39,7 @@ std::vector<double> read_at(const yaml::Field& list, yaml::Problems& problems) {
 }
 
 void read_unit(const yaml::Field& field, study::Ages& ages, yaml::Problems& problems) {
-  const auto unit = yaml::read_text(field, problems);
+  const auto unit = yaml::read_line(field, problems);
   if (!unit) return;
   if (unit->empty() || unit->find_first_of(" \t\r\n") != std::string::npos) {
     problems.add(field, "the unit of ages is not one word", "a word such as cycles, h or km");

@@ -72,7 +72,7 @@ bool is_unreadable(const study::StudyPlan& plan, std::size_t slot) {
 
 // The slot of a parameter that is drawn at some design point, and that a copula can have.
 std::optional<std::uint32_t> read_drawn(const yaml::Field& field, keys::Reading& reading) {
-  const auto name = yaml::read_text(field, reading.problems);
+  const auto name = yaml::read_line(field, reading.problems);
   if (!name) return std::nullopt;
   const std::vector<std::string> known = drawn_names(reading.plan);
   const auto slots = study::find_slots(*name, reading.plan.table);

@@ -15,7 +15,7 @@ void read_plugin(const yaml::Field& root, const PluginLoader& load, keys::Readin
   const auto controller = yaml::find_field(root, "controller");
   const auto field = controller ? yaml::find_field(*controller, "plugin") : std::nullopt;
   if (!field) return;
-  const auto path = yaml::read_text(*field, reading.problems);
+  const auto path = yaml::read_line(*field, reading.problems);
   if (!path) return;
   if (!load) {
     reading.problems.add(*field, "this command does not load plugins", "the command check, run or trace");

@@ -142,7 +142,7 @@ std::optional<yaml::Field> find_file(const yaml::Field& field, yaml::Problems& p
 
 std::optional<std::string> read_table(const yaml::Field& file, const SamplesReader& read,
                                       yaml::Problems& problems) {
-  const auto path = yaml::read_text(file, problems);
+  const auto path = yaml::read_line(file, problems);
   if (!path) return std::nullopt;
   if (!read) {
     problems.add(file, "this command does not read samples", "the command check, run or trace");

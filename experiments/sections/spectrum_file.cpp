@@ -69,7 +69,7 @@ std::vector<std::string> spectrum_overrides(const yaml::YamlNode& root, const Sa
   for (std::size_t i = 0; i < list->node->items.size(); ++i) {
     const auto spectrum = yaml::find_field(yaml::item_of(*list, i), "spectrum");
     if (!spectrum || spectrum->node->kind != yaml::YamlNode::Kind::scalar) continue;
-    const auto file = yaml::read_text(*spectrum, problems);
+    const auto file = yaml::read_line(*spectrum, problems);
     if (!file) continue;
     if (!read) {
       problems.add(*spectrum, "this command does not read files of spectra", "a list of pairs");

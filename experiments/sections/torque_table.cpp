@@ -174,7 +174,7 @@ std::vector<std::string> torque_record_overrides(const yaml::YamlNode& root, con
   const auto torque = command ? yaml::find_field(*command, "torque") : std::nullopt;
   const auto file = torque ? yaml::find_field(*torque, "file") : std::nullopt;
   if (!file || file->node->kind != yaml::YamlNode::Kind::scalar) return {};
-  const auto name = yaml::read_text(*file, problems);
+  const auto name = yaml::read_line(*file, problems);
   if (!name) return {};
   if (!read) {
     problems.add(*file, "this command does not read files of torques", "a list of pairs");

@@ -234,6 +234,13 @@ std::optional<std::string> read_text(const Field& field, Problems& problems) {
   return node.text;
 }
 
+std::optional<std::string> read_line(const Field& field, Problems& problems) {
+  std::optional<std::string> text = read_text(field, problems);
+  if (!text || text->find_first_of("\t\r\n") == std::string::npos) return text;
+  problems.add(field, "a line break or a tab in a name", "a text on one line");
+  return std::nullopt;
+}
+
 bool check_map(const Field& field, const std::string& expected, Problems& problems) {
   return check_kind(field, YamlNode::Kind::map, expected, problems);
 }

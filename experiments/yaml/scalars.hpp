@@ -47,6 +47,9 @@ std::optional<std::size_t> read_label(const Field& field, std::span<const std::s
 /// A text; a text that YAML would read as a number, a boolean or null must be quoted.
 std::optional<std::string> read_text(const Field& field, Problems& problems);
 
+/// A text on one line, such as a name or a path. @returns nothing after a report
+std::optional<std::string> read_line(const Field& field, Problems& problems);
+
 /// Reports that `field` has the wrong type, and describes its value.
 void add_wrong_type(const Field& field, const std::string& expected, Problems& problems);
 

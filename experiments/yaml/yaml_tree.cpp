@@ -181,6 +181,8 @@ class TreeBuilder : public YAML::EventHandler {
   void accept_key(Open& parent, const YamlNode& key, const Place& where) {
     if (key.kind == YamlNode::Kind::list || key.kind == YamlNode::Kind::map) refuse_as_key(where);
     if (key.kind == YamlNode::Kind::null) refuse(where, "the key is empty", "a name as the key");
+    if (key.text.find_first_of("\t\r\n") != std::string::npos)
+      refuse(where, "a line break or a tab in a key", "a name on one line");
     if (key.text == "<<") refuse(where, "merge keys are not supported", "the keys themselves");
     parent.node.entries.push_back({key.text, where, nullptr});
     parent.has_key = true;

@@ -23,14 +23,6 @@ std::string value_text(const layout::RecordField<Record>& field, const Record& r
                                                      : std::to_string(whole);
 }
 
-/// True if a spreadsheet would take a cell of this text for a formula or a command: it begins with = or @, or
-/// with a sign before something other than a number with a unit.
-bool is_formula(std::string_view text);
-
-/// A field of CSV (RFC 4180): quoted where it holds a comma, a quote or a line break. A formula gets an
-/// apostrophe before it, so that a spreadsheet shows it as text.
-std::string csv_field(std::string_view text);
-
 /// The name of a column with its unit, such as "settling_time [s]"; the name alone where it has none ("1" or
 /// nothing).
 std::string head_with_unit(std::string_view name, std::string_view unit);

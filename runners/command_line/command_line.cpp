@@ -19,10 +19,6 @@ namespace po = boost::program_options;
 
 constexpr const char* operand_key = "operand";
 
-std::string long_name(const OptionSpec& option) {
-  return option.name.substr(0, option.name.find(','));
-}
-
 /// @param given as the user wrote it ("--outptu")
 std::string unknown_option(const CommandSpec& spec, const std::string& given) {
   std::vector<std::string> known;
@@ -87,6 +83,10 @@ std::string words_text(const std::vector<std::string>& words) {
 
 }  // namespace
 
+std::string long_name(const OptionSpec& option) {
+  return option.name.substr(0, option.name.find(','));
+}
+
 OptionSpec choice_option(std::string name, std::string value, std::vector<std::string> words,
                          const std::string& help) {
   OptionSpec option{std::move(name), std::move(value), words_text(words) + (help.empty() ? "" : ": " + help)};
@@ -106,6 +106,26 @@ OptionSpec excluding(std::vector<std::string> conditions, OptionSpec option) {
 
 OptionSpec of_operands(std::vector<std::string> operands, OptionSpec option) {
   option.operands = std::move(operands);
+  return option;
+}
+
+OptionSpec read_file(OptionSpec option) {
+  option.file = FileUse::read;
+  return option;
+}
+
+OptionSpec written_file(OptionSpec option) {
+  option.file = FileUse::written;
+  return option;
+}
+
+OptionSpec renewed_file(OptionSpec option) {
+  option.file = FileUse::renewed;
+  return option;
+}
+
+OptionSpec list_of(std::vector<std::string> words, OptionSpec option) {
+  option.list = std::move(words);
   return option;
 }
 
@@ -212,6 +232,10 @@ std::string Arguments::choice(std::string_view option) const {
   const OptionSpec& spec = *find_spec(spec_, option);
   const auto other = spec.other_names.find(value(option).value_or(""));
   return other != spec.other_names.end() ? other->second : one_of(option, spec.words);
+}
+
+FileUse Arguments::file_use(std::string_view option) const {
+  return find_spec(spec_, option)->file;
 }
 
 std::string Arguments::one_of(std::string_view option, const std::vector<std::string>& words) const {

@@ -1,51 +1,20 @@
 #include "runners/command_line/option_values.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "core/text/number_text.hpp"
+#include "experiments/study/point_label.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 
 namespace zerocount::command_line {
 namespace {
 
-/// The label as tables shorten it: "kp=400 ki=8e4" for "controller.kp=400, controller.ki=8e4".
-std::string without_paths(const std::string& label) {
-  std::istringstream words(label);
-  std::string shortened;
-  for (std::string word; words >> word;) {
-    if (word.ends_with(',')) word.pop_back();
-    const std::size_t dot = word.rfind('.', word.find('='));
-    if (word.find('=') != std::string::npos && dot != std::string::npos) word.erase(0, dot + 1);
-    shortened += (shortened.empty() ? "" : " ") + word;
-  }
-  return shortened;
-}
-
-/// The only point with this short label; nothing if there are none or several.
-std::optional<std::int64_t> point_with_short_label(const std::string& text,
-                                                   std::span<const std::string> labels) {
-  std::optional<std::int64_t> found;
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (without_paths(labels[i]) != without_paths(text)) continue;
-    if (found) return std::nullopt;
-    found = static_cast<std::int64_t>(i);
-  }
-  return found;
-}
-
-/// Labels take precedence over indices, because a label may be a number.
-std::int64_t point_named(const Arguments& arguments, std::string_view option, const std::string& text,
-                         std::span<const std::string> labels) {
-  const auto found = std::find(labels.begin(), labels.end(), text);
-  if (found != labels.end()) return found - labels.begin();
-  const std::optional<std::int64_t> number = text::parse_number<std::int64_t>(text);
-  if (number && *number >= 0 && *number < std::ssize(labels)) return *number;
-  if (const auto point = point_with_short_label(text, labels)) return *point;
+std::int64_t point_of(const Arguments& arguments, std::string_view option, const std::string& text,
+                      std::span<const std::string> labels) {
+  if (const auto point = study::point_named(text, labels)) return *point;
   const std::string_view near = yaml::nearest_name(text, labels);
   arguments.refuse(fmt::format(
       "option '--{}': '{}' is not a design point; expected a number from 0 to {}, or a label{}", option, text,
@@ -99,7 +68,7 @@ std::optional<double> probability_option(const Arguments& arguments, std::string
 std::vector<std::int64_t> point_options(const Arguments& arguments, std::span<const std::string> labels) {
   std::vector<std::int64_t> points;
   for (const std::string& text : arguments.values("point"))
-    points.push_back(point_named(arguments, "point", text, labels));
+    points.push_back(point_of(arguments, "point", text, labels));
   return points;
 }
 
@@ -108,8 +77,8 @@ std::optional<std::pair<std::int64_t, std::int64_t>> point_pair_option(const Arg
                                                                        std::span<const std::string> labels) {
   const std::vector<std::string>& texts = arguments.values(option);
   if (texts.empty()) return std::nullopt;
-  return std::pair(point_named(arguments, option, texts[0], labels),
-                   point_named(arguments, option, texts[1], labels));
+  return std::pair(point_of(arguments, option, texts[0], labels),
+                   point_of(arguments, option, texts[1], labels));
 }
 
 std::optional<std::int64_t> point_option(const Arguments& arguments, std::span<const std::string> labels) {

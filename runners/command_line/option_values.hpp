@@ -34,8 +34,7 @@ struct Budget {
 /// @throws Failure (bad_input) for anything else.
 Budget budget_option(const Arguments& arguments);
 
-/// The design points of --point, given by label or by number from 0; empty if the option is missing. Labels
-/// may be shortened as tables shorten them: "ki=5000" for "controller.ki=5000".
+/// The design points of --point, as study::point_named() reads them; empty if the option is missing.
 /// @param labels of all points, in their order
 /// @throws Failure (bad_input) for anything else.
 std::vector<std::int64_t> point_options(const Arguments& arguments, std::span<const std::string> labels);

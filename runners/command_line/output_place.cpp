@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -39,8 +42,65 @@ fs::path file_in_folder(const Arguments& arguments, std::string_view option) {
   return output;
 }
 
-/// @throws Failure: bad_input if `output` exists and --force is not given; machine_failed if it is
-/// write-protected.
+fs::path output_of_option(const Arguments& arguments, std::string_view option) {
+  const FileUse use = arguments.file_use(option);
+  if (use != FileUse::written && use != FileUse::renewed)
+    throw std::logic_error("option not declared as an output");
+  fs::path output = file_in_folder(arguments, option);
+  if (use == FileUse::written) require_replaceable(arguments, output);
+  return output;
+}
+
+/// Where a path leads to, also a file that does not exist.
+fs::path destination(const fs::path& path) {
+  std::error_code error;
+  const fs::path whole = fs::absolute(path, error);
+  const fs::path canonical = fs::weakly_canonical(whole, error);
+  return error ? whole.lexically_normal() : canonical;
+}
+
+bool are_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error) || destination(a) == destination(b);
+}
+
+/// A file of a command, and where the user names it: "--report", or "" of an operand.
+struct NamedFile {
+  fs::path path;
+  std::string option;
+};
+
+struct CommandFiles {
+  std::vector<NamedFile> inputs;
+  std::vector<NamedFile> outputs;
+};
+
+CommandFiles files_of(const Arguments& arguments) {
+  CommandFiles files;
+  const std::size_t words = arguments.spec().operand_words.empty() ? 0 : 1;
+  for (std::size_t i = words; i < arguments.operands().size(); ++i)
+    files.inputs.push_back({arguments.operands()[i], ""});
+  for (const OptionSpec& option : arguments.spec().options) {
+    if (option.file == FileUse::none) continue;
+    const std::string name = long_name(option);
+    std::vector<NamedFile>& list = option.file == FileUse::read ? files.inputs : files.outputs;
+    for (const std::string& path : arguments.values(name)) list.push_back({path, "--" + name});
+  }
+  return files;
+}
+
+[[noreturn]] void refuse_input(const Arguments& arguments, const fs::path& output) {
+  arguments.refuse(
+      fmt::format("{} is an input and must not be overwritten; name another output", output.string()));
+}
+
+[[noreturn]] void refuse_equal_outputs(const Arguments& arguments, const fs::path& output,
+                                       const std::string& options = "") {
+  arguments.refuse(fmt::format("{} is the name of two outputs{}; name two files", output.string(), options));
+}
+
+}  // namespace
+
 void require_replaceable(const Arguments& arguments, const fs::path& output) {
   std::error_code error;
   if (arguments.has("force")) return storage::require_replaceable(output);
@@ -50,7 +110,29 @@ void require_replaceable(const Arguments& arguments, const fs::path& output) {
       fmt::format("{}: exists already; give --force to replace it, or name another file", output.string()));
 }
 
-}  // namespace
+void require_separate_files(const Arguments& arguments) {
+  const CommandFiles files = files_of(arguments);
+  if (std::ranges::count_if(files.inputs, yaml::is_standard_stream, &NamedFile::path) > 1)
+    arguments.refuse("standard input (-) can be read only once");
+  for (std::size_t i = 0; i < files.outputs.size(); ++i) {
+    const NamedFile& output = files.outputs[i];
+    for (const NamedFile& other : std::span(files.outputs).first(i)) {
+      if (are_same_file(output.path, other.path))
+        refuse_equal_outputs(arguments, output.path,
+                             fmt::format(" ({} and {})", other.option, output.option));
+    }
+    if (yaml::is_standard_stream(output.path)) continue;
+    for (const NamedFile& input : files.inputs) {
+      if (are_same_file(output.path, input.path)) refuse_input(arguments, output.path);
+    }
+  }
+}
+
+std::vector<fs::path> outputs_of(const Arguments& arguments) {
+  std::vector<fs::path> outputs;
+  for (NamedFile& output : files_of(arguments).outputs) outputs.push_back(std::move(output.path));
+  return outputs;
+}
 
 OptionSpec force_option() {
   return {"force", "", "replace an output that exists already"};
@@ -60,45 +142,25 @@ fs::path output_place(const Arguments& arguments) {
   if (yaml::is_standard_stream(arguments.required("output"))) {
     arguments.refuse("option '--output': a results file cannot go to standard output; name a file");
   }
-  return file_in_folder(arguments, "output");
+  return output_of_option(arguments, "output");
 }
 
 std::optional<fs::path> text_place(const Arguments& arguments, std::string_view option) {
   if (!arguments.has(option)) return std::nullopt;
   fs::path place = arguments.required(option);
   if (yaml::is_standard_stream(place)) return place;
-  return file_in_folder(arguments, option);
+  return output_of_option(arguments, option);
 }
 
-void require_no_input(const Arguments& arguments, const fs::path& output, std::span<const fs::path> inputs) {
-  std::error_code error;
-  for (const fs::path& input : inputs) {
-    if (fs::equivalent(input, output, error)) {
-      arguments.refuse(
-          fmt::format("{} is an input and must not be overwritten; name another output", output.string()));
-    }
+void require_no_output(const Arguments& arguments, const fs::path& input, std::span<const fs::path> outputs) {
+  for (const fs::path& output : outputs) {
+    if (!yaml::is_standard_stream(output) && are_same_file(input, output)) refuse_input(arguments, output);
   }
 }
 
 void require_apart(const Arguments& arguments, const fs::path& output, std::span<const fs::path> others) {
-  std::error_code error;
   for (const fs::path& other : others) {
-    if (fs::weakly_canonical(fs::absolute(output), error) ==
-        fs::weakly_canonical(fs::absolute(other), error)) {
-      arguments.refuse(fmt::format("{} is the name of two outputs; name two files", output.string()));
-    }
-  }
-}
-
-void require_places(const Arguments& arguments, const std::vector<fs::path>& inputs,
-                    const std::vector<fs::path>& outputs) {
-  if (std::count_if(inputs.begin(), inputs.end(), yaml::is_standard_stream) > 1) {
-    arguments.refuse("standard input (-) can be read only once");
-  }
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    require_no_input(arguments, outputs[i], inputs);
-    require_apart(arguments, outputs[i], std::span(outputs).first(i));
-    if (!yaml::is_standard_stream(outputs[i])) require_replaceable(arguments, outputs[i]);
+    if (are_same_file(output, other)) refuse_equal_outputs(arguments, output);
   }
 }
 

@@ -64,35 +64,33 @@ document::AnswerDescription<Moment> moment_answer() {
 
 }  // namespace
 
-void require_page_place(const command_line::Arguments& arguments, const std::vector<fs::path>& others,
-                        const fs::path& page) {
+void require_page_place(const command_line::Arguments& arguments, const fs::path& page) {
+  if (yaml::is_standard_stream(page)) return;
   if (report::is_unfinished_page(page)) return storage::require_replaceable(page);
-  command_line::require_places(arguments, others, {page});
-  if (!yaml::is_standard_stream(page)) command_line::require_apart(arguments, page, others);
+  command_line::require_replaceable(arguments, page);
 }
 
-std::optional<fs::path> page_option(const command_line::Arguments& arguments, const std::string& option,
-                                    const std::vector<fs::path>& others) {
+std::optional<fs::path> page_option(const command_line::Arguments& arguments, const std::string& option) {
   std::optional<fs::path> page = command_line::text_place(arguments, option);
   if (!page) return page;
   if (drawing_kind(arguments, option, *page) != DrawingKind::page)
     arguments.refuse(fmt::format("option '--{}': '{}' does not end in .html", option, page->string()));
-  require_page_place(arguments, others, *page);
+  require_page_place(arguments, *page);
   report::require_drawing_libraries();
   return page;
 }
 
 command_line::OptionSpec watch_option() {
-  return {"watch", "PAGE",
-          "a page (*.html) for a browser that shows the work while it is done, and at the end its answer"};
+  return command_line::renewed_file(
+      {"watch", "PAGE",
+       "a page (*.html) for a browser that shows the work while it is done, and at the end its answer"});
 }
 
-std::optional<fs::path> watched_page(const command_line::Arguments& arguments,
-                                     const std::vector<fs::path>& others) {
+std::optional<fs::path> watched_page(const command_line::Arguments& arguments) {
   if (const auto page = arguments.value("watch"); page && yaml::is_standard_stream(*page))
     arguments.refuse(
         "option '--watch': a page that is written again cannot go to standard output; name a file");
-  return page_option(arguments, "watch", others);
+  return page_option(arguments, "watch");
 }
 
 LivePage::LivePage(std::optional<fs::path> place, report::ReportPage frame, Sections so_far)

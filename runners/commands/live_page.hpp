@@ -18,26 +18,21 @@
 
 namespace zerocount::commands {
 
-/// Checks the place of a page, as command_line::require_places. A page that is unfinished
+/// Checks the place of a page, as command_line::require_replaceable. A page that is unfinished
 /// (report::is_unfinished_page) is replaced without --force, because the same command goes on.
-/// @param others inputs and outputs of the command
-void require_page_place(const command_line::Arguments& arguments,
-                        const std::vector<std::filesystem::path>& others, const std::filesystem::path& page);
+void require_page_place(const command_line::Arguments& arguments, const std::filesystem::path& page);
 
 /// The page of `option`, such as --report, once it can be written; nothing without the option.
-/// @param others inputs and outputs of the command
-/// @throws Failure as command_line::text_place and require_places; bad_input if it does not end in .html;
+/// @throws Failure as command_line::text_place and require_page_place; bad_input if it does not end in .html;
 /// machine_failed if the program cannot draw
 std::optional<std::filesystem::path> page_option(const command_line::Arguments& arguments,
-                                                 const std::string& option,
-                                                 const std::vector<std::filesystem::path>& others);
+                                                 const std::string& option);
 
 /// `--watch`, the place of a LivePage.
 command_line::OptionSpec watch_option();
 
 /// Likewise of watch_option(), which is not standard output.
-std::optional<std::filesystem::path> watched_page(const command_line::Arguments& arguments,
-                                                  const std::vector<std::filesystem::path>& others);
+std::optional<std::filesystem::path> watched_page(const command_line::Arguments& arguments);
 
 /// A page that shows long work while it is done: how far it is, and the answer so far.
 ///

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -26,7 +27,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The study whose trials a complete results file holds.
-study::Study study_in_file(const fs::path& path, const command_line::Arguments& arguments, bool writes) {
+study::Study study_in_file(const fs::path& path, const command_line::Arguments& arguments, StudyUse use) {
   if (!arguments.values("set").empty())
     arguments.refuse("option '--set': changes a manifest, not a results file; expected a manifest");
   const reading::ResultsFile file(path);
@@ -34,7 +35,7 @@ study::Study study_in_file(const fs::path& path, const command_line::Arguments& 
   const auto differs = [&](const parameters::EarlierDefault& earlier) {
     return file.header().version <= earlier.until_version;
   };
-  if (writes && std::ranges::any_of(parameters::earlier_defaults(), differs))
+  if (use == StudyUse::to_make_files && std::ranges::any_of(parameters::earlier_defaults(), differs))
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: the program that wrote it had other defaults, so that its manifest now "
                               "means another study; expected a manifest",
@@ -61,21 +62,21 @@ study::Study described_study(const fs::path& path) {
   return layout::recorded_study(shards::inspect_header(path, layout::Checksum::not_yet), path);
 }
 
-study::Study load_study(const fs::path& operand, const command_line::Arguments& arguments,
-                        std::span<const fs::path> outputs) {
+study::Study load_study(const fs::path& operand, const command_line::Arguments& arguments, StudyUse use) {
+  if (is_results_file(operand)) return study_in_file(operand, arguments, use);
+  const std::vector<fs::path> outputs = command_line::outputs_of(arguments);
   const fs::path folder = yaml::is_stream(operand) ? fs::path() : operand.parent_path();
   const auto input = [&](const fs::path& path) {
-    for (const fs::path& output : outputs) command_line::require_no_input(arguments, output, {&path, 1});
+    command_line::require_no_output(arguments, path, outputs);
     return path;
   };
-  if (is_results_file(operand)) return study_in_file(input(operand), arguments, !outputs.empty());
   const auto load_plugin = [&](const std::string& path) {
     return plugins::load_plugin(input(folder / path));
   };
   const auto read_table = [&](const std::string& path, std::string_view what) {
     return yaml::read_text(input(folder / path), sections::max_samples_size, what);
   };
-  return manifest::load_study(input(operand), arguments.values("set"),
+  return manifest::load_study(operand, arguments.values("set"),
                               {.plugin = load_plugin, .samples = read_table});
 }
 

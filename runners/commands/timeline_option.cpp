@@ -14,21 +14,19 @@ namespace zerocount::commands {
 namespace fs = std::filesystem;
 
 command_line::OptionSpec timeline_option() {
-  return {"timeline", "FILE",
-          "write which thread did what, and when, for Perfetto or chrome://tracing (Trace Event Format)"};
+  return command_line::renewed_file(
+      {"timeline", "FILE",
+       "write which thread did what, and when, for Perfetto or chrome://tracing (Trace Event Format)"});
 }
 
-std::optional<fs::path> timeline_place(const command_line::Arguments& arguments,
-                                       const std::vector<fs::path>& inputs,
-                                       const std::vector<fs::path>& outputs) {
+std::optional<fs::path> timeline_place(const command_line::Arguments& arguments) {
   std::optional<fs::path> place = command_line::text_place(arguments, "timeline");
-  if (!place) return place;
-  if (!yaml::is_standard_stream(*place) && timeline::is_timeline(storage::bytes_at(*place, 0, 64))) {
+  if (!place || yaml::is_standard_stream(*place)) return place;
+  if (timeline::is_timeline(storage::bytes_at(*place, 0, 64))) {
     storage::require_replaceable(*place);
   } else {
-    command_line::require_places(arguments, inputs, {*place});
+    command_line::require_replaceable(arguments, *place);
   }
-  command_line::require_apart(arguments, *place, outputs);
   return place;
 }
 

@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 #include "core/failure/failure.hpp"
 #include "runners/command_line/command_line.hpp"
@@ -20,12 +19,8 @@ command_line::OptionSpec timeline_option();
 
 /// The file of --timeline. A timeline that exists is replaced: the same command, given again after an
 /// interruption, writes it anew.
-/// @param inputs files of the command @param outputs its other ones
-/// @throws Failure (bad_input) if it is another file of the command, or exists and is no timeline and --force
-/// is not given
-std::optional<std::filesystem::path> timeline_place(const command_line::Arguments& arguments,
-                                                    const std::vector<std::filesystem::path>& inputs,
-                                                    const std::vector<std::filesystem::path>& outputs);
+/// @throws Failure (bad_input) if it exists and is no timeline and --force is not given
+std::optional<std::filesystem::path> timeline_place(const command_line::Arguments& arguments);
 
 /// Calls `work`, and writes what it did to `place`, also of work that fails or is interrupted.
 /// @param place none: `work` gets no timeline

@@ -142,9 +142,9 @@ rare::Question question_with_draws(const study::Study& study, const rare::Popula
 
 ExitCode rare(const command_line::Arguments& arguments) {
   const rare::RareSettings settings = settings_of(arguments);
-  const std::optional<std::filesystem::path> timeline =
-      commands::timeline_place(arguments, {arguments.operands()[0]}, {settings.output});
-  const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
+  const std::optional<std::filesystem::path> timeline = commands::timeline_place(arguments);
+  const study::Study study =
+      commands::load_study(arguments.operands()[0], arguments, commands::StudyUse::to_make_files);
   const auto threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
   const rare::Population of{named_point(arguments, study), world_to_ask(arguments, study),
                             condition_to_ask(arguments, study)};
@@ -184,7 +184,7 @@ document::Answer rare_of(const study::Study& study, const rare::Population& of,
 commands::Command rare_command() {
   return {{"rare",
            "MANIFEST -o FILE",
-           {{"output,o", "FILE", "the file of the weighted trials (required)"},
+           {command_line::renewed_file({"output,o", "FILE", "the file of the weighted trials (required)"}),
             answers::format_option(),
             {"event", "EVENT", "in place of a missed goal: MEASURE > x, with > >= < or <="},
             named_point_option(),

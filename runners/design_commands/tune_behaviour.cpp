@@ -1,6 +1,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -36,22 +37,43 @@ std::optional<double> of_rest(Moves row, double summary::RestTorque::*value) {
   return row.rest ? std::optional((*row.rest).*value) : std::nullopt;
 }
 
+/// A row, and the axis that it is of, whose units people are shown.
+struct RowOnAxis {
+  const MoveBehaviour& moves;
+  parameters::AxisKind axis;
+
+  /// The value on such an axis; nothing, so that the column is left out, on another.
+  std::optional<double> on(parameters::AxisKind kind, double value) const {
+    return kind == axis ? std::optional(value) : std::nullopt;
+  }
+};
+using OnAxis = const RowOnAxis&;
+
 /// What people are shown of a row.
-void add_shown_columns(Description<MoveBehaviour>& columns) {
+void add_shown_columns(Description<RowOnAxis>& columns) {
+  using parameters::AxisKind;
   const auto to_people = [](const std::string& heading, Notation notation = Notation::four_digits) {
     return document::Item{.heading = heading, .notation = notation, .shown = Shown::to_people};
   };
-  columns.value(to_people("overshoot p95 (counts)"), [](Moves row) { return row.overshoot.p95; })
-      .value(to_people("(rad, m)"), [](Moves row) { return row.overshoot_length.p95; })
+  columns.value(to_people("overshoot p95 (counts)"), [](OnAxis row) { return row.moves.overshoot.p95; })
+      .value(to_people("(rad)"),
+             [](OnAxis row) { return row.on(AxisKind::rotary, row.moves.overshoot_length.p95); })
+      .value(to_people("(m)"),
+             [](OnAxis row) { return row.on(AxisKind::linear, row.moves.overshoot_length.p95); })
       .value(to_people("(of the step)", Notation::percent),
-             [](Moves row) { return row.overshoot_of_step.p95; })
-      .value(to_people("peak torque (N m, N)"), [](Moves row) { return row.peak_torque.max; })
-      .value(to_people("of the range", Notation::percent), [](Moves row) { return row.peak_of_range.max; })
-      .value(to_people("moves that saturate", Notation::percent), &MoveBehaviour::saturated)
+             [](OnAxis row) { return row.moves.overshoot_of_step.p95; })
+      .value(to_people("peak torque (N m)"),
+             [](OnAxis row) { return row.on(AxisKind::rotary, row.moves.peak_torque.max); })
+      .value(to_people("peak force (N)"),
+             [](OnAxis row) { return row.on(AxisKind::linear, row.moves.peak_torque.max); })
+      .value(to_people("of the range", Notation::percent),
+             [](OnAxis row) { return row.moves.peak_of_range.max; })
+      .value(to_people("moves that saturate", Notation::percent),
+             [](OnAxis row) { return row.moves.saturated; })
       .value(to_people("rms torque at rest"),
-             [](Moves row) { return of_rest(row, &summary::RestTorque::rms); })
+             [](OnAxis row) { return of_rest(row.moves, &summary::RestTorque::rms); })
       .value(to_people("of it changes"),
-             [](Moves row) { return of_rest(row, &summary::RestTorque::changes); });
+             [](OnAxis row) { return of_rest(row.moves, &summary::RestTorque::changes); });
 }
 
 Description<MoveBehaviour> behaviour_columns() {
@@ -88,6 +110,12 @@ Description<MoveBehaviour> behaviour_columns() {
       .value(in_data("rest_torque_changes_of_range",
                      "the same as a proportion of the converter's largest torque", "1"),
              [](Moves row) { return of_rest(row, &summary::RestTorque::of_range); });
+  return columns;
+}
+
+Description<RowOnAxis> shown_columns() {
+  Description<RowOnAxis> columns;
+  columns.include(behaviour_columns(), [](OnAxis row) -> const MoveBehaviour& { return row.moves; });
   add_shown_columns(columns);
   return columns;
 }
@@ -164,7 +192,11 @@ void add_behaviour(Description<Tuning>& items) {
        .heading = "what the moves of the proof do",
        .meaning = "what the moves of the proof do, by goal and condition; the torque at rest is of machines "
                   "of the search where the study does not measure it"},
-      behaviour_columns(), [](Of t) -> const std::vector<MoveBehaviour>& { return t.answer.behaviour; });
+      shown_columns(), [](Of t) {
+        std::vector<RowOnAxis> rows;
+        for (const MoveBehaviour& one : t.answer.behaviour) rows.push_back({one, t.study.units.axis});
+        return rows;
+      });
 }
 
 }  // namespace zerocount::design_commands

@@ -80,13 +80,10 @@ constexpr const char* tune_help =
 
 /// `--manifest`, once it can be written.
 std::optional<std::filesystem::path> manifest_option(const command_line::Arguments& arguments,
-                                                     const study::Study& study,
-                                                     std::vector<std::filesystem::path> others) {
+                                                     const study::Study& study) {
   std::optional<std::filesystem::path> place = command_line::text_place(arguments, "manifest");
   if (!place) return place;
   const std::filesystem::path operand = arguments.operands()[0];
-  others.push_back(operand);
-  command_line::require_places(arguments, others, {*place});
   const bool is_beside = !commands::is_results_file(operand) && !yaml::is_stream(operand) &&
                          operand.parent_path() == place->parent_path();
   if ((study.plugin || study.samples) && !is_beside)
@@ -110,6 +107,13 @@ std::string names_of_extras() {
   for (const tuning::Extra extra : tuning::all_extras)
     names += fmt::format("{}{}", names.empty() ? "" : ",", tuning::name_of(extra));
   return names;
+}
+
+command_line::OptionSpec extras_spec() {
+  std::vector<std::string> words{"none", "all"};
+  for (const tuning::Extra extra : tuning::all_extras) words.emplace_back(tuning::name_of(extra));
+  return command_line::list_of(std::move(words),
+                               {"extras", "E", "none, all (default), or some of " + names_of_extras()});
 }
 
 /// An extra of `--extras`, which the study and the other options allow.
@@ -231,15 +235,10 @@ std::string spent_of(const tuning::TuneBudget& budget, const tuning::SearchProgr
 }
 
 /// `--report`, `--watch` and `--timeline`, once they can be written.
-void take_pages(const command_line::Arguments& arguments, std::vector<std::filesystem::path> others,
-                TuneTask& task) {
-  if (const auto page = commands::page_option(arguments, "report", others)) {
-    task.pages.push_back(*page);
-    others.push_back(*page);
-  }
-  task.watched = commands::watched_page(arguments, others);
-  if (task.watched) others.push_back(*task.watched);
-  task.timeline = commands::timeline_place(arguments, {arguments.operands()[0]}, others);
+void take_pages(const command_line::Arguments& arguments, TuneTask& task) {
+  if (const auto page = commands::page_option(arguments, "report")) task.pages.push_back(*page);
+  task.watched = commands::watched_page(arguments);
+  task.timeline = commands::timeline_place(arguments);
 }
 
 ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
@@ -297,15 +296,12 @@ ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
 ExitCode tune_manifest(const command_line::Arguments& arguments) {
   tuning::TuneSettings settings = tune_settings(arguments);
   settings.output = command_line::output_place(arguments);
-  const study::Study study = commands::load_study(arguments.operands()[0], arguments, {&settings.output, 1});
+  const study::Study study =
+      commands::load_study(arguments.operands()[0], arguments, commands::StudyUse::to_make_files);
   const std::filesystem::path output = settings.output;
   TuneTask task{study, std::move(settings), {}, {}, {}, {}, false};
-  take_pages(arguments, {arguments.operands()[0], output}, task);
-  std::vector<std::filesystem::path> others = task.pages;
-  others.push_back(output);
-  if (task.watched) others.push_back(*task.watched);
-  if (task.timeline) others.push_back(*task.timeline);
-  task.manifest = manifest_option(arguments, study, std::move(others));
+  take_pages(arguments, task);
+  task.manifest = manifest_option(arguments, study);
   const storage::OutputLock lock(output);
   storage::require_replaceable(output);
   commands::print_fallback_lock(lock, output);
@@ -326,9 +322,8 @@ ExitCode tune_file(const command_line::Arguments& arguments) {
   tuning::TuneSettings settings = tune_settings(arguments);
   settings.output = arguments.operands()[0];
   const study::Study study = commands::load_study(arguments.operands()[0], arguments);
-  const std::filesystem::path output = settings.output;
   TuneTask task{study, std::move(settings), {}, {}, {}, {}, true};
-  take_pages(arguments, {output}, task);
+  take_pages(arguments, task);
   return run_task(arguments, std::move(task));
 }
 
@@ -341,13 +336,15 @@ ExitCode tune(const command_line::Arguments& arguments) {
 commands::Command tune_command() {
   return {{"tune",
            "MANIFEST -o FILE | FILE",
-           {{"output,o", "FILE", "the results file of the proof (required with a manifest)"},
+           {command_line::renewed_file(
+                {"output,o", "FILE", "the results file of the proof (required with a manifest)"}),
             answers::format_option(),
             {"budget", "B", "of all: a number of trials, or a time such as 60s or 5min"},
-            {"manifest,m", "TUNED", "write the manifest with the tuned values"},
-            {"extras", "E", "none, all (default), or some of " + names_of_extras()},
+            command_line::written_file({"manifest,m", "TUNED", "write the manifest with the tuned values"}),
+            extras_spec(),
             {"retune-every", "AGE", "tune again at these intervals of life, and tell what that buys"},
-            {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"},
+            command_line::renewed_file(
+                {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"}),
             commands::watch_option(),
             commands::timeline_option(),
             {"threads", "N", "threads to use; default: all cores"},

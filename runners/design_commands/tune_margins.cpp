@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/text/text.hpp"
+#include "core/text/counted.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "runners/design_commands/tune_parts.hpp"
 #include "runners/design_commands/worst_command.hpp"
@@ -95,16 +96,23 @@ std::string_view loops_text(const SmallestMargins& margins) {
   return margins.before_sliding ? " before they slide and while they slide" : " while they slide";
 }
 
+/// "100 machines of the search": a search examines its own machines, and what is told of a finished proof
+/// those of the proof, so that the numbers of the machines are those of the file.
+std::string examined_machines(Of tuning) {
+  return fmt::format("{} of the {}", text::counted(tuning.answer.margins->machines, "machine"),
+                     tuning.is_of_file ? "proof" : "search");
+}
+
 std::string margins_sentence(Of tuning) {
   const TuneAnswer& answer = tuning.answer;
   if (answer.blind)
     return "margins: none, because the controller is a plugin, whose transfer function is not known";
   if (!answer.margins) return "";
   const study::LoopMargins& wanted = tuning.study.tuning->margins;
-  std::string text = fmt::format(
-      "smallest margins of {} machines{}{}: {}{}", answer.margins->machines, loops_text(*answer.margins),
-      spread_text(answer.margins->spread), margins_text(*answer.margins, wanted),
-      answer.margins->stable ? "" : "\n  the linear loop of a machine is unstable");
+  std::string text =
+      fmt::format("smallest margins of {}{}{}: {}{}", examined_machines(tuning), loops_text(*answer.margins),
+                  spread_text(answer.margins->spread), margins_text(*answer.margins, wanted),
+                  answer.margins->stable ? "" : "\n  the linear loop of a machine is unstable");
   for (std::size_t condition = 0; condition < answer.margins->conditions.size(); ++condition) {
     text +=
         fmt::format("\n {}: {}", study::condition_text(tuning.study, static_cast<std::int64_t>(condition)),
@@ -299,6 +307,7 @@ void add_margin_table(Description<Tuning>& items) {
                                   one.loop ? loop_text(*one.loop, t.study) : ""});
                 return rows;
               });
+  items.sentence([](Of t) { return t.answer.margins ? "of " + examined_machines(t) : std::string(); });
   items.sentence([](Of t) {
     return t.answer.margins && !t.answer.margins->stable ? "the linear loop of a machine is unstable" : "";
   });

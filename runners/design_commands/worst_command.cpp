@@ -224,10 +224,7 @@ ExitCode find_worst(const command_line::Arguments& arguments,
 
 ExitCode worst(const command_line::Arguments& arguments) {
   const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
-  std::vector<std::filesystem::path> outputs;
-  if (output) outputs.push_back(*output);
-  command_line::require_places(arguments, {arguments.operands()[0]}, outputs);
-  return commands::recorded(commands::timeline_place(arguments, {arguments.operands()[0]}, outputs), "worst",
+  return commands::recorded(commands::timeline_place(arguments), "worst",
                             [&] { return find_worst(arguments, output); });
 }
 
@@ -282,12 +279,9 @@ commands::Command worst_command() {
   return {{"worst",
            "MANIFEST|FILE",
            {answers::format_option(),
-            {"output,o", "MANIFEST", "write a manifest of the worst machine in the box"},
-            named_point_option(),
-            condition_option(),
-            age_option(),
-            commands::timeline_option(),
-            set_option(),
+            command_line::written_file(
+                {"output,o", "MANIFEST", "write a manifest of the worst machine in the box"}),
+            named_point_option(), condition_option(), age_option(), commands::timeline_option(), set_option(),
             command_line::force_option()}},
           "the machine that a gain suits worst",
           worst_help,

@@ -102,14 +102,10 @@ ExperimentOutputs experiment_outputs(const command_line::Arguments& arguments) {
   return outputs;
 }
 
-/// The study; none of the outputs is a file that it is read from.
-study::Study experiment_study(const command_line::Arguments& arguments, const ExperimentOutputs& outputs) {
-  std::vector<std::filesystem::path> places;
-  for (const auto& place : {outputs.protocol, outputs.streamer, outputs.record, outputs.plot}) {
-    if (place) places.push_back(*place);
-  }
-  command_line::require_places(arguments, {arguments.operands()[0]}, places);
-  study::Study study = commands::load_study(arguments.operands()[0], arguments, places);
+study::Study experiment_study(const command_line::Arguments& arguments) {
+  const auto use = command_line::outputs_of(arguments).empty() ? commands::StudyUse::to_examine
+                                                               : commands::StudyUse::to_make_files;
+  study::Study study = commands::load_study(arguments.operands()[0], arguments, use);
   if (study.conditions.empty()) return study;
   const std::optional<std::string> condition = arguments.value("condition");
   if (!study.ages.at.empty())
@@ -135,7 +131,7 @@ document::AnswerDescription<experiment_design::ExperimentDesign> experiment_answ
 
 ExitCode experiment(const command_line::Arguments& arguments) {
   const ExperimentOutputs outputs = experiment_outputs(arguments);
-  const study::Study study = experiment_study(arguments, outputs);
+  const study::Study study = experiment_study(arguments);
   experiment_design::DesignSettings settings;
   constexpr double longest = 3600.0;  // s
   settings.duration =
@@ -170,28 +166,31 @@ ExitCode experiment(const command_line::Arguments& arguments) {
 }  // namespace
 
 commands::Command experiment_command() {
-  return {{"experiment",
-           "MANIFEST",
-           {{"output,o", "FILE", "write the torque over time there, as CSV"},
-            {"streamer", "FILE", "write the torque there for LinuxCNC's streamer"},
-            {"record", "FILE", "write the simulated record of the median machine there, as CSV"},
-            {"plot", "FILE", "draw the torque and the expected readings: a page (*.html), *.svg or *.png"},
-            {"duration", "S", "of the record (default 10)"},
-            {"travel", "X", "largest distance from the start, rad or m (default: what breakaway allows)"},
-            {"max-torque", "P", "largest torque, as a proportion of the breakaway torque (default 0.7)"},
-            {"machines", "N", "machines drawn from the manifest (default 16)"},
-            {"budget", "B", "protocols to try (default 80), or a time such as 30s"},
-            {"point", "P", "design point, by label or number from 0 (default 0)"},
-            {"condition", "NAME", "condition of the manifest under which the record is made"},
-            {"age", "A", "age of the manifest at which the record is made"},
-            {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
-            answers::format_option(),
-            {"quiet,q", "", "print no progress"},
-            command_line::needing({"output", "streamer", "record", "plot"}, command_line::force_option())}},
-          "design the torque over time from which identify tells the friction",
-          experiment_help,
-          experiment,
-          [] { return std::vector{experiment_answer().complete_type()}; }};
+  return {
+      {"experiment",
+       "MANIFEST",
+       {command_line::written_file({"output,o", "FILE", "write the torque over time there, as CSV"}),
+        command_line::written_file({"streamer", "FILE", "write the torque there for LinuxCNC's streamer"}),
+        command_line::written_file(
+            {"record", "FILE", "write the simulated record of the median machine there, as CSV"}),
+        command_line::written_file(
+            {"plot", "FILE", "draw the torque and the expected readings: a page (*.html), *.svg or *.png"}),
+        {"duration", "S", "of the record (default 10)"},
+        {"travel", "X", "largest distance from the start, rad or m (default: what breakaway allows)"},
+        {"max-torque", "P", "largest torque, as a proportion of the breakaway torque (default 0.7)"},
+        {"machines", "N", "machines drawn from the manifest (default 16)"},
+        {"budget", "B", "protocols to try (default 80), or a time such as 30s"},
+        {"point", "P", "design point, by label or number from 0 (default 0)"},
+        {"condition", "NAME", "condition of the manifest under which the record is made"},
+        {"age", "A", "age of the manifest at which the record is made"},
+        {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
+        answers::format_option(),
+        {"quiet,q", "", "print no progress"},
+        command_line::needing({"output", "streamer", "record", "plot"}, command_line::force_option())}},
+      "design the torque over time from which identify tells the friction",
+      experiment_help,
+      experiment,
+      [] { return std::vector{experiment_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::identification_commands

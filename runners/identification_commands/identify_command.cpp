@@ -326,15 +326,11 @@ IdentifyOutputs identify_outputs(const command_line::Arguments& arguments) {
   IdentifyOutputs outputs{command_line::text_place(arguments, "output").value_or("-"),
                           command_line::text_place(arguments, "posterior"),
                           command_line::text_place(arguments, "plot")};
-  std::vector<std::filesystem::path> places{outputs.report};
-  if (outputs.posterior) places.push_back(*outputs.posterior);
-  if (outputs.plot) {
-    places.push_back(*outputs.plot);
-    outputs.plot_kind = commands::drawing_kind(arguments, "plot", *outputs.plot);
+  for (const auto& other : {outputs.posterior, outputs.plot}) {
+    if (other) command_line::require_apart(arguments, *other, {&outputs.report, 1});
   }
-  const std::vector<std::filesystem::path> inputs(arguments.operands().begin(), arguments.operands().end());
-  command_line::require_places(arguments, inputs, places);
-  outputs.timeline = commands::timeline_place(arguments, inputs, places);
+  if (outputs.plot) outputs.plot_kind = commands::drawing_kind(arguments, "plot", *outputs.plot);
+  outputs.timeline = commands::timeline_place(arguments);
   return outputs;
 }
 
@@ -450,17 +446,19 @@ std::vector<command_line::OptionSpec> identify_options() {
        of_tests({"effort", "FACTOR",
                  "time for other starting points, if the first does not fit (default 1: about 20 s)"}),
        of_tests({"any-magnitude", "", "accept values that suggest other units"}),
-       of_tests({"posterior", "FILE", "write joint draws of the parameters there, for the key samples"}),
+       of_tests(command_line::written_file(
+           {"posterior", "FILE", "write joint draws of the parameters there, for the key samples"})),
        command_line::needing({"posterior"},
                              {"draws", "N", "number of joint draws (default 1000, up to 10000)"}),
-       of_tests(
-           {"plot", "FILE", "draw the fit: a page of all records (*.html), or one record as *.svg or *.png"}),
+       of_tests(command_line::written_file(
+           {"plot", "FILE",
+            "draw the fit: a page of all records (*.html), or one record as *.svg or *.png"})),
        {"point", "P",
         "design point in a results file, by label or number (default: all with a trace); may be repeated",
         true},
        {"trial", "I", "trial of the point (default 0)"},
        answers::format_option({"yaml"}),
-       {"output,o", "FILE", "write there instead of to standard output"},
+       command_line::written_file({"output,o", "FILE", "write there instead of to standard output"}),
        commands::timeline_option(),
        {"quiet,q", "", "print no progress"},
        command_line::needing({"output", "posterior", "plot"}, command_line::force_option())});

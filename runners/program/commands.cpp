@@ -134,6 +134,7 @@ ExitCode run_command_line(std::span<const std::string> words) {
   const commands::Command command = find_command(verb);
   const command_line::Arguments arguments(command.spec, {words.begin() + 1, words.end()});
   if (arguments.has("help")) return print(help_of(command));
+  command_line::require_separate_files(arguments);
   return command.run(arguments);
 }
 

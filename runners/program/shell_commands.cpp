@@ -1,7 +1,14 @@
 #include "runners/program/shell_commands.hpp"
 
+#include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include <fmt/format.h>
+
+#include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "runners/commands/command.hpp"
@@ -13,22 +20,50 @@
 namespace zerocount::program {
 namespace {
 
-/// The labels of the design points of a manifest or a results file.
-std::vector<std::string> point_labels(const command_line::Arguments& arguments, const std::string& file) {
-  if (!commands::is_results_file(file)) return commands::load_study(file, arguments).points.labels;
+/// The study of a manifest or a results file.
+study::Study named_study(const command_line::Arguments& arguments, const std::string& file) {
+  if (!commands::is_results_file(file)) return commands::load_study(file, arguments);
   if (arguments.has("set")) arguments.refuse("option '--set' needs a manifest instead of a results file");
   const reading::ResultsFile results(file, reading::Require::any_part);
-  return layout::recorded_study(results.header(), file, nullptr).points.labels;
+  return layout::recorded_study(results.header(), file, nullptr);
 }
+
+std::vector<std::string> goal_names(const study::Study& study) {
+  std::vector<std::string> names;
+  for (const study::Goal& goal : study.goals) {
+    if (!goal.name.empty()) names.push_back(goal.name);
+  }
+  return names;
+}
+
+std::vector<std::string> age_texts(const study::Study& study) {
+  std::vector<std::string> texts;
+  for (const double age : study.ages.at) texts.push_back(fmt::format("{}", age));
+  return texts;
+}
+
+/// Names in a study that options have as values.
+struct StudyList {
+  std::string_view word;
+  std::vector<std::string> (*names)(const study::Study&);
+};
+
+constexpr std::array<StudyList, 4> study_lists{{
+    {"points", [](const study::Study& study) { return study.points.labels; }},
+    {"conditions", [](const study::Study& study) { return study.condition_names; }},
+    {"ages", age_texts},
+    {"goals", goal_names},
+}};
 
 ExitCode print_completion(const command_line::Arguments& arguments) {
   const std::string& shell = arguments.operands()[0];
-  const bool points = shell == "points";
-  if (points != (arguments.operands().size() == 2))
-    arguments.refuse(points ? "points need a manifest or a results file" : "unexpected second operand");
-  if (points) {
-    for (const std::string& label : point_labels(arguments, arguments.operands()[1]))
-      standard_output::write(label + "\n");
+  const auto listing = std::ranges::find(study_lists, shell, &StudyList::word);
+  const bool lists = listing != study_lists.end();
+  if (lists != (arguments.operands().size() == 2))
+    arguments.refuse(lists ? shell + " need a manifest or a results file" : "unexpected second operand");
+  if (lists) {
+    for (const std::string& name : listing->names(named_study(arguments, arguments.operands()[1])))
+      standard_output::write(name + "\n");
     return ExitCode::success;
   }
   standard_output::write(shell == "bash"  ? bash_completion(commands())
@@ -46,16 +81,17 @@ ExitCode print_manual(const command_line::Arguments&) {
 
 commands::Command completion_command() {
   return {{"completion",
-           "bash|zsh|fish|points [FILE]",
+           "bash|zsh|fish | points|conditions|ages|goals FILE",
            {command_line::of_operands(
-               {"points"}, {"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true})},
+               {"points", "conditions", "ages", "goals"},
+               {"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true})},
            1,
            2,
-           {"bash", "zsh", "fish", "points"}},
+           {"bash", "zsh", "fish", "points", "conditions", "ages", "goals"}},
           "print the completion of commands and options for a shell",
-          "Prints a script that completes commands, options, keys of --set, design points, figures\n"
+          "Prints a script that completes commands, options, keys of --set, names in a study, figures\n"
           "and files. 'points FILE' prints the labels of the design points of a manifest or results\n"
-          "file, which the script asks for.\n"
+          "file, which the script asks for; so 'conditions', 'ages' and 'goals' print theirs.\n"
           "\n"
           "Examples:\n"
           "  source <(zerocount completion bash)\n"

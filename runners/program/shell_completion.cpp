@@ -1,6 +1,10 @@
 #include "runners/program/shell_completion.hpp"
 
+#include <algorithm>
+#include <array>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,7 +18,7 @@ namespace {
 using command_line::OptionSpec;
 
 std::string long_form(const OptionSpec& option) {
-  return "--" + option.name.substr(0, option.name.find(','));
+  return "--" + command_line::long_name(option);
 }
 
 std::string short_form(const OptionSpec& option) {
@@ -22,13 +26,17 @@ std::string short_form(const OptionSpec& option) {
   return comma == std::string::npos ? "" : "-" + option.name.substr(comma + 1);
 }
 
+/// The forms of an option, with the text between them.
+std::string forms(const OptionSpec& option, std::string_view between) {
+  const std::string form = short_form(option);
+  return long_form(option) + (form.empty() ? "" : fmt::format("{}{}", between, form));
+}
+
 /// All forms of the options, with blanks between.
 std::string option_words(const commands::Command& command) {
   std::string words;
-  for (const OptionSpec& option : command.spec.options) {
-    for (const std::string& form : {long_form(option), short_form(option)})
-      if (!form.empty()) words += (words.empty() ? "" : " ") + form;
-  }
+  for (const OptionSpec& option : command.spec.options)
+    words += (words.empty() ? "" : " ") + forms(option, " ");
   return words;
 }
 
@@ -47,74 +55,128 @@ std::string keys_to_set() {
   return keys;
 }
 
-/// Values that the shell completes for an option, other than a fixed list of words or files.
-enum class Offered { other, key, point, figure };
+/// Options whose values are names in a file, and the command that lists them, a line each.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> listings{
+    {{"point", "completion points"},
+     {"points", "completion points"},
+     {"condition", "completion conditions"},
+     {"age", "completion ages"},
+     {"goal", "completion goals"},
+     {"figure", "plot"}}};
 
-Offered offered_for(const OptionSpec& option) {
-  if (option.name == "set") return Offered::key;
-  if (option.name == "point") return Offered::point;
-  return option.name == "figure" ? Offered::figure : Offered::other;
+/// What shells offer for the value of an option.
+enum class Offered {
+  nothing,
+  files,
+  keys,   ///< of --set
+  words,  ///< of which the value is one
+  list,   ///< words of which the value is a list, with commas between
+  lines   ///< of a command
+};
+
+struct Offer {
+  Offered kind;
+  std::string text;  ///< words with blanks between, or the command
+};
+
+Offer offer_for(const OptionSpec& option) {
+  const auto listing = std::ranges::find(listings, command_line::long_name(option),
+                                         &std::pair<std::string_view, std::string_view>::first);
+  if (listing != listings.end()) return {Offered::lines, std::string(listing->second)};
+  if (option.name == "set") return {Offered::keys, ""};
+  if (option.file != command_line::FileUse::none) return {Offered::files, ""};
+  if (!option.list.empty()) return {Offered::list, fmt::format("{}", fmt::join(option.list, " "))};
+  if (!option.words.empty()) return {Offered::words, fmt::format("{}", fmt::join(option.words, " "))};
+  return {Offered::nothing, ""};
 }
 
-/// The action of bash after this option; empty: files.
+/// The action of bash for the value of this option.
 std::string bash_action(const OptionSpec& option) {
-  switch (offered_for(option)) {
-    case Offered::key:
-      return "words=$keys; compopt -o nospace 2>/dev/null";
-    case Offered::point:
-      return "_zerocount_lines completion points; return";
-    case Offered::figure:
-      return "_zerocount_lines plot; return";
-    case Offered::other:
+  const Offer offer = offer_for(option);
+  switch (offer.kind) {
+    case Offered::nothing:
       break;
+    case Offered::files:
+      return "_zerocount_files";
+    case Offered::keys:
+      return "_zerocount_offer $keys; compopt -o nospace 2>/dev/null";
+    case Offered::words:
+      return "_zerocount_offer " + offer.text;
+    case Offered::list:
+      return "_zerocount_list " + offer.text;
+    case Offered::lines:
+      return "_zerocount_lines " + offer.text;
   }
-  return option.words.empty() ? "" : fmt::format("words='{}'", fmt::join(option.words, " "));
+  return ":";
 }
 
-/// The action of zsh for the value of this option.
+/// The action of zsh for the value of this option; a blank offers nothing, and before words it keeps zsh from
+/// adding its own to them.
 std::string zsh_action(const OptionSpec& option) {
-  switch (offered_for(option)) {
-    case Offered::key:
+  const Offer offer = offer_for(option);
+  switch (offer.kind) {
+    case Offered::nothing:
+      break;
+    case Offered::files:
+      return "_files";
+    case Offered::keys:
       return "_zerocount_keys";
-    case Offered::point:
-      return "_zerocount_lines completion points";
-    case Offered::figure:
-      return "_zerocount_lines plot";
-    case Offered::other:
-      break;
+    case Offered::words:
+      return fmt::format("({})", offer.text);
+    case Offered::list:
+      return " _sequence compadd - " + offer.text;
+    case Offered::lines:
+      return " _zerocount_lines " + offer.text;
   }
-  return option.words.empty() ? "_files" : fmt::format("({})", fmt::join(option.words, " "));
+  return " ";
 }
 
-/// The candidates of fish for the value of this option; empty: files.
+/// The candidates of fish for the value of this option; empty: none.
 std::string fish_candidates(const OptionSpec& option) {
-  switch (offered_for(option)) {
-    case Offered::key:
-      return "(__zerocount_keys)";
-    case Offered::point:
-      return "(__zerocount_lines completion points)";
-    case Offered::figure:
-      return "(__zerocount_lines plot)";
-    case Offered::other:
+  const Offer offer = offer_for(option);
+  switch (offer.kind) {
+    case Offered::nothing:
+    case Offered::files:
       break;
+    case Offered::keys:
+      return "(__zerocount_keys)";
+    case Offered::words:
+      return offer.text;
+    case Offered::list:
+      return fmt::format("(__zerocount_list {})", offer.text);
+    case Offered::lines:
+      return fmt::format("(__zerocount_lines {})", offer.text);
   }
-  return fmt::format("{}", fmt::join(option.words, " "));
+  return "";
 }
 
-/// The lines of bash that find what a command takes: its options, the words that the value of an option is
-/// one of, and those of its operand.
-std::string bash_case(const commands::Command& command) {
-  std::string lines = fmt::format("    {})\n      options='{}'\n", command.spec.name, option_words(command));
-  if (!command.spec.operand_words.empty())
-    lines += fmt::format("      if [ \"$COMP_CWORD\" -eq 2 ]; then words='{}'; fi\n",
-                         fmt::join(command.spec.operand_words, " "));
+/// The lines of bash with the options of a command, and the words that its operand is one of.
+std::string bash_words(const commands::Command& command) {
+  return fmt::format("    {}) options='{}' operands='{}' ;;\n", command.spec.name, option_words(command),
+                     fmt::join(command.spec.operand_words, " "));
+}
+
+/// The lines of bash that offer the value of each option of a command.
+std::string bash_values(const commands::Command& command) {
   std::string cases;
   for (const OptionSpec& option : command.spec.options) {
-    const std::string action = bash_action(option);
-    if (!action.empty()) cases += fmt::format("        {}) {} ;;\n", long_form(option), action);
+    if (!option.value.empty())
+      cases += fmt::format("        {}) {} ;;\n", forms(option, " | "), bash_action(option));
   }
-  if (!cases.empty()) lines += fmt::format("      case $previous in\n{}      esac\n", cases);
-  return lines + "      ;;\n";
+  if (cases.empty()) return "";
+  return fmt::format("    {})\n      case $previous in\n{}        *) return 1 ;;\n      esac ;;\n",
+                     command.spec.name, cases);
+}
+
+/// Options with two values, of all commands: the second follows a word that is no option.
+std::string options_of_two_values(std::span<const commands::Command> commands) {
+  std::string options;
+  for (const commands::Command& command : commands) {
+    for (const OptionSpec& option : command.spec.options) {
+      if (option.count == 2) options += (options.empty() ? "" : " | ") + long_form(option);
+    }
+  }
+  return options;
 }
 
 /// `text` within single quotes of zsh, with a backslash before the `special` characters.
@@ -134,8 +196,9 @@ std::string zsh_text(std::string_view text, std::string_view special) {
 std::string zsh_option(const OptionSpec& option) {
   constexpr std::string_view special = "[]:\\";
   const std::string help = zsh_text(option.help, special);
-  const std::string value =
-      option.value.empty() ? "" : fmt::format(":{}:{}", zsh_text(option.value, special), zsh_action(option));
+  std::string value;
+  for (std::size_t i = 0; !option.value.empty() && i < option.count; ++i)
+    value += fmt::format(":{}:{}", zsh_text(option.value, special), zsh_action(option));
   const std::string many = option.repeatable ? "*" : "";
   std::string lines = fmt::format(" \\\n        '{}{}{}[{}]{}'", many, long_form(option),
                                   value.empty() ? "" : "=", help, value);
@@ -154,66 +217,185 @@ std::string fish_text(std::string_view text) {
   return escaped + "'";
 }
 
-/// A line of fish: an option of a command. `-r`: it has a value, `-f`: which is not a file.
+/// A line of fish: an option of a command. `-r`: it has a value; `-F`: a file, `-f`: none.
 std::string fish_option(const commands::Command& command, const OptionSpec& option) {
   std::string line = fmt::format("complete -c zerocount -n '__fish_seen_subcommand_from {}' -l {}",
                                  command.spec.name, long_form(option).substr(2));
   if (const std::string form = short_form(option); !form.empty()) line += " -s " + form.substr(1);
-  if (!option.value.empty()) line += " -r";
+  if (!option.value.empty()) line += option.file == command_line::FileUse::none ? " -r -f" : " -r -F";
   if (const std::string candidates = fish_candidates(option); !candidates.empty())
-    line += " -f -a " + fish_text(candidates);
+    line += " -a " + fish_text(candidates);
   return line + " -d " + fish_text(option.help) + "\n";
 }
+
+// The functions of bash. `line`: the words of the line up to the cursor, without quotes; `word`: the last of
+// them; `lead`: what stands in it before the value. bash replaces the last word from `start` on, which stands
+// within `quote`.
+constexpr const char* bash_functions =
+    R"bash(# Completion of zerocount for bash: put it where bash-completion finds it, or source it.
+# bash parts words at = and the like (COMP_WORDBREAKS); this parts the line as the shell does when it runs it.
+_zerocount_split() {
+  local text=${COMP_LINE:0:COMP_POINT} letter part= i
+  line=() word= start=0 quote=
+  for ((i = 0; i < ${#text}; i++)); do
+    letter=${text:i:1}
+    case $quote$letter in
+      "''" | '""') quote= start=${#word} ;;
+      "'" | '"') quote=$letter part=1 start=${#word} ;;
+      "'"*) word+=$letter ;;
+      '"\')
+        case ${text:i+1:1} in
+          [\"\\\$\`]) ((++i)); word+=${text:i:1} ;;
+          *) word+=$letter ;;
+        esac ;;
+      '"'*) word+=$letter ;;
+      '\') ((++i)); word+=${text:i:1} ;;
+      [[:blank:]])
+        if [ "$part$word" ]; then line+=("$word"); fi
+        word= part= start=0 ;;
+      *)
+        word+=$letter
+        case $COMP_WORDBREAKS in *"$letter"*) start=${#word} ;; esac
+        if [ "$letter" = @ ] && [ $start -gt 0 ]; then ((--start)); fi ;;  # bash keeps it in the word
+    esac
+  done
+  line+=("$word")
+}
+_zerocount_offer() {
+  local candidate rest
+  for candidate; do
+    case $lead$candidate in "$word"*) ;; *) continue ;; esac
+    rest=$lead$candidate
+    rest=${rest:start}
+    case $quote in
+      '"')
+        rest=${rest//\\/\\\\} rest=${rest//\"/\\\"} rest=${rest//\$/\\\$} rest=${rest//\`/\\\`} ;;
+      "'") rest=${rest//\'/"'\''"} ;;
+      *) if [ "$rest" ]; then printf -v rest %q "$rest"; fi ;;
+    esac
+    COMPREPLY+=("$rest")
+  done
+}
+_zerocount_list() {
+  case ${word#"$lead"} in *,*) lead=${word%,*}, ;; esac
+  _zerocount_offer "$@"
+  compopt -o nospace 2>/dev/null
+}
+_zerocount_files() {
+  local path
+  while IFS= read -r path; do
+    path=$lead$path
+    COMPREPLY+=("${path:start}")
+  done < <(compgen -f -- "${word#"$lead"}")
+  compopt -o filenames 2>/dev/null
+}
+# The lines that a command prints for the first file of the command line.
+_zerocount_lines() {
+  local file= candidate
+  for candidate in "${line[@]:2}"; do
+    candidate=${candidate/#\~\//$HOME/}
+    if [ -f "$candidate" ]; then file=$candidate; break; fi
+  done
+  if [ -z "$file" ]; then return; fi
+  while IFS= read -r candidate; do
+    _zerocount_offer "$candidate"
+  done < <("${line[0]/#\~\//$HOME/}" "$@" "$file" 2>/dev/null)
+}
+)bash";
+
+constexpr const char* bash_main = R"bash(_zerocount() {
+  COMPREPLY=()
+  local -a line
+  local word start quote lead= previous options= operands=
+  _zerocount_split
+  if [ ${#line[@]} -eq 2 ]; then
+    _zerocount_offer $commands help --help --version
+    return
+  fi
+  previous=${line[${#line[@]}-2]}
+  case ${line[${#line[@]}-3]} in
+    $of_two_values) previous=${line[${#line[@]}-3]} ;;
+  esac
+  case $word in
+    --*=*) previous=${word%%=*} lead=${word%%=*}= ;;
+  esac
+  _zerocount_value && return
+  lead=
+  _zerocount_words
+  case $word in
+    -*) _zerocount_offer $options; return ;;
+  esac
+  if [ "$operands" ] && [ ${#line[@]} -eq 3 ]; then
+    _zerocount_offer $operands
+  else
+    _zerocount_files
+  fi
+}
+complete -F _zerocount zerocount
+)bash";
+
+constexpr const char* zsh_functions =
+    R"zsh(# The lines that a command prints for the first file of the command line.
+_zerocount_lines() {
+  local file word
+  local -a found
+  for word in ${words[2,-1]}; do
+    word=${(Q)word}
+    [[ $word == '~/'* ]] && word=$HOME/${word#'~/'}
+    if [[ -f $word ]]; then file=$word; break; fi
+  done
+  [[ -n $file ]] || return
+  found=(${(f)"$($zerocount_program "$@" $file 2>/dev/null)"})
+  compadd -a -- found
+}
+)zsh";
+
+constexpr const char* fish_functions =
+    R"fish(# The lines that a command prints for the first file of the command line.
+function __zerocount_lines
+  set -l words (commandline -opc)
+  for word in $words[3..-1]
+    set -l file (string replace -r '^~/' "$HOME/" -- $word)
+    if test -f $file
+      eval (string escape -- (string replace -r '^~/' "$HOME/" -- $words[1])) (string escape -- $argv $file) 2>/dev/null
+      return
+    end
+  end
+end
+# A list whose last name is to be completed.
+function __zerocount_list
+  set -l before (commandline -ct | string replace -r '^--[^=]*=' '' | string replace -r '[^,]*$' '')
+  for name in $argv
+    echo $before$name
+  end
+end
+)fish";
 
 }  // namespace
 
 std::string bash_completion(std::span<const commands::Command> commands) {
   std::string names;
-  std::string cases;
+  std::string words;
+  std::string values;
   for (const commands::Command& command : commands) {
     names += (names.empty() ? "" : " ") + command.spec.name;
-    cases += bash_case(command);
+    words += bash_words(command);
+    values += bash_values(command);
   }
-  return fmt::format(
-      "# Completion of zerocount for bash: put it where bash-completion finds it, or source it.\n"
-      "# The lines that a command prints for the first file of the command line.\n"
-      "_zerocount_lines() {{\n"
-      "  local file= line\n"
-      "  for line in \"${{COMP_WORDS[@]:2}}\"; do\n"
-      "    if [ -f \"$line\" ]; then file=$line; break; fi\n"
-      "  done\n"
-      "  if [ -z \"$file\" ]; then return; fi\n"
-      "  while IFS= read -r line; do\n"
-      "    case $line in \"$word\"*) COMPREPLY+=(\"$(printf %q \"$line\")\") ;; esac\n"
-      "  done < <(\"${{COMP_WORDS[0]}}\" \"$@\" \"$file\" 2>/dev/null)\n"
-      "}}\n"
-      "_zerocount() {{\n"
-      "  COMPREPLY=()\n"
-      "  local keys='{}'\n"
-      "  local word=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}} options= words=\n"
-      "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
-      "    COMPREPLY=($(compgen -W '{} help --help --version' -- \"$word\"))\n"
-      "    return\n"
-      "  fi\n"
-      "  # bash takes --option=value apart\n"
-      "  if [ \"$word\" = = ]; then word=\n"
-      "  elif [ \"$previous\" = = ]; then previous=${{COMP_WORDS[COMP_CWORD-2]}}\n"
-      "  fi\n"
-      "  case ${{COMP_WORDS[1]}} in\n"
-      "{}"
-      "    help) if [ \"$COMP_CWORD\" -eq 2 ]; then words='{}'; fi ;;\n"
-      "  esac\n"
-      "  case $word in\n"
-      "    -*) words=$options ;;\n"
-      "  esac\n"
-      "  if [ \"$words\" ]; then\n"
-      "    COMPREPLY=($(compgen -W \"$words\" -- \"$word\"))\n"
-      "  else\n"
-      "    mapfile -t COMPREPLY < <(compgen -f -- \"$word\"); compopt -o filenames 2>/dev/null\n"
-      "  fi\n"
-      "}}\n"
-      "complete -F _zerocount zerocount\n",
-      keys_to_set(), names, cases, names);
+  words += fmt::format("    help) operands='{}' ;;\n", names);
+  std::string main = bash_main;
+  const auto insert = [&main](std::string_view name, const std::string& text) {
+    main.replace(main.find(name), name.size(), text);
+  };
+  insert("$commands", names);
+  insert("$of_two_values", options_of_two_values(commands));
+  return bash_functions +
+         fmt::format(
+             "_zerocount_words() {{\n  case ${{line[1]}} in\n{}  esac\n}}\n"
+             "_zerocount_value() {{\n  local keys='{}'\n  case ${{line[1]}} in\n{}    *) return 1 ;;\n  "
+             "esac\n}}\n",
+             words, keys_to_set(), values) +
+         main;
 }
 
 std::string zsh_completion(std::span<const commands::Command> commands) {
@@ -233,14 +415,7 @@ std::string zsh_completion(std::span<const commands::Command> commands) {
       "#compdef zerocount\n"
       "# Completion of zerocount for zsh: put it into a folder of $fpath as _zerocount.\n"
       "_zerocount_keys() {{ compadd -S '' -- {} }}\n"
-      "# The lines that a command prints for the first file of the command line.\n"
-      "_zerocount_lines() {{\n"
-      "  local file word\n"
-      "  for word in ${{words[2,-1]}}; do\n"
-      "    if [[ -f $word ]]; then file=$word; break; fi\n"
-      "  done\n"
-      "  [[ -n $file ]] && compadd -- \"${{(@f)$(zerocount $@ $file 2>/dev/null)}}\"\n"
-      "}}\n"
+      "{}"
       "_zerocount() {{\n"
       "  local -a commands\n"
       "  commands=(\n"
@@ -250,7 +425,7 @@ std::string zsh_completion(std::span<const commands::Command> commands) {
       "    _describe command commands\n"
       "    return\n"
       "  fi\n"
-      "  local command=$words[2]\n"
+      "  local zerocount_program=${{(Q)words[1]}} command=$words[2]\n"
       "  shift words\n"
       "  (( CURRENT-- ))\n"
       "  case $command in\n"
@@ -259,7 +434,7 @@ std::string zsh_completion(std::span<const commands::Command> commands) {
       "  esac\n"
       "}}\n"
       "_zerocount \"$@\"\n",
-      keys_to_set(), names, cases, words);
+      keys_to_set(), zsh_functions, names, cases, words);
 }
 
 std::string fish_completion(std::span<const commands::Command> commands) {
@@ -279,19 +454,11 @@ std::string fish_completion(std::span<const commands::Command> commands) {
       "function __zerocount_keys\n"
       "  string split ' ' -- '{}'\n"
       "end\n"
-      "# The lines that a command prints for the first file of the command line.\n"
-      "function __zerocount_lines\n"
-      "  for word in (commandline -opc)[3..-1]\n"
-      "    if test -f $word\n"
-      "      zerocount $argv $word 2>/dev/null\n"
-      "      return\n"
-      "    end\n"
-      "  end\n"
-      "end\n"
+      "{}"
       "complete -c zerocount -n __fish_use_subcommand -f -a help -d 'the help of a command'\n"
       "complete -c zerocount -n '__fish_seen_subcommand_from help' -f -a '{}'\n"
       "{}",
-      keys_to_set(), names, lines);
+      keys_to_set(), fish_functions, names, lines);
 }
 
 }  // namespace zerocount::program

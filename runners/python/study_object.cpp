@@ -20,6 +20,7 @@
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/sections/joint_draws.hpp"
 #include "experiments/study/condition_study.hpp"
+#include "experiments/study/point_label.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
@@ -280,6 +281,12 @@ void register_study(py::module_& module) {
           py::arg("condition"))
       .def("trace", &trace, py::arg("point"), py::arg("trial"), py::arg("law") = py::none());
   register_sampling(object);
+  module.def(
+      "point_named",
+      [](const std::string& text, const std::vector<std::string>& labels) {
+        return study::point_named(text, labels);
+      },
+      py::arg("text"), py::arg("labels"));
 }
 
 }  // namespace zerocount::python

@@ -31,11 +31,6 @@ ExitCode baseline(const command_line::Arguments& arguments) {
     arguments.refuse("option '--reason' is empty; say why this becomes the baseline");
   }
   const std::filesystem::path file = arguments.operands()[0];
-  std::error_code error;
-  if (std::filesystem::equivalent(file, output, error)) {
-    arguments.refuse(
-        fmt::format("{} is the output itself; name a results file that was just made", file.string()));
-  }
   const storage::OutputLock lock(output);
   commands::print_fallback_lock(lock, output);
   const comparison::BaselineUpdate update = comparison::update_baseline(file, output, reason);
@@ -55,13 +50,14 @@ ExitCode baseline(const command_line::Arguments& arguments) {
 }  // namespace
 
 commands::Command baseline_command() {
-  return {{"baseline",
-           "FILE -o OUTPUT --reason TEXT",
-           {{"output,o", "OUTPUT", "the baseline to make or to replace (required)"},
-            {"reason", "TEXT", "the reason, for the log (required)"}}},
-          "make a results file the baseline of later comparisons",
-          baseline_help,
-          baseline};
+  return {
+      {"baseline",
+       "FILE -o OUTPUT --reason TEXT",
+       {command_line::renewed_file({"output,o", "OUTPUT", "the baseline to make or to replace (required)"}),
+        {"reason", "TEXT", "the reason, for the log (required)"}}},
+      "make a results file the baseline of later comparisons",
+      baseline_help,
+      baseline};
 }
 
 }  // namespace zerocount::result_commands

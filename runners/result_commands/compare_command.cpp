@@ -65,20 +65,16 @@ struct FormatPlace {
 };
 
 /// Destinations of all formats. The format of --format goes to standard output, unless another format does.
-std::vector<FormatPlace> places_of(const command_line::Arguments& arguments,
-                                   const std::optional<std::string>& margins) {
-  std::vector<std::filesystem::path> inputs{arguments.operands().begin(), arguments.operands().end()};
-  if (margins) inputs.emplace_back(*margins);
-  std::vector<std::filesystem::path> outputs;
-  if (arguments.has("format")) outputs.emplace_back("-");
+std::vector<FormatPlace> places_of(const command_line::Arguments& arguments) {
+  std::vector<std::filesystem::path> printed;
+  if (arguments.has("format")) printed.emplace_back("-");
   std::vector<FormatPlace> places;
   for (const char* const format : {"json", "junit", "markdown"}) {
     const std::optional<std::filesystem::path> place = command_line::text_place(arguments, format);
     if (!place) continue;
+    command_line::require_apart(arguments, *place, printed);
     places.push_back({format, *place});
-    outputs.push_back(*place);
   }
-  command_line::require_places(arguments, inputs, outputs);
   return places;
 }
 
@@ -106,7 +102,7 @@ comparison::StudyComparison compared(const command_line::Arguments& arguments,
 
 ExitCode compare(const command_line::Arguments& arguments) {
   const std::optional<std::string> margins = arguments.value("margins");
-  const std::vector<FormatPlace> places = places_of(arguments, margins);
+  const std::vector<FormatPlace> places = places_of(arguments);
   comparison::CompareOptions options;
   if (margins) options.margins = *margins;
   options.changed_fails = arguments.has("changed-fails");
@@ -129,14 +125,14 @@ commands::Command compare_command() {
   return {{"compare",
            "BASELINE FILE",
            {{"points", "A B", "compare two design points of one FILE, by label or number", false, 2},
-            {"margins", "FILE", "YAML file of margins and requirements"},
+            command_line::read_file({"margins", "FILE", "YAML file of margins and requirements"}),
             {"changed-fails", "", "a change for the better fails too, not only one for the worse"},
             {"max-trials", "N",
              "judge the first N trials of each point, at least one of every rig (default: a million moves)"},
             answers::format_option({"junit"}),
-            {"json", "FILE", "write the JSON there too"},
-            {"junit", "FILE", "write JUnit XML there too"},
-            {"markdown", "FILE", "write the Markdown summary there too"},
+            command_line::written_file({"json", "FILE", "write the JSON there too"}),
+            command_line::written_file({"junit", "FILE", "write JUnit XML there too"}),
+            command_line::written_file({"markdown", "FILE", "write the Markdown summary there too"}),
             command_line::force_option()},
            1,
            2},

@@ -105,9 +105,7 @@ ExitCode show(const command_line::Arguments& arguments) {
 ExitCode plot_history(const command_line::Arguments& arguments) {
   arguments.required("output");
   const std::filesystem::path output = *command_line::text_place(arguments, "output");
-  const std::filesystem::path database = database_of(arguments);
   const commands::DrawingKind kind = commands::drawing_kind(arguments, "output", output);
-  command_line::require_places(arguments, {database}, {output});
   const history::History shown = history_shown(arguments);
   if (kind != commands::DrawingKind::page && shown.series.size() > 1)
     arguments.refuse(
@@ -152,18 +150,20 @@ ExitCode run_history(const command_line::Arguments& arguments) {
 commands::Command history_command() {
   return {{"history",
            "add FILE | show | plot -o PLOT",
-           {{"database", "DB", "the history (default: history.sqlite)"},
+           {command_line::renewed_file({"database", "DB", "the history (default: history.sqlite)"}),
             command_line::of_operands(
-                {"add"}, {"compare", "FILE",
-                          "add: the output of 'zerocount compare --json FILE' for the results file"}),
+                {"add"}, command_line::read_file(
+                             {"compare", "FILE",
+                              "add: the output of 'zerocount compare --json FILE' for the results file"})),
             command_line::of_operands({"show", "plot"}, {"study", "NAME", "only this study"}),
             command_line::of_operands({"show", "plot"}, {"point", "LABEL", "only this design point"}),
             command_line::of_operands({"show", "plot"},
                                       {"measure", "NAME", "only this measure, such as success_rate"}),
             command_line::of_operands({"show"}, answers::format_option()),
             command_line::of_operands(
-                {"plot"},
-                {"output,o", "PLOT", "plot: a page of all series (*.html), or one series as *.svg or *.png"}),
+                {"plot"}, command_line::written_file(
+                              {"output,o", "PLOT",
+                               "plot: a page of all series (*.html), or one series as *.svg or *.png"})),
             command_line::of_operands({"plot"}, command_line::force_option())},
            1,
            2,

@@ -93,7 +93,7 @@ report::StudyReport report_of(const command_line::Arguments& arguments, const re
   return commands::verified_report(file, std::move(options));
 }
 
-/// The output file. Its name must end in one of `extensions`, and it must not be an input.
+/// The output file. Its name must end in one of `extensions`.
 std::filesystem::path picture_or_page(const command_line::Arguments& arguments,
                                       const std::vector<std::string>& extensions) {
   arguments.required("output");
@@ -104,11 +104,7 @@ std::filesystem::path picture_or_page(const command_line::Arguments& arguments,
     arguments.refuse(fmt::format("option '--output': '{}' does not end in {}", output.string(),
                                  fmt::join(extensions, " or ")));
   }
-  std::vector<std::filesystem::path> inputs{arguments.operands()[0]};
-  for (const char* const option : {"baseline", "margins", "history"}) {
-    if (const auto path = arguments.value(option)) inputs.emplace_back(*path);
-  }
-  commands::require_page_place(arguments, inputs, output);
+  commands::require_page_place(arguments, output);
   return output;
 }
 
@@ -129,7 +125,8 @@ ExitCode write_index(const command_line::Arguments& arguments, const std::filesy
   const report::ReportPage page =
       folder_index(arguments.operands()[0], output,
                    [&](const std::filesystem::path& file, const std::filesystem::path& place) {
-                     commands::require_page_place(arguments, {file, output}, place);
+                     command_line::require_apart(arguments, place, {{output}});
+                     commands::require_page_place(arguments, place);
                      command_line::write_text(
                          place, report::html_page(report_of(arguments, reading::AllTrialsFile(file)).page));
                    });
@@ -192,15 +189,18 @@ std::vector<command_line::OptionSpec> with_part_options(std::vector<command_line
 
 /// The options of both verbs. @param own those of one of them, which come first
 std::vector<command_line::OptionSpec> options_of_report(std::vector<command_line::OptionSpec> own) {
-  own.insert(own.end(),
-             {{"baseline", "FILE", "compare with these results"},
-              command_line::needing({"baseline"},
-                                    {"margins", "FILE", "the margins and requirements of that comparison"}),
-              command_line::needing({"baseline"},
-                                    {"changed-fails", "", "in that comparison an improvement fails too"}),
-              {"history", "DB", "show the earlier runs of the study in this history ('zerocount history')"},
-              {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
-              command_line::needing({"output"}, command_line::force_option())});
+  own.insert(
+      own.end(),
+      {command_line::read_file({"baseline", "FILE", "compare with these results"}),
+       command_line::needing(
+           {"baseline"},
+           command_line::read_file({"margins", "FILE", "the margins and requirements of that comparison"})),
+       command_line::needing({"baseline"},
+                             {"changed-fails", "", "in that comparison an improvement fails too"}),
+       command_line::read_file(
+           {"history", "DB", "show the earlier runs of the study in this history ('zerocount history')"}),
+       {"point", "P", "design point whose trials are shown, by label or number (default: the best)"},
+       command_line::needing({"output"}, command_line::force_option())});
   return own;
 }
 
@@ -208,25 +208,27 @@ std::vector<command_line::OptionSpec> options_of_report(std::vector<command_line
 
 commands::Command report_command() {
   return {{"report", "FILE | FOLDER",
-           options_of_report(with_part_options(
-               {{"output,o", "PAGE",
-                 "the page to write, such as report.html; - is standard output (required)"}}))},
+           options_of_report(with_part_options({command_line::renewed_file(
+               {"output,o", "PAGE",
+                "the page to write, such as report.html; - is standard output (required)"})}))},
           "write one HTML page on a results file, or an index of a folder of them",
           report_help,
           write_report};
 }
 
 commands::Command plot_command() {
-  return {{"plot", "FILE",
-           options_of_report(
-               {{"figure", "NAME", "name of the figure"},
-                command_line::needing(
-                    {"figure"},
+  return {
+      {"plot", "FILE",
+       options_of_report(
+           {{"figure", "NAME", "name of the figure"},
+            command_line::needing(
+                {"figure"},
+                command_line::renewed_file(
                     {"output,o", "PICTURE",
-                     "the file to write: *.svg, *.png, *.html or *.json; - is standard output, as SVG"})})},
-          "draw one figure of the report",
-          plot_help,
-          plot};
+                     "the file to write: *.svg, *.png, *.html or *.json; - is standard output, as SVG"}))})},
+      "draw one figure of the report",
+      plot_help,
+      plot};
 }
 
 }  // namespace zerocount::result_commands

@@ -178,7 +178,11 @@ std::optional<double> speed_of(const Asked& asked, const trials::Effort& effort)
 }  // namespace
 
 std::vector<command_line::OptionSpec> part_options() {
-  return {{"with", "PARTS", "add answers of other commands: all, or some of " + all_names()},
+  std::vector<std::string> words{"all"};
+  for (const Part& part : all_parts) words.emplace_back(part.name);
+  return {command_line::list_of(
+              std::move(words),
+              {"with", "PARTS", "add answers of other commands: all, or some of " + all_names()}),
           command_line::needing({"with"}, {"budget", "B",
                                            "of these answers together: a number of trials, or a time such as "
                                            "60s or 5min"})};

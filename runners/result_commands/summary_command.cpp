@@ -187,7 +187,8 @@ commands::Command summary_command() {
             {"top", "N", "the first N rows; without --sort the best"},
             {"legend", "", "explain the columns of the table"},
             {"confirm", "N", "run the chosen point again with N new trials, and print what they show"},
-            {"plugin", "LIBRARY", "for --confirm: the controller of a study that has one of its own"},
+            command_line::read_file(
+                {"plugin", "LIBRARY", "for --confirm: the controller of a study that has one of its own"}),
             {"confidence", "LEVEL", "of all bounds, between 0 and 1 (default 0.95)"}}},
           "print the statistics of a results file",
           summary_help,

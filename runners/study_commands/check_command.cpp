@@ -15,6 +15,7 @@
 #include "analysis/summary/point_names.hpp"
 #include "analysis/theory/point_theory.hpp"
 #include "core/loop/encoder.hpp"
+#include "core/text/counted.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
@@ -89,11 +90,6 @@ struct Plan {
   }
 };
 
-/// "1 core", "3 cores".
-std::string counted(std::int64_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 std::optional<std::string> judged_by(const Plan& plan) {
   if (plan.study.open_loop) return {};
   return goal::question_sentence(goal::question_of(plan.study));
@@ -101,9 +97,10 @@ std::optional<std::string> judged_by(const Plan& plan) {
 
 std::string plan_headline(const Plan& plan) {
   const study::Study& study = plan.study;
-  return fmt::format("{}: {} × {} trials = {} trials, {} each, in about {}", study.name,
-                     counted(plan.all_points(), "design point"), study.trials, study::trial_count(study),
-                     counted(study.moves, "move"), status::duration_text(plan.cost.seconds()));
+  return fmt::format("{}: {} × {} = {}, {} each, in about {}", study.name,
+                     text::counted(plan.all_points(), "design point"), text::counted(study.trials, "trial"),
+                     text::counted(study::trial_count(study), "trial"), text::counted(study.moves, "move"),
+                     status::duration_text(plan.cost.seconds()));
 }
 
 /// "0 cycles, 100000 cycles, 1000000 cycles".
@@ -118,20 +115,21 @@ std::string trials_text(const Plan& plan) {
   const study::Study& study = plan.study;
   std::string text;
   if (study.rigs > 0)
-    text += fmt::format("at each point {} rigs × {} trials of each\n", study.rigs, study.trials / study.rigs);
+    text += fmt::format("at each point {} × {} of each\n", text::counted(study.rigs, "rig"),
+                        text::counted(study.trials / study.rigs, "trial"));
   if (!study.condition_names.empty()) {
     text += fmt::format("under {}, {} trials under each: {}\n",
-                        counted(std::ssize(study.condition_names), "condition"),
+                        text::counted(std::ssize(study.condition_names), "condition"),
                         study::draw_count(study) * std::max<std::int64_t>(std::ssize(study.ages.at), 1),
                         fmt::join(study.condition_names, ", "));
   }
   if (!study.ages.at.empty()) {
-    text += fmt::format("at {}, {} trials at each: {}\n", counted(std::ssize(study.ages.at), "age"),
+    text += fmt::format("at {}, {} trials at each: {}\n", text::counted(std::ssize(study.ages.at), "age"),
                         study.trials / std::ssize(study.ages.at), ages_text(study.ages));
   }
   if (study.worlds > 0) {
     text += fmt::format("in {} worlds, {} in each\n", study.worlds,
-                        study.rigs > 0 ? counted(study.rigs / study.worlds, "rig")
+                        study.rigs > 0 ? text::counted(study.rigs / study.worlds, "rig")
                                        : fmt::format("about {} trials", study.trials / study.worlds));
   }
   if (!study.stop) return text;
@@ -153,7 +151,7 @@ std::string cost_text(const Plan& plan) {
       "{:.4g} samples at {:.0f} ns: about {} on {}\n{}{}results file about {}; while it runs up to {} on the "
       "disk and {} of memory",
       plan.cost.samples, 1e9 * plan.cost.seconds_per_sample, status::duration_text(plan.cost.seconds()),
-      counted(plan.cost.cores, "core"), engine, engine.empty() ? "" : "\n",
+      text::counted(plan.cost.cores, "core"), engine, engine.empty() ? "" : "\n",
       forecast::bytes_text(plan.size.file_bytes), forecast::bytes_text(plan.disk_bytes()),
       forecast::bytes_text(plan.size.memory_bytes));
 }
@@ -343,7 +341,7 @@ std::optional<std::string> targets_text(const study::Study& study, std::int64_t 
   std::string text;
   for (std::size_t i = 0; i < std::min(moves, shown); ++i) {
     text += fmt::format("{}{:.6g} {} = {}", i == 0 ? "" : ", ", trial.target_positions[i], unit,
-                        counted(trial.parameters.command.targets[i], "count"));
+                        text::counted(trial.parameters.command.targets[i], "count"));
   }
   return fmt::format("to the nearest of {:.4g} {}: {}{}", loop::fine_resolution(trial.parameters.encoder),
                      unit, text, moves > shown ? ", …" : "");

@@ -2,17 +2,21 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "analysis/text/text.hpp"
 #include "analysis/theory/point_theory.hpp"
 #include "core/failure/failure.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
+#include "experiments/study/condition_study.hpp"
 #include "experiments/study/study.hpp"
+#include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
@@ -21,6 +25,7 @@
 #include "runners/status/status.hpp"
 #include "runners/study_commands/precision_effect.hpp"
 #include "runners/study_commands/study_commands.hpp"
+#include "runners/trials/variant.hpp"
 
 namespace zerocount::study_commands {
 namespace {
@@ -37,6 +42,9 @@ constexpr const char* controller_help =
     "                       that of the file\n"
     "  --language st        a function block in Structured Text (IEC 61131-3), named after the file\n"
     "\n"
+    "Where conditions or ages change the controller, as a payload does its feed-forward, --condition\n"
+    "and --age choose the one to write; its margins are then those of that condition.\n"
+    "\n"
     "In double precision it computes the same bits as the simulation. With --precision single,\n"
     "trials of the point are simulated in both precisions, and what changes is printed and stands\n"
     "in the heading. The converter, its noise shaping among it, is not part of the file.\n"
@@ -45,20 +53,54 @@ constexpr const char* controller_help =
     "  zerocount controller my-axis.yaml --point 2 -o controller.c\n"
     "  zerocount controller tuned.h5 --point best --language st --precision single -o axis.st\n";
 
+/// Whether the written code depends on the value.
+bool is_in_code(const study::InputColumn& column) {
+  constexpr std::array<std::string_view, 7> sections{"controller.",     "dac.bits",     "dac.resolution",
+                                                     "dac.range",       "encoder.fine", "encoder.resolution",
+                                                     "initial.integral"};
+  return std::ranges::any_of(sections, [&](std::string_view section) {
+    return section.ends_with('.') ? column.name.starts_with(section) : column.name == section;
+  });
+}
+
 /// Refuses a controller with drawn values, which has no gains of its own.
 void require_values(const command_line::Arguments& arguments, const study::Study& study) {
-  constexpr std::array<std::string_view, 6> sections{"controller.", "dac.bits",     "dac.resolution",
-                                                     "dac.range",   "encoder.fine", "encoder.resolution"};
   for (const study::InputColumn& column : study.columns.inputs) {
-    const bool counts = std::any_of(sections.begin(), sections.end(), [&](std::string_view section) {
-      return section.ends_with('.') ? column.name.starts_with(section) : column.name == section;
-    });
-    if (counts && column.level != study::DrawLevel::study)
+    if (is_in_code(column) && column.level != study::DrawLevel::study)
       arguments.refuse(
           fmt::format("{} is drawn, so that every machine has another controller; expected a "
                       "number (--set {}=…)",
                       column.name, column.name));
   }
+}
+
+/// Refuses values that differ between the conditions and ages: each has a controller of its own.
+void require_one_controller(const command_line::Arguments& arguments, const study::Study& study,
+                            std::int64_t point) {
+  std::vector<std::vector<double>> inputs;  // [condition]
+  for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition)
+    inputs.push_back(study::study_trial(study, point, study::turns_of(study).trial_of(0, condition)).inputs);
+  std::vector<std::string> differing;
+  for (std::size_t column = 0; column < study.columns.inputs.size(); ++column) {
+    if (!is_in_code(study.columns.inputs[column])) continue;
+    std::vector<std::string> values;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      if (i == 0 || std::ranges::none_of(std::span(inputs).first(i), [&](const std::vector<double>& before) {
+            return before[column] == inputs[i][column];
+          }))
+        values.push_back(fmt::format("{}{}", text::short_number(inputs[i][column]),
+                                     study::condition_text(study, static_cast<std::int64_t>(i))));
+    }
+    if (values.size() > 1)
+      differing.push_back(
+          fmt::format("{} is {}", study.columns.inputs[column].name, fmt::join(values, ", ")));
+  }
+  if (differing.empty()) return;
+  arguments.refuse(fmt::format(
+      "the controllers of the conditions differ: {}; expected the one to write{}{}",
+      fmt::join(differing, "; "), study.condition_names.size() > 1 ? " with --condition" : "",
+      study.ages.at.size() > 1 ? fmt::format("{} --age", study.condition_names.size() > 1 ? " and" : " with")
+                               : ""));
 }
 
 /// The stem of the file, after which the written program is named.
@@ -140,9 +182,12 @@ std::string written_text(const command_line::Arguments& arguments, const std::fi
 ExitCode write_controller(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
   const std::filesystem::path output = command_line::text_place(arguments, "output").value_or("-");
-  const study::Study study = commands::load_study(input, arguments, std::span(&output, 1));
-  const std::int64_t point = commands::study_point(arguments, study).value_or(0);
+  const study::Study whole = commands::load_study(input, arguments, commands::StudyUse::to_make_files);
+  const std::int64_t point = commands::study_point(arguments, whole).value_or(0);
+  const study::Study study = trials::restricted_to(whole, arguments.value("condition"),
+                                                   command_line::number_option(arguments, "age", 0.0));
   require_values(arguments, study);
+  require_one_controller(arguments, study, point);
   const trial::TrialParameters p = study::study_trial(study, point, 0).parameters;
   if (!p.command.torque.levels.empty())
     arguments.refuse("the loop of this study is open: it has no controller");
@@ -151,10 +196,11 @@ ExitCode write_controller(const command_line::Arguments& arguments) {
                              : controller_code::Precision::double_precision;
   if (const std::string_view why = controller_code::why_not_writable(p.controller, precision); !why.empty())
     arguments.refuse(std::string(why));
-  const std::string name =
+  std::string name =
       study.points.labels.size() > 1
           ? fmt::format("{}, {}", study.name, study.points.labels[static_cast<std::size_t>(point)])
           : study.name;
+  if (study.conditions.size() == 1) name = study::label_under(name, study.conditions.front());
   controller_code::ControllerToWrite chain{
       p.controller,     loop::fine_resolution(p.encoder), p.dac, p.initial.integral, name,
       study.units.axis, margin_lines(study, point)};
@@ -177,7 +223,9 @@ commands::Command controller_command() {
            "MANIFEST|FILE",
            {{"point", "P",
              "the design point, by label or number, or 'best' of a results file; default: the first"},
-            {"output,o", "FILE", "the file to write; default: standard output"},
+            command_line::written_file({"output,o", "FILE", "the file to write; default: standard output"}),
+            {"condition", "NAME", "the condition whose controller it is, where the conditions have several"},
+            {"age", "A", "likewise the age"},
             command_line::choice_option("language", "LANGUAGE", {"c", "linuxcnc", "st"}),
             command_line::choice_option("precision", "PRECISION", {"double", "single"}),
             {"set", "KEY=VALUE", "override a manifest key, e.g. controller.ki=3e-5; may be repeated", true},

@@ -42,7 +42,8 @@ ExitCode export_file(const command_line::Arguments& arguments) {
 commands::Command export_command() {
   return {{"export",
            "FILE -o DIR",
-           {{"output,o", "DIR", "the folder for the tables (required)"}, command_line::force_option()}},
+           {command_line::renewed_file({"output,o", "DIR", "the folder for the tables (required)"}),
+            command_line::force_option()}},
           "write a results file's tables as CSV",
           export_help,
           export_file};

@@ -42,7 +42,6 @@ void require_everything(const std::vector<shards::ShardInfo>& parts, const study
 ExitCode merge(const command_line::Arguments& arguments) {
   const fs::path output = command_line::output_place(arguments);
   const std::vector<fs::path> inputs(arguments.operands().begin(), arguments.operands().end());
-  command_line::require_places(arguments, inputs, {output});
   const study::Study study = layout::recorded_study(shards::first_header(inputs), inputs.front());
   const storage::OutputLock lock(output);
   commands::print_fallback_lock(lock, output);
@@ -58,7 +57,8 @@ ExitCode merge(const command_line::Arguments& arguments) {
 commands::Command merge_command() {
   return {{"merge",
            "PART... -o FILE",
-           {{"output,o", "FILE", "the results file to make (required)"}, command_line::force_option()},
+           {command_line::written_file({"output,o", "FILE", "the results file to make (required)"}),
+            command_line::force_option()},
            1,
            100000},
           "join the parts of a study that was run in parts",

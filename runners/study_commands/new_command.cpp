@@ -140,9 +140,9 @@ std::string manifest_of_guide(const command_line::Arguments& arguments) {
 
 void write_manifest(const command_line::Arguments& arguments, const std::string& usual_name,
                     std::string_view manifest) {
-  const std::filesystem::path output =
-      command_line::text_place(arguments, "output").value_or(std::filesystem::path(usual_name));
-  command_line::require_places(arguments, {}, {output});
+  const std::optional<std::filesystem::path> named = command_line::text_place(arguments, "output");
+  const std::filesystem::path output = named.value_or(usual_name);
+  if (!named) command_line::require_replaceable(arguments, output);
   command_line::write_text(output, manifest);
   if (output != "-") status::tell("wrote {}; next: zerocount check {}\n", output.string(), output.string());
 }
@@ -184,7 +184,9 @@ commands::Command new_command() {
         of_guide({"breakaway", "N", "with --guide: measured force at which it slides, N"}),
         of_guide({"travel", "M", "with --guide: measured travel up to breakaway, m"}),
         of_guide({"secant", "K@M", "with --guide: measured force over travel, N/m, at a travel, m"}),
-        command_line::excluding({"list"}, {"output,o", "FILE", "the manifest to make; default: NAME.yaml"}),
+        command_line::excluding(
+            {"list"},
+            command_line::written_file({"output,o", "FILE", "the manifest to make; default: NAME.yaml"})),
         command_line::excluding({"list"}, command_line::force_option())},
        0,
        1,

@@ -112,11 +112,9 @@ void require_study_of_option(const command_line::Arguments& arguments, const stu
 RunRequest run_request(const command_line::Arguments& arguments) {
   RunRequest request;
   request.output = command_line::output_place(arguments);
-  request.page = commands::watched_page(arguments, {arguments.operands()[0], request.output});
-  std::vector<fs::path> others{request.output};
-  if (request.page) others.push_back(*request.page);
-  request.timeline = commands::timeline_place(arguments, {arguments.operands()[0]}, others);
-  request.study = commands::load_study(arguments.operands()[0], arguments, {&request.output, 1});
+  request.page = commands::watched_page(arguments);
+  request.timeline = commands::timeline_place(arguments);
+  request.study = commands::load_study(arguments.operands()[0], arguments, commands::StudyUse::to_make_files);
   require_study_of_option(arguments, request.study);
   request.study.engine = engine_of(arguments);
   const std::optional<std::string> part = arguments.value("shard");
@@ -213,7 +211,7 @@ commands::Command run_command() {
   return {
       {"run",
        "MANIFEST|FILE -o FILE",
-       {{"output,o", "FILE", "the results file to make (required)"},
+       {command_line::renewed_file({"output,o", "FILE", "the results file to make (required)"}),
         command_line::excluding({"shard"}, commands::watch_option()),
         {"threads", "N", "threads to use; default: all cores"},
         command_line::choice_option("engine", "NAME", {"batch", "reference"},

@@ -118,9 +118,9 @@ fs::path current_folder(const command_line::Arguments& arguments, const fs::path
   return folder;
 }
 
-study::Study study_to_divide(const command_line::Arguments& arguments, const fs::path& output,
-                             std::int64_t parts) {
-  study::Study study = commands::load_study(arguments.operands()[0], arguments, {&output, 1});
+study::Study study_to_divide(const command_line::Arguments& arguments, std::int64_t parts) {
+  study::Study study =
+      commands::load_study(arguments.operands()[0], arguments, commands::StudyUse::to_make_files);
   study.engine = study.plugin ? study::Engine::reference : study::Engine::batch;
   if (study.stop && parts > 1) {
     arguments.refuse(
@@ -293,8 +293,7 @@ ExitCode slurm(const command_line::Arguments& arguments) {
   arguments.required("tasks");
   const std::int64_t parts = *arguments.whole_number("tasks", 1, max_tasks);
   if (parts == 1 && arguments.has("at-once")) arguments.refuse("option '--at-once' needs more than one part");
-  command_line::require_places(arguments, {arguments.operands()[0]}, {output});
-  const study::Study study = study_to_divide(arguments, output, parts);
+  const study::Study study = study_to_divide(arguments, parts);
   cluster::BatchRequest request = batch_request(arguments, output, study);
   if (!arguments.has("dry-run")) require_no_job(output);
   require_same_division(output, parts);
@@ -314,7 +313,7 @@ ExitCode slurm(const command_line::Arguments& arguments) {
 commands::Command slurm_command() {
   return {{"slurm",
            "MANIFEST -o FILE --tasks N",
-           {{"output,o", "FILE", "the results file to make (required)"},
+           {command_line::written_file({"output,o", "FILE", "the results file to make (required)"}),
             {"tasks", "N", "parts that the trials are divided into (required)"},
             {"cpus", "C", "processors of each job (default 1)"},
             {"time", "T", "time limit of each job, as for sbatch, e.g. 2:00:00"},

@@ -40,10 +40,11 @@ constexpr const char* trace_help =
     "Columns: k, t (s), target, count, coarse_count, error (counts), code, torque (N m),\n"
     "theta (rad), omega (rad/s), xp, xh (rad), depth (reversal points), mode (stick or\n"
     "slide). Values are those at the sampling instant; code and torque are commanded there.\n"
-    "Only if the study uses them: reference (counts), phase (fine or coarse), drive_torque (N m,\n"
-    "of the motor; if it differs from the code's torque by more than a delay of the closed\n"
-    "loop). A trial that is stopped early ends there. On a linear axis read N for N m and m for\n"
-    "rad. Of an estimate by 'zerocount rare' it replays a trial that was drawn.\n"
+    "Only if the study uses them: reference (counts), phase (fine or coarse), load_theta (rad) and\n"
+    "load_omega (rad/s) of the second mass, drive_torque (N m, of the motor; if it differs from the\n"
+    "code's torque by more than a delay of the closed loop). A trial that is stopped early ends\n"
+    "there. On a linear axis read N for N m and m for rad. Of an estimate by 'zerocount rare' it\n"
+    "replays a trial that was drawn.\n"
     "\n"
     "Example: zerocount trace gains.h5 --point 2 --trial 17 -o trial.csv\n";
 
@@ -141,13 +142,7 @@ ExitCode trace_rare(const command_line::Arguments& arguments, const std::filesys
 
 ExitCode trace(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
-  const std::optional<std::filesystem::path> output = command_line::text_place(arguments, "output");
-  if (output) {
-    std::vector<std::filesystem::path> inputs{input};
-    if (const auto plugin = arguments.value("plugin")) inputs.emplace_back(*plugin);
-    command_line::require_places(arguments, inputs, {*output});
-  }
-  const std::filesystem::path place = output.value_or("-");
+  const std::filesystem::path place = command_line::text_place(arguments, "output").value_or("-");
   const bool json = arguments.choice("format") == "json";
   std::optional<reading::ResultsFile> file;
   try {
@@ -163,7 +158,7 @@ ExitCode trace(const command_line::Arguments& arguments) {
 
   const study::Study study =
       file ? layout::recorded_study(file->header(), input, commands::plugin_option(arguments))
-           : commands::load_study(input, arguments, std::span(&place, 1));
+           : commands::load_study(input, arguments);
   require_loaded_plugin(arguments, study);
   const std::int64_t point = command_line::point_option(arguments, study.points.labels).value_or(0);
   const std::int64_t index = trial_option(arguments, study);
@@ -195,9 +190,9 @@ commands::Command trace_command() {
            {{"point", "P", "design point, by label or number from 0 (default 0)"},
             {"trial", "I", "trial of the point, from 0 (default 0)"},
             command_line::format_option({"csv", "json"}),
-            {"output,o", "FILE", "write there instead of to standard output"},
+            command_line::written_file({"output,o", "FILE", "write there instead of to standard output"}),
             command_line::needing({"output"}, command_line::force_option()),
-            {"plugin", "LIBRARY", "the controller plugin of a results file"},
+            command_line::read_file({"plugin", "LIBRARY", "the controller plugin of a results file"}),
             {"set", "KEY=VALUE", "override a manifest key; may be repeated", true}}},
           "run one trial again, sample by sample",
           trace_help,

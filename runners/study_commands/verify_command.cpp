@@ -143,7 +143,7 @@ commands::Command verify_command() {
            {{"trials", "N",
              "trials to run again, per file or per folder of shards (default 20; all with --reseal)"},
             {"seed", "S", "seed of the choice of these trials (default 1)"},
-            {"plugin", "LIBRARY", "the controller plugin of the study"},
+            command_line::read_file({"plugin", "LIBRARY", "the controller plugin of the study"}),
             {"reseal", "", "make a checksum again that does not hold, if everything else does"},
             answers::format_option()},
            1,

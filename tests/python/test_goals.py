@@ -63,3 +63,19 @@ def test_several_goals_are_named(results: zc.Results) -> None:
     assert results.study.goal is None
     assert [goal["name"] for goal in results.study.goals] == ["first", "second"]
     assert results.study.goals[1]["limits"] == {"band_exits[1]": 0.0, "tolerance_settling_time[1e-05]": 0.05}
+
+
+def test_the_headline_names_every_missed_goal(axis: zc.Study, tmp_path: pathlib.Path) -> None:
+    """Two goals that no move can meet are both named, and the one that is met is not."""
+    never, always = {"band": 0, "within": 1e-3, "moves": 0.9}, {"band": 10000, "within": 0.5, "moves": 0.5}
+    study = axis.without("goal").set({"goals": {"early": never, "wide": always, "soon": never}}, trials=200).at(2)
+    headline = study.run(tmp_path / "goals.h5", progress=False).judge().headline
+    assert "the goals 'early' and 'soon' are missed" in headline
+
+
+def test_friction_without_a_smallest_value_holds_nothing(axis: zc.Study) -> None:
+    """The message says so, and not that the friction is 0."""
+    held = axis.set({"initial.holding": True, "disturbance.torque": 1e-3, "friction.breakaway": {"lognormal": {"median": 0.3, "cv": 0.2}}})
+    with pytest.raises(zc.ManifestError, match="friction.breakaway is drawn without a smallest value above 0"):
+        held.labels
+    assert axis.set({"initial.holding": True, "disturbance.torque": 1e-3, "friction.breakaway": {"uniform": [0.2, 0.4]}}).labels

@@ -359,9 +359,9 @@ def test_kept_failures_are_the_failures(axis: zc.Study, tmp_path: pathlib.Path) 
 def test_a_point_is_named_by_its_number_or_label(small: zc.Results) -> None:
     """All numbers and labels are points, of NumPy too; nothing else is."""
     for number, label in enumerate(small.study.labels):
-        assert small.point(number) == small.point(np.int64(number)) == small.point(label) == number
+        assert small.point(number) == small.point(np.int64(number)) == small.point(label) == small.point(str(number)) == number
     asks = (small.point, small.trials, small.moves, small.jerks, small.rigs, small.trace, small.judge)
-    for wrong, ask in zip((-1, 3, "3", "0", "", "controller.ki", 99), asks):
+    for wrong, ask in zip((-1, 3, "3", "0.5", "", "controller.ki", 99), asks):
         with pytest.raises(zc.ManifestError, match="expected 0 to 2 or a label"):
             ask(wrong)
 

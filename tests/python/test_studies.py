@@ -240,7 +240,7 @@ def test_a_file_that_a_manifest_names_is_found_from_its_folder(
     for study in (joint, joint.set(seed=4), joint.without("goal"), joint.sweep("controller.delay", [0, 1])):
         assert zc.trial(study).inputs["friction.k1"] in (108, 112, 95, 130)
         assert "joint" in str(study.check())
-        assert study.run("joint.h5", force=True).path == pathlib.Path("joint.h5")
+        assert study.run("joint.h5", force=True).path == tmp_path / "joint.h5"
 
 
 def test_results_need_no_file_that_their_manifest_names(joint: zc.Study, tmp_path: pathlib.Path) -> None:

@@ -13,6 +13,7 @@
 #include "core/friction/law.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/encoder.hpp"
+#include "core/text/counted.hpp"
 #include "experiments/study/plan.hpp"
 
 namespace zerocount::report {
@@ -39,8 +40,7 @@ std::string moves_text(const PointValues& values) {
     if (one.low == one.high) each.push_back(one.low);
   }
   if (each.size() == plan.list.count && each.size() <= max_listed) return list_text(each, unit);
-  return fmt::format("{} move{}, {}", plan.list.count, plan.list.count == 1 ? "" : "s",
-                     range_text(all.low, all.high, unit));
+  return fmt::format("{}, {}", text::counted(plan.list.count, "move"), range_text(all.low, all.high, unit));
 }
 
 DiagramBlock levels_block(const PointValues& values) {
@@ -156,12 +156,12 @@ std::optional<DiagramBlock> disturbance_block(const PointValues& values, const t
   const study::ValueLimits torque = values.limits("disturbance.torque");
   if (torque.low != 0.0 || torque.high != 0.0)
     block.lines.push_back("constant " + values.text("disturbance.torque"));
-  const std::string unit = unit_on_axis(values, "N m");
-  for (const trial::RippleParameters& one : p.disturbance.ripple)
-    block.lines.push_back("ripple " + quantity_text(one.amplitude, unit));
-  for (const trial::VibrationParameters& one : p.disturbance.vibration)
-    block.lines.push_back(
-        fmt::format("{} at {}", quantity_text(one.amplitude, unit), quantity_text(one.frequency, "Hz")));
+  for (std::size_t i = 0; i < p.disturbance.ripple.size(); ++i)
+    block.lines.push_back("ripple " + values.text(fmt::format("disturbance.ripple.{}.amplitude", i)));
+  for (std::size_t i = 0; i < p.disturbance.vibration.size(); ++i)
+    block.lines.push_back(fmt::format("{} at {}",
+                                      values.text(fmt::format("disturbance.vibration.{}.amplitude", i)),
+                                      values.text(fmt::format("disturbance.vibration.{}.frequency", i))));
   if (!p.disturbance.spectra.empty()) block.lines.emplace_back("random vibration");
   if (block.lines.empty()) return std::nullopt;
   return block;

@@ -31,7 +31,8 @@ class PhaseLines {
     add_unless_none("torque held within", "hold.enter");
     if (add_unless_none("standstill gains within", "standstill.band"))
       add_group("  ", {{"kp", "standstill.kp"}, {"ki", "standstill.ki"}, {"kd", "standstill.kd"}}, ", ");
-    for (const loop::Filter& filter : blocks.filters) lines.push_back(filter_text(filter));
+    for (std::size_t i = 0; i < blocks.filters.size(); ++i)
+      lines.push_back(filter_text(i, blocks.filters[i]));
     add_group("feed-forward ",
               {{"velocity", "feedforward.velocity"},
                {"acceleration", "feedforward.acceleration"},
@@ -71,15 +72,15 @@ class PhaseLines {
     if (!texts.empty()) lines.push_back(fmt::format("{}{}", head, fmt::join(texts, separator)));
   }
 
-  static std::string filter_text(const loop::Filter& filter) {
-    const std::string at = quantity_text(filter.frequency, "Hz");
+  std::string filter_text(std::size_t index, const loop::Filter& filter) const {
+    const auto frequency = [&] { return text(fmt::format("filters.{}.frequency", index)); };
     switch (filter.kind) {
       case loop::FilterKind::lowpass:
-        return "low-pass " + at;
+        return "low-pass " + frequency();
       case loop::FilterKind::notch:
-        return "notch " + at;
+        return "notch " + frequency();
       case loop::FilterKind::lead:
-        return "lead " + at;
+        return "lead " + frequency();
       case loop::FilterKind::biquad:
         break;
     }

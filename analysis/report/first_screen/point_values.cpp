@@ -42,6 +42,16 @@ study::ValueLimits PointValues::limits(std::size_t slot) const {
   return all;
 }
 
+std::vector<double> PointValues::typical_values(std::size_t slot) const {
+  std::vector<double> values;
+  for (std::int64_t condition = 0; condition < std::max<std::int64_t>(study_.plan->conditions, 1);
+       ++condition)
+    values.push_back(
+        study::limits_of_slot(*study_.plan, slot, study::plan_point(*study_.plan, point_, condition))
+            .typical);
+  return values;
+}
+
 study::ValueLimits PointValues::limits(std::string_view name) const {
   return limits(slot_of(name));
 }
@@ -57,8 +67,9 @@ std::string PointValues::text(std::size_t slot) const {
     return std::string(parameter.labels[static_cast<std::size_t>(range.low)]);
   if (range.low == parameter.none) return "none";
   const std::string unit = parameters::unit_of(parameter, study_.plan->units);
-  const bool has_ends = std::isfinite(range.low) && std::isfinite(range.high);
-  return has_ends ? range_text(range.low, range.high, unit) : "about " + quantity_text(range.typical, unit);
+  if (std::isfinite(range.low) && std::isfinite(range.high)) return range_text(range.low, range.high, unit);
+  const auto [least, largest] = std::ranges::minmax(typical_values(slot));
+  return "about " + (least == largest ? quantity_text(least, unit) : range_text(least, largest, unit));
 }
 
 std::string PointValues::text(std::string_view name) const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study.hpp"
@@ -36,6 +37,7 @@ class PointValues {
 
  private:
   std::size_t slot_of(std::string_view name) const;
+  std::vector<double> typical_values(std::size_t slot) const;  ///< under each condition
 
   const study::Study& study_;
   std::int64_t point_;

@@ -7,12 +7,15 @@ The package calls the program zerocount and reads its files. Single trials run i
 'met'
 """
 
+import inspect as _inspect
+
 from _zerocount import __version__
 
+from . import arguments as _arguments
 from .answers import Answer
 from .asking import ask
 from .comparison import Comparison, compare
-from .errors import DataError, Error, MachineError, ManifestError, Problem, TooLittleDataError
+from .errors import ArgumentError, DataError, Error, MachineError, ManifestError, Problem, TooLittleDataError
 from .figures import Figure
 from .identification import Identification, LawIdentification, SlidingIdentification, identify
 from .laws import ControlLaw, Setup, trial
@@ -28,6 +31,7 @@ from .tuning import Tuning, tune
 
 __all__ = [
     "Answer",
+    "ArgumentError",
     "Comparison",
     "ControlLaw",
     "DataError",
@@ -61,3 +65,10 @@ __all__ = [
     "trial",
     "tune",
 ]
+
+for _name in __all__:
+    _item = globals()[_name]
+    if isinstance(_item, type):
+        _arguments.check_class(_item)
+    elif _inspect.isfunction(_item):
+        globals()[_name] = _arguments.checked(_item)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Mapping
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from . import program
 from .answer_types import TYPES, Ask
@@ -13,14 +13,24 @@ from .answers import Answer
 from .options import options
 from .progress import progress_bar
 
+if TYPE_CHECKING:
+    from .results import Results
+    from .studies import Study
+
 
 def _typed(function: Callable[..., Answer]) -> Ask:
     """The function with the type of the answer for each command."""
     return cast(Ask, function)
 
 
+def _word(operand: Any) -> str:
+    """An operand on the command line; that of results and paths from the root."""
+    path = getattr(operand, "path", operand)
+    return str(os.path.abspath(path)) if isinstance(path, os.PathLike) else str(path)
+
+
 @_typed
-def ask(command: str, /, *operands: Any, progress: bool = True, **values: Any) -> Answer:
+def ask(command: str, /, *operands: Study | Mapping[str, Any] | Results | str | os.PathLike[str], progress: bool = True, **values: Any) -> Answer:
     """Ask a command of the program.
 
     Parameters
@@ -55,7 +65,7 @@ def ask(command: str, /, *operands: Any, progress: bool = True, **values: Any) -
 
     words = options(**values, format="notebook")
     subject = study(operands[0]) if operands and isinstance(operands[0], (Study, Mapping)) else None
-    others = [os.fspath(getattr(operand, "path", operand)) for operand in operands[subject is not None :]]
+    others = [_word(operand) for operand in operands[subject is not None :]]
     with progress_bar(command, progress) as bar:
         if subject is not None:
             text = subject.command(command, *others, *words, accepted=program.VERDICTS, progress=bar)

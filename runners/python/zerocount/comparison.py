@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from .answer_types import CompareAnswer
 from .asking import ask
@@ -11,6 +11,8 @@ from .datasets import path_of
 
 if TYPE_CHECKING:
     import pandas  # type: ignore[import]
+
+    from .results import Results
 
 
 class Comparison(CompareAnswer):
@@ -23,8 +25,8 @@ class Comparison(CompareAnswer):
 
 
 def compare(
-    baseline: Any,
-    current: Any = None,
+    baseline: Results | str | os.PathLike[str],
+    current: Results | str | os.PathLike[str] | None = None,
     *,
     points: tuple[int | str, int | str] | None = None,
     margins: str | os.PathLike[str] | None = None,

@@ -63,7 +63,7 @@ class ResultsDatasets:
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
-        self.path = pathlib.Path(path)
+        self.path = pathlib.Path(path).absolute()
         if "format_version" not in self.attributes:
             raise DataError(f"{self.path}: not a results file of zerocount", 4)
 
@@ -167,10 +167,10 @@ def state_of(path: str | os.PathLike[str]) -> tuple[int, int, int]:
 
 
 def path_of(results: Any) -> str:
-    """The path of a results file, which is there."""
-    path = os.fspath(getattr(results, "path", results))
+    """The path from the root of a results file, which is there."""
+    path: str = os.path.abspath(getattr(results, "path", results))
     state_of(path)
-    return str(path)
+    return path
 
 
 def _attribute(value: Any) -> Any:

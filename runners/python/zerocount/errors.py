@@ -80,6 +80,10 @@ class ManifestError(Error, ValueError):
     """A manifest, a setting or an argument is wrong (exit code 2)."""
 
 
+class ArgumentError(ManifestError, TypeError):
+    """An argument of a function is of another type than it can have."""
+
+
 class DataError(Error, ValueError):
     """Results or records are missing, incomplete, damaged or incompatible (exit code 4)."""
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, Protocol
 
 from .errors import ManifestError
 from .traces import Trace, simulated
@@ -87,7 +87,7 @@ ControlLaw = Callable[[Setup], Callable[[Sample], float]]
 
 
 def trial(
-    study: Study | Results | str | os.PathLike[str],
+    study: Study | Results | str | os.PathLike[str] | Mapping[str, Any],
     point: int | str = 0,
     trial: int = 0,
     controller: ControlLaw | None = None,
@@ -96,7 +96,7 @@ def trial(
 
     Parameters
     ----------
-    study : Study, Results or path of a manifest
+    study : Study, Results, path or dict of a manifest
         Whose trial it is.
     point : int or str
         Number or label of the design point.
@@ -142,8 +142,6 @@ def trial(
 
     checked = study.checked if isinstance(study, Results) else study_of(study).checked
     number = point_number(point, checked.labels, checked.name)
-    if controller is not None and not callable(controller):
-        raise TypeError(f"controller is a {type(controller).__name__}; expected a function of the setup of a trial")
-    if not hasattr(trial, "__index__") or not 0 <= trial < checked.trials:
+    if not 0 <= trial < checked.trials:
         raise ManifestError(f"trial = {trial} is out of range; expected 0 to {checked.trials - 1}", 2)
     return simulated(checked, number, trial, controller)

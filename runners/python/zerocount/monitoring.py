@@ -11,8 +11,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, overload
 
 from .answer_types import MonitorAnswer
+from .arguments import is_iterable, refuse
 from .asking import ask
 from .datasets import path_of
+from .errors import ManifestError
 from .results import Results
 
 
@@ -23,15 +25,25 @@ def _cell(value: Any) -> str:
 
 
 def _columns(moves: Any) -> dict[str, list[Any]]:
-    """The columns of a table: a DataFrame, columns or values by name, or one mapping a move."""
+    """The columns of a table: a DataFrame, columns or values by name, or one mapping a move.
+
+    Raises
+    ------
+    ArgumentError
+        If it is no such table.
+    """
     if hasattr(moves, "columns") and hasattr(moves, "loc"):
         return {str(name): list(moves[name]) for name in moves.columns}
     if isinstance(moves, Mapping):
         return {
-            name: list(values) if isinstance(values, Iterable) and not isinstance(values, str) else [values]
+            str(name): list(values) if is_iterable(values) else [values]
             for name, values in moves.items()
         }
-    rows = list(moves)
+    rows = list(moves) if is_iterable(moves) else [moves]
+    names = set(rows[0]) if rows and isinstance(rows[0], Mapping) else set()
+    for row in rows:
+        if not isinstance(row, Mapping) or set(row) != names:
+            refuse("monitor: a move", row, f"a mapping with {', '.join(map(str, names)) or 'measures'}, as the first")
     return {name: [row[name] for row in rows] for name in (rows[0] if rows else {})}
 
 
@@ -42,7 +54,7 @@ def _is_file(moves: Any) -> bool:
 def _add(path: pathlib.Path, columns: Mapping[str, Sequence[Any]]) -> None:
     """Adds rows to a log, which is begun where there is none."""
     if len({len(values) for values in columns.values()}) > 1:
-        raise ValueError("the columns have different lengths")
+        raise ManifestError("the columns have different lengths", 2)
     begins = not path.exists()
     with path.open("a", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
@@ -129,7 +141,7 @@ class Monitor:
 
         Raises
         ------
-        ValueError
+        ManifestError
             If the columns are not those of the first moves, or the first moves have none.
         Error
             Of the class of the exit code, if the program refuses the moves: then none of them is added.
@@ -137,9 +149,9 @@ class Monitor:
         columns = _columns(moves)
         names = self._names or list(columns)
         if not names:
-            raise ValueError("no columns; expected names of measures, as the first moves")
+            raise ManifestError("no columns; expected names of measures, as the first moves", 2)
         if columns and set(columns) != set(names):
-            raise ValueError(f"columns {', '.join(columns)}; expected {', '.join(names)}, as the first moves have")
+            raise ManifestError(f"columns {', '.join(map(str, columns))}; expected {', '.join(names)}, as the first moves have", 2)
         with _restored(self._log):
             _add(self._log, {name: columns[name] for name in names} if columns else {})
             answer = self.read(self._log)

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .answer_types import PlanAnswer
 from .asking import ask
 
+if TYPE_CHECKING:
+    from .results import Results
+    from .studies import Study
+
 
 def plan(
-    pilot: Any = None,
+    pilot: Study | Results | str | os.PathLike[str] | Mapping[str, Any] | None = None,
     *,
     success: float | None = None,
     confidence: float | None = None,

@@ -139,7 +139,7 @@ def run(
     finally:
         listener.join()
     for warning in filter(None, map(WARNING.match, said)):
-        warnings.warn(warning["text"], stacklevel=3)
+        warnings.warn(warning["text"], stacklevel=_frames_of_the_package() + 1)
     message = "\n".join(line for line in said if not WARNING.match(line))
     if process.returncode == 130:
         raise KeyboardInterrupt(message)
@@ -149,6 +149,15 @@ def run(
     if process.returncode not in accepted or (process.returncode != 0 and not output):
         raise error_of(process.returncode, message or f"{path()} ended with exit code {process.returncode}")
     return process.returncode, output
+
+
+def _frames_of_the_package() -> int:
+    """Number of calls in this package that led to the caller's: what it warns of is a line of the user."""
+    package = os.path.dirname(__file__)
+    frame, frames = sys._getframe(1), 0
+    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == package:
+        frame, frames = frame.f_back, frames + 1
+    return frames
 
 
 @functools.cache

@@ -103,7 +103,7 @@ class Results:
     Attributes
     ----------
     path : pathlib.Path
-        The file.
+        The file, from the root: the results are the same in another folder and in another process.
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -545,7 +545,7 @@ class Results:
         -------
         pathlib.Path
         """
-        self.command("report", "-o", str(output), "--force")
+        self.command("report", "-o", os.fspath(output), "--force")
         return pathlib.Path(output)
 
     @property

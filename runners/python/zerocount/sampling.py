@@ -228,7 +228,7 @@ class Sample:
 
 
 def sample(
-    study: Study | Results | str | os.PathLike[str],
+    study: Study | Results | str | os.PathLike[str] | Mapping[str, Any],
     point: int | str = 0,
     *,
     outcome: str | Callable[[dict[str, Array]], Array] = "success",
@@ -243,7 +243,7 @@ def sample(
 
     Parameters
     ----------
-    study : Study, Results or path of a manifest
+    study : Study, Results, path or dict of a manifest
         The study.
     point : int or str
         Number or label of the design point. The sample is of the study at this point, without its sweep.

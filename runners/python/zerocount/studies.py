@@ -494,7 +494,7 @@ def _swept_value(study: str, key: str, axes: Mapping[str, Any]) -> Any:
 
 
 def point_number(point: int | str, labels: list[str], where: object) -> int:
-    """The number of a design point that is given by its number or label.
+    """The number of a design point that is given by its number or label, also a label as tables shorten it: ``ki=5000``.
 
     Parameters
     ----------
@@ -505,8 +505,8 @@ def point_number(point: int | str, labels: list[str], where: object) -> int:
     where : object
         Begins the message of an error.
     """
-    if isinstance(point, str) and point in labels:
-        return labels.index(point)
+    if isinstance(point, str) and (named := _zerocount.point_named(point, labels)) is not None:
+        return named
     if hasattr(point, "__index__") and 0 <= operator.index(point) < len(labels):
         return operator.index(point)
     raise ManifestError(f"{where}: there is no point {point!r}; expected 0 to {len(labels) - 1} or a label", 2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -59,10 +60,14 @@ def worst(outcomes: Array, words: Sequence[str]) -> Array:
 
 
 def short_name(name: str, among: list[str]) -> str:
-    """The last part of a dotted key, with as many parts before it as tell it from others."""
-    parts = name.split(".")
+    """The last part of a dotted key, with as many parts before it as tell it from others.
+
+    What follows in brackets, a limit, or after @, a condition, is no part of the key.
+    """
+    key = re.split(r"[\[@]", name)[0]
+    parts = key.split(".")
     for first in range(len(parts) - 1, 0, -1):
-        short = ".".join(parts[first:])
+        short = ".".join(parts[first:]) + name[len(key) :]
         clear = sum(other == short or other.endswith("." + short) for other in among) <= 1
         if clear and not parts[first].isdigit():
             return short

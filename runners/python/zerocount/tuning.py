@@ -37,14 +37,14 @@ class Tuning(TuneAnswer):
 
 
 def tune(
-    manifest: Any,
+    manifest: Study | str | os.PathLike[str] | Mapping[str, Any],
     output: str | os.PathLike[str],
     *,
     goal: Mapping[str, Any] | None = None,
     free: Mapping[str, Any] | None = None,
     minimise: str | None = None,
-    margins: Mapping[str, Any] | None = None,
-    budget: int | str | None = None,
+    margins: Mapping[str, Any] | str | None = None,
+    budget: float | str | None = None,
     extras: str | None = None,
     retune_every: float | None = None,
     threads: int | None = None,

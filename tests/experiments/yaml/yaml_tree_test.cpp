@@ -119,6 +119,16 @@ TEST(YamlTree, RefusesControlCharactersInTexts) {
   EXPECT_EQ(problem_with("a: \"two\\nlines and\\ta tab\"\n"), "");
 }
 
+// A key is the name of something, which stands in tables, messages and files of one line.
+TEST(YamlTree, AKeyStandsOnOneLine) {
+  for (const char* const text : {"\\n", "\\t"}) {
+    const std::string refused = problem_with(fmt::format("a: {{\"x{}y\": 1}}\n", text));
+    EXPECT_NE(refused.find("m.yaml:1:5: a: a line break or a tab in a key; expected a name on one line"),
+              std::string::npos)
+        << refused;
+  }
+}
+
 TEST(YamlTree, AnEmptyTextIsNoDocument) {
   Problems problems;
   EXPECT_EQ(parse("", problems), nullptr);

@@ -32,21 +32,6 @@ TEST(NumberText, IsShortAndNamesWhatIsNotANumber) {
   EXPECT_EQ(reading::number_text(-std::numeric_limits<double>::infinity()), "-inf");
 }
 
-TEST(CsvField, IsQuotedWhereItMustBe) {
-  EXPECT_EQ(reading::csv_field("plain text"), "plain text");
-  EXPECT_EQ(reading::csv_field("a,b"), "\"a,b\"");
-  EXPECT_EQ(reading::csv_field("say \"no\""), "\"say \"\"no\"\"\"");
-  EXPECT_EQ(reading::csv_field("two\nlines"), "\"two\nlines\"");
-  EXPECT_EQ(reading::csv_field("=cmd|' /C calc'!A0"), "'=cmd|' /C calc'!A0");  // no command of a spreadsheet
-  EXPECT_EQ(reading::csv_field("@SUM(1,2)"), "\"'@SUM(1,2)\"");
-  EXPECT_EQ(reading::csv_field("-2+3+cmd|' /C calc'!A0"), "'-2+3+cmd|' /C calc'!A0");
-  EXPECT_EQ(reading::csv_field("+1+1"), "'+1+1");  // no 2
-  EXPECT_EQ(reading::csv_field("-slow"), "'-slow");
-  EXPECT_EQ(reading::csv_field("- 3"), "'- 3");
-  EXPECT_EQ(reading::csv_field("+15 %"), "+15 %");
-  EXPECT_EQ(reading::csv_field("-1.5e-3"), "-1.5e-3");
-}
-
 TEST(CsvFile, QuotesWhatNeedsQuotes) {
   const TemporaryFolder directory;
   reading::CsvFile csv(directory / "a.csv");

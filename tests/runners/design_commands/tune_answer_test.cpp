@@ -83,7 +83,8 @@ TEST(TuneAnswer, NamesEachMarginWithItsUnitAndWhatIsWanted) {
   EXPECT_THAT(
       text_of(answer, study),
       HasSubstr(
-          "smallest margins of 8 machines before they slide, at ±10 % of inertia, ±30 % of damping, ±5 % of "
+          "smallest margins of 8 machines of the search before they slide, at ±10 % of inertia, ±30 % of "
+          "damping, ±5 % of "
           "torque constant: gain margin ∞ dB (at least 6 wanted), "
           "phase margin 41 degrees (at least 30 wanted), delay margin 10 samples or more (none wanted), "
           "sensitivity 1.5 (none wanted)\n"));

@@ -2,6 +2,7 @@
 // they hold.
 #include "analysis/report/first_screen/axis_drawing.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <regex>
 #include <string>
@@ -132,6 +133,25 @@ TEST(AxisDrawing, SpeaksOfForcesAndLengthsOnALinearAxis) {
   EXPECT_EQ(diagram.drive.lines.front(), "16\u00a0bit, ±40\u00a0N");
   EXPECT_EQ(diagram.encoder.lines.front(), "1 count = 10\u00a0nm");
   EXPECT_EQ(diagram.friction->title, "Friction: coulomb");
+}
+
+// A list is one parameter after the other, each with its range over the conditions.
+TEST(AxisDrawing, ShowsTheValuesOfAllConditions) {
+  const AxisDiagram diagram = axis_diagram(
+      axis("command: {targets: [3], hold: 0.15}\nfriction: {k1: {lognormal: {median: 100, cv: 0.1}}}\n"
+           "controller: {filters: [{notch: {frequency: 400, damping: 0.1, depth: 0.2}}]}\n"
+           "disturbance: {ripple: [{amplitude: 8.0e-3, periods: 1}, {amplitude: {uniform: [1.0e-3, 3.0e-3]}, "
+           "periods: 200}], vibration: [{amplitude: 0.002, frequency: 50}]}\n"
+           "conditions: {empty: {}, loaded: {disturbance.ripple.0.amplitude: 0.045, "
+           "controller.filters.0.frequency: 300, disturbance.vibration.0.frequency: 60, "
+           "friction.k1: {lognormal: {median: 200, cv: 0.1}}}}\n"),
+      0);
+  EXPECT_EQ(diagram.disturbance->lines, (std::vector<std::string>{"ripple 0.008 … 0.045\u00a0N\u00a0m",
+                                                                  "ripple 0.001 … 0.003\u00a0N\u00a0m",
+                                                                  "0.002\u00a0N\u00a0m at 50 … 60\u00a0Hz"}));
+  EXPECT_NE(std::ranges::find(diagram.controller->lines, "notch 300 … 400\u00a0Hz"),
+            diagram.controller->lines.end());
+  EXPECT_EQ(diagram.friction->lines.front(), "k1 about 100 … 200\u00a0N\u00a0m/rad");
 }
 
 TEST(AxisDrawing, AnOpenLoopHasNoController) {

@@ -1,0 +1,86 @@
+// A written controller is one controller: of conditions with different ones it is that of the one named.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/failure/failure.hpp"
+#include "results/layout/layout.hpp"
+#include "runners/program/commands.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+constexpr const char* manifest = R"(
+zerocount: 1
+name: joint
+seed: 1
+rigs: 2
+trials: 8
+plant: {inertia: 5.0e-4}
+controller: {ki: 3.0e-5, feedforward: {acceleration: 7.0e-4}}
+command: {targets: [30], hold: 0.2, profile: {shape: s_curve, velocity_limit: 0.01, acceleration_limit: 1, jerk_limit: 500}}
+)";
+
+class ControllerOfConditions : public ::testing::Test {
+ protected:
+  /// The written controller. @throws Failure as the program
+  std::string written(std::vector<std::string> options) {
+    options.insert(options.begin(),
+                   {"controller", folder_.path() / "joint.yaml", "-o", folder_.path() / "c.c", "--force"});
+    program::run_command_line(options);
+    return folder_.read("c.c");
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ControllerOfConditions, IsThatOfTheConditionThatIsNamed) {
+  folder_.write("joint.yaml", std::string(manifest) +
+                                  "conditions: {empty: {}, loaded: {plant.inertia: 2.2e-3, "
+                                  "controller.feedforward.acceleration: 2.7e-3}}\n");
+  try {
+    written({});
+    FAIL() << "which of two controllers was written?";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::bad_input);
+    EXPECT_NE(std::string(failure.what())
+                  .find("controller.feedforward.acceleration is 0.0007 under condition empty, 0.0027 under "
+                        "condition loaded; expected the one to write with --condition"),
+              std::string::npos)
+        << failure.what();
+  }
+  const std::string loaded = written({"--condition", "loaded"});
+  EXPECT_NE(loaded.find("feedforward_acceleration = 0.0027"), std::string::npos) << loaded;
+  EXPECT_NE(loaded.find("joint, loaded"), std::string::npos) << loaded;
+  EXPECT_EQ(loaded.find("condition empty"), std::string::npos) << "margins of another controller";
+  EXPECT_NE(written({"--condition", "empty"}).find("feedforward_acceleration = 0.0007"), std::string::npos);
+  EXPECT_THROW(written({"--condition", "full"}), Failure);
+}
+
+// A plant that differs has the same controller, with margins under each condition.
+TEST_F(ControllerOfConditions, IsOneWhereOnlyThePlantDiffers) {
+  folder_.write("joint.yaml",
+                std::string(manifest) + "conditions: {empty: {}, loaded: {plant.inertia: 2.2e-3}}\n");
+  const std::string both = written({});
+  EXPECT_NE(both.find("under condition empty"), std::string::npos) << both;
+  EXPECT_NE(both.find("under condition loaded"), std::string::npos) << both;
+}
+
+// The help is written by hand; the columns are those of the layout.
+TEST(TraceHelp, NamesEveryColumn) {
+  study::StudyFeatures features;
+  features.travel = features.phases = features.load = features.drive_torque = true;
+  for (const commands::Command& command : program::commands()) {
+    if (command.spec.name != "trace") continue;
+    for (const auto& field : layout::trace_fields(features)) {
+      const std::string name(field.column.name);
+      EXPECT_TRUE(name == "trial" || command.help.find(name) != std::string::npos) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -1,7 +1,6 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -22,6 +21,7 @@
 #include "runners/commands/stage_progress.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/result_commands/changed_parameters.hpp"
+#include "runners/result_commands/growing_log.hpp"
 #include "runners/result_commands/machine_logs.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
@@ -116,40 +116,6 @@ monitor::MonitorSettings settings_from(const command_line::Arguments& arguments)
   settings.measures = arguments.values("measure");
   return settings;
 }
-
-/// A log that another process writes.
-class GrowingLog {
- public:
-  explicit GrowingLog(fs::path path) : path_(std::move(path)), log_(path_.string()) {}
-
-  /// Reads the lines that are new. @returns whether there are moves among them
-  bool read() {
-    std::ifstream file(path_, std::ios::binary);
-    if (!file) throw Failure(ExitCode::bad_input, fmt::format("{}: cannot be read", path_.string()));
-    file.seekg(0, std::ios::end);
-    const auto end = static_cast<std::streamoff>(file.tellg());
-    if (end < 0) throw Failure(ExitCode::bad_input, fmt::format("{}: cannot be read", path_.string()));
-    const auto size = static_cast<std::size_t>(end);
-    require_log_size(path_, size);
-    if (size < read_)
-      throw Failure(ExitCode::bad_data,
-                    fmt::format("{}: became shorter while it was followed; expected a file that only grows",
-                                path_.string()));
-    const std::int64_t before = log_.moves();
-    std::string text(size - read_, '\0');
-    file.seekg(static_cast<std::streamoff>(read_));
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(file.gcount()));
-    read_ += log_.read(text);
-    return log_.moves() > before;
-  }
-  const monitor::MoveLog& log() const { return log_; }
-
- private:
-  fs::path path_;
-  monitor::MoveLog log_;
-  std::size_t read_{0};  ///< bytes
-};
 
 /// Prints the state after all moves of the log as one line. @returns its exit code
 ExitCode print_state(monitor::MachineMonitor& machine, const monitor::MoveLog& log,

@@ -257,20 +257,28 @@ friction: {k1: {uniform: [108, 112]}, alpha: 0.5}
 command: {targets: [{integers: [5, 30]}, {integers: [-30, -5]}], hold: 0.2}
 )");
   ASSERT_EQ(program({"run", "study.yaml", "-o", "study.h5", "-q"}).code, 0);
-  std::string log;
-  for (const auto& [k1, seed] : {std::pair("110", "71"), std::pair("88", "72")}) {
-    ASSERT_EQ(program({"run", "study.yaml", "-o", "one.h5", "-q", "--force", "--set",
-                       fmt::format("friction.k1={}", k1), "--set", fmt::format("seed={}", seed), "--set",
-                       "trials=120"})
-                  .code,
-              0);
-    ASSERT_EQ(program({"export", "one.h5", "-o", "tables", "--force"}).code, 0);
-    std::ifstream file(folder_.path() / "tables/outcomes.csv");
-    std::string line;
-    for (bool first = true; std::getline(file, line); first = false)
-      if (!first || log.empty()) log += line + "\n";
-  }
-  folder_.write("moves.csv", log);
+  /// The moves of a machine that has these settings from the move 241 on.
+  const auto log_with = [&](const std::vector<std::string>& changed) {
+    std::string log;
+    for (const auto& settings : {std::vector<std::string>{"friction.k1=110", "seed=71"}, changed}) {
+      std::vector<std::string> words{"run", "study.yaml", "-o",    "one.h5",
+                                     "-q",  "--force",    "--set", "trials=120"};
+      for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+      EXPECT_EQ(program(words).code, 0);
+      EXPECT_EQ(program({"export", "one.h5", "-o", "tables", "--force"}).code, 0);
+      std::ifstream file(folder_.path() / "tables/outcomes.csv");
+      std::string line;
+      for (bool first = true; std::getline(file, line); first = false)
+        if (!first || log.empty()) log += line + "\n";
+    }
+    return log;
+  };
+  folder_.write("deadband.csv", log_with({"friction.k1=110", "controller.deadband=2", "seed=72"}));
+  const Json deadband = json_of({"monitor", "study.h5", "deadband.csv"}, 1);
+  ASSERT_FALSE(deadband["parameters"].empty()) << deadband;
+  EXPECT_NE(deadband["parameters"][0]["parameter"].get<std::string>().find("deadband"), std::string::npos)
+      << deadband["parameters"];
+  folder_.write("moves.csv", log_with({"friction.k1=88", "seed=72"}));
   const Json answer = json_of({"monitor", "study.h5", "moves.csv"}, 1);
   ASSERT_FALSE(answer["parameters"].empty()) << answer;
   EXPECT_NEAR(answer["parameters_since"].get<double>(), 241.0, 12.0);

@@ -55,20 +55,40 @@ RunValue value_of(const MonitorJson& answer, const MonitorJson& measure) {
   return value;
 }
 
+/// Of a measure with two peaks: the medians of the moves that are alike.
+std::vector<RunValue> values_of_likes(const MonitorJson& answer, const MonitorJson& measure) {
+  std::vector<RunValue> values;
+  if (!answer.contains("likes")) return values;
+  for (const MonitorJson& like : answer.at("likes")) {
+    if (like.at("measure") != measure.at("measure")) continue;
+    RunValue value = value_of(answer, measure);
+    value.point += ", " + like.at("like").get<std::string>();
+    value.value = number_or_unknown(like.at("median"));
+    value.n = like.at("moves").get<std::int64_t>();
+    value.comparison->baseline = number_or_unknown(like.at("baseline"));
+    value.comparison->effect = value.value - value.comparison->baseline;
+    values.push_back(std::move(value));
+  }
+  return values;
+}
+
 RunRecord run_of(const MonitorJson& answer) {
   RunRecord run;
   const auto baseline = answer.at("baseline").get<std::string>();
   run.study = "monitor of " + baseline;
-  run.series_sha256 =
-      hash::sha256_hex(fmt::format("monitor\n{}\n{}\n{}\n{}", baseline, answer.at("baseline_moves").dump(),
-                                   answer.at("block").dump(), answer.at("alarm").dump()));
+  const bool grouped = answer.contains("group") && !answer.at("group").is_null();
+  run.series_sha256 = hash::sha256_hex(fmt::format(
+      "monitor\n{}\n{}\n{}\n{}{}", baseline, answer.at("baseline_moves").dump(), answer.at("block").dump(),
+      answer.at("alarm").dump(), grouped ? "\n" + answer.at("group").dump() : ""));
   run.study_sha256 = run.series_sha256;
   run.seed = "1";
   run.trials = answer.at("moves").get<std::int64_t>();
   run.comparison = RunComparison{answer.at("status").get<std::string>(), "monitor", "", ""};
   for (const MonitorJson& measure : answer.at("measures")) {
-    RunValue value = value_of(answer, measure);
-    if (std::isfinite(value.value)) run.values.push_back(std::move(value));
+    std::vector<RunValue> values = values_of_likes(answer, measure);
+    if (values.empty()) values.push_back(value_of(answer, measure));
+    for (RunValue& value : values)
+      if (std::isfinite(value.value)) run.values.push_back(std::move(value));
   }
   return run;
 }

@@ -19,15 +19,26 @@ namespace {
 constexpr std::int64_t max_simulated = 100'000;  // values of a simulated sequence
 constexpr std::int64_t min_simulated = 64;
 
-/// The values of blocks of consecutive moves; what is left of the last one is not used.
-std::vector<double> blocks_of(const MonitoredMeasure& measure, const std::vector<double>& moves,
-                              std::int64_t block) {
-  if (block == 1) return moves;
-  std::vector<double> values;
-  const auto size = static_cast<std::size_t>(block);
-  for (std::size_t first = 0; first + size <= moves.size(); first += size)
-    values.push_back(block_value(measure, std::span(moves).subspan(first, size)));
-  return values;
+/// Moves whose likes explain so much of the variance of a measure's ranks have no common median.
+constexpr double most_between_likes = 0.5;
+constexpr double dependent_p = 0.01;      // of one measure
+constexpr double any_dependent_p = 0.05;  // of all, where that allows more
+
+/// [value] one past its last move in the baseline. What is left of a last block is not used.
+std::vector<std::size_t> ends_of(const Baseline& baseline, const MonitorSettings& settings) {
+  std::vector<std::size_t> ends;
+  const auto moves = static_cast<std::size_t>(baseline.moves);
+  if (settings.group.empty()) {
+    const auto block = static_cast<std::size_t>(settings.block);
+    for (std::size_t end = block; end <= moves; end += block) ends.push_back(end);
+    if (ends.empty())
+      throw Failure(ExitCode::bad_data,
+                    fmt::format("the baseline has {} moves; expected at least a block of {}", moves, block));
+    return ends;
+  }
+  for (std::size_t move = 1; move <= moves; ++move)
+    if (move == moves || baseline.groups[move] != baseline.groups[move - 1]) ends.push_back(move);
+  return ends;
 }
 
 double typical_value(const MonitoredMeasure& measure, std::vector<double> values) {
@@ -72,17 +83,39 @@ bool is_wanted(const MonitorSettings& settings, const MonitoredMeasure& measure)
 
 }  // namespace
 
-bool are_dependent(double correlation, std::size_t values) {
-  constexpr double normal_quantile = 3.29;
-  return correlation * std::sqrt(static_cast<double>(values)) > normal_quantile;
+MachineMonitor::MachineMonitor(const Baseline& baseline, const MoveLog& log, MonitorSettings settings)
+    : settings_(with_own_names(std::move(settings))),
+      baseline_ends_(ends_of(baseline, settings_)),
+      likes_(likes_of(baseline.labels, static_cast<std::size_t>(baseline.moves), baseline_ends_, log.labels(),
+                      log.name())),
+      last_group_(baseline.groups.empty() ? std::string() : baseline.groups.back()) {
+  for (const std::string& name : log.others()) {
+    const std::string label = column_head(name).name;
+    const bool is_used = (label == "move" && likes_.uses_number()) ||
+                         (label == "target" && (likes_.uses_target() || likes_.uses_direction())) ||
+                         (!settings_.group.empty() && (label == settings_.group || name == settings_.group));
+    if (!is_used) unused_.push_back(name);
+  }
+  std::size_t first = 0;
+  for (const std::size_t end : baseline_ends_) {
+    const auto likes = std::span(likes_.of_baseline()).subspan(first, end - first);
+    baseline_classes_.push_back(classes_.try_emplace(set_of(likes), classes_.size()).first->second);
+    first = end;
+  }
+  std::vector<std::vector<double>> values;
+  for (const auto& [before, column] : common_columns(baseline, log)) values.push_back(add(*before, *column));
+  if (states_.empty()) refuse_without_common(baseline, log, settings_);
+  for (MeasureState& state : states_) state.evidence = 1.0 / static_cast<double>(states_.size());
+  if (!baseline.is_model) test_dependence(values);
 }
 
-MachineMonitor::MachineMonitor(const Baseline& baseline, const MoveLog& log, MonitorSettings settings)
-    : settings_(with_own_names(std::move(settings))), unused_(log.others()) {
+std::vector<MachineMonitor::Pair> MachineMonitor::common_columns(const Baseline& baseline,
+                                                                 const MoveLog& log) {
   for (const std::string& name : settings_.measures)
     if (log.find(name) == nullptr || baseline.find(name) == nullptr)
       throw Failure(ExitCode::bad_input, fmt::format("--measure {}: {} has no such measure", name,
                                                      log.find(name) == nullptr ? log.name() : baseline.name));
+  std::vector<Pair> common;
   for (const MoveLog::Column& column : log.columns()) {
     const Baseline::Column* const before = baseline.find(column.measure.name);
     const bool named = !settings_.measures.empty();
@@ -93,45 +126,72 @@ MachineMonitor::MachineMonitor(const Baseline& baseline, const MoveLog& log, Mon
       throw Failure(ExitCode::bad_input,
                     fmt::format("{}: {} is in '{}', and in {} in '{}'; expected units of the same dimension",
                                 log.name(), column.measure.name, column.unit, baseline.name, before->unit));
-    add(baseline, *before, column);
+    common.emplace_back(before, &column);
   }
-  if (states_.empty()) refuse_without_common(baseline, log, settings_);
-  for (MeasureState& state : states_) state.evidence = 1.0 / static_cast<double>(states_.size());
+  return common;
 }
 
-void MachineMonitor::add(const Baseline& baseline, const Baseline::Column& before,
-                         const MoveLog::Column& column) {
-  std::vector<double> values = blocks_of(before.measure, before.values, settings_.block);
-  if (values.empty())
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("the baseline has {} moves; expected at least a block of {}",
-                              before.values.size(), settings_.block));
-  MeasureState state{.measure = column.measure,
-                     .unit = shown_unit(column.measure, before.unit.empty() ? column.unit : before.unit),
-                     .baseline_median = typical_value(before.measure, before.values),
-                     .to_see = change_to_see(column.measure, values, settings_.change)};
-  if (!baseline.is_model) state.correlation = serial_correlation(values);
-  std::ranges::sort(values);
-  const random::RandomKey ties =
-      designs::random_key(settings_.seed, fmt::format("monitor.{}", column.measure.name));
-  ChangeTest test(values, ties);
-  watched_.push_back({.test = std::move(test), .baseline = std::move(values)});
+std::vector<double> MachineMonitor::add(const Baseline::Column& before, const MoveLog::Column& column) {
+  const MonitoredMeasure& measure = column.measure;
+  const std::span<const std::size_t> likes(likes_.of_baseline());
+  std::vector<double> values;
+  std::vector<std::vector<double>> by_class(classes_.size());
+  std::size_t first = 0;
+  for (std::size_t value = 0; value < baseline_ends_.size(); ++value) {
+    const std::size_t length = baseline_ends_[value] - first;
+    values.push_back(value_of(measure, likes_, likes.subspan(first, length),
+                              std::span(before.values).subspan(first, length)));
+    by_class[baseline_classes_[value]].push_back(values.back());
+    first = baseline_ends_[value];
+  }
+  MeasureState state{.measure = measure,
+                     .unit = shown_unit(measure, before.unit.empty() ? column.unit : before.unit)};
+  std::vector<std::vector<double>> by_like(likes_.count());
+  std::vector<double> oriented;
+  for (std::size_t move = 0; move < likes.size(); ++move) {
+    oriented.push_back(likes_.oriented(measure, likes[move], before.values[move]));
+    by_like[likes[move]].push_back(oriented.back());
+  }
+  if (likes_.count() > 1 && !measure.quality && part_between(oriented, likes) >= most_between_likes)
+    for (std::size_t like = 0; like < by_like.size(); ++like)
+      state.by_like.push_back({.measure = measure.name,
+                               .like = likes_.name(like),
+                               .baseline = typical_value(measure, by_like[like]),
+                               .baseline_moves = std::ssize(by_like[like])});
+  else
+    state.baseline_median = typical_value(measure, std::move(oriented));
+  state.to_see = change_to_see(measure, by_class, settings_.change);
+  for (std::vector<double>& alike : by_class) std::ranges::sort(alike);
+  const random::RandomKey ties = designs::random_key(settings_.seed, fmt::format("monitor.{}", measure.name));
+  ChangeTest test(by_class, ties);
+  watched_.push_back({.test = std::move(test), .baseline = std::move(by_class)});
   states_.push_back(std::move(state));
+  return values;
 }
 
-std::vector<std::string> MachineMonitor::dependent() const {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < states_.size(); ++i)
-    if (states_[i].correlation && are_dependent(*states_[i].correlation, watched_[i].baseline.size()))
-      names.push_back(states_[i].measure.name);
-  return names;
+void MachineMonitor::test_dependence(const std::vector<std::vector<double>>& values) {
+  parallel::for_each_index(states_.size(), [&](std::size_t i) {
+    MeasureState& state = states_[i];
+    state.correlation =
+        serial_correlation(classes_.size() == 1 ? values[i] : ranks_within(values[i], baseline_classes_));
+    state.dependence = dependence_of(
+        values[i], baseline_classes_,
+        designs::random_key(settings_.seed, fmt::format("monitor.order.{}", state.measure.name)));
+  });
 }
 
-void MachineMonitor::update_measure(std::size_t number, double value) {
+std::vector<const MeasureState*> MachineMonitor::dependent() const {
+  const double level = std::max(dependent_p, any_dependent_p / static_cast<double>(states_.size()));
+  std::vector<const MeasureState*> states;
+  for (const MeasureState& state : states_)
+    if (state.dependence.p <= level) states.push_back(&state);
+  return states;
+}
+
+void MachineMonitor::update_measure(std::size_t number, std::size_t of_class, double value) {
   Watched& watched = watched_[number];
   MeasureState& state = states_[number];
-  const double p = watched.test.update(value);
-  watched.values.push_back(value);
+  const double p = watched.test.update(value, of_class);
   const ChangeMartingale& martingale = watched.test.martingale();
   const double capital = martingale.capital();
   state.evidence = std::max(state.evidence, capital / static_cast<double>(states_.size()));
@@ -139,26 +199,78 @@ void MachineMonitor::update_measure(std::size_t number, double value) {
   watched.p_values.push_back(p);
   if (capital < alarm_capital()) return;
   state.direction = martingale.direction();
-  state.alarm_at = martingale.values() * settings_.block;
-  state.since = (martingale.since(watched.p_values) - 1) * settings_.block + 1;
+  state.alarm_at = units_.back().last + 1;
+  state.since = units_[static_cast<std::size_t>(martingale.since(watched.p_values) - 1)].first + 1;
   watched.p_values = {};
 }
 
-void MachineMonitor::update(const MoveLog& log) {
-  const std::int64_t block = settings_.block;
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    MeasureState& state = states_[i];
-    const std::vector<double>& moves = log.find(state.measure.name)->values;
-    for (std::int64_t done = watched_[i].test.martingale().values() * block;
-         done + block <= std::ssize(moves); done += block)
-      update_measure(i,
-                     block_value(state.measure, std::span(moves).subspan(static_cast<std::size_t>(done),
-                                                                         static_cast<std::size_t>(block))));
-    const std::int64_t first = state.since.value_or(1) - 1;
-    if (first < std::ssize(moves))
-      state.median = typical_value(state.measure, {moves.begin() + first, moves.end()});
+/// A block ends with its last move, a group with the first move of the next one.
+void MachineMonitor::take_move(const MoveLog& log, const Columns& columns, std::size_t move) {
+  const std::optional<std::size_t> like = likes_.of(log.labels().of(move));
+  like_at_.push_back(like);
+  const bool grouped = !settings_.group.empty();
+  if (grouped) {
+    const std::string& group = log.groups()[move];
+    continues_baseline_ = continues_baseline_ && group == last_group_;
+    if (continues_baseline_) {
+      like_at_.back().reset();
+      ++continued_;
+      return;
+    }
+    if (move > 0 && group != log.groups()[move - 1]) finish_unit(columns);
   }
+  if (!like) {
+    if (unlike_++ == 0) first_unlike_ = likes_.name_of(log.labels().of(move));
+    return;
+  }
+  open_.push_back(move);
+  open_likes_.push_back(*like);
+  if (!grouped && std::ssize(open_) == settings_.block) finish_unit(columns);
+}
+
+void MachineMonitor::finish_unit(const Columns& columns) {
+  if (open_.empty()) return;
+  const auto found = classes_.find(set_of(open_likes_));
+  if (found != classes_.end()) {
+    units_.push_back({static_cast<std::int64_t>(open_.front()), static_cast<std::int64_t>(open_.back())});
+    std::vector<double> values(open_.size());
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      for (std::size_t k = 0; k < open_.size(); ++k) values[k] = (*columns[i])[open_[k]];
+      update_measure(i, found->second, value_of(states_[i].measure, likes_, open_likes_, values));
+    }
+  } else {
+    unlike_ += std::ssize(open_);
+    for (const std::size_t move : open_) like_at_[move].reset();
+    if (first_unlike_.empty()) first_unlike_ = likes_.name(open_likes_.front());
+  }
+  open_.clear();
+  open_likes_.clear();
+}
+
+void MachineMonitor::update(const MoveLog& log) {
+  Columns columns;
+  for (const MeasureState& state : states_) columns.push_back(&log.find(state.measure.name)->values);
+  for (auto move = static_cast<std::size_t>(moves_); move < static_cast<std::size_t>(log.moves()); ++move)
+    take_move(log, columns, move);
   moves_ = log.moves();
+  for (MeasureState& state : states_) update_median(state, log);
+}
+
+/// Of the moves that have a like, since the change or all.
+void MachineMonitor::update_median(MeasureState& state, const MoveLog& log) {
+  const std::vector<double>& moves = log.find(state.measure.name)->values;
+  std::vector<std::vector<double>> by_like(likes_.count());
+  std::vector<double> all;
+  for (auto move = static_cast<std::size_t>(state.since.value_or(1) - 1); move < moves.size(); ++move) {
+    if (!like_at_[move]) continue;
+    all.push_back(likes_.oriented(state.measure, *like_at_[move], moves[move]));
+    by_like[*like_at_[move]].push_back(all.back());
+  }
+  for (std::size_t like = 0; like < state.by_like.size(); ++like) {
+    state.by_like[like].moves = std::ssize(by_like[like]);
+    if (!by_like[like].empty()) state.by_like[like].median = typical_value(state.measure, by_like[like]);
+  }
+  if (state.by_like.empty() && !all.empty()) state.median = typical_value(state.measure, std::move(all));
 }
 
 /// Asks all measures and directions at once. The limit doubles, so that a growing log is simulated seldom.
@@ -184,7 +296,7 @@ void MachineMonitor::simulate_changes(std::int64_t values) {
     task.seen = values_to_see({.measure = state.measure,
                                .baseline = watched_[task.measure].baseline,
                                .direction = task.direction,
-                               .size = state.to_see.size,
+                               .sizes = state.to_see.sizes,
                                .alarm = alarm_capital(),
                                .max_values = limit,
                                .seed = settings_.seed});
@@ -202,7 +314,7 @@ bool MachineMonitor::is_unchanged(std::int64_t values) {
     any = true;
     std::int64_t last = 0;
     for (const auto& [direction, seen] : watched_[i].seen) last = std::max(last, seen.value_or(values + 1));
-    if (last <= values) states_[i].seen_after = last * settings_.block;
+    if (last <= values) states_[i].seen_after = units_[static_cast<std::size_t>(last - 1)].last + 1;
     all = all && last <= values;
   }
   return any && all;
@@ -217,10 +329,9 @@ MonitorState MachineMonitor::state() {
                          (*one.alarm_at == *state.alarm->alarm_at && one.evidence > state.alarm->evidence));
     if (is_first) state.alarm = &one;
   }
-  const std::int64_t values = moves_ / settings_.block;
   if (state.alarm != nullptr)
     state.status = MachineStatus::changed;
-  else if (values > 0 && is_unchanged(values))
+  else if (values() > 0 && is_unchanged(values()))
     state.status = MachineStatus::unchanged;
   return state;
 }

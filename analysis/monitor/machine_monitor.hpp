@@ -4,10 +4,13 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/monitor/change_test.hpp"
 #include "analysis/monitor/detection_delay.hpp"
+#include "analysis/monitor/exchangeability.hpp"
+#include "analysis/monitor/likes.hpp"
 #include "analysis/monitor/monitor_baseline.hpp"
 #include "analysis/monitor/move_log.hpp"
 
@@ -17,14 +20,22 @@ struct MonitorSettings {
   double alarm{0.001};                  ///< probability of a false alarm, within any number of moves
   std::optional<double> change{};       ///< to be seen for `unchanged`; see change_to_see()
   std::int64_t block{1};                ///< consecutive moves that make one value
+  std::string group{};                  ///< column of the groups that make one value each; empty: none
   std::uint64_t seed{1};                ///< of ties and of simulated changes
   std::vector<std::string> measures{};  ///< to watch; empty: all that both sides have
 };
 
-/// Whether successive values correlate more than independent ones do, at a significance of 0.0005.
-bool are_dependent(double correlation, std::size_t values);
-
 enum class MachineStatus { changed, unchanged, undecided };
+
+/// A measure of the moves that are like each other.
+struct LikeValue {
+  std::string measure;
+  std::string like;      ///< "move 3", "target 20 count upwards"
+  double baseline{0.0};  ///< median of the baseline; infinite: never
+  std::int64_t baseline_moves{0};
+  std::optional<double> median{};  ///< of the moves since the change, or of all
+  std::int64_t moves{0};           ///< of which that is
+};
 
 /// What is known of one measure.
 struct MeasureState {
@@ -34,10 +45,13 @@ struct MeasureState {
   std::optional<Direction> direction{};    ///< of the change, with an alarm
   std::optional<std::int64_t> alarm_at{};  ///< move, from 1
   std::optional<std::int64_t> since{};     ///< move, from 1
-  double baseline_median{0.0};             ///< of a quality the mean; infinite: never
-  std::optional<double> median{};          ///< likewise of the moves since `since`, or of all
-  /// serial_correlation() of the values of a measured baseline.
+  /// Of a quality the mean; infinite: never; nothing where the likes make several peaks: see by_like.
+  std::optional<double> baseline_median{};
+  std::optional<double> median{};    ///< likewise of the moves since `since`, or of all
+  std::vector<LikeValue> by_like{};  ///< where likes explain at least half of the variance of the ranks
+  /// serial_correlation() of the values of a measured baseline, each by its rank among its like.
   std::optional<double> correlation{};
+  Dependence dependence{};  ///< of the values of a measured baseline
   ChangeToSee to_see{};
   std::optional<std::int64_t>
       seen_after{};  ///< moves after which `to_see` would have been seen, at most `moves`
@@ -53,6 +67,12 @@ struct MonitorState {
 /// Watches the moves of one machine: a ChangeTest for each measure. With K measures the alarm of each is at
 /// the capital K/alarm, so that the sum of their false alarms is bounded, whatever the measures have to do
 /// with each other. (The mean of their capitals would not do: each is a martingale of its own p-values only.)
+///
+/// A value is of a move, of `block` consecutive moves or of a group, and is ranked among those like it
+/// (Likes). The bound holds where values that are alike are exchangeable. Of moves that a day makes alike the
+/// days are: if the groups of moves are exchangeable, so is any function of one group, such as the median,
+/// and the p-value of a group among the groups before it is valid, however its moves depend on each other.
+/// The moves of a group themselves are not ranked: their p-values would share what the group has in common.
 class MachineMonitor {
  public:
   /// @param log has its header
@@ -66,8 +86,15 @@ class MachineMonitor {
   MonitorState state();
 
   const std::vector<MeasureState>& measures() const { return states_; }
-  /// Measures of which successive values of the baseline correlate: they are not exchangeable.
-  std::vector<std::string> dependent() const;
+  /// Measures of which the values of the baseline are not exchangeable, at a significance of 0.01 each, or of
+  /// 0.05 for all together if that is more.
+  std::vector<const MeasureState*> dependent() const;
+  const Likes& likes() const { return likes_; }
+  std::int64_t values() const { return std::ssize(units_); }  ///< that were compared
+  std::int64_t baseline_values() const { return std::ssize(baseline_ends_); }
+  std::int64_t unlike() const { return unlike_; }  ///< moves that the baseline has none like
+  const std::string& first_unlike() const { return first_unlike_; }  ///< its name
+  std::int64_t continued() const { return continued_; }  ///< moves of the last group of the baseline
   const MonitorSettings& settings() const { return settings_; }
   /// Columns of the log that nothing is compared with.
   const std::vector<std::string>& unused() const { return unused_; }
@@ -75,25 +102,52 @@ class MachineMonitor {
  private:
   struct Watched {
     ChangeTest test;
-    std::vector<double> p_values{};  ///< until the alarm
-    std::vector<double> baseline;    ///< sorted
-    std::vector<double> values{};    ///< those of moves, or blocks
+    std::vector<double> p_values{};             ///< until the alarm
+    std::vector<std::vector<double>> baseline;  ///< [class of values] sorted
     /// [direction] values_to_see(), and the limit that it was asked with.
     std::map<Direction, std::optional<std::int64_t>> seen{};
     std::int64_t seen_limit{0};
   };
+  /// The moves of one value.
+  struct Unit {
+    std::int64_t first;
+    std::int64_t last;
+  };
 
-  void add(const Baseline& baseline, const Baseline::Column& before, const MoveLog::Column& column);
-  void update_measure(std::size_t number, double value);
+  /// The columns of the log that are watched, each with that of the baseline.
+  using Pair = std::pair<const Baseline::Column*, const MoveLog::Column*>;
+  std::vector<Pair> common_columns(const Baseline& baseline, const MoveLog& log);
+  /// @returns the values of the baseline, in their order
+  std::vector<double> add(const Baseline::Column& before, const MoveLog::Column& column);
+  /// @param values [measure][value]
+  void test_dependence(const std::vector<std::vector<double>>& values);
+  using Columns = std::vector<const std::vector<double>*>;  ///< [measure][move of the log]
+  void take_move(const MoveLog& log, const Columns& columns, std::size_t move);
+  void finish_unit(const Columns& columns);
+  void update_measure(std::size_t number, std::size_t of_class, double value);
+  void update_median(MeasureState& state, const MoveLog& log);
   void simulate_changes(std::int64_t values);
   bool is_unchanged(std::int64_t values);
   double alarm_capital() const { return static_cast<double>(states_.size()) / settings_.alarm; }
 
   MonitorSettings settings_;
   std::vector<std::string> unused_{};
+  std::vector<std::size_t> baseline_ends_;  ///< [value] one past its last move
+  Likes likes_;
+  std::map<std::vector<std::size_t>, std::size_t> classes_{};  ///< of values: sets of likes
+  std::vector<std::size_t> baseline_classes_{};                ///< [value]
+  std::string last_group_{};                                   ///< of the baseline
   std::vector<MeasureState> states_{};
-  std::vector<Watched> watched_{};  ///< [measure]
+  std::vector<Watched> watched_{};                     ///< [measure]
+  std::vector<Unit> units_{};                          ///< compared
+  std::vector<std::size_t> open_{};                    ///< moves of the value that is not finished
+  std::vector<std::size_t> open_likes_{};              ///< theirs
+  std::vector<std::optional<std::size_t>> like_at_{};  ///< [move of the log]
+  bool continues_baseline_{true};                      ///< the log is still in the baseline's last group
+  std::string first_unlike_{};
   std::int64_t moves_{0};
+  std::int64_t unlike_{0};
+  std::int64_t continued_{0};
 };
 
 }  // namespace zerocount::monitor

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/monitor/explanation_answer.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
@@ -49,12 +50,30 @@ std::string change_text(const MonitorReading& r) {
                 : std::string("20 % of the baseline's median, or 0.1 of a proportion,");
 }
 
+/// "0.04 s; baseline 0.05 s", or that of each like: "move 0: 0.04 s, baseline 0.05 s; …".
+std::string medians_text(const MeasureState& state) {
+  constexpr std::size_t max_shown = 3;
+  if (state.by_like.empty())
+    return fmt::format("{}; baseline {}", typical_text(state, state.median.value_or(*state.baseline_median)),
+                       typical_text(state, *state.baseline_median));
+  std::vector<std::string> texts;
+  for (const LikeValue& like : state.by_like) {
+    if (!like.median) continue;
+    if (texts.size() == max_shown) {
+      texts.push_back("…");
+      break;
+    }
+    texts.push_back(fmt::format("{}: {}, baseline {}", like.like, typical_text(state, *like.median),
+                                typical_text(state, like.baseline)));
+  }
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
 std::string changed_headline(const MonitorReading& r) {
   const MeasureState& alarm = *r.state.alarm;
-  return fmt::format("changed: {} is {} since move {} ({}; baseline {}); alarm at move {} of {}",
-                     alarm.measure.name, word_of(*alarm.direction), *alarm.since,
-                     typical_text(alarm, alarm.median.value_or(alarm.baseline_median)),
-                     typical_text(alarm, alarm.baseline_median), *alarm.alarm_at, r.state.moves);
+  return fmt::format("changed: {} is {} since move {} ({}); alarm at move {} of {}", alarm.measure.name,
+                     word_of(*alarm.direction), *alarm.since, medians_text(alarm), *alarm.alarm_at,
+                     r.state.moves);
 }
 
 /// " in overshoot, creep": the measures that need more moves.
@@ -64,6 +83,11 @@ std::string unseen_text(const MonitorReading& r) {
     if (!state.to_see.directions.empty() && !state.seen_after) names.push_back(state.measure.name);
   if (names.empty()) return ": no measure has a size of change to be seen";
   return fmt::format(" in {}", fmt::join(names, ", "));
+}
+
+/// What is ranked, in the singular.
+std::string_view unit_text(const MonitorReading& r) {
+  return r.monitor.settings().group.empty() ? "block" : "group";
 }
 
 std::string headline_of(const MonitorReading& r) {
@@ -77,27 +101,106 @@ std::string headline_of(const MonitorReading& r) {
       break;
   }
   if (r.state.moves == 0) return "undecided: there are no moves yet";
+  if (r.monitor.values() == 0 && r.monitor.unlike() > 0)
+    return fmt::format("undecided: none of {} is like one of the baseline; the first is {}",
+                       moves_text(r.state.moves), text::printable(r.monitor.first_unlike()));
+  if (r.monitor.values() == 0)
+    return fmt::format("undecided: no {} of moves is complete after {}", unit_text(r),
+                       moves_text(r.state.moves));
   return fmt::format("undecided: no alarm in {}, but a change of {} need not have been seen{}",
                      moves_text(r.state.moves), change_text(r), unseen_text(r));
 }
 
+/// What is ranked, in the plural: "moves", "blocks of 5 moves", "groups of day".
+std::string values_text(const MonitorReading& r) {
+  const MonitorSettings& settings = r.monitor.settings();
+  if (!settings.group.empty()) return fmt::format("groups of {}", text::printable(settings.group));
+  return settings.block == 1 ? "moves" : fmt::format("blocks of {} moves", settings.block);
+}
+
 std::string bound_sentence(const MonitorReading& r) {
+  const bool is_plain = r.monitor.settings().group.empty();
   return fmt::format(
-      "a false alarm within any number of moves has at most the probability {}, where {} are exchangeable "
-      "with those of the baseline ({})",
-      text::percent(r.monitor.settings().alarm),
-      r.monitor.settings().block == 1 ? std::string("the moves")
-                                      : fmt::format("blocks of {} moves", r.monitor.settings().block),
-      moves_text(r.baseline.moves));
+      "a false alarm within any number of moves has at most the probability {}, where the {} are "
+      "exchangeable "
+      "with those of the baseline ({}){}",
+      text::percent(r.monitor.settings().alarm), values_text(r),
+      is_plain ? moves_text(r.baseline.moves) : fmt::format("{}", r.monitor.baseline_values()),
+      r.monitor.likes().count() > 1 ? " that are like them" : "");
+}
+
+std::string_view labels_text(const Likes& likes) {
+  switch (likes.by()) {
+    case LikeBy::number_and_target:
+      return "move and target";
+    case LikeBy::target:
+      return "target and direction";
+    case LikeBy::number:
+      return "move";
+    case LikeBy::direction:
+      return "direction";
+    case LikeBy::nothing:
+      break;
+  }
+  return "";
+}
+
+std::string likes_sentence(const MonitorReading& r) {
+  const Likes& likes = r.monitor.likes();
+  if (likes.count() < 2) return "";
+  std::vector<std::string> mirrored;
+  for (const MeasureState& state : r.monitor.measures())
+    if (state.measure.row->values.mirrored) mirrored.push_back(state.measure.name);
+  return fmt::format("moves are compared with those of the same {} ({} in the baseline){}",
+                     labels_text(likes), likes.count(),
+                     mirrored.empty()
+                         ? ""
+                         : fmt::format("; {} by {}", fmt::join(mirrored, ", "),
+                                       likes.takes_magnitudes() ? "magnitude" : "the direction of the move"));
+}
+
+std::string unlike_sentence(const MonitorReading& r) {
+  if (r.monitor.unlike() == 0) return "";
+  return fmt::format("{} without a like in the baseline {} not compared, the first of them {}",
+                     moves_text(r.monitor.unlike()), r.monitor.unlike() == 1 ? "is" : "are",
+                     text::printable(r.monitor.first_unlike()));
+}
+
+std::string continued_sentence(const MonitorReading& r) {
+  if (r.monitor.continued() == 0) return "";
+  return fmt::format("{} of the last group of the baseline {} not compared",
+                     moves_text(r.monitor.continued()), r.monitor.continued() == 1 ? "is" : "are");
+}
+
+/// Measures whose baseline alternates, or not.
+std::vector<std::string> dependent_names(const MonitorReading& r, bool alternates) {
+  std::vector<std::string> names;
+  for (const MeasureState* const state : r.monitor.dependent())
+    if (state->dependence.alternates == alternates) names.push_back(state->measure.name);
+  return names;
 }
 
 std::string dependent_sentence(const MonitorReading& r) {
-  const std::vector<std::string> names = r.monitor.dependent();
+  std::int64_t over = 0;
+  for (const MeasureState* const state : r.monitor.dependent())
+    if (!state->dependence.alternates) over = std::max(over, state->dependence.over);
+  const std::vector<std::string> names = dependent_names(r, false);
   if (names.empty()) return "";
   return fmt::format(
-      "they are not in the baseline, where successive values correlate in {}: false alarms are more "
-      "frequent, and longer blocks (--block, now {}) make them rarer",
-      fmt::join(names, ", "), r.monitor.settings().block);
+      "they are not in the baseline, where neighbours resemble each other in {}, over some {} {}: false "
+      "alarms "
+      "are more frequent; a column of what neighbours have in common, such as the day (--group), or longer "
+      "blocks (--block, now {}) make them rarer",
+      fmt::join(names, ", "), over, values_text(r), r.monitor.settings().block);
+}
+
+std::string alternating_sentence(const MonitorReading& r) {
+  const std::vector<std::string> names = dependent_names(r, true);
+  if (names.empty()) return "";
+  return fmt::format(
+      "in the baseline neighbours differ more than others in {}, as if moves of several kinds took turns: a "
+      "column 'move' or 'target' in both files compares moves with their like",
+      fmt::join(names, ", "));
 }
 
 std::string model_sentence(const MonitorReading& r) {
@@ -114,106 +217,8 @@ std::string model_sentence(const MonitorReading& r) {
       r.baseline.machines);
 }
 
-std::string_view word_of(ChangeTold told) {
-  switch (told) {
-    case ChangeTold::one:
-      return "one";
-    case ChangeTold::several:
-      return "several";
-    case ChangeTold::none:
-      return "none";
-    case ChangeTold::unknown:
-      break;
-  }
-  return "unknown";
-}
-
-/// "12 to 20 %", "0.08 to 0.12 counts"; an end that is nothing is left out.
-std::string interval_text(const ParameterChange& change, double least, double most, bool beyond) {
-  const std::string unit = change.kind == ChangeKind::factor ? " %"
-                           : change.unit.empty()             ? ""
-                                                             : " " + change.unit;
-  if (beyond) return fmt::format("at least {:.2g}{}", least, unit);
-  return fmt::format("{:.2g} to {:.2g}{}", least, most, unit);
-}
-
-/// "friction.k1 lower by 12 to 20 %", "encoder.fine_errors.noise higher by 0.08 to 0.12 count".
-std::string change_text(const ParameterChange& change) {
-  const bool is_factor = change.kind == ChangeKind::factor;
-  const auto off = [&](double end) { return is_factor ? 100.0 * std::abs(end - 1.0) : std::abs(end); };
-  const double unchanged = unchanged_by(change.kind);
-  const bool lower = change.high <= unchanged;
-  if (!lower && change.low < unchanged) {
-    const std::string unit = is_factor ? " %" : change.unit.empty() ? "" : " " + change.unit;
-    return fmt::format("{} between {:.2g}{} lower and {:.2g}{} higher", change.parameter, off(change.low),
-                       unit, off(change.high), unit);
-  }
-  return fmt::format(
-      "{} {} by {}", change.parameter, lower ? "lower" : "higher",
-      interval_text(change, off(lower ? change.high : change.low), off(lower ? change.low : change.high),
-                    lower ? change.beyond_low : change.beyond_high));
-}
-
 std::string explanation_sentence(const MonitorReading& r) {
-  if (r.explanation == nullptr) return "";
-  const ChangeExplanation& explanation = *r.explanation;
-  std::vector<std::string> texts;
-  for (const ParameterChange& change : explanation.parameters)
-    texts.push_back(fmt::format("{} ({})", change_text(change), text::percent_near(change.probability)));
-  const std::string compared =
-      explanation.since > 1
-          ? fmt::format("since move {}, compared with the machine's own moves before", explanation.since)
-          : std::string("compared with the simulated machines, from the first move on");
-  switch (explanation.told) {
-    case ChangeTold::one:
-      return fmt::format("if one parameter of the model differs, it is {}, {}",
-                         change_text(explanation.parameters[0]), compared);
-    case ChangeTold::several:
-      return fmt::format("which parameter differs cannot be told from these measures: {}; {}",
-                         fmt::join(texts, ", or "), compared);
-    case ChangeTold::none:
-      return fmt::format("no single parameter of those tried explains these moves; nearest: {}; {}",
-                         fmt::join(texts, ", or "), compared);
-    case ChangeTold::unknown:
-      break;
-  }
-  return fmt::format("which parameter changed is not told: {}", explanation.reason);
-}
-
-/// Reads a member of a change of this kind; nothing for a change of another kind.
-template <ChangeKind kind>
-auto of_kind(double ParameterChange::*member) {
-  return [member](const ParameterChange& change) {
-    return change.kind == kind ? std::optional(change.*member) : std::nullopt;
-  };
-}
-
-document::Description<ParameterChange> parameter_description() {
-  using document::Notation;
-  const auto factor = of_kind<ChangeKind::factor>;
-  const auto amount = of_kind<ChangeKind::amount>;
-  const auto item = [](const char* key, const char* heading, const char* meaning) {
-    return document::Item{
-        .key = key, .heading = heading, .meaning = meaning, .notation = Notation::three_digits};
-  };
-  return document::Description<ParameterChange>()
-      .value({"parameter", "parameter", "dotted path"}, &ParameterChange::parameter)
-      .value(item("factor", "times", "most likely factor by which it changed; null: something was added"),
-             factor(&ParameterChange::change))
-      .value(item("low", "from", "low end of the 95 % interval of the factor"), factor(&ParameterChange::low))
-      .value(item("high", "to", "high end of it"), factor(&ParameterChange::high))
-      .value(
-          item("amount", "plus", "most likely amount that was added, in its unit; null: it was multiplied"),
-          amount(&ParameterChange::change))
-      .value(item("amount_low", "from", "low end of the 95 % interval of the amount"),
-             amount(&ParameterChange::low))
-      .value(item("amount_high", "to", "high end of it"), amount(&ParameterChange::high))
-      .value({.key = "probability",
-              .heading = "probability",
-              .meaning = "that it is this parameter, if it is one of those tried",
-              .unit = "1",
-              .notation = Notation::percent},
-             &ParameterChange::probability);
+  return r.explanation == nullptr ? "" : explanation_text(*r.explanation);
 }
 
 std::vector<std::string> not_judged(const MonitorReading& r) {
@@ -251,15 +256,19 @@ document::Description<MeasureState> measure_description() {
   return document::Description<MeasureState>()
       .value({"measure", "measure", "name of the measure"}, [](Of s) { return s.measure.name; })
       .value({"unit", "unit", "its unit"}, [](Of s) { return s.unit; })
-      .value(in_data("baseline", "median of the baseline, of a quality its proportion; null: never"),
-             &MeasureState::baseline_median)
+      .value(
+          in_data("baseline",
+                  "median of the baseline, of a quality its proportion; null: never, or one for each like: "
+                  "see `likes`"),
+          &MeasureState::baseline_median)
       .value(
           in_data("moves", "likewise of the moves, since the change if there is one; null: none, or never"),
           &MeasureState::median)
       .value({.heading = "baseline", .shown = document::Shown::to_people, .numeric = true},
-             [](Of s) {
-               return s.measure.quality ? text::percent_near(s.baseline_median)
-                                        : text::short_number(s.baseline_median);
+             [](Of s) -> std::optional<std::string> {
+               if (!s.baseline_median) return std::nullopt;
+               return s.measure.quality ? text::percent_near(*s.baseline_median)
+                                        : text::short_number(*s.baseline_median);
              })
       .value({.heading = "moves", .shown = document::Shown::to_people, .numeric = true},
              [](Of s) -> std::optional<std::string> {
@@ -280,11 +289,42 @@ document::Description<MeasureState> measure_description() {
       .value(in_data("correlation",
                      "rank correlation of successive values of the baseline; null: of a simulated one", "1"),
              &MeasureState::correlation)
+      .value(in_data("dependence",
+                     "p-value of the order of the baseline's values, if they are exchangeable; null: of a "
+                     "simulated one",
+                     "1"),
+             [](Of s) { return s.correlation ? std::optional(s.dependence.p) : std::nullopt; })
       .value({"seen_after", "seen after",
               "moves after which a change of the asked size would have been seen with 90 %, where there are "
               "as many; "
               "null: later, or not asked"},
              &MeasureState::seen_after);
+}
+
+document::Description<LikeValue> like_description() {
+  using document::Notation;
+  return document::Description<LikeValue>()
+      .value({"measure", "measure", "name of the measure"}, &LikeValue::measure)
+      .value({"like", "moves like", "what these moves have in common"}, &LikeValue::like)
+      .value({.key = "baseline",
+              .heading = "baseline",
+              .meaning = "their median in the baseline; null: never",
+              .notation = Notation::four_digits},
+             &LikeValue::baseline)
+      .value({"baseline_moves", "of", "of so many moves"}, &LikeValue::baseline_moves)
+      .value({.key = "median",
+              .heading = "moves",
+              .meaning = "their median in the log, since the change if there is one; null: none, or never",
+              .notation = Notation::four_digits},
+             &LikeValue::median)
+      .value({"moves", "of", "of so many moves"}, &LikeValue::moves);
+}
+
+std::vector<LikeValue> like_values(const MonitorReading& r) {
+  std::vector<LikeValue> all;
+  for (const MeasureState& state : r.monitor.measures())
+    all.insert(all.end(), state.by_like.begin(), state.by_like.end());
+  return all;
 }
 
 }  // namespace
@@ -319,6 +359,13 @@ document::AnswerDescription<MonitorReading> monitor_answer() {
              [](Of r) { return r.monitor.settings().alarm; })
       .value(in_data("block", "consecutive moves that are one value"),
              [](Of r) { return r.monitor.settings().block; })
+      .value(in_data("group", "column of the groups that are one value each; null: none"),
+             [](Of r) {
+               const std::string& group = r.monitor.settings().group;
+               return group.empty() ? std::nullopt : std::optional(group);
+             })
+      .value(in_data("values", "values that were compared: moves, blocks or groups"),
+             [](Of r) { return r.monitor.values(); })
       .value(in_data("baseline", "file of the baseline"), [](Of r) { return r.baseline.name; })
       .value(in_data("log", "file of the moves"), [](Of r) { return r.log; })
       .value(in_data("baseline_moves", "moves of the baseline"), [](Of r) { return r.baseline.moves; })
@@ -326,8 +373,16 @@ document::AnswerDescription<MonitorReading> monitor_answer() {
              [](Of r) { return r.baseline.is_model ? std::optional(r.baseline.machines) : std::nullopt; })
       .value(in_data("unused", "columns of the moves that nothing is compared with"),
              [](Of r) { return r.monitor.unused(); })
+      .value(in_data("alike", "what moves are compared by; empty: all with all"),
+             [](Of r) { return std::string(labels_text(r.monitor.likes())); })
+      .value(in_data("unlike", "moves that the baseline has none like, which are not compared"),
+             [](Of r) { return r.monitor.unlike(); })
       .table({.key = "measures", .meaning = "each measure"}, measure_description(),
              [](Of r) { return r.monitor.measures(); })
+      .table(
+          {.key = "likes",
+           .meaning = "medians of measures that differ from one kind of moves to another more than within"},
+          like_description(), like_values)
       .value(
           with_words(
               in_data("told", "what is told of the parameters of the model after an alarm; null: not asked"),
@@ -343,8 +398,12 @@ document::AnswerDescription<MonitorReading> monitor_answer() {
              [](Of r) { return r.explanation ? r.explanation->parameters : std::vector<ParameterChange>{}; })
       .sentence(not_judged_sentence)
       .sentence(unused_sentence)
+      .sentence(likes_sentence)
+      .sentence(unlike_sentence)
+      .sentence(continued_sentence)
       .sentence(bound_sentence)
       .sentence(dependent_sentence)
+      .sentence(alternating_sentence)
       .sentence(model_sentence);
   return answer;
 }

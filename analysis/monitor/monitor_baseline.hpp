@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "analysis/monitor/monitored_measure.hpp"
+#include "analysis/monitor/move_label.hpp"
 #include "analysis/monitor/move_log.hpp"
+#include "core/trial/parameters.hpp"
 #include "results/reading/all_trials_file.hpp"
 
 namespace zerocount::monitor {
@@ -25,9 +27,14 @@ struct Baseline {
   std::int64_t moves{0};
   bool is_model{false};      ///< simulated, not of the machine
   std::int64_t machines{0};  ///< of a model: rigs, or trials that share none
+  MoveLabels labels{};
+  std::vector<std::string> groups{};  ///< [move] of a log that is read with a group
 
   const Column* find(std::string_view measure) const;
 };
+
+/// The labels of the moves of a trial, which begins at 0.
+std::vector<MoveLabel> labels_of(const trial::TrialParameters& parameters);
 
 /// Which moves of a results file.
 struct ModelMoves {

@@ -163,14 +163,16 @@ void MoveLog::read_header(std::string_view line) {
   for (const std::string_view cell : cells_in(line, separator_)) {
     const ColumnHead head = column_head(cell);
     const std::optional<MonitoredMeasure> measure = measure_named(head.name);
+    if (!group_.empty() && (head.name == group_ || cell == group_)) {
+      if (label_cells_.group) refuse_twice(group_);
+      label_cells_.group = heads_.size();
+    }
     heads_.emplace_back(cell);
     column_at_.push_back(columns_.size());
     if (!measure) {
       column_at_.back() = std::string::npos;
       if (!cell.empty()) others_.emplace_back(cell);
-      if (head.name != "move") continue;
-      if (number_cell_) refuse_twice(head.name);
-      number_cell_ = column_at_.size() - 1;
+      note_label(column_at_.size() - 1, head);
       continue;
     }
     if (find(measure->name) != nullptr) refuse_twice(measure->name);
@@ -180,6 +182,11 @@ void MoveLog::read_header(std::string_view line) {
                                 line_, head.name, text::printable(head.unit), measure->unit));
     columns_.push_back({*measure, head.unit, {}});
   }
+  if (!group_.empty() && !label_cells_.group)
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}:{}: has no column '{}' (--group); expected one of {}", name_, line_,
+                              text::printable(group_),
+                              text::printable(fmt::format("{}", fmt::join(heads_, ", ")).substr(0, 200))));
   if (columns_.empty())
     throw Failure(
         ExitCode::bad_input,
@@ -207,9 +214,51 @@ void MoveLog::read_row(std::string_view line) {
     column.values.push_back(ranked_value(column.measure, *value));
     if (column.measure.name == "final_error") column.written.push_back(*value);
   }
-  if (number_cell_)
-    numbers_.push_back(text::parse_number<std::int64_t>(bare(cells[*number_cell_])).value_or(-1));
+  read_labels(cells);
   ++moves_;
+}
+
+void MoveLog::note_label(std::size_t cell, const ColumnHead& head) {
+  const auto note = [&](std::string_view name, std::optional<std::size_t>& place) {
+    if (head.name != name) return;
+    if (place) refuse_twice(name);
+    place = cell;
+  };
+  note("move", label_cells_.move);
+  note("target", label_cells_.target);
+  note("trial", label_cells_.trial);
+  labels_.numbered = label_cells_.move.has_value();
+  labels_.targeted = label_cells_.target.has_value();
+  if (label_cells_.target != cell) return;
+  labels_.target_unit = head.unit;
+  target_factor_ = si_factor(head.unit);
+}
+
+void MoveLog::read_labels(const std::vector<std::string_view>& cells) {
+  MoveLabel label;
+  if (label_cells_.move) {
+    numbers_.push_back(text::parse_number<std::int64_t>(cells[*label_cells_.move]).value_or(-1));
+    if (numbers_.back() >= 0) label.number = numbers_.back();
+  }
+  std::optional<double> before;
+  if (!labels_.moves.empty()) before = labels_.moves.back().target;
+  if (label_cells_.trial) {
+    if (labels_.moves.empty() || cells[*label_cells_.trial] != trial_) before = 0.0;
+    trial_ = cells[*label_cells_.trial];
+  }
+  if (label_cells_.target) {
+    label.target = number_in(cells[*label_cells_.target], separator_);
+    if (label.target) *label.target *= target_factor_;
+    if (label.target && before)
+      label.direction = static_cast<int>(*label.target > *before) - static_cast<int>(*label.target < *before);
+  }
+  if (labels_.numbered || labels_.targeted) labels_.moves.push_back(label);
+  if (!label_cells_.group) return;
+  const std::string_view group = cells[*label_cells_.group];
+  if (group.empty())
+    throw Failure(ExitCode::bad_data, fmt::format("{}:{}: {} is empty; expected the group of the move", name_,
+                                                  line_, text::printable(group_)));
+  groups_.emplace_back(group);
 }
 
 }  // namespace zerocount::monitor

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/monitor/monitored_measure.hpp"
+#include "analysis/monitor/move_label.hpp"
 
 namespace zerocount::monitor {
 
@@ -19,8 +20,9 @@ namespace zerocount::monitor {
 /// happened; so is a blank line between the rows of a log of one column.
 class MoveLog {
  public:
-  /// @param name in messages
-  explicit MoveLog(std::string name) : name_(std::move(name)) {}
+  /// @param name in messages @param group name of the column whose rows of one value belong together; none
+  explicit MoveLog(std::string name, std::string group = {})
+      : name_(std::move(name)), group_(std::move(group)) {}
 
   struct Column {
     MonitoredMeasure measure;
@@ -49,6 +51,11 @@ class MoveLog {
   /// [move] its number in the sequence of a trial, from 0, by the column `move`; −1 where that has no whole
   /// number. Empty without such a column.
   const std::vector<std::int64_t>& numbers() const { return numbers_; }
+  /// By the columns `move` and `target`. The target before is that of the row before; a trial (column
+  /// `trial`) begins at 0.
+  const MoveLabels& labels() const { return labels_; }
+  /// [move] the cell of the group. Empty without one.
+  const std::vector<std::string>& groups() const { return groups_; }
 
  private:
   void read_line(std::string_view line);
@@ -56,15 +63,28 @@ class MoveLog {
   void read_header(std::string_view line);
   [[noreturn]] void refuse_twice(std::string_view column) const;
   void read_row(std::string_view line);
+  /// Remembers the place of a column that is no measure.
+  void note_label(std::size_t cell, const ColumnHead& head);
+  void read_labels(const std::vector<std::string_view>& cells);
+
+  /// Cells of a row that are no measures.
+  struct LabelCells {
+    std::optional<std::size_t> move{}, target{}, trial{}, group{};
+  };
 
   std::string name_;
+  std::string group_;
   char separator_{','};
   std::vector<std::string> heads_;      ///< of all columns
   std::vector<std::size_t> column_at_;  ///< [cell] its place in columns_; heads_.size() if it has none
   std::vector<Column> columns_;
   std::vector<std::string> others_;
-  std::optional<std::size_t> number_cell_{};  ///< of the column `move`
+  LabelCells label_cells_{};
+  double target_factor_{1.0};  ///< to SI, or counts
+  std::string trial_;          ///< of the last row
   std::vector<std::int64_t> numbers_;
+  MoveLabels labels_;
+  std::vector<std::string> groups_;
   std::int64_t moves_{0};
   std::int64_t line_{0};
   std::int64_t blank_lines_{0};  ///< since the last row, in a log of one column

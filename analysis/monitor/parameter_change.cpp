@@ -187,7 +187,8 @@ Expected expected_at(const SimulatedChange& simulated, ChangeKind kind, const No
                     after.between + statistic.per_move_after * after.within};
   if (statistic.has_before) {
     std::vector<Matrix> differences;
-    for (std::size_t i = 0; i < changed.size(); ++i) differences.push_back(changed[i] - unchanged[i]);
+    for (std::size_t i = 0; i < changed.size(); ++i)
+      differences.push_back(changed[i] - unchanged[i].leftCols(changed[i].cols()));
     const Spread difference = spread_of(differences);
     const Spread before = spread_of(unchanged);
     expected.mean = difference.mean;
@@ -314,7 +315,7 @@ ChangeExplanation unknown_because(std::string reason) {
 }  // namespace
 
 ChangeExplanation explain_change(std::span<const ChangeCandidate> given, const MachineMoves& observed,
-                                 std::size_t measures) {
+                                 std::size_t measures, double plausible) {
   if (given.empty()) return unknown_because("no parameter of the study can be changed");
   if (observed.size() < min_moves_after * measures)
     return unknown_because(fmt::format("there are fewer than {} moves", min_moves_after));
@@ -360,7 +361,6 @@ ChangeExplanation explain_change(std::span<const ChangeCandidate> given, const M
   explanation.misfit = misfit;
   explanation.max_misfit =
       statistics::chi_squared_quantile(static_cast<double>(wanted.size()), 1.0 - improbable);
-  constexpr double plausible = 0.05;
   for (const Fit& fit : fits)
     if (fit.change.probability >= plausible) explanation.parameters.push_back(fit.change);
   // A cause that none of the candidates is may move the measures nearly as one of them does.

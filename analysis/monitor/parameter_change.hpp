@@ -17,7 +17,8 @@ enum class ChangeKind {
   amount   ///< to its value, which may be 0, something is added
 };
 
-/// The moves of simulated machines with a parameter changed; the same machines at every change.
+/// The moves of simulated machines with a parameter changed; the same machines at every change, of which a
+/// change may have the first moves alone.
 struct SimulatedChange {
   double change{1.0};  ///< factor, or amount in the unit of the parameter
   std::vector<MachineMoves> machines;
@@ -60,7 +61,7 @@ enum class ChangeTold {
 
 struct ChangeExplanation {
   ChangeTold told{ChangeTold::unknown};
-  std::vector<ParameterChange> parameters{};  ///< those with a probability of at least 0.05, likeliest first
+  std::vector<ParameterChange> parameters{};  ///< those that are plausible, likeliest first
   /// First move of the change, from 1; 1: the machine is from its first move on unlike those simulated.
   std::int64_t since{1};
   double misfit{0.0};                ///< the smallest of all parameters
@@ -69,6 +70,7 @@ struct ChangeExplanation {
   std::vector<std::string> tried{};  ///< names of the parameters that act on the measures
 };
 
+inline constexpr double plausible_change = 0.05;  ///< smallest probability
 inline constexpr std::size_t min_moves_before = 20;
 inline constexpr std::size_t min_moves_after = 20;
 
@@ -90,8 +92,8 @@ inline constexpr std::size_t min_moves_after = 20;
 /// Of measures that correlate by more than 0.9 the first counts, and none with one value in most moves; at
 /// most eight.
 /// @param observed the moves of the machine @param measures number of measures of a move, the most telling
-/// first
+/// first @param plausible smallest probability of a parameter to be named
 ChangeExplanation explain_change(std::span<const ChangeCandidate> candidates, const MachineMoves& observed,
-                                 std::size_t measures);
+                                 std::size_t measures, double plausible = plausible_change);
 
 }  // namespace zerocount::monitor

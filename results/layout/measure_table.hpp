@@ -30,6 +30,7 @@ struct CountedValues {
   bool needs_motion{false};  ///< undefined for moves whose motion was lost
   bool nan_is_late{false};   ///< NaN is a time later than any other; otherwise it is not a value
   bool magnitude{false};     ///< statistics are of the absolute value
+  bool mirrored{false};      ///< has the opposite sign in a move of the opposite direction
 };
 
 /// How the values of the moves make one value of their trial.

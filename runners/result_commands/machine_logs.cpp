@@ -18,10 +18,10 @@ constexpr std::string_view expected_log = "a log of moves";
 
 }  // namespace
 
-monitor::MoveLog read_log(const std::filesystem::path& path) {
+monitor::MoveLog read_log(const std::filesystem::path& path, const std::string& group) {
   const std::string text = yaml::read_text(path, max_log_size, expected_log);
   require_log_size(path, text.size());
-  monitor::MoveLog log(yaml::name_of_text(path));
+  monitor::MoveLog log(yaml::name_of_text(path), group);
   log.read_last(std::string_view(text).substr(log.read(text)));
   log.require_header();
   return log;

@@ -13,8 +13,8 @@
 /// What the verbs on machines in use have in common: logs of moves, and the simulated moves beside them.
 namespace zerocount::result_commands {
 
-/// Reads all of a log.
-monitor::MoveLog read_log(const std::filesystem::path& path);
+/// Reads all of a log. @param group column of the groups of moves; empty: none
+monitor::MoveLog read_log(const std::filesystem::path& path, const std::string& group = {});
 
 /// Refuses what read_log() does not open, such as a directory.
 void require_log(const std::filesystem::path& path);

@@ -1,7 +1,6 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -22,6 +21,7 @@
 #include "runners/commands/stage_progress.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/result_commands/changed_parameters.hpp"
+#include "runners/result_commands/growing_log.hpp"
 #include "runners/result_commands/machine_logs.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
@@ -42,7 +42,9 @@ constexpr const char* monitor_help =
     "\n"
     "The test may be asked after every move: a false alarm within any number of moves has at most\n"
     "the probability --alarm, where the moves are exchangeable with those of the baseline. Moves\n"
-    "that depend on the ones before are not: --block N tests the medians of N consecutive moves.\n"
+    "that depend on the ones before are not: --block N tests the medians of N consecutive moves, and\n"
+    "--group COLUMN those of rows that follow each other with one value of a column, such as a day.\n"
+    "With columns move (number in a cycle) and target, moves are compared with their like.\n"
     "Exit code 1: changed. 0: unchanged, which is said where a change of --change would have been\n"
     "seen with 90 %. 3: undecided.\n"
     "\n"
@@ -65,17 +67,24 @@ struct LoadedBaseline {
   monitor::Baseline moves;
   std::optional<reading::AllTrialsFile> file{};
   monitor::ModelMoves of_file{};
+  std::vector<std::string> unchanged{};  ///< parameters of the study that cannot have changed
 };
 
 LoadedBaseline load_baseline(const command_line::Arguments& arguments) {
   const fs::path path = arguments.operands()[0];
   if (!commands::is_results_file(path)) {
-    for (const char* const option : {"point", "condition", "age", "rig"})
+    for (const char* const option : {"point", "condition", "age", "rig", "unchanged"})
       if (arguments.has(option))
         arguments.refuse(fmt::format("option '--{}': {} is a log of moves; it belongs to results files",
                                      option, path.string()));
-    return {monitor::baseline_of(read_log(path))};
+    return {monitor::baseline_of(read_log(path, arguments.value("group").value_or("")))};
   }
+  if (arguments.has("group"))
+    arguments.refuse(
+        fmt::format("option '--group': {} is a simulated study, whose moves have no such groups; "
+                    "expected a log of moves as BASELINE",
+                    path.string()));
+  std::vector<std::string> unchanged = unchanged_names(arguments.values("unchanged"));
   reading::AllTrialsFile file = with_condition(arguments, reading::AllTrialsFile(path));
   if (file.study().open_loop)
     throw Failure(
@@ -84,7 +93,7 @@ LoadedBaseline load_baseline(const command_line::Arguments& arguments) {
   const monitor::ModelMoves moves{point_of(arguments, file.point_labels()),
                                   rig_of(arguments, file.study().rigs)};
   monitor::Baseline baseline = monitor::baseline_of(file, moves);
-  return {std::move(baseline), std::move(file), moves};
+  return {std::move(baseline), std::move(file), moves, std::move(unchanged)};
 }
 
 /// What changed in the model, after an alarm; nothing beside measured moves, and with a plugin.
@@ -95,7 +104,7 @@ std::optional<monitor::ChangeExplanation> explanation_of(const LoadedBaseline& b
                                                          const std::stop_token& stop) {
   if (!baseline.file || state.alarm == nullptr || baseline.file->header().plugin) return std::nullopt;
   return commands::with_progress("zerocount monitor", "simulating what may have changed", [&] {
-    return explain_alarm(*baseline.file, baseline.of_file, machine, log, stop);
+    return explain_alarm(*baseline.file, baseline.of_file, machine, log, baseline.unchanged, stop);
   });
 }
 
@@ -114,42 +123,9 @@ monitor::MonitorSettings settings_from(const command_line::Arguments& arguments)
   settings.seed =
       static_cast<std::uint64_t>(arguments.whole_number("seed", 0, std::int64_t{1} << 53).value_or(1));
   settings.measures = arguments.values("measure");
+  settings.group = arguments.value("group").value_or("");
   return settings;
 }
-
-/// A log that another process writes.
-class GrowingLog {
- public:
-  explicit GrowingLog(fs::path path) : path_(std::move(path)), log_(path_.string()) {}
-
-  /// Reads the lines that are new. @returns whether there are moves among them
-  bool read() {
-    std::ifstream file(path_, std::ios::binary);
-    if (!file) throw Failure(ExitCode::bad_input, fmt::format("{}: cannot be read", path_.string()));
-    file.seekg(0, std::ios::end);
-    const auto end = static_cast<std::streamoff>(file.tellg());
-    if (end < 0) throw Failure(ExitCode::bad_input, fmt::format("{}: cannot be read", path_.string()));
-    const auto size = static_cast<std::size_t>(end);
-    require_log_size(path_, size);
-    if (size < read_)
-      throw Failure(ExitCode::bad_data,
-                    fmt::format("{}: became shorter while it was followed; expected a file that only grows",
-                                path_.string()));
-    const std::int64_t before = log_.moves();
-    std::string text(size - read_, '\0');
-    file.seekg(static_cast<std::streamoff>(read_));
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(file.gcount()));
-    read_ += log_.read(text);
-    return log_.moves() > before;
-  }
-  const monitor::MoveLog& log() const { return log_; }
-
- private:
-  fs::path path_;
-  monitor::MoveLog log_;
-  std::size_t read_{0};  ///< bytes
-};
 
 /// Prints the state after all moves of the log as one line. @returns its exit code
 ExitCode print_state(monitor::MachineMonitor& machine, const monitor::MoveLog& log,
@@ -177,7 +153,7 @@ ExitCode follow(const command_line::Arguments& arguments) {
   require_log(path);
   const LoadedBaseline baseline = load_baseline(arguments);
   const status::InterruptionWatch interruption;
-  GrowingLog growing(path);
+  GrowingLog growing(path, settings.group);
   std::optional<monitor::MachineMonitor> machine;
   std::optional<ExitCode> code;  // of the last line
   Clock::time_point last = Clock::now();
@@ -203,8 +179,9 @@ ExitCode monitor_machine(const command_line::Arguments& arguments) {
   if (arguments.has("follow")) return follow(arguments);
   const LoadedBaseline baseline = load_baseline(arguments);
   const status::InterruptionWatch interruption;
-  const monitor::MoveLog log = read_log(arguments.operands()[1]);
-  monitor::MachineMonitor machine(baseline.moves, log, settings_from(arguments));
+  const monitor::MonitorSettings settings = settings_from(arguments);
+  const monitor::MoveLog log = read_log(arguments.operands()[1], settings.group);
+  monitor::MachineMonitor machine(baseline.moves, log, settings);
   machine.update(log);
   const monitor::MonitorState state = machine.state();
   const auto explanation = explanation_of(baseline, machine, state, log, interruption.token());
@@ -219,28 +196,36 @@ ExitCode monitor_machine(const command_line::Arguments& arguments) {
 commands::Command monitor_command() {
   using command_line::excluding;
   using command_line::needing;
-  return {{"monitor",
-           "BASELINE MOVES.csv",
-           {excluding({"follow"}, answers::format_option()),
-            {"alarm", "A", "largest probability of a false alarm, ever (default 0.001)"},
-            {"change", "C",
-             "change to be seen: so many times the median, or so much of a proportion (default 0.2, of "
-             "proportions 0.1)"},
-            {"measure", "NAME", "a measure to watch; may be repeated (default: all that both have)", true},
-            {"block", "N", "take N consecutive moves as one value, their median (default 1)"},
-            {"point", "P", "design point of a results file"},
-            {"condition", "NAME", "condition of a results file with conditions"},
-            {"age", "A", "age of a results file with ages"},
-            {"rig", "R", "only this rig of a results file, from 0"},
-            {"seed", "N", "of ties and of simulated changes (default 1)"},
-            {"follow", "", "read the log while it grows, and print lines of JSON until the alarm"},
-            needing({"follow"}, {"idle", "S", "end after S seconds without new moves (default: never)"})},
-           2,
-           2},
-          "say whether a machine in use has changed",
-          monitor_help,
-          monitor_machine,
-          [] { return std::vector{monitor::monitor_answer().complete_type()}; }};
+  return {
+      {"monitor",
+       "BASELINE MOVES.csv",
+       {excluding({"follow"}, answers::format_option()),
+        {"alarm", "A", "largest probability of a false alarm, ever (default 0.001)"},
+        {"change", "C",
+         "change to be seen: so many times the median, or so much of a proportion (default 0.2, of "
+         "proportions 0.1)"},
+        {"measure", "NAME", "a measure to watch; may be repeated (default: all that both have)", true},
+        excluding({"group"},
+                  {"block", "N", "take N consecutive moves as one value, their median (default 1)"}),
+        {"group", "COLUMN",
+         "take the moves of each group, by a column such as day, as one value: the groups are exchangeable"},
+        {"unchanged", "PATHS",
+         "parameters or sections that cannot have changed, such as encoder,controller.kp; may be repeated "
+         "(beside a results file)",
+         true},
+        {"point", "P", "design point of a results file"},
+        {"condition", "NAME", "condition of a results file with conditions"},
+        {"age", "A", "age of a results file with ages"},
+        {"rig", "R", "only this rig of a results file, from 0"},
+        {"seed", "N", "of ties and of simulated changes (default 1)"},
+        {"follow", "", "read the log while it grows, and print lines of JSON until the alarm"},
+        needing({"follow"}, {"idle", "S", "end after S seconds without new moves (default: never)"})},
+       2,
+       2},
+      "say whether a machine in use has changed",
+      monitor_help,
+      monitor_machine,
+      [] { return std::vector{monitor::monitor_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::result_commands

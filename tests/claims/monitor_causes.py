@@ -35,6 +35,7 @@ CAUSES = {
     "torque constant +10 %": (["dac.gain_error=0.1"], {"dac.gain_error"}),
     "ki −20 %": (["controller.ki=3.2e-5"], {"controller.ki"}),
     "a sample more of delay": (["controller.delay=1"], {"controller.delay"}),
+    "deadband of 2 counts": (["controller.deadband=2"], {"controller.deadband.enter", "controller.error_deadband.band"}),
     "* encoder scale that swings: 0.5 counts rms below 50 Hz":
         (["encoder.fine_errors={{noise: 0.5, noise_bandwidth: 50}}"], {"encoder.fine_errors.noise"}),
     "* encoder scale that skips 5 % of the counts": (["encoder.fine_errors.missed=0.05"], set()),

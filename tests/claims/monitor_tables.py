@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The tables of docs/monitor.md that are not of a cause: false alarms by --block, false alarms of exchangeable moves, delays.
+"""The tables of docs/monitor.md that are not of a cause: false alarms by --block, of days and of exchangeable moves, delays.
 
 usage: monitor_tables.py PROGRAM MONITOR_RATES ROOT [--machines N]
 
@@ -100,6 +100,11 @@ def check_rates(rates, root):
             good = int(here) <= most and abs(int(here) - int(said)) <= spread_of(int(said), 1000, 1000)
             print(f"{row[0]}, baseline {row[1]}, --alarm {alarm}: {here} of 1000; the page: {said}{'' if good else '  <- differs'}", flush=True)
             failed = failed or not good
+    for row in page_rows(root, "| correlation |"):
+        for said, here in zip(row[2:5], rows[tuple(row[:2])]):
+            near = abs(int(here) - int(said)) <= spread_of(int(said), 200, 200)
+            print(f"days, {row[0]}, {row[1]}: {here} of 200; the page: {said}{'' if near else '  <- differs'}", flush=True)
+            failed = failed or not near
     first = {}
     for line in printed:                       # the first table of delays is of lognormal values
         if line.startswith("|") and re.match(r"\| [+-]", line):

@@ -2518,6 +2518,10 @@ class MonitorAnswer(Answer):
         Largest probability of a false alarm within any number of moves.
     block : int
         Consecutive moves that are one value.
+    group : str or None
+        Column of the groups that are one value each; null: none.
+    values_ : int
+        Values that were compared: moves, blocks or groups.
     baseline : str
         File of the baseline.
     log : str
@@ -2528,20 +2532,37 @@ class MonitorAnswer(Answer):
         Simulated machines of the baseline; null: it was measured.
     unused : list[str]
         Columns of the moves that nothing is compared with.
+    alike : str
+        What moves are compared by; empty: all with all.
+    unlike : int
+        Moves that the baseline has none like, which are not compared.
     measures : pandas.DataFrame
         Each measure.
 
         - ``measure``: name of the measure
         - ``unit``: its unit
-        - ``baseline``: median of the baseline, of a quality its proportion; null: never
+        - ``baseline``: median of the baseline, of a quality its proportion; null: never, or one for each like: see
+          `likes`
         - ``moves``: likewise of the moves, since the change if there is one; null: none, or never
         - ``evidence``: largest capital of the bets on a change of the measure, as a part of the alarm's scale
         - ``direction``: of the change; null: no alarm
         - ``since``: first move of the change, from 1; null: no alarm
         - ``alarm_at``: move of the alarm, from 1; null: none
         - ``correlation``: rank correlation of successive values of the baseline; null: of a simulated one
+        - ``dependence``: p-value of the order of the baseline's values, if they are exchangeable; null: of a simulated
+          one
         - ``seen_after``: moves after which a change of the asked size would have been seen with 90 %, where there are
           as many; null: later, or not asked
+
+    likes : pandas.DataFrame
+        Medians of measures that differ from one kind of moves to another more than within.
+
+        - ``measure``: name of the measure
+        - ``like``: what these moves have in common
+        - ``baseline``: their median in the baseline; null: never
+        - ``baseline_moves``: of so many moves
+        - ``median``: their median in the log, since the change if there is one; null: none, or never
+        - ``moves``: of so many moves
 
     told : Literal["one", "several", "none", "unknown"] or None
         What is told of the parameters of the model after an alarm; null: not asked.
@@ -2572,12 +2593,17 @@ class MonitorAnswer(Answer):
     evidence: float | None
     alarm: float | None
     block: int
+    group: str | None
+    values_: int
     baseline: str
     log: str
     baseline_moves: int
     baseline_machines: int | None
     unused: list[str]
+    alike: str
+    unlike: int
     measures: pandas.DataFrame
+    likes: pandas.DataFrame
     told: Literal["one", "several", "none", "unknown"] | None
     parameters_since: int | None
     tried: list[str]

@@ -16,20 +16,32 @@ using monitor::Direction;
 using Directions = std::vector<Direction>;
 using Values = std::vector<double>;
 
+/// The change of values that are all alike.
+struct Change {
+  double size;
+  Directions directions;
+};
+
 monitor::MonitoredMeasure measure(std::string_view name) {
   return *monitor::measure_named(name);
 }
 
+Change change_to_see(const monitor::MonitoredMeasure& measure, const Values& values,
+                     std::optional<double> change) {
+  const monitor::ChangeToSee to_see = monitor::change_to_see(measure, std::vector<Values>{values}, change);
+  return {to_see.sizes.at(0), to_see.directions};
+}
+
 TEST(ChangeToSee, IsAPartOfTheMedianOrOfAProportion) {
   const Directions both{Direction::higher, Direction::lower};
-  const monitor::ChangeToSee time = change_to_see(measure("settling_time"), Values{0.04, 0.05, 0.06}, {});
+  const Change time = change_to_see(measure("settling_time"), Values{0.04, 0.05, 0.06}, {});
   EXPECT_NEAR(time.size, 0.01, 1e-15);
   EXPECT_EQ(time.directions, both);
   EXPECT_NEAR(change_to_see(measure("settling_time"), Values{0.05}, 0.5).size, 0.025, 1e-15);
-  const monitor::ChangeToSee large = change_to_see(measure("settling_time"), Values{0.04, 0.05, 0.06}, 1.5);
+  const Change large = change_to_see(measure("settling_time"), Values{0.04, 0.05, 0.06}, 1.5);
   EXPECT_NEAR(large.size, 0.075, 1e-15);
   EXPECT_EQ(large.directions, Directions{Direction::higher}) << "no time is negative";
-  const monitor::ChangeToSee good = change_to_see(measure("outcome"), Values{1.0, 1.0, 1.0, 0.0}, {});
+  const Change good = change_to_see(measure("outcome"), Values{1.0, 1.0, 1.0, 0.0}, {});
   EXPECT_EQ(good.size, 0.1);
   EXPECT_EQ(good.directions, both);
   EXPECT_EQ(change_to_see(measure("stable"), Values{1.0}, {}).directions, Directions{Direction::lower});
@@ -43,12 +55,26 @@ TEST(ChangeToSee, IsNotAskedOfWhatHasNoScale) {
   EXPECT_FALSE(change_to_see(measure("holding_torque"), Values{1.0, 1.0, 2.0}, {}).directions.empty());
 }
 
+// Of a move to a far target a fifth is more than of one to a near target.
+TEST(ChangeToSee, IsAPartOfTheMedianOfEachClass) {
+  const std::vector<Values> classes{{0.02, 0.02, 0.03}, {0.2}, {HUGE_VAL}};
+  const monitor::ChangeToSee to_see = monitor::change_to_see(measure("settling_time"), classes, {});
+  ASSERT_EQ(to_see.sizes.size(), 3);
+  EXPECT_NEAR(to_see.sizes[0], 0.004, 1e-15);
+  EXPECT_NEAR(to_see.sizes[1], 0.04, 1e-15);
+  EXPECT_EQ(to_see.sizes[2], 0.0) << "what never happens cannot change so much";
+  EXPECT_EQ(to_see.directions.size(), 2);
+}
+
 std::optional<std::int64_t> asked(const Values& baseline, Direction direction, double size,
                                   double alarm = 1000.0, std::string_view name = "settling_time") {
-  return monitor::values_to_see({.measure = measure(name),
-                                 .baseline = baseline,
+  const monitor::MonitoredMeasure of = measure(name);
+  const std::vector<Values> classes{baseline};
+  const Values sizes{size};
+  return monitor::values_to_see({.measure = of,
+                                 .baseline = classes,
                                  .direction = direction,
-                                 .size = size,
+                                 .sizes = sizes,
                                  .alarm = alarm,
                                  .max_values = 2000,
                                  .seed = 1});

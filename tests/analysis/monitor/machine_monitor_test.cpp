@@ -210,8 +210,10 @@ TEST(MachineMonitor, SaysWhereTheBaselineIsNotExchangeable) {
   }
   const auto dependent = [](const std::vector<double>& baseline, std::int64_t block) {
     const MoveLog log = log_of(head + "\n");
-    return MachineMonitor(monitor::baseline_of(log_of(log_of_times(baseline))), log, {.block = block})
-        .dependent();
+    std::vector<std::string> names;
+    const MachineMonitor machine(monitor::baseline_of(log_of(log_of_times(baseline))), log, {.block = block});
+    for (const monitor::MeasureState* const state : machine.dependent()) names.push_back(state->measure.name);
+    return names;
   };
   EXPECT_NEAR(monitor::serial_correlation(values), 0.6, 0.05);
   EXPECT_EQ(dependent(values, 1), std::vector{head});

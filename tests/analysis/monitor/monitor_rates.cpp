@@ -15,7 +15,7 @@
 namespace zerocount::testing {
 namespace {
 
-constexpr std::int64_t never = std::int64_t{1} << 60;
+constexpr std::int64_t never = std::int64_t{1} << 50;
 
 void print_false_alarms(std::uint32_t sequences) {
   fmt::print("alarms in {} sequences of 10000 moves\n\n", sequences);
@@ -119,13 +119,51 @@ void print_delays(Moves kind) {
     }
 }
 
+/// Of sequences of days: false alarms by move and by day, what is said of the baseline, and days to an alarm.
+void print_days() {
+  constexpr std::uint32_t sequences = 200;
+  fmt::print(
+      "\ndays of 50 moves, {} sequences: false alarms in 60 days at --alarm 0.05 by move and by day; "
+      "baselines named; days until 50 % and 90 % see +25 % at --alarm 0.05\n\n",
+      sequences);
+  fmt::print("| correlation | days of the baseline | by move | named | by day | +25 % seen by day after |\n");
+  fmt::print("| --- | --- | --- | --- | --- | --- |\n");
+  for (const double correlation : {0.0, 0.05, 0.1, 0.3})
+    for (const std::int64_t baseline : {6, 20}) {
+      const Days days{.baseline = baseline, .correlation = correlation};
+      Days changed = days;
+      changed.factor = 1.25;
+      std::vector<char> by_move(sequences), named(sequences), by_day(sequences);
+      std::vector<std::int64_t> delays(sequences);
+      parallel::for_each_index(sequences, [&](std::size_t i) {
+        const auto number = static_cast<std::uint32_t>(i);
+        const monitor::MachineMonitor moves = monitor_of_days(days, {.alarm = 0.05}, number);
+        by_move[i] = moves.measures()[0].alarm_at.has_value();
+        named[i] = !moves.dependent().empty();
+        by_day[i] =
+            monitor_of_days(days, {.alarm = 0.05, .group = "day"}, number).measures()[0].alarm_at.has_value();
+        delays[i] = monitor_of_days(changed, {.alarm = 0.05, .group = "day"}, number)
+                        .measures()[0]
+                        .alarm_at.value_or(never * days.moves) /
+                    days.moves;
+      });
+      std::ranges::sort(delays);
+      fmt::print("| {} | {} | {} | {} | {} | {}, {} |\n", correlation, baseline,
+                 std::ranges::count(by_move, 1), std::ranges::count(named, 1), std::ranges::count(by_day, 1),
+                 text_of(delays[sequences / 2 - 1]), text_of(delays[sequences * 9 / 10 - 1]));
+      std::fflush(stdout);
+    }
+}
+
 }  // namespace
 }  // namespace zerocount::testing
 
 int main(int argc, char** argv) {
   using namespace zerocount::testing;
   const std::string what = argc > 1 ? argv[1] : "all";
-  if (what != "delays") print_false_alarms(argc > 2 ? static_cast<std::uint32_t>(std::atoi(argv[2])) : 1000);
-  if (what != "alarms")
+  if (what == "all" || what == "days") print_days();
+  if (what == "all" || what == "alarms")
+    print_false_alarms(argc > 2 ? static_cast<std::uint32_t>(std::atoi(argv[2])) : 1000);
+  if (what == "all" || what == "delays")
     for (const Moves kind : {Moves::lognormal, Moves::binary}) print_delays(kind);
 }

@@ -73,10 +73,45 @@ std::string log_text(std::string_view head, const std::vector<double>& values) {
   return text;
 }
 
-monitor::MoveLog log_of(std::string_view text, std::string name) {
-  monitor::MoveLog log(std::move(name));
+monitor::MoveLog log_of(std::string_view text, std::string name, std::string group) {
+  monitor::MoveLog log(std::move(name), std::move(group));
   log.read_last(text.substr(log.read(text)));
   return log;
+}
+
+std::vector<double> times_of_days(const Days& days, std::int64_t count, double factor,
+                                  random::NumberSource& numbers) {
+  constexpr double spread = 0.25;
+  std::vector<double> times;
+  for (std::int64_t day = 0; day < count; ++day) {
+    const double shared = std::sqrt(days.correlation) * numbers.normal();
+    for (std::int64_t i = 0; i < days.moves; ++i)
+      times.push_back(0.05 * factor *
+                      std::exp(spread * (shared + std::sqrt(1.0 - days.correlation) * numbers.normal())));
+  }
+  return times;
+}
+
+std::string log_of_days(const std::vector<double>& times, std::int64_t moves, std::int64_t first) {
+  std::string text = "settling_time,day\n";
+  for (std::size_t i = 0; i < times.size(); ++i)
+    text += fmt::format("{},{}\n", times[i], first + static_cast<std::int64_t>(i) / moves);
+  return text;
+}
+
+monitor::MachineMonitor monitor_of_days(const Days& days, const monitor::MonitorSettings& settings,
+                                        std::uint32_t number) {
+  random::NumberSource numbers =
+      numbers_of(fmt::format("days.{}.{}", days.correlation, days.baseline), number);
+  const std::vector<double> before = times_of_days(days, days.baseline, 1.0, numbers);
+  const std::vector<double> after = times_of_days(days, days.days, days.factor, numbers);
+  const monitor::MoveLog log =
+      log_of(log_of_days(after, days.moves, days.baseline), "moves.csv", settings.group);
+  monitor::MachineMonitor machine(
+      monitor::baseline_of(log_of(log_of_days(before, days.moves, 0), "baseline.csv", settings.group)), log,
+      settings);
+  machine.update(log);
+  return machine;
 }
 
 }  // namespace zerocount::testing

@@ -40,6 +40,25 @@ std::optional<std::int64_t> delay_of(const Sequence& sequence, double alarm, std
 
 /// A log of one measure, and its text.
 std::string log_text(std::string_view head, const std::vector<double>& values);
-monitor::MoveLog log_of(std::string_view text, std::string name = "moves.csv");
+monitor::MoveLog log_of(std::string_view text, std::string name = "moves.csv", std::string group = {});
+
+/// Days of moves with lognormal settling times (coefficient of variation 25 %). What the moves of a day share
+/// has the part `correlation` of the variance of the logarithms.
+struct Days {
+  std::int64_t baseline{20};
+  std::int64_t days{60};
+  std::int64_t moves{50};  ///< of a day
+  double correlation{0.0};
+  double factor{1.0};  ///< of the moves after the baseline
+};
+/// The settling times of so many days, move after move.
+std::vector<double> times_of_days(const Days& days, std::int64_t count, double factor,
+                                  random::NumberSource& numbers);
+/// A log with the columns `settling_time` and `day`, the first of them with this number.
+std::string log_of_days(const std::vector<double>& times, std::int64_t moves, std::int64_t first);
+
+/// The monitor after all moves of sequence `number` of days.
+monitor::MachineMonitor monitor_of_days(const Days& days, const monitor::MonitorSettings& settings,
+                                        std::uint32_t number);
 
 }  // namespace zerocount::testing

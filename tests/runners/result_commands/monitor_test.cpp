@@ -1,4 +1,5 @@
 // `monitor` as a program: results files and logs as baselines, growing logs, exit codes.
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -180,6 +181,58 @@ TEST_F(Monitor, FollowsUntilItIsInterrupted) {
   EXPECT_EQ(running.wait(), 130);
 }
 
+TEST_F(Monitor, ComparesGroupsAndSaysThatNeighboursAreAlike) {
+  std::string text = "day,settling_time\n";
+  for (int i = 0; i < 240; ++i)
+    text += fmt::format("{},{}\n", i / 12, 0.05 + 0.001 * ((7 * (i / 12)) % 5) + 0.0005 * ((11 * i) % 7));
+  folder_.write("before.csv", text);
+  folder_.write("moves.csv", text.replace(0, 3, "day"));
+  const Json by_day = json_of({"monitor", "before.csv", "moves.csv", "--group", "day"}, 0);
+  EXPECT_EQ(by_day["group"], "day");
+  EXPECT_EQ(by_day["values"], 19) << "the last day may go on";
+  EXPECT_TRUE(by_day["unused"].empty());
+  const Json by_move = json_of({"monitor", "before.csv", "moves.csv"}, 0);
+  EXPECT_LE(by_move["measures"][0]["dependence"], 0.01);
+  EXPECT_NE(program({"monitor", "before.csv", "moves.csv"}).out.find("neighbours resemble each other"),
+            std::string::npos);
+  EXPECT_EQ(program({"monitor", "before.csv", "moves.csv", "--group", "shift"}).code, 2);
+  EXPECT_EQ(program({"monitor", "before.csv", "moves.csv", "--group", "day", "--block", "2"}).code, 2);
+  EXPECT_EQ(program({"monitor", "before.csv", "moves.csv", "--unchanged", "friction"}).code, 2)
+      << "a log has no parameters";
+}
+
+// A study knows the targets of its moves, whatever the log calls them in.
+TEST_F(Monitor, ComparesMovesWithTheirLikeInAStudy) {
+  folder_.write("study.yaml", R"(zerocount: 1
+name: monitored
+seed: 5
+trials: 60
+controller: {ki: 4.0e-5, sample_rate: 2000}
+friction: {k1: {uniform: [70, 150]}, alpha: 0.5}
+command: {targets: [2, -60], hold: 0.2}
+)");
+  ASSERT_EQ(program({"run", "study.yaml", "-o", "study.h5", "-q"}).code, 0);
+  ASSERT_EQ(program({"export", "study.h5", "-o", "tables"}).code, 0);
+  const Json by_move =
+      json_of({"monitor", "study.h5", "tables/outcomes.csv", "--measure", "settling_time"}, 0);
+  EXPECT_EQ(by_move["alike"], "move");
+  EXPECT_EQ(by_move["unlike"], 0);
+  ASSERT_EQ(by_move["likes"].size(), 2) << by_move;
+  EXPECT_EQ(by_move["likes"][0]["baseline"], by_move["likes"][0]["median"]);
+  EXPECT_TRUE(by_move["measures"][0]["baseline"].is_null());
+  // One count is 2π/1620000 rad.
+  folder_.write("moves.csv",
+                "target [rad],settling_time\n7.757e-06,0.05\n-2.3271e-04,0.05\n7.757e-05,0.05\n");
+  const Json by_target = json_of({"monitor", "study.h5", "moves.csv"}, 3);
+  EXPECT_EQ(by_target["alike"], "target and direction");
+  EXPECT_EQ(by_target["values"], 1) << "the first move is from where is not known";
+  // The history keeps what is comparable: the median of each like.
+  folder_.write("answer.json", by_move.dump());
+  ASSERT_EQ(program({"history", "add", "answer.json"}).code, 0);
+  const std::string shown = program({"history", "show"}).out;
+  EXPECT_NE(shown.find("outcomes.csv, move 0"), std::string::npos) << shown;
+}
+
 TEST_F(Monitor, AsksForTheAge) {
   run_study("ages: {at: [0, 100000]}\n");
   write_log("moves.csv", 20);
@@ -204,26 +257,45 @@ friction: {k1: {uniform: [108, 112]}, alpha: 0.5}
 command: {targets: [{integers: [5, 30]}, {integers: [-30, -5]}], hold: 0.2}
 )");
   ASSERT_EQ(program({"run", "study.yaml", "-o", "study.h5", "-q"}).code, 0);
-  std::string log;
-  for (const auto& [k1, seed] : {std::pair("110", "71"), std::pair("88", "72")}) {
-    ASSERT_EQ(program({"run", "study.yaml", "-o", "one.h5", "-q", "--force", "--set",
-                       fmt::format("friction.k1={}", k1), "--set", fmt::format("seed={}", seed), "--set",
-                       "trials=120"})
-                  .code,
-              0);
-    ASSERT_EQ(program({"export", "one.h5", "-o", "tables", "--force"}).code, 0);
-    std::ifstream file(folder_.path() / "tables/outcomes.csv");
-    std::string line;
-    for (bool first = true; std::getline(file, line); first = false)
-      if (!first || log.empty()) log += line + "\n";
-  }
-  folder_.write("moves.csv", log);
+  /// The moves of a machine that has these settings from the move 241 on.
+  const auto log_with = [&](const std::vector<std::string>& changed) {
+    std::string log;
+    for (const auto& settings : {std::vector<std::string>{"friction.k1=110", "seed=71"}, changed}) {
+      std::vector<std::string> words{"run", "study.yaml", "-o",    "one.h5",
+                                     "-q",  "--force",    "--set", "trials=120"};
+      for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+      EXPECT_EQ(program(words).code, 0);
+      EXPECT_EQ(program({"export", "one.h5", "-o", "tables", "--force"}).code, 0);
+      std::ifstream file(folder_.path() / "tables/outcomes.csv");
+      std::string line;
+      for (bool first = true; std::getline(file, line); first = false)
+        if (!first || log.empty()) log += line + "\n";
+    }
+    return log;
+  };
+  folder_.write("deadband.csv", log_with({"friction.k1=110", "controller.deadband=2", "seed=72"}));
+  const Json deadband = json_of({"monitor", "study.h5", "deadband.csv"}, 1);
+  ASSERT_FALSE(deadband["parameters"].empty()) << deadband;
+  EXPECT_NE(deadband["parameters"][0]["parameter"].get<std::string>().find("deadband"), std::string::npos)
+      << deadband["parameters"];
+  folder_.write("moves.csv", log_with({"friction.k1=88", "seed=72"}));
   const Json answer = json_of({"monitor", "study.h5", "moves.csv"}, 1);
   ASSERT_FALSE(answer["parameters"].empty()) << answer;
   EXPECT_NEAR(answer["parameters_since"].get<double>(), 241.0, 12.0);
   EXPECT_EQ(answer["parameters"][0]["parameter"], "friction.k1") << answer["parameters"];
   EXPECT_NEAR(answer["parameters"][0]["factor"].get<double>(), 0.8, 0.05);
   EXPECT_LT(answer["parameters"][0]["high"], 1.0);
+  // What cannot have changed is not named.
+  const Json known =
+      json_of({"monitor", "study.h5", "moves.csv", "--unchanged", "friction.k1,encoder.noise"}, 1);
+  for (const auto& tried : known["tried"]) {
+    EXPECT_NE(tried, "friction.k1");
+    EXPECT_NE(tried, "encoder.fine_errors.noise");
+  }
+  EXPECT_EQ(std::ranges::count(answer["tried"], "controller.deadband.enter"), 1);
+  const ProgramResult refused = program({"monitor", "study.h5", "moves.csv", "--unchanged", "friction.k3"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("'friction.k3' is not among the parameters that are tried"), std::string::npos);
   // A log as the baseline has no parameters.
   write_log("before.csv", 200);
   write_log("slower.csv", 200, 1.3);

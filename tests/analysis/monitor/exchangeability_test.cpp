@@ -1,0 +1,144 @@
+// Whether the order of a baseline's values tells that they are not exchangeable; groups that are.
+#include "analysis/monitor/exchangeability.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/failure/failure.hpp"
+#include "tests/analysis/monitor/move_sequences.hpp"
+
+namespace zerocount::testing {
+namespace {
+
+using monitor::Dependence;
+
+Dependence dependence_of(const std::vector<double>& values, std::uint32_t number = 0) {
+  return monitor::dependence_of(values, std::vector<std::size_t>(values.size(), 0), {7, number});
+}
+
+/// Sequences of days before any change, of so many, whose p is at most 0.05.
+int flagged(double correlation, std::int64_t days, int sequences) {
+  int found = 0;
+  for (int i = 0; i < sequences; ++i) {
+    random::NumberSource numbers = numbers_of("dependence", static_cast<std::uint32_t>(i));
+    const Days of{.correlation = correlation};
+    found += dependence_of(times_of_days(of, days, 1.0, numbers), static_cast<std::uint32_t>(i)).p <= 0.05;
+  }
+  return found;
+}
+
+// p is exact: of exchangeable values one in a hundred has p ≤ 0.01, and half have p ≤ 0.5.
+TEST(Dependence, OfExchangeableValuesIsUniform) {
+  int half = 0;
+  int hundredth = 0;
+  constexpr int sequences = 300;
+  for (int i = 0; i < sequences; ++i) {
+    random::NumberSource numbers = numbers_of("exchangeable", static_cast<std::uint32_t>(i));
+    std::vector<double> values = numbers.normals(60);
+    if (i % 3 == 0)
+      for (double& value : values) value = std::rint(value);
+    const double p = dependence_of(values, static_cast<std::uint32_t>(i)).p;
+    half += p <= 0.5 ? 1 : 0;
+    hundredth += p <= 0.01 ? 1 : 0;
+  }
+  EXPECT_NEAR(half, 150, 35);
+  EXPECT_LE(hundredth, 9);
+}
+
+// Days that differ by so little that neighbouring moves hardly correlate.
+TEST(Dependence, SeesDaysThatDifferALittle) {
+  EXPECT_LE(flagged(0.0, 6, 40), 6);
+  EXPECT_GE(flagged(0.1, 6, 40), 24);
+  EXPECT_GE(flagged(0.05, 20, 40), 28);
+}
+
+TEST(Dependence, SeesWhatAlternates) {
+  random::NumberSource numbers = numbers_of("alternating", 0);
+  for (const int period : {2, 3, 4}) {
+    std::vector<double> values;
+    for (int i = 0; i < 120; ++i) values.push_back(static_cast<double>(i % period) + 0.5 * numbers.normal());
+    const Dependence found = dependence_of(values);
+    EXPECT_LE(found.p, 0.01) << period;
+    EXPECT_TRUE(found.alternates) << period;
+  }
+}
+
+TEST(Dependence, LooksWithinClasses) {
+  random::NumberSource numbers = numbers_of("classes", 0);
+  std::vector<double> values;
+  std::vector<std::size_t> classes;
+  for (int i = 0; i < 200; ++i) {
+    classes.push_back(static_cast<std::size_t>(i) % 2);
+    values.push_back(static_cast<double>(i % 2) * 100.0 + numbers.normal());
+  }
+  EXPECT_LE(dependence_of(values).p, 0.01);
+  EXPECT_GT(monitor::dependence_of(values, classes, {7, 0}).p, 0.01);
+  EXPECT_GT(monitor::part_between(values, classes), 0.74) << "the ranks of two classes apart: 3/4";
+}
+
+TEST(Groups, HaveNoMoreFalseAlarmsThanAsked) {
+  constexpr std::uint32_t sequences = 60;
+  const Days days{.baseline = 6, .days = 60, .correlation = 0.1};
+  int by_day = 0;
+  int by_move = 0;
+  for (std::uint32_t i = 0; i < sequences; ++i) {
+    by_day += monitor_of_days(days, {.alarm = 0.05, .group = "day"}, i).measures()[0].alarm_at ? 1 : 0;
+    by_move += monitor_of_days(days, {.alarm = 0.05}, i).measures()[0].alarm_at ? 1 : 0;
+  }
+  EXPECT_LE(by_day, 8) << "3 are allowed on average";
+  EXPECT_GE(by_move, 40) << "moves of a day are not exchangeable with those of another";
+}
+
+TEST(Groups, SeeAChangeOfMostMoves) {
+  const Days days{.baseline = 20, .days = 60, .correlation = 0.1, .factor = 1.25};
+  int seen = 0;
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    const monitor::MachineMonitor machine = monitor_of_days(days, {.group = "day"}, i);
+    const auto& state = machine.measures()[0];
+    if (!state.alarm_at) continue;
+    ++seen;
+    EXPECT_EQ(*state.direction, monitor::Direction::higher);
+    EXPECT_EQ(*state.alarm_at % 50, 0) << "the last move of a day";
+    EXPECT_EQ(*state.since % 50, 1);
+  }
+  EXPECT_GE(seen, 9);
+}
+
+// The last day may go on, and the first may be the baseline's last one.
+TEST(Groups, AreTakenWhereTheyAreComplete) {
+  const auto values = [](const std::string& before, const std::string& after) {
+    const monitor::MoveLog log = log_of(after, "moves.csv", "day");
+    monitor::MachineMonitor machine(monitor::baseline_of(log_of(before, "baseline.csv", "day")), log,
+                                    {.group = "day"});
+    machine.update(log);
+    return std::pair(machine.values(), machine.continued());
+  };
+  const std::string before = "day,settling_time\nMon,1\nMon,2\nTue,3\n";
+  EXPECT_EQ(values(before, "day,settling_time\nWed,1\nWed,2\n"), std::pair(0L, 0L));
+  EXPECT_EQ(values(before, "day,settling_time\nWed,1\nWed,2\nThu,1\n"), std::pair(1L, 0L));
+  EXPECT_EQ(values(before, "day,settling_time\nTue,1\nTue,2\nWed,1\nThu,1\n"), std::pair(1L, 2L));
+  EXPECT_EQ(values(before, "day,settling_time\nMon,1\nTue,1\nMon,1\n"), std::pair(2L, 0L))
+      << "of other weeks";
+}
+
+TEST(Groups, NeedTheirColumn) {
+  const auto message = [](const std::string& text) {
+    try {
+      log_of(text, "moves.csv", "day");
+    } catch (const Failure& failure) {
+      return std::string(failure.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(message("shift,settling_time\n1,2\n"),
+            "moves.csv:1: has no column 'day' (--group); expected one of shift, settling_time");
+  EXPECT_EQ(message("day,settling_time\n1,2\n,2\n"),
+            "moves.csv:3: day is empty; expected the group of the move");
+}
+
+}  // namespace
+}  // namespace zerocount::testing

@@ -13,9 +13,8 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-std::string shell_path(const std::filesystem::path& path) {
-  const std::string text = path.string();
-  return shell_word(text.size() > 1 && text.starts_with('-') ? "./" + text : text);
+std::string shell_path(const std::string& path) {
+  return shell_word(path.size() > 1 && path.starts_with('-') ? "./" + path : path);
 }
 
 }  // namespace zerocount::text

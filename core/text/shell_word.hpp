@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 namespace zerocount::text {
@@ -9,6 +8,6 @@ namespace zerocount::text {
 std::string shell_word(const std::string& word);
 
 /// The path as a word of a command. No option begins like it: "-x.yaml" is "./-x.yaml".
-std::string shell_path(const std::filesystem::path& path);
+std::string shell_path(const std::string& path);
 
 }  // namespace zerocount::text

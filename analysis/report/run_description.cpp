@@ -12,6 +12,7 @@
 #include "analysis/report/reported_study.hpp"
 #include "analysis/text/text.hpp"
 #include "core/text/counted.hpp"
+#include "core/text/shell_word.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -60,7 +61,7 @@ std::vector<HtmlFact> sweep_facts(const ReportedStudy& reported) {
 
 /// Commands that make the study again, and that check the file.
 std::string commands_text(const ReportedStudy& reported) {
-  const std::string file = reported.file.path().filename().string();
+  const std::string file = text::shell_path(reported.file.path().filename());
   return fmt::format("zerocount run {0} -o again.h5; zerocount verify {0}", file);
 }
 

@@ -17,7 +17,9 @@ namespace zerocount::manifest_text {
 namespace {
 
 /// Maps whose keys are numbered in the order in which they are written.
-constexpr std::array<std::string_view, 4> ordered_maps{"sweep.grid", "sweep.cases", "conditions", "goals"};
+constexpr std::array<std::string_view, 5> ordered_maps{"sweep.grid", "sweep.cases", "conditions", "goals",
+                                                       "tune.free"};
+constexpr std::string_view between_keys = ", ";
 constexpr std::size_t max_differences_listed = 5;
 
 void collect(const yaml::YamlNode& node, const std::string& path, ManifestValues& values) {
@@ -31,7 +33,7 @@ void collect(const yaml::YamlNode& node, const std::string& path, ManifestValues
     collect(*entry.value, path.empty() ? entry.key : path + "." + entry.key, values);
   }
   if (keys.size() > 1 && std::ranges::find(ordered_maps, path) != ordered_maps.end())
-    values[path + std::string(order_of_keys)] = fmt::format("{}", fmt::join(keys, ", "));
+    values[path + std::string(order_of_keys)] = fmt::format("{}", fmt::join(keys, between_keys));
 }
 
 /// Of the notations of a number one: 2e-5 and 0.000020 are equal. Whole numbers keep all digits.
@@ -42,8 +44,13 @@ std::string canonical_number(std::string_view text) {
   return std::string(text);
 }
 
-/// A value with its numbers in one notation.
-std::string canonical(std::string_view value) {
+bool is_of_order(std::string_view key) {
+  return key.ends_with(order_of_keys);
+}
+
+/// A value with its numbers in one notation. Names stay as they are.
+std::string canonical(std::string_view key, std::string_view value) {
+  if (is_of_order(key)) return std::string(value);
   if (!value.starts_with('[')) return canonical_number(value);
   std::string text;
   while (!value.empty()) {
@@ -63,8 +70,20 @@ std::string described(const ManifestDifference& difference) {
   return fmt::format("{} is {} there and {} here", difference.key, difference.baseline, difference.current);
 }
 
-bool is_of_order(const ManifestDifference& difference) {
-  return difference.key.ends_with(order_of_keys);
+std::vector<std::string_view> sorted_keys(std::string_view order) {
+  std::vector<std::string_view> keys;
+  for (std::size_t at = 0; at <= order.size();) {
+    const std::size_t end = std::min(order.find(between_keys, at), order.size());
+    keys.push_back(order.substr(at, end - at));
+    at = end + between_keys.size();
+  }
+  std::ranges::sort(keys);
+  return keys;
+}
+
+/// Whether it is the order of a map that has other keys: another order, which need not be said.
+bool follows_from_other_keys(const ManifestDifference& difference) {
+  return is_of_order(difference.key) && sorted_keys(difference.baseline) != sorted_keys(difference.current);
 }
 
 }  // namespace
@@ -98,11 +117,10 @@ std::vector<ManifestDifference> manifest_differences(const ManifestValues& basel
   std::vector<ManifestDifference> differences;
   for (const std::string& key : keys) {
     ManifestDifference difference{key, value_or(baseline, key, ""), value_or(current, key, "")};
-    if (canonical(difference.baseline) != canonical(difference.current))
+    if (canonical(key, difference.baseline) != canonical(key, difference.current) &&
+        !follows_from_other_keys(difference))
       differences.push_back(std::move(difference));
   }
-  // Other keys have another order, which need not be said.
-  if (!std::ranges::all_of(differences, is_of_order)) std::erase_if(differences, is_of_order);
   return differences;
 }
 
@@ -117,7 +135,7 @@ std::string differences_text(const std::vector<ManifestDifference>& differences)
 
 std::string identity_text(const ManifestValues& values) {
   std::string text;
-  for (const auto& [key, value] : values) text += key + '\0' + canonical(value) + '\0';
+  for (const auto& [key, value] : values) text += key + '\0' + canonical(key, value) + '\0';
   return text;
 }
 

@@ -10,8 +10,8 @@
 namespace zerocount::manifest_text {
 
 /// The values of a manifest by their dotted paths, as written. A list is one value, as YAML on one line.
-/// Where the order of the keys of a map numbers design points, conditions or goals, it is a value too, with a
-/// key that ends in `order_of_keys`.
+/// Where the order of the keys of a map numbers design points, conditions, goals or the values that `tune`
+/// tries, it is a value too, with a key that ends in `order_of_keys`.
 using ManifestValues = std::map<std::string, std::string>;
 
 inline constexpr std::string_view order_of_keys = ", order of keys";

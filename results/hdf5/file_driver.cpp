@@ -151,7 +151,9 @@ Handle access_properties(const std::shared_ptr<storage::ByteFile>& bytes) {
   Handle properties = made(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   const DriverInfo info{&bytes};
   demand(H5Pset_driver(properties.get(), driver(), &info));
-  demand(H5Pset_libver_bounds(properties.get(), H5F_LIBVER_V18, H5F_LIBVER_V18));
+  // What is written can be read by HDF5 1.8; what others have rewritten may be in any format.
+  demand(H5Pset_libver_bounds(properties.get(), H5F_LIBVER_V18,
+                              bytes->writable() ? H5F_LIBVER_V18 : H5F_LIBVER_LATEST));
   demand(H5Pset_fclose_degree(properties.get(), H5F_CLOSE_STRONG));
   demand(H5Pset_file_locking(properties.get(), false, true));
   return properties;

@@ -17,6 +17,7 @@
 #include "experiments/manifest_text/manifest_values.hpp"
 #include "results/hdf5/foreign_file.hpp"
 #include "results/layout/point_sums.hpp"
+#include "results/layout/recorded_values.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_descriptor.hpp"
@@ -330,21 +331,17 @@ void require_same_plugin(const std::filesystem::path& path, const FileHeader& he
       path, fmt::format("its trials were run with {}, and this is {}: they are not mixed", there, here));
 }
 
-std::string differences_from(const std::filesystem::path& path, const FileHeader& header,
-                             const study::Study& study) {
-  return manifest_text::differences_text(manifest_text::manifest_differences(
-      manifest_text::values_of(header.manifest, path.string() + ":/manifest", header.overrides),
-      manifest_text::values_of(study.manifest.text, study.name, study.manifest.overrides)));
-}
-
 void require_same_study(const std::filesystem::path& path, const FileHeader& header,
                         const study::Study& study) {
-  if (header.study_sha256 != study.study_sha256) {
-    const std::string differences = differences_from(path, header, study);
-    if (differences.empty()) require_same_plugin(path, header, study.plugin.get());
-    throw ForeignFile(
-        path, "of another study: " + (differences.empty() ? "its table of samples is another" : differences));
+  if (header.version != format_version) {
+    throw ForeignFile(path, fmt::format("its format version is {}: such files are read, but not joined with "
+                                        "those of version {}",
+                                        header.version, format_version));
   }
+  const std::vector<manifest_text::ManifestDifference> differences = study_differences(path, header, study);
+  if (!differences.empty())
+    throw ForeignFile(path, "of another study: " + manifest_text::differences_text(differences));
+  require_same_plugin(path, header, study.plugin.get());
   if (header.trials != study.trials || header.points != study::point_count(study)) {
     throw ForeignFile(
         path, fmt::format("has {} design points with {} trials each; the study has {} with {}", header.points,
@@ -365,11 +362,9 @@ void require_same_study(const std::filesystem::path& path, const FileHeader& hea
                                   "they are not mixed; give --engine {}, or start a new output",
                                   name_of(header.engine), name_of(study.engine), name_of(header.engine)));
   }
-  if (header.version != format_version) {
-    throw ForeignFile(path, fmt::format("its format version is {}: such files are read, but not joined with "
-                                        "those of version {}",
-                                        header.version, format_version));
-  }
+  // The same build gives the same values the same hash.
+  if (header.study_sha256 != study.study_sha256)
+    throw ForeignFile(path, "of another study: its SHA-256 is another");
 }
 
 std::filesystem::path shards_directory(const std::filesystem::path& output) {

@@ -125,11 +125,6 @@ study::Study recorded_study(const FileHeader& header, const std::filesystem::pat
 void require_same_plugin(const std::filesystem::path& path, const FileHeader& header,
                          const plugin::ControllerPlugin* plugin);
 
-/// The values of the manifest in which the study of a file differs from this one, "seed is 42 there and 43
-/// here"; empty if none does. @param path of the file
-std::string differences_from(const std::filesystem::path& path, const FileHeader& header,
-                             const study::Study& study);
-
 /// @throws ForeignFile unless `header`, of the file `path`, is of this study, by this build of the program
 /// (see same_build) and the study's engine, and of the current version of the layout.
 void require_same_study(const std::filesystem::path& path, const FileHeader& header,

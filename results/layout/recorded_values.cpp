@@ -54,4 +54,16 @@ void write_changed_defaults(manifest_text::ManifestValues& baseline, std::int64_
   }
 }
 
+std::vector<manifest_text::ManifestDifference> study_differences(const std::filesystem::path& path,
+                                                                 const FileHeader& header,
+                                                                 const study::Study& study) {
+  // Equal hashes mean equal values; the manifests of thousands of shards need not be read.
+  if (header.study_sha256 == study.study_sha256 && header.version == format_version) return {};
+  manifest_text::ManifestValues there = manifest_values(header, path.string());
+  manifest_text::ManifestValues here =
+      manifest_values(make_header(study, FileKind::study, all_rows(study), {}), study.name);
+  write_changed_defaults(there, header.version, here, format_version);
+  return manifest_text::manifest_differences(there, here);
+}
+
 }  // namespace zerocount::layout

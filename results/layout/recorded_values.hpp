@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "experiments/manifest_text/manifest_values.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 
 namespace zerocount::layout {
@@ -17,5 +20,15 @@ manifest_text::ManifestValues manifest_values(const FileHeader& header, const st
 /// the parameter: with other defaults, equal manifests describe different trials.
 void write_changed_defaults(manifest_text::ManifestValues& baseline, std::int64_t baseline_version,
                             manifest_text::ManifestValues& current, std::int64_t current_version);
+
+/// The values in which the study of the file `path` differs from this one: those of the manifest with its
+/// overrides, the order of keys where it numbers results, the table of samples, and defaults that changed
+/// since the file was written. Whoever adds trials to those of a file asks this: nothing but what may differ
+/// there (for an extension the number of trials) may be in the answer. The controller is compared by
+/// require_same_plugin().
+/// @throws Failure (bad_data) as manifest_values() does.
+std::vector<manifest_text::ManifestDifference> study_differences(const std::filesystem::path& path,
+                                                                 const FileHeader& header,
+                                                                 const study::Study& study);
 
 }  // namespace zerocount::layout

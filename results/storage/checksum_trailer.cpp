@@ -26,9 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view trailer_start = "zerocount-seal sha256 ";
 constexpr std::string_view cure =
-    "; if another program opened it to write, 'zerocount verify --reseal' checks its data, and then makes "
-    "the "
-    "checksum again";
+    "'zerocount verify --reseal' checks its data, and then makes the checksum again";
 
 std::string trailer_of(const hash::Sha256& checksum) {
   return fmt::format("{}{}\n", trailer_start, hash::hexadecimal(checksum));
@@ -45,11 +43,29 @@ std::string read_trailer(const fs::path& path, const FileDescriptor& file) {
   return found;
 }
 
+/// Whether the file is in a format that zerocount never writes: that of HDF5 1.10 and later.
+bool has_newer_format(const fs::path& path) {
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  constexpr char newest_version = 2;  // of the superblock, which follows the signature
+  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.valid()) fail_with(path, "read", errno);
+  std::string start(signature.size() + 1, '\0');
+  read_some(path, file, std::as_writable_bytes(std::span(start)));
+  return start.starts_with(signature) && start.back() > newest_version;
+}
+
 [[noreturn]] void fail_missing(const fs::path& path) {
-  throw Failure(ExitCode::bad_data,
-                fmt::format("{}: the checksum at its end is missing: it was changed since it was written, or "
-                            "damaged, or is not a results file of zerocount{}",
-                            path.string(), cure));
+  if (has_newer_format(path)) {
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: another program has rewritten it in the format of HDF5 1.10, as "
+                              "'h5repack --latest' does, and without the checksum at its end; {}",
+                              path.string(), cure));
+  }
+  throw Failure(
+      ExitCode::bad_data,
+      fmt::format("{}: the checksum at its end is missing: it was changed since it was written, or "
+                  "damaged, or is not a results file of zerocount; if another program opened it to write, {}",
+                  path.string(), cure));
 }
 
 }  // namespace
@@ -84,7 +100,7 @@ void require_valid_checksum(const fs::path& path) {
       throw Failure(
           ExitCode::bad_data,
           fmt::format("{}: changed since it was written, or damaged: the checksum at its end is not that "
-                      "of its contents{}",
+                      "of its contents; if another program opened it to write, {}",
                       path.string(), cure));
   }
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text/shell_word.hpp"
 #include "results/shards/pieces.hpp"
 
 namespace zerocount::cluster {
@@ -42,21 +43,12 @@ std::string further_options(const BatchRequest& request) {
 /// "zerocount run MANIFEST --set … --study …"
 std::string run_words(const BatchRequest& request) {
   std::string words =
-      fmt::format("{} run {}", shell_word(request.program.string()), shell_word(request.manifest));
-  for (const std::string& override : request.overrides) words += " --set " + shell_word(override);
+      fmt::format("{} run {}", text::shell_path(request.program), text::shell_path(request.manifest));
+  for (const std::string& override : request.overrides) words += " --set " + text::shell_word(override);
   return words + " --study " + request.study_sha256;
 }
 
 }  // namespace
-
-std::string shell_word(const std::string& word) {
-  constexpr std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789%+,-./:=@_";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 std::string sbatch_path(const std::string& path) {
   std::string pattern = "\"";
@@ -75,8 +67,8 @@ std::string single_script(const BatchRequest& request) {
       "{}{}"
       "cd {} || exit 5\n"
       "exec {} --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" --quiet --output {}{}\n",
-      options_text(request, "", "run.log"), further_options(request), shell_word(request.folder.string()),
-      run_words(request), shell_word(request.output.string()), request.replaces ? " --force" : "");
+      options_text(request, "", "run.log"), further_options(request), text::shell_path(request.folder),
+      run_words(request), text::shell_path(request.output), request.replaces ? " --force" : "");
 }
 
 std::string array_script(const BatchRequest& request) {
@@ -101,8 +93,8 @@ std::string array_script(const BatchRequest& request) {
       "exit \"$status\"\n",
       parts, elements, options_text(request, "", "element-%a.log"), index_list(request.elements),
       request.at_once ? fmt::format("%{}", *request.at_once) : "", further_options(request),
-      shell_word(request.folder.string()), std::to_string(parts).size(), run_words(request),
-      shell_word(shards::parts_directory(request.output).string()));
+      text::shell_path(request.folder), std::to_string(parts).size(), run_words(request),
+      text::shell_path(shards::parts_directory(request.output)));
 }
 
 std::string merge_script(const BatchRequest& request) {
@@ -115,8 +107,8 @@ std::string merge_script(const BatchRequest& request) {
       "cd {} || exit 5\n"
       "exec {} merge {} --output {}{}\n",
       options_text(one_processor, "-merge", "merge.log"), further_options(request),
-      shell_word(request.folder.string()), shell_word(request.program.string()),
-      shell_word(shards::parts_directory(request.output).string()), shell_word(request.output.string()),
+      text::shell_path(request.folder), text::shell_path(request.program),
+      text::shell_path(shards::parts_directory(request.output)), text::shell_path(request.output),
       request.replaces ? " --force" : "");
 }
 

@@ -39,9 +39,6 @@ std::string single_script(const BatchRequest& request);
 /// The script of the job that merges the parts.
 std::string merge_script(const BatchRequest& request);
 
-/// `word` for a POSIX shell: as it is, or in single quotes.
-std::string shell_word(const std::string& word);
-
 /// `path` as the pattern of a file name in a line "#SBATCH --output=…", which Slurm reads like a shell:
 /// in double quotes, with % doubled. `path` has no backslash, and no control character.
 std::string sbatch_path(const std::string& path);

@@ -11,6 +11,7 @@
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/text/text.hpp"
 #include "core/loop/encoder.hpp"
+#include "core/text/shell_word.hpp"
 #include "core/theory/gains.hpp"
 #include "runners/design_commands/tune_figures.hpp"
 #include "runners/design_commands/tune_parts.hpp"
@@ -148,7 +149,7 @@ std::string left_out_sentence(Of tuning) {
   for (const Extra extra : answer.left_extras) names.push_back(tuning::name_of(extra));
   const std::string interval =
       answer.retuning ? fmt::format(" --retune-every {}", answer.retuning->every) : std::string();
-  return line + fmt::format("; zerocount tune {} --extras {}{} makes them", tuning.output.string(),
+  return line + fmt::format("; zerocount tune {} --extras {}{} makes them", text::shell_path(tuning.output),
                             fmt::join(names, ","), interval);
 }
 

@@ -9,6 +9,7 @@
 
 #include "analysis/goal/question.hpp"
 #include "analysis/text/text.hpp"
+#include "core/text/shell_word.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/output_place.hpp"
@@ -80,11 +81,11 @@ std::string profiles_sentence(const Search& search) {
 std::string replay_sentence(const Search& search) {
   const JudgedMachine& machine = search.found.in_box;
   if (!search.manifest || yaml::is_standard_stream(*search.manifest) || machine.manifest.empty()) return "";
-  return fmt::format("{0} has its manifest{1}; its worst trial: zerocount trace {0} --trial {2}",
+  return fmt::format("{0} has its manifest{1}; its worst trial: zerocount trace {2} --trial {3}",
                      search.manifest->string(),
                      search.found.with_profiles ? fmt::format(", of which rig {} is the machine", machine.rig)
                                                 : std::string(),
-                     machine.trial);
+                     text::shell_path(*search.manifest), machine.trial);
 }
 
 /// An input of the machines in the box and of the likely ones.

@@ -16,6 +16,8 @@
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
 #include "runners/forecast/cost.hpp"
+#include "runners/forecast/file_size.hpp"
+#include "runners/forecast/stored_column.hpp"
 #include "runners/trials/effort.hpp"
 #include "runners/trials/kept_block.hpp"
 #include "runners/trials/shard_collector.hpp"
@@ -28,10 +30,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t max_sampled_trials = 64;
-constexpr double max_sampled_samples = 4e5;  // takes some hundredths of a second
-constexpr std::int64_t sampled_places = 8;
-
+constexpr std::int64_t max_sampled_trials = 512;
+constexpr double max_sampled_samples = 1.5e6;  // takes some tenths of a second
+constexpr double max_traced_samples = 2e5;     // by the slower reference engine
 /// For the sampled trials, and for those with traces. Where none ends in time, a trial without jerks stands
 /// for them.
 constexpr double sampling_limit = 2.0;  // s
@@ -60,7 +61,7 @@ std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
   const auto wanted =
       std::clamp(static_cast<std::int64_t>(max_sampled_samples / trials::samples_per_trial(study)),
                  std::int64_t{1}, std::min(max_sampled_trials, rows));
-  const std::int64_t places = std::min(sampled_places, wanted);
+  const std::int64_t places = std::min<std::int64_t>(sampled_places, wanted);
   trials::TrialRunner runner(study);
   std::vector<shards::TrialResult> trials;
   const auto add = [&](std::int64_t from, std::int64_t to) {
@@ -81,55 +82,80 @@ std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
   return trials;
 }
 
-/// Sizes on the disk in proportion to the bytes of the values.
-struct Ratios {
-  double drawn;   ///< inputs
-  double real;    ///< measures, jerks and sample records
-  double whole;   ///< counts of the same
-  double code;    ///< flags and enumerations
-  double number;  ///< of rows, which rise by one
-};
-/// Fitted to the files of seven shipped manifests with 1000 trials at each point, whose sizes the forecast
-/// then exceeds by at most a factor of 1.8. Drawn values are random; many measures repeat.
-constexpr Ratios compressed{0.92, 0.35, 0.12, 0.03, 0.003};
-constexpr double compressed_sums = 0.2;
-constexpr Ratios uncompressed{1.0, 1.0, 1.0, 1.0, 1.0};
-/// Bytes of a dataset without values: its header, attributes and index.
-constexpr double bytes_of_dataset = 2500.0;
+/// The first trials of the middle point, numbered from 0.
+std::vector<shards::TrialResult> trials_of_point(const study::Study& study) {
+  if (!layout::has_sums(study.retention)) return {};
+  const trials::Effort limited = trials::Effort().share({}, sampling_limit);
+  const auto count =
+      std::clamp(static_cast<std::int64_t>(max_sampled_samples / trials::samples_per_trial(study)),
+                 std::int64_t{1}, std::min(max_sampled_trials, study.trials));
+  std::vector<shards::TrialResult> trials;
+  try {
+    const layout::RowRange rows{study::point_count(study) / 2 * study.trials, count};
+    trials = trials::TrialRunner(study).run(rows, limited.stop());
+  } catch (const trial::Interrupted&) {
+    trials.push_back(trial_without_jerks(study));
+  }
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    trials[i].row = static_cast<std::int64_t>(i);
+    trials[i].trace.clear();
+  }
+  return trials;
+}
 
-double bytes_of_row(const layout::Table& table, const Ratios& ratios, double ratio_of_reals) {
-  const auto ratio_of = [&](hdf5::Element element) {
-    if (element == hdf5::Element::float64) return ratio_of_reals;
-    return hdf5::size_of(element) == 1 ? ratios.code : ratios.whole;
-  };
-  double bytes = sizeof(std::int64_t) * ratios.number;
+/// Some of the trials whose records the study retains, of points spread over it.
+std::vector<shards::TrialResult> traced_trials(const study::Study& study) {
+  if (study.retained_trials.empty() || !layout::has_trials(study.retention)) return {};
+  const trials::Effort limited = trials::Effort().share({}, sampling_limit);
+  const std::int64_t points = study::point_count(study);
+  const std::int64_t retained = std::ssize(study.retained_trials);
+  const auto wanted =
+      std::clamp(static_cast<std::int64_t>(max_traced_samples / trials::samples_per_trial(study)),
+                 std::int64_t{1}, std::min<std::int64_t>(sampled_places, points * retained));
+  std::vector<shards::TrialResult> traced;
+  for (std::int64_t i = 0; i < wanted; ++i) {
+    const std::int64_t one = points * retained / wanted * i;
+    const std::int64_t row =
+        one / retained * study.trials + study.retained_trials[static_cast<std::size_t>(one % retained)];
+    try {
+      traced.push_back(trials::run_study_trial(study, row, limited.stop()));
+    } catch (const trial::Interrupted&) {
+      break;
+    }
+  }
+  return traced;
+}
+
+/// Bytes that the sums take on the disk, of a byte in memory; measured.
+constexpr double compressed_sums = 0.2;
+/// Bytes of a dataset of a shard without values: its header, attributes and index.
+constexpr double bytes_of_shard_dataset = 2500.0;
+
+double bytes_of_row(const layout::Table& table) {
+  double bytes = 0.0;
   for (const layout::Column& column : table.columns)
-    bytes += static_cast<double>(hdf5::size_of(column.element)) * ratio_of(column.element);
+    bytes += static_cast<double>(hdf5::size_of(column.element));
   return bytes;
 }
 
-/// Bytes of a trial with its jerks, without sample records.
-double bytes_of_trial(const study::Study& study, double jerks, const Ratios& ratios) {
-  const double inputs = 8.0 * static_cast<double>(study.columns.inputs.size()) * ratios.drawn;
-  const double numbers = 3.0 * sizeof(std::int64_t) * ratios.number;  // row, point and index
-  return numbers + inputs +
-         static_cast<double>(study.moves) *
-             (bytes_of_row(layout::outcome_table(layout::format_version, study.features), ratios,
-                           ratios.real) +
-              static_cast<double>(study.features.bands.count) *
-                  bytes_of_row(layout::band_table(study.features.bands), ratios, ratios.real)) +
-         jerks * bytes_of_row(layout::jerk_table(), ratios, ratios.real);
+/// Bytes of a trial with its jerks in a shard, without sample records.
+double bytes_of_trial(const study::Study& study, double jerks) {
+  constexpr double numbers = 3.0 * sizeof(std::int64_t);  // row, point and index
+  const double of_move = bytes_of_row(layout::outcome_table(layout::format_version, study.features)) +
+                         static_cast<double>(study.features.bands.count) *
+                             bytes_of_row(layout::band_table(study.features.bands));
+  return numbers + 8.0 * static_cast<double>(study.columns.inputs.size()) +
+         static_cast<double>(study.moves) * of_move + jerks * bytes_of_row(layout::jerk_table());
 }
 
-/// Bytes of all sample records.
-double bytes_of_records(const study::Study& study, const Ratios& ratios) {
+/// Bytes of all sample records in memory or in shards.
+double bytes_of_records(const study::Study& study) {
   const auto trials = static_cast<double>(std::ssize(study.retained_trials) * study::point_count(study));
   if (trials == 0.0) return 0.0;
-  return trials * trials::samples_per_trial(study) *
-         bytes_of_row(layout::trace_table(study.features), ratios, ratios.real);
+  return trials * trials::samples_per_trial(study) * bytes_of_row(layout::trace_table(study.features));
 }
 
-/// Bytes of the datasets of the trials without their values.
+/// Bytes of the datasets of a shard without their values.
 double bytes_of_descriptions(const study::Study& study) {
   const std::size_t columns =
       layout::has_trials(study.retention)
@@ -139,21 +165,7 @@ double bytes_of_descriptions(const study::Study& study) {
                 (study.retained_trials.empty() ? 0 : layout::trace_table(study.features).columns.size())
           : 0;
   constexpr double others = 10.0;
-  return bytes_of_dataset * (static_cast<double>(columns) + others);
-}
-
-/// Bytes of the results file without its trials.
-double table_bytes(const study::Study& study) {
-  constexpr double statistics = 400e3;  // some hundred columns with their descriptions, measured
-  constexpr double statistics_of_point = 1600.0;
-  double profiles = 0.0;
-  for (const study::RealisedProfile& profile : study.profiles) {
-    const std::int64_t values = profile.of_rig ? study.rigs * layout::profile_angles_of_rig(
-                                                                  profile.profile->cosine.size(), study.rigs)
-                                               : layout::profile_angles;
-    profiles += 8.0 * static_cast<double>(values);
-  }
-  return statistics + statistics_of_point * static_cast<double>(study::point_count(study)) + profiles;
+  return bytes_of_shard_dataset * (static_cast<double>(columns) + others);
 }
 
 /// Numbers in the sums of a point, of trials that are numbered from 0.
@@ -175,7 +187,20 @@ struct SumBytes {
   double of_all{0.0};
 };
 
-SumBytes bytes_of_sums(const study::Study& study, const std::vector<shards::TrialResult>& trials) {
+/// Every n-th, so that there are about `count`, numbered from 0.
+std::vector<shards::TrialResult> some_of(const std::vector<shards::TrialResult>& trials, std::size_t count) {
+  const std::size_t step = std::max<std::size_t>(trials.size() / count, 1);
+  std::vector<shards::TrialResult> some;
+  for (std::size_t i = 0; i < trials.size(); i += step) {
+    some.push_back(trials[i]);
+    some.back().row = std::ssize(some) - 1;
+  }
+  return some;
+}
+
+SumBytes bytes_of_sums(const study::Study& study, const std::vector<shards::TrialResult>& all_trials) {
+  constexpr std::size_t used = 64;  // to which `growth` belongs
+  const std::vector<shards::TrialResult> trials = some_of(all_trials, used);
   constexpr double growth = 4.0;  // distinct values that more trials add; measured
   if (!layout::has_sums(study.retention)) return {};
   const double all = numbers_of_sums(study, trials);
@@ -215,22 +240,21 @@ double kept_proportion(const study::Study& study, std::span<const shards::TrialR
 StudySize measure_size(const study::Study& study, int threads) {
   constexpr double copies = 1.5;  // as sums that can be added to, as numbers, as they are written; measured
   constexpr double blocks_of_a_thread = 4.0;
-  const std::vector<shards::TrialResult> trials = sampled_trials(study);
+  TrialSample sample{sampled_trials(study), traced_trials(study), trials_of_point(study)};
+  const std::vector<shards::TrialResult>& trials = sample.trials;
   double jerks = 0.0, memory = 0.0;
   for (const shards::TrialResult& trial : trials) {
     jerks += static_cast<double>(trial.jerks.size()) / static_cast<double>(trials.size());
     memory += static_cast<double>(trials::bytes_of(trial)) / static_cast<double>(trials.size());
   }
   const auto points = static_cast<double>(study::point_count(study));
-  const double kept = kept_proportion(study, trials) * static_cast<double>(study::trial_count(study));
+  sample.kept = kept_proportion(study, trials);
+  const double kept = sample.kept * static_cast<double>(study::trial_count(study));
   const SumBytes sums = bytes_of_sums(study, trials);
-  const double raw_records = bytes_of_records(study, uncompressed);
+  const double raw_records = bytes_of_records(study);
   StudySize size;
-  size.file_bytes = table_bytes(study) + bytes_of_descriptions(study) +
-                    kept * bytes_of_trial(study, jerks, compressed) + bytes_of_records(study, compressed) +
-                    compressed_sums * sums.of_all * points;
-  size.shard_bytes =
-      bytes_of_descriptions(study) + kept * bytes_of_trial(study, jerks, uncompressed) + raw_records;
+  size.file_bytes = file_bytes(study, sample);
+  size.shard_bytes = bytes_of_descriptions(study) + kept * bytes_of_trial(study, jerks) + raw_records;
   size.memory_bytes = trials::peak_memory(study, memory, raw_records, threads);
   if (layout::has_sums(study.retention)) {
     size.shard_bytes +=

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "analysis/parallel/parallel.hpp"
+#include "analysis/parallel/processors.hpp"
 #include "analysis/text/fitted_text.hpp"
 #include "analysis/theory/loop_plausibility.hpp"
 #include "experiments/yaml/nearest_name.hpp"
@@ -80,6 +82,11 @@ commands::Command find_command(const std::string& name) {
                 fmt::format("zerocount: unknown command '{}'; {} 'zerocount --help'", name, meant));
 }
 
+bool asks_for_threads(const commands::Command& command, const command_line::Arguments& arguments) {
+  const auto is_threads = [](const command_line::OptionSpec& option) { return option.name == "threads"; };
+  return std::ranges::any_of(command.spec.options, is_threads) && arguments.has("threads");
+}
+
 }  // namespace
 
 std::vector<commands::Command> commands() {
@@ -135,6 +142,8 @@ ExitCode run_command_line(std::span<const std::string> words) {
   const command_line::Arguments arguments(command.spec, {words.begin() + 1, words.end()});
   if (arguments.has("help")) return print(help_of(command));
   command_line::require_separate_files(arguments);
+  std::optional<parallel::ThreadLimit> limit;
+  if (!asks_for_threads(command, arguments)) limit.emplace(parallel::processors());
   return command.run(arguments);
 }
 

@@ -16,6 +16,7 @@
 #include "analysis/goal/question.hpp"
 #include "analysis/text/percent.hpp"
 #include "core/numerics/normal_distribution.hpp"
+#include "core/text/shell_word.hpp"
 
 namespace zerocount::rare {
 namespace {
@@ -179,9 +180,9 @@ std::string replays_sentence(Of r) {
     if (drawn[i].failed > 0.0) replays.push_back(fmt::format("--trial {}", i));
   }
   if (replays.empty() || r.output.empty()) return "";
-  return fmt::format("{0} holds {1} drawn trials, {2} of them failures; for example\nzerocount trace {0} {3}",
+  return fmt::format("{0} holds {1} drawn trials, {2} of them failures; for example\nzerocount trace {3} {4}",
                      r.output.string(), drawn.size(), failures_drawn(r.answer.state),
-                     fmt::join(replays, ", "));
+                     text::shell_path(r.output), fmt::join(replays, ", "));
 }
 
 // Tables.

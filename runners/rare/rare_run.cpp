@@ -14,6 +14,7 @@
 #include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
 #include "results/layout/header.hpp"
+#include "results/layout/recorded_values.hpp"
 #include "runners/rare/rare_answer.hpp"
 #include "runners/rare/rare_file.hpp"
 #include "runners/status/status.hpp"
@@ -29,8 +30,8 @@ constexpr double seconds_between_writes = 60.0;
 /// In what the file's question differs from this one; empty if it does not.
 std::string difference(const fs::path& file, const RareRecord& record, const Question& question) {
   if (record.header.study_sha256 != question.whole.study_sha256)
-    return fmt::format("its study is another: {}",
-                       layout::differences_from(file, record.header, question.whole));
+    return fmt::format("its study is another: {}", manifest_text::differences_text(layout::study_differences(
+                                                       file, record.header, question.whole)));
   if (record.of.point != question.of.point) return "it is of another design point";
   if (record.of.world != question.of.world) return "it is of another world";
   if (record.of.condition != question.of.condition) return "it is of another condition";

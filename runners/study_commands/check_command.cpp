@@ -24,6 +24,7 @@
 #include "runners/forecast/engine_use.hpp"
 #include "runners/forecast/study_size.hpp"
 #include "runners/plugins/hidden_state.hpp"
+#include "runners/standard_output/standard_output.hpp"
 #include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_commands/study_commands.hpp"
@@ -389,6 +390,10 @@ std::vector<PointReading> examined_points(const study::Study& study, std::int64_
 
 ExitCode check(const command_line::Arguments& arguments) {
   const study::Study study = commands::load_study(arguments.operands()[0], arguments);
+  if (arguments.has("hash")) {
+    standard_output::print("{}\n", study.study_sha256);
+    return ExitCode::success;
+  }
   plugins::require_no_hidden_state(study);
   if (study.tuning && study::first_goal(study)) tuning::criteria_of(study);  // a wrong one is an error
   commands::print_warnings(study);
@@ -402,15 +407,19 @@ ExitCode check(const command_line::Arguments& arguments) {
 }  // namespace
 
 commands::Command check_command() {
-  return {{"check",
-           "MANIFEST|FILE",
-           {answers::format_option(),
-            {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
-            {"all-points", "", "print the theory of every design point, not only of the first 20"}}},
-          "validate a manifest; print its plan and the theory of its points",
-          check_help,
-          check,
-          [] { return std::vector{check_answer().complete_type()}; }};
+  return {
+      {"check",
+       "MANIFEST|FILE",
+       {command_line::excluding({"hash"}, answers::format_option()),
+        {"set", "KEY=VALUE", "override a manifest key; may be repeated", true},
+        command_line::excluding(
+            {"hash"}, {"all-points", "", "print the theory of every design point, not only of the first 20"}),
+        {"hash", "",
+         "print only the SHA-256 of all that determines the trials, which 'zerocount run --study' takes"}}},
+      "validate a manifest; print its plan and the theory of its points",
+      check_help,
+      check,
+      [] { return std::vector{check_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::study_commands

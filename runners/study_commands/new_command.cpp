@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/text/number_text.hpp"
+#include "core/text/shell_word.hpp"
 #include "experiments/guides/guide_manifest.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifests/shipped_manifests.hpp"
@@ -144,7 +145,8 @@ void write_manifest(const command_line::Arguments& arguments, const std::string&
   const std::filesystem::path output = named.value_or(usual_name);
   if (!named) command_line::require_replaceable(arguments, output);
   command_line::write_text(output, manifest);
-  if (output != "-") status::tell("wrote {}; next: zerocount check {}\n", output.string(), output.string());
+  if (output != "-")
+    status::tell("wrote {}; next: zerocount check {}\n", output.string(), text::shell_path(output));
 }
 
 ExitCode make_new(const command_line::Arguments& arguments) {

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "core/text/shell_word.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
@@ -262,7 +263,7 @@ void submit(const fs::path& output, const cluster::BatchRequest& request) {
     cluster::write_submission(output, submission);
   }
   standard_output::print("watch:     squeue --jobs={}\n           zerocount status {}\n",
-                         fmt::join(submission.jobs, ","), output.string());
+                         fmt::join(submission.jobs, ","), text::shell_path(output));
 }
 
 /// Submits the incomplete parts and the merge.

@@ -13,6 +13,7 @@
 #include "analysis/summary_answer/summary_answer.hpp"
 #include "analysis/text/report_json.hpp"
 #include "core/failure/failure.hpp"
+#include "core/text/shell_word.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/run_status/run_status.hpp"
@@ -65,7 +66,7 @@ std::string headline(Status s) {
 }
 
 std::string next_step(Status s) {
-  if (s.status.complete) return fmt::format("see 'zerocount summary {}'", s.output.string());
+  if (s.status.complete) return fmt::format("see: zerocount summary {}", text::shell_path(s.output));
   const std::optional<run_status::PartCounts>& parts = s.status.parts;
   if (parts && parts->complete == parts->all)
     return "not merged: see merge.log in the folder of the parts, or give the command 'slurm' again";

@@ -9,6 +9,7 @@
 #include "analysis/summary/summed_point.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
+#include "results/layout/recorded_values.hpp"
 #include "results/reading/results_file.hpp"
 #include "runners/status/status.hpp"
 
@@ -22,7 +23,7 @@ void require_same_plugin(const fs::path& shard, const study::Study& study) {
   std::optional<layout::FileHeader> header;
   try {
     header = shards::inspect_header(shard);
-    if (!layout::differences_from(shard, *header, study).empty()) return;
+    if (!layout::study_differences(shard, *header, study).empty()) return;
   } catch (const Failure&) {
     return;  // another format
   }

@@ -19,19 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Differences between the study of a results file and this one. The final number of trials of a stopping
-/// rule is ignored; defaults that changed since the file was written are included.
-/// @param path of the file, for messages
-std::vector<manifest_text::ManifestDifference> study_differences(const fs::path& path,
-                                                                 layout::FileHeader header,
-                                                                 const study::Study& study) {
+/// The header without the number of trials that a stopping rule decided on.
+layout::FileHeader as_requested(layout::FileHeader header, const study::Study& study) {
   if (study.stop && !header.overrides.empty() && header.overrides.back().starts_with(decided_key))
     header.overrides.pop_back();
-  manifest_text::ManifestValues there = layout::manifest_values(header, path.string());
-  manifest_text::ManifestValues here = layout::manifest_values(
-      layout::make_header(study, layout::FileKind::study, layout::all_rows(study), {}), study.name);
-  layout::write_changed_defaults(there, header.version, here, layout::format_version);
-  return manifest_text::manifest_differences(there, here);
+  return header;
 }
 
 [[noreturn]] void refuse(const fs::path& output, std::string_view what) {
@@ -77,7 +69,8 @@ ExistingUse use_of_existing(const fs::path& output, const study::Study& study, l
   std::error_code error;
   if (!fs::exists(fs::symlink_status(output, error))) return ExistingUse::none;
   const layout::FileHeader header = header_of(output);
-  const std::vector<manifest_text::ManifestDifference> differences = study_differences(output, header, study);
+  const std::vector<manifest_text::ManifestDifference> differences =
+      layout::study_differences(output, as_requested(header, study), study);
   if (differences.empty()) layout::require_same_plugin(output, header, study.plugin.get());
   if (header.engine != study.engine) {
     refuse(output, fmt::format("holds the results of the {} engine, and this run is for the {} engine",

@@ -14,11 +14,11 @@
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include "analysis/measures/point_columns.hpp"
+#include "analysis/parallel/processors.hpp"
 #include "core/trial/trial.hpp"
 #include "results/layout/table_io.hpp"
 #include "runners/trials/block_source.hpp"
@@ -156,7 +156,7 @@ double memory_of_statistics(const study::Study& study) {
 }  // namespace
 
 int threads_to_use(int asked) {
-  return asked > 0 ? asked : oneapi::tbb::info::default_concurrency();
+  return asked > 0 ? asked : parallel::processors();
 }
 
 double samples_per_trial(const study::Study& study) {

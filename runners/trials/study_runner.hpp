@@ -24,7 +24,7 @@ shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row,
 /// Number of samples of a trial: the mean over the first trials of up to 64 points.
 double samples_per_trial(const study::Study& study);
 
-/// Number of threads where `asked` were asked for; 0: all that the machine has.
+/// Number of threads where `asked` were asked for; 0: parallel::processors().
 int threads_to_use(int asked);
 
 /// Estimate of the peak memory of run_trials over the whole study, bytes.

@@ -436,10 +436,7 @@ TuneAnswer tune(const study::Study& study, const TuneSettings& settings, const s
   try {
     return Tuner(study, settings, stop).run();
   } catch (const trial::Interrupted&) {
-    throw Failure(ExitCode::interrupted,
-                  fmt::format("interrupted: the simulated points are kept in {}; give the same command again "
-                              "to continue",
-                              journal_path(settings.output).string()));
+    throw Failure(ExitCode::interrupted, interruption_text(settings.output));
   }
 }
 

@@ -270,5 +270,43 @@ class Examples(Batch):
         self.require_goes_on(*words, before=(*words, "--unlock"), unseen=2)
 
 
+class Studies(Batch):
+    """Parts of an earlier manifest, and of others in the same folder, are not merged."""
+    trials = 16
+
+    def hash_of(self, name):
+        return self.ended("zerocount", "check", name, "--hash").strip()
+
+    def require_own_results(self, run, other="other.yaml"):
+        """@param run runs a study by its name"""
+        text = (self.folder / "study.yaml").read_text()
+        (self.folder / other).write_text(text.replace("name: parts", "name: other"))
+        edited = text.replace("130", "150")
+        for name, written in (("study.yaml", text), ("study.yaml", edited), (other, None), ("study.yaml", text), ("study.yaml", f"# again\n{text}")):
+            if written:
+                (self.folder / name).write_text(written)
+            run(name)
+            self.assertEqual(self.hash_of(name.replace(".yaml", ".h5")), self.hash_of(name))
+        self.assertEqual(len(list((self.folder / "parts").glob("*-of-2.h5"))), 3 * 2, "parts of three studies")
+        self.assertNotEqual(self.hash_of("study.h5"), self.hash_of(other.replace(".yaml", ".h5")))
+
+    def test_make(self):
+        self.require_own_results(lambda name: self.ended("make", "-f", EXAMPLES / "Makefile", f"STUDY={name}", "PARTS=2"))
+        self.ended("make", "-f", EXAMPLES / "Makefile", "STUDY=missing.yaml", code=2)
+
+    @unittest.skipUnless(shutil.which("parallel"), "no GNU parallel here")
+    def test_parallel(self):
+        self.require_own_results(lambda name: self.ended(EXAMPLES / "parallel.sh", name, "2"))
+        self.ended(EXAMPLES / "parallel.sh", "missing.yaml", "2", code=2)
+
+    @unittest.skipUnless(shutil.which("parallel"), "no GNU parallel here")
+    def test_parallel_of_any_name(self):
+        self.require_own_results(lambda name: self.ended(EXAMPLES / "parallel.sh", name, "2"), other="a b's \"$HOME\" & `c`.yaml")
+
+    @unittest.skipUnless(shutil.which("snakemake"), "no Snakemake here")
+    def test_snakemake(self):
+        self.require_own_results(lambda name: self.ended("snakemake", "-s", EXAMPLES / "Snakefile", "--cores", "1", "--config", f"study={name}", "parts=2"))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -167,6 +167,24 @@ class Files(Runs):
         self.complete("summary", "out.h5")
         self.assertEqual(h5py.File(path).attrs["note"], "seen")
 
+    def test_a_file_in_a_newer_format_of_hdf5_is_said_to_be_that(self):
+        """As h5repack --latest writes it: every value is there, and nothing is damaged."""
+        self.complete("run", "short.yaml", "-o", "out.h5")
+        with h5py.File(self.folder / "out.h5") as old, h5py.File(self.folder / "new.h5", "w", libver="latest", track_order=True) as new:
+            new.attrs.update(old.attrs)
+            for name in old:
+                old.copy(name, new)
+        for words in (["summary"], ["verify"], ["trace"], ["merge", "-o", "merged.h5"]):
+            refused = self.run_program(words[0], "new.h5", *words[1:])
+            with self.subTest(words[0]):
+                self.assertEqual(refused.returncode, 4)
+                said = refused.stdout + refused.stderr
+                self.assertIn("another program has rewritten it in the format of HDF5 1.10", said)
+                self.assertNotIn("damaged", said)
+        self.complete("verify", "new.h5", "--reseal")
+        self.assertEqual(self.complete("summary", "new.h5").stdout, self.complete("summary", "out.h5").stdout)
+        self.complete("verify", "new.h5")
+
     def test_a_file_with_other_values_is_not_sealed(self):
         self.complete("run", "short.yaml", "-o", "out.h5")
         path = self.folder / "out.h5"

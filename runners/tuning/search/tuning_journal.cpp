@@ -62,6 +62,16 @@ std::filesystem::path journal_path(const std::filesystem::path& output) {
   return output.string() + ".tuning";
 }
 
+std::string interruption_text(const std::filesystem::path& output) {
+  const std::filesystem::path journal = journal_path(output);
+  std::error_code error;
+  if (!std::filesystem::exists(journal, error))
+    return "interrupted before a point was simulated: nothing is kept; give the same command again";
+  return fmt::format(
+      "interrupted: the simulated points are kept in {}; give the same command again to continue",
+      journal.string());
+}
+
 TuningJournal::TuningJournal(std::filesystem::path path, const std::string& tuning, bool replace)
     : path_(std::move(path)) {
   std::error_code error;

@@ -16,6 +16,9 @@ namespace zerocount::tuning {
 /// The file in which a tuning keeps its evaluations until it ends: FILE.tuning.
 std::filesystem::path journal_path(const std::filesystem::path& output);
 
+/// What an interrupted tuning has kept: the journal, if there is one yet.
+std::string interruption_text(const std::filesystem::path& output);
+
 /// The evaluations of an unfinished tuning, so that it goes on where it was interrupted: a line of JSON that
 /// names the tuning, then one for each evaluation. The search is run anew, and finds its results here.
 class TuningJournal {

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <random>
+#include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/experiments/manifest_texts.hpp"
@@ -47,6 +49,27 @@ TEST(ManifestValues, HaveTheOrderOfWhatIsNumberedByIt) {
   EXPECT_EQ(
       differences("sweep: {cases: {a: {x: 1}, b: {x: 2}}}\n", "sweep: {cases: {c: {x: 2}, a: {x: 1}}}\n"),
       "sweep.cases.b.x is 2 there, and not given here, sweep.cases.c.x is 2 here, and not given there");
+}
+
+// The results of one case stood under the name of another after an extension, where only the other number of
+// trials was said.
+TEST(ManifestValues, HaveTheirOrderWhateverElseDiffers) {
+  for (const std::string map : {"sweep: {cases: {A, B}}", "sweep: {grid: {A, B}}", "conditions: {A, B}",
+                                "goals: {A, B}", "tune: {free: {A, B}}"}) {
+    const auto text = [&map](int trials, const std::string& first, const std::string& second) {
+      std::string written = map;
+      written.replace(written.find('A'), 1, first + ": [1, 2]");
+      written.replace(written.find('B'), 1, second + ": [1, 2]");
+      return fmt::format("trials: {}\n{}\n", trials, written);
+    };
+    SCOPED_TRACE(map);
+    EXPECT_EQ(differences(text(1, "a", "b"), text(2, "a", "b")), "trials is 1 there and 2 here");
+    const std::string found = differences(text(1, "a", "b"), text(2, "b", "a"));
+    EXPECT_NE(found.find(", order of keys is a, b there and b, a here"), std::string::npos) << found;
+    EXPECT_NE(found.find("trials is 1 there and 2 here"), std::string::npos) << found;
+    // Names are not numbers of which two notations are equal.
+    EXPECT_NE(differences(text(1, "'[1.0]'", "'[1]'"), text(1, "'[1]'", "'[1.0]'")), "");
+  }
 }
 
 TEST(ManifestValues, OfAManifestInAnotherOrderMakeTheSameHash) {

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <random>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -15,20 +17,6 @@ namespace zerocount::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-TEST(ShellWord, IsOneWordOfTheShell) {
-  const TemporaryFolder folder;
-  const std::string characters = "ab'\"\\ $`*;&|<>()#!~\t";
-  std::mt19937 random(5);
-  for (int repetition = 0; repetition < 40; ++repetition) {
-    std::string word;
-    for (std::size_t i = random() % 12; i > 0; --i) word += characters[random() % characters.size()];
-    const std::string line = "printf %s " + cluster::shell_word(word) + " > " + (folder / "said").string();
-    ASSERT_EQ(std::system(line.c_str()), 0) << word;
-    EXPECT_EQ(folder.read("said"), word);
-  }
-  EXPECT_EQ(cluster::shell_word("studies/axis-1.yaml"), "studies/axis-1.yaml");
-}
 
 /// A program that writes its arguments, and the parts of which it makes.
 cluster::BatchRequest request_of(const TemporaryFolder& folder, cluster::ArrayJob job) {
@@ -80,6 +68,58 @@ TEST(ArrayScript, EndsWithTheRunThatIsInterrupted) {
   const std::string line = "SLURM_ARRAY_TASK_ID=1 SLURM_CPUS_PER_TASK=3 bash " + (folder / "script").string();
   EXPECT_EQ(WEXITSTATUS(std::system(line.c_str())), 130);
   EXPECT_EQ(folder.read("called"), "x\n");
+}
+
+// Folders and outputs have no control characters, which the command refuses; manifests and overrides may.
+TEST(Scripts, PassEveryNameAsItIs) {
+  constexpr std::string_view of_names = "ab'\" $`*;&|<>()#!~%-\xc3\xa9";
+  std::mt19937 random(81);
+  const auto some = [&](std::string_view more = "") {
+    const std::string characters = std::string(of_names) + std::string(more);
+    std::string word = "-";
+    for (int i = 0; i < 12; ++i) word += characters[random() % characters.size()];
+    return word;
+  };
+  for (int repetition = 0; repetition < 10; ++repetition) {
+    const TemporaryFolder folder;
+    cluster::BatchRequest request = request_of(folder, {2, 1});
+    const fs::path place = folder / some();
+    fs::create_directory(place);
+    folder.write("program", "#!/bin/bash\nprintf '%s\\0' \"$@\" >> called\n");
+    request.folder = place;
+    request.program = folder / some();
+    fs::rename(folder / "program", request.program);
+    request.manifest = some("\\\n\t");
+    request.overrides = {some("\\\n\t"), some("\\\n\t")};
+    request.output = some() + ".h5";
+    const std::string output = "./" + request.output.string();
+    const auto called = [&](const std::string& script) {
+      folder.write("script", script);
+      const std::string command = "SLURM_ARRAY_TASK_ID=1 bash " + (folder / "script").string();
+      EXPECT_EQ(std::system(command.c_str()), 0) << script;
+      const std::string words = read_bytes(place / "called");
+      fs::remove(place / "called");
+      return words;
+    };
+    const auto words = [](const std::vector<std::string>& all) {
+      std::string text;
+      for (const std::string& one : all) text += one + '\0';
+      return text;
+    };
+    const std::vector<std::string> run{"run",   "./" + request.manifest, "--set",   request.overrides[0],
+                                       "--set", request.overrides[1],    "--study", "abc"};
+    const auto after_run = [&](std::vector<std::string> more) {
+      more.insert(more.begin(), run.begin(), run.end());
+      return words(more);
+    };
+    EXPECT_TRUE(called(cluster::single_script(request)) ==
+                after_run({"--threads", "1", "--quiet", "--output", output}));
+    EXPECT_TRUE(called(cluster::array_script(request)) ==
+                after_run({"--shard", "2/2", "--threads", "1", "--quiet", "--output",
+                           output + ".parts/part-2-of-2.h5"}));
+    EXPECT_TRUE(called(cluster::merge_script(request)) ==
+                words({"merge", output + ".parts", "--output", output}));
+  }
 }
 
 TEST(SbatchPath, IsReadAsOneWordWithoutReplacements) {

@@ -121,7 +121,7 @@ TEST_F(StatusOfARun, OfAFileThatIsThereIsComplete) {
   folder_.write("study.yaml", small_manifest(4));
   ASSERT_EQ(program({"run", "study.yaml", "-q", "-o", "out.h5"}).code, 0);
   const std::string text = program({"status", "out.h5"}).out;
-  EXPECT_NE(text.find(": complete, 8 of 8 trials (100.0 %)\nsee 'zerocount summary out.h5'\n"),
+  EXPECT_NE(text.find(": complete, 8 of 8 trials (100.0 %)\nsee: zerocount summary out.h5\n"),
             std::string::npos)
       << text;
   EXPECT_EQ(program({"status", "out.h5", "--watch", "1"}).code, 0);

@@ -138,6 +138,33 @@ TEST_F(ExistingOutput, IsRefusedWithWhatDiffers) {
   expect_refused({"--shard", "1/2"}, {"trials 0 to 39", "0 to 19"});
 }
 
+// Trials of one case stood under the name of another.
+TEST_F(ExistingOutput, InAnotherOrderIsNotExtended) {
+  folder_.write("study.yaml",
+                small_manifest(8,
+                               "rigs: 2\ngoals: {wide: {band: 3, within: 0.1, moves: 0.9}, zero: {within: "
+                               "0.1, moves: 0.9}}\nconditions: {light: {}, heavy: {plant.inertia: "
+                               "1.0e-3}}\n"));
+  const std::string swept =
+      "sweep={cases: {b: {friction.alpha: 1}, a: {friction.alpha: 2}}, grid: "
+      "{controller.kp: [0, 1.0e-4], controller.delay: [1, 2]}}";
+  complete("study.yaml", "out.h5", {"--set", swept});
+  for (const auto& [other, said] : std::vector<std::pair<std::string, std::string>>{
+           {"sweep.cases={a: {friction.alpha: 2}, b: {friction.alpha: 1}}",
+            "sweep.cases, order of keys is b, a there and a, b here"},
+           {"sweep.grid={controller.delay: [1, 2], controller.kp: [0, 1.0e-4]}",
+            "sweep.grid, order of keys is controller.kp, controller.delay there and controller.delay, "
+            "controller.kp here"},
+           {"conditions={heavy: {plant.inertia: 1.0e-3}, light: {}}",
+            "conditions, order of keys is light, heavy there and heavy, light here"},
+           {"goals={zero: {within: 0.1, moves: 0.9}, wide: {band: 3, within: 0.1, moves: 0.9}}",
+            "goals, order of keys is wide, zero there and zero, wide here"}}) {
+    for (const char* const trials : {"trials=8", "trials=16"})
+      expect_refused({"--set", swept, "--set", other, "--set", trials}, {"another study", said});
+  }
+  complete("study.yaml", "out.h5", {"--set", swept, "--set", "trials=16"});
+}
+
 TEST_F(ExistingOutput, OfALatinHypercubeCannotBeExtended) {
   folder_.write("study.yaml", small_manifest(20, "design: latin_hypercube\n"));
   complete("study.yaml", "out.h5");

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <random>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -64,6 +65,16 @@ TEST(TuningJournal, GivesBackWhatWasWritten) {
       }
     }
   }
+}
+
+// It named a file that was not there.
+TEST(TuningJournal, IsNamedByAnInterruptionOnlyWhereItIs) {
+  const TemporaryFolder folder;
+  const std::filesystem::path output = folder / "tuned.h5";
+  EXPECT_EQ(tuning::interruption_text(output).find(output.string()), std::string::npos);
+  const std::string line = tuning::evaluation_line("search", {1.0}, 0, {}, 1.0);
+  tuning::TuningJournal(tuning::journal_path(output), "tuning", false).add({&line, 1});
+  EXPECT_NE(tuning::interruption_text(output).find(tuning::journal_path(output).string()), std::string::npos);
 }
 
 }  // namespace

@@ -14,56 +14,61 @@ namespace zerocount::sliding_identification {
 namespace {
 
 constexpr int most_periods = 1000;
-constexpr Eigen::Index law_terms = 4;   // acceleration, direction, velocity and 1
 constexpr Eigen::Index wave_terms = 2;  // sine and cosine
 
 /// What the torque of a window may depend on.
 struct WindowTerms {
-  Eigen::Vector<double, law_terms> law;
+  Eigen::VectorXd known;           ///< acceleration, direction, velocity, 1, and the terms of known waves
   std::array<double, 5> position;  ///< over its length
   double torque;                   ///< unexplained
 };
 
-std::vector<WindowTerms> windows_of(const SlidingFit& fit) {
+/// Means over the window.
+Eigen::VectorXd wave_means(const WindowTerms& window, const PositionWave& wave) {
+  Eigen::VectorXd means = Eigen::VectorXd::Zero(wave_terms);
+  for (const double x : window.position) {
+    const PositionShape shape = shape_at(x, {&wave, 1});
+    for (Eigen::Index j = 0; j < wave_terms; ++j)
+      means[j] += shape[static_cast<std::size_t>(j)] / static_cast<double>(window.position.size());
+  }
+  return means;
+}
+
+std::vector<WindowTerms> windows_of(const SlidingFit& fit, std::span<const PositionWave> known) {
   std::vector<WindowTerms> found;
   for (std::size_t i = 0; i < fit.windows.size(); ++i) {
     const SlidingRecord& record = *fit.windows[i].record;
     const Window& window = *fit.windows[i].window;
     const double time = record.time[window.last] - record.time[window.first];
     WindowTerms& terms = found.emplace_back();
-    terms.law << (record.velocity[window.last] - record.velocity[window.first]) / time, window.direction,
-        (record.position[window.last] - record.position[window.first]) / time, 1.0;
     const std::size_t parts = terms.position.size() - 1;
     for (std::size_t part = 0; part <= parts; ++part) {
       const std::size_t k = window.first + part * (window.last - window.first) / parts;
       terms.position[part] = record.origin + record.position[k];
     }
     terms.torque = fit.unexplained[i];
+    constexpr Eigen::Index of_law = 4;
+    terms.known.resize(of_law + wave_terms * std::ssize(known));
+    terms.known.head(of_law) << (record.velocity[window.last] - record.velocity[window.first]) / time,
+        window.direction, (record.position[window.last] - record.position[window.first]) / time, 1.0;
+    for (std::size_t j = 0; j < known.size(); ++j)
+      terms.known.segment(of_law + wave_terms * static_cast<Eigen::Index>(j), wave_terms) =
+          wave_means(terms, known[j]);
   }
   return found;
 }
 
-Eigen::VectorXd terms_with(const WindowTerms& window, const PositionWave* wave) {
-  Eigen::VectorXd terms = Eigen::VectorXd::Zero(law_terms + wave_terms);
-  terms.head<law_terms>() = window.law;
-  if (wave == nullptr) return terms;
-  for (const double x : window.position) {
-    const PositionShape shape = shape_at(x, {wave, 1});
-    for (Eigen::Index j = 0; j < wave_terms; ++j)
-      terms[law_terms + j] +=
-          shape[static_cast<std::size_t>(j)] / static_cast<double>(window.position.size());
-  }
-  return terms;
-}
-
-/// Sum of squares that a regression leaves, with or without the wave.
+/// Sum of squares that a regression leaves, with or without one more wave.
 double squares_left(const std::vector<WindowTerms>& windows, const PositionWave* wave) {
-  constexpr Eigen::Index all = law_terms + wave_terms;
+  const Eigen::Index known = windows.front().known.size();
+  const Eigen::Index all = known + (wave == nullptr ? 0 : wave_terms);
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(all, all);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(all);
+  Eigen::VectorXd terms(all);
   double squares = 0.0;
   for (const WindowTerms& window : windows) {
-    const Eigen::VectorXd terms = terms_with(window, wave);
+    terms.head(known) = window.known;
+    if (wave != nullptr) terms.tail(wave_terms) = wave_means(window, *wave);
     normal += terms * terms.transpose();
     right += terms * window.torque;
     squares += window.torque * window.torque;
@@ -114,28 +119,27 @@ void set_position_waves(std::vector<SlidingRecord>& records, std::span<const Pos
 std::optional<PositionWave> strongest_wave(const SlidingFit& fit) {
   constexpr std::size_t spare = 10;  // windows beyond the terms of the regression
   constexpr double visible = 10.0;   // F of the wave; neighbouring windows are alike, so is_shown() decides
-  const std::vector<WindowTerms> windows = windows_of(fit);
-  constexpr auto terms = static_cast<std::size_t>(law_terms + wave_terms);
-  if (windows.size() < terms + spare) return std::nullopt;
-  const double without = squares_left(windows, nullptr);
-  std::optional<PositionWave> found;
-  double least = without;
-  double of_usual = without;  // the wave that comes first
   const std::vector<PositionWave> waves = candidates(fit);
-  for (const PositionWave& wave : waves) {
-    const double left = squares_left(windows, &wave);
-    if (&wave == &waves.front()) of_usual = left;
-    if (!(left < least)) continue;
+  std::vector<PositionWave> known = fit.waves;
+  const std::vector<WindowTerms> without_usual = windows_of(fit, known);
+  const std::size_t terms = static_cast<std::size_t>(without_usual.front().known.size()) + 2 * wave_terms;
+  if (waves.empty() || without_usual.size() < terms + spare) return std::nullopt;
+  const double without = squares_left(without_usual, nullptr);
+  // Beside the usual wave, because another one may have to make up for it.
+  const double of_usual = squares_left(without_usual, &waves.front());
+  known.push_back(waves.front());
+  const std::vector<WindowTerms> with_usual = windows_of(fit, known);
+  PositionWave found = waves.front();
+  double least = of_usual;
+  constexpr double better = 1.2;  // over a part of a revolution, waves of few periods look alike
+  for (std::size_t i = 1; i < waves.size(); ++i) {
+    const double left = squares_left(with_usual, &waves[i]);
+    if (!(left < least) || !(better * left < of_usual)) continue;
     least = left;
-    found = wave;
+    found = waves[i];
   }
-  constexpr double alike = 1.2;  // over a part of a revolution, waves of few periods look alike
-  if (found && of_usual < alike * least) {
-    found = waves.front();
-    least = of_usual;
-  }
-  const double ratio = (without - least) / 2.0 / (least / static_cast<double>(windows.size() - terms));
-  return ratio > visible ? found : std::nullopt;
+  const double ratio = (without - least) / 2.0 / (least / static_cast<double>(without_usual.size() - terms));
+  return ratio > visible ? std::optional(found) : std::nullopt;
 }
 
 bool is_shown(const SlidingFit& fit, std::size_t wave) {

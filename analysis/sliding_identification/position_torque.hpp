@@ -32,12 +32,12 @@ PositionShape shape_at(double x, std::span<const PositionWave> waves);
 void set_position_waves(std::vector<SlidingRecord>& records, std::span<const PositionWave> waves);
 
 /// The wave, none of the fit's, that the unexplained torque of the windows shows best: of up to 1000 periods
-/// in a revolution or pitch, and of a linear axis proportional to the position. Once a revolution where that
-/// is nearly as good as the best, because gravity is more usual than the others. Nothing if no wave explains
-/// more than chance.
+/// in a revolution or pitch, and of a linear axis proportional to the position. The usual one, once a
+/// revolution or that of a linear axis, unless another one beside it explains visibly more. Nothing if no
+/// wave explains more than chance.
 ///
-/// The torque of the windows is regressed on what the law is linear in, acceleration, direction, velocity and
-/// 1, with and without the wave, because the law has taken a part of it.
+/// The torque of the windows is regressed on what the law is linear in, acceleration, direction, velocity, 1
+/// and the fit's waves, with and without the wave, because the law has taken a part of it.
 std::optional<PositionWave> strongest_wave(const SlidingFit& fit);
 
 /// Whether the amplitudes of a wave of the fit exclude 0 together, by their covariance.

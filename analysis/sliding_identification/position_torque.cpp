@@ -126,16 +126,17 @@ std::optional<PositionWave> strongest_wave(const SlidingFit& fit) {
   if (waves.empty() || without_usual.size() < terms + spare) return std::nullopt;
   const double without = squares_left(without_usual, nullptr);
   // Beside the usual wave, because another one may have to make up for it.
-  const double of_usual = squares_left(without_usual, &waves.front());
-  known.push_back(waves.front());
+  const bool has_usual = waves.front().periods > 1.0;
+  if (!has_usual) known.push_back(waves.front());
   const std::vector<WindowTerms> with_usual = windows_of(fit, known);
   PositionWave found = waves.front();
-  double least = of_usual;
+  double least = squares_left(without_usual, &waves.front());
   constexpr double better = 1.2;  // over a part of a revolution, waves of few periods look alike
+  double to_beat = has_usual ? least : least / better;
   for (std::size_t i = 1; i < waves.size(); ++i) {
     const double left = squares_left(with_usual, &waves[i]);
-    if (!(left < least) || !(better * left < of_usual)) continue;
-    least = left;
+    if (!(left < to_beat)) continue;
+    least = to_beat = left;
     found = waves[i];
   }
   const double ratio = (without - least) / 2.0 / (least / static_cast<double>(without_usual.size() - terms));

@@ -106,10 +106,20 @@ SlidingFit fit_in_windows(std::vector<SlidingRecord>& records, const std::vector
   return fit;
 }
 
-/// The fit with the torques of the position that the records show, one after the other.
+/// The waves of the fit that are shown.
+std::vector<PositionWave> shown_waves(const SlidingFit& fit) {
+  std::vector<PositionWave> waves;
+  for (std::size_t i = 0; i < fit.waves.size(); ++i)
+    if (is_shown(fit, i)) waves.push_back(fit.waves[i]);
+  return waves;
+}
+
+/// The fit with the torques of the position that the records show, one after the other. One that stood for
+/// another goes when that one is found.
 SlidingFit fit_with_position(std::vector<SlidingRecord>& records) {
   SlidingFit fit = fit_in_windows(records, {});
-  while (fit.waves.size() < max_position_waves) {
+  constexpr std::size_t rounds = 2 * max_position_waves;
+  for (std::size_t round = 0; round < rounds && fit.waves.size() < max_position_waves; ++round) {
     const std::optional<PositionWave> wave = strongest_wave(fit);
     if (!wave) break;
     std::vector<PositionWave> waves = fit.waves;
@@ -121,7 +131,10 @@ SlidingFit fit_with_position(std::vector<SlidingRecord>& records) {
       set_position_waves(records, fit.waves);
       break;
     }
+    std::ranges::sort(waves, {}, &PositionWave::periods);
     fit = fit_in_windows(records, waves);
+    if (const auto shown = shown_waves(fit); shown.size() < waves.size())
+      fit = fit_in_windows(records, shown);
   }
   return fit;
 }

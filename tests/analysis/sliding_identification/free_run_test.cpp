@@ -74,7 +74,7 @@ records::RawSeries with_force_along_travel(double amplitude, double direction_pa
     const double part = (series.angle[k] - lowest) / (highest - lowest);
     const double direction = series.angle[k + 1] >= series.angle[k] ? 1.0 : -1.0;
     series.torque[k] +=
-        amplitude * std::cos(2.0 * std::numbers::pi * part) * (1.0 + direction_part * direction);
+        amplitude * std::sin(4.0 * std::numbers::pi * part) * (1.0 + direction_part * direction);
   }
   return series;
 }

@@ -170,6 +170,8 @@ void refuse_unexplained(const SlidingIdentification& result) {
 }  // namespace
 
 std::string reason_of_distrust(const SlidingIdentification& identification) {
+  if (std::ranges::none_of(identification.parameters, identification::is_estimated))
+    return "no parameter is identifiable from these records";
   const auto position = std::ranges::find(identification.forces, "position", &RepeatingForce::with);
   constexpr double tolerated = 0.1;
   if (position == identification.forces.end() || position->predicted < tolerated) return "";

@@ -47,8 +47,8 @@ struct SlidingIdentification : identification::FitReport {
 /// fit leaves more than a third of the torque unexplained.
 SlidingIdentification identify_sliding(std::vector<SlidingRecord> records);
 
-/// Why the result must not be trusted: the position explains a tenth or more of what the law leaves
-/// unexplained. Empty if it does not.
+/// Why the result must not be trusted: no parameter is estimated, or the position explains a tenth or more of
+/// what the law leaves unexplained. Empty if neither.
 std::string reason_of_distrust(const SlidingIdentification& identification);
 
 /// The parameters as a fragment of a manifest. If sliding shows no level above the Coulomb level, the

@@ -19,21 +19,41 @@ std::string_view to_string(const IdentifiedLaw& law) {
   return friction::traits_of(law.law).word;
 }
 
-/// The law with the least criterion, and its lead over the next; the misfit if it does not explain the
-/// records.
+/// How far the best of the laws that explain the records is ahead of the next of them.
+std::string lead_of(const LawComparison& comparison) {
+  const IdentifiedLaw& best = comparison.laws.front();
+  const IdentifiedLaw& next = comparison.laws[1];
+  if (!next.checks.passed)
+    return fmt::format("{} explains the records, and no other of these {} laws was found to", to_string(best),
+                       comparison.laws.size());
+  if (next.information_criterion > strong_evidence)
+    return fmt::format("{} explains the records best; {} is next, {:.0f} higher in BIC", to_string(best),
+                       to_string(next), next.information_criterion);
+  return fmt::format(
+      "{} explains the records; the BIC of {} and {} differ by {:.1f} only: the records do not distinguish "
+      "them",
+      to_string(best), to_string(best), to_string(next), next.information_criterion);
+}
+
+/// The law that explains the records best, or the nearest one.
 std::string headline_of(const LawComparison& comparison) {
   const IdentifiedLaw& best = comparison.laws.front();
-  std::string text = fmt::format("{} explains the records", to_string(best));
+  const bool alone = comparison.laws.size() == 1;
   if (!best.checks.passed)
-    text = fmt::format("LACK OF FIT: {} does not explain the records: {}", to_string(best),
+    return fmt::format("LACK OF FIT: {} was found to explain the records{}: {}",
+                       alone ? fmt::format("no fit of {}", to_string(best)) : "none of these laws",
+                       alone ? "" : fmt::format("; {} is the nearest", to_string(best)),
                        record_fit::reason_of_misfit(best.checks));
-  if (comparison.laws.size() == 1) return text;
-  const IdentifiedLaw& next = comparison.laws[1];
-  if (next.information_criterion > strong_evidence)
-    return fmt::format("{}; it is the nearest of these laws, {} is next, {:.0f} higher in BIC", text,
-                       to_string(next), next.information_criterion);
-  return fmt::format("{}; the BIC of {} and {} differ by {:.1f} only: the records do not distinguish them",
-                     text, to_string(best), to_string(next), next.information_criterion);
+  return alone ? fmt::format("{} explains the records", to_string(best)) : lead_of(comparison);
+}
+
+/// The laws that could not be fitted, a line each.
+std::string laws_left_out_text(const LawComparison& comparison) {
+  std::string text;
+  for (const LawLeftOut& law : comparison.left_out)
+    text += fmt::format("{} is left out, which says nothing about the contact: {}\n",
+                        friction::traits_of(law.law).word, text::printable(law.reason));
+  return text;
 }
 
 /// What was left out of the records, a line each.
@@ -84,7 +104,9 @@ document::Description<LawReading> law_description() {
              [](Of r) { return r.law.misfit; })
       .value(in_data("misfit_over_travel", "the same over the travel of the records", "1"),
              [](Of r) { return r.law.misfit_over_travel; })
-      .value({"bic_above_least", "BIC − least", "Schwarz's criterion above that of the best law"},
+      .value({"bic_above_least", "BIC − best",
+              "Schwarz's criterion less that of the best law, the first one; negative for one that does not "
+              "explain the records"},
              [](Of r) { return r.law.information_criterion; })
       .value({"explained", "encoder and noise explain it", "whether they explain the residuals"},
              [](Of r) { return r.law.checks.passed; })
@@ -98,6 +120,14 @@ document::Description<LawReading> law_description() {
       .table(in_data("parameters", "its parameters"), identification::estimate_description(),
              [](Of r) { return r.law.parameters; })
       .value(in_data("manifest", "the law as a fragment of a manifest"), [](Of r) { return r.law.fragment; });
+}
+
+document::Description<LawLeftOut> left_out_description() {
+  return document::Description<LawLeftOut>()
+      .value(in_data("law", "word of the friction law"),
+             [](const LawLeftOut& l) { return friction::traits_of(l.law).word; })
+      .value(in_data("reason", "why it could not be fitted"),
+             [](const LawLeftOut& l) { return text::printable(l.reason); });
 }
 
 document::Description<RecordExtent> record_description() {
@@ -121,6 +151,9 @@ document::AnswerDescription<LawComparison> laws_answer() {
       .value(identification::axis_item(),
              [](Of c) { return parameters::axis_labels.at(static_cast<std::size_t>(c.axis)); })
       .table({.key = "laws", .meaning = "the laws, the best one first"}, law_description(), readings_of)
+      .table(in_data("left_out", "laws that could not be fitted"), left_out_description(),
+             &LawComparison::left_out)
+      .sentence(laws_left_out_text)
       .value(in_data("readings", "readings of all records"), &LawComparison::readings)
       .value(in_data("effective_readings", "those that count as independent in BIC"),
              &LawComparison::effective_readings)

@@ -1,7 +1,9 @@
 #include "analysis/law_identification/law_fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -19,9 +21,7 @@ using record_fit::Observations;
 /// Steps of a fit that is continued to its end.
 constexpr int last_steps = 60;
 
-/// Squares in multiples of those of another law from which a law is not searched further, and the steps that
-/// it still takes.
-constexpr double hopeless = 100.0;
+/// Steps that a hopeless law still takes.
 constexpr int hopeless_steps = 15;
 
 /// True if the readings are counts and the residuals are about those of their rounding.
@@ -33,6 +33,18 @@ bool is_explained(Records records, const FitResult& minimum, const Observations&
   std::size_t count = 0;
   for (const std::vector<record_fit::AngleObservation>& of_record : readings) count += of_record.size();
   return minimum.squares < tolerated * static_cast<double>(count);
+}
+
+FitSetting setting_of(const LawModel& model) {
+  FitSetting setting;
+  setting.model = model.axis;
+  setting.free = model.free;
+  return setting;
+}
+
+FitSetting without_time_offset(FitSetting setting) {
+  setting.free.back() = false;
+  return setting;
 }
 
 FitSetting with_steps(FitSetting setting, int steps) {
@@ -55,25 +67,55 @@ FitResult with_neighbours(Records records, const LawModel& model, const Observat
   return best;
 }
 
-/// The fit to all readings. The time offset is left free in the last steps only: far from a minimum it would
-/// make up for a wrong inertia.
-FitResult fit_all_readings(Records records, const LawModel& model, const FitSetting& setting,
-                           double least_squares) {
-  FitSetting undelayed = setting;
-  undelayed.free.back() = false;
-  const Observations readings = record_fit::all_readings(records);
-  std::vector<FitResult> minima = promising_fits(records, readings, model.starts, undelayed);
-  if (minima.empty()) {
-    throw Failure(
-        ExitCode::bad_data,
-        fmt::format("{}: no starting point of the friction model {} can be simulated along the records, "
-                    "the rotor is too fast for their sampling; are the units right?",
-                    records.front().name, friction::traits_of(model.law).word));
+/// Points about `centres`, in turns: of the free coordinates but the time offset about half move far at
+/// random, the others little. Most are logarithms of a parameter. Where the slow parts of the records have
+/// fixed the stiffness, such points try inertia and damping of other orders of magnitude beside it.
+std::vector<LawPoint> scattered(const LawModel& model, const std::vector<LawPoint>& centres) {
+  constexpr std::size_t points = 96;
+  constexpr double near = 0.1;
+  constexpr double far = 2.5;
+  std::vector<LawPoint> found;
+  for (std::size_t i = 0; i < points; ++i) {
+    LawPoint point = centres[i % centres.size()];
+    record_fit::ReplicateNoise random(i);
+    for (Eigen::Index j = 0; j + 1 < point.size(); ++j) {
+      const double moved = random.next();
+      const double spread = random.next() > 0.0 ? far : near;
+      if (model.free[static_cast<std::size_t>(j)]) point[j] += spread * moved;
+    }
+    found.push_back(point);
   }
+  return found;
+}
+
+/// How many of the scattered points are followed.
+constexpr record_fit::SearchWidth wide_search{12, 12, 3};
+
+/// The best fits from the law's starting points, or from points scattered about them where none of those can
+/// be simulated.
+std::vector<FitResult> first_minima(Records records, const LawModel& model, const Observations& readings,
+                                    const FitSetting& setting) {
+  std::vector<FitResult> minima = promising_fits(records, readings, model.starts, setting);
+  if (minima.empty())
+    minima = promising_fits(records, readings, scattered(model, model.starts), setting, wide_search);
+  if (!minima.empty()) return minima;
+  throw Failure(
+      ExitCode::bad_data,
+      fmt::format("{}: no starting point of the friction model {} can be simulated along the records, "
+                  "the rotor is too fast for their sampling; are the units right?",
+                  records.front().name, friction::traits_of(model.law).word));
+}
+
+/// The fit to all readings from `minima`. The time offset is left free in the last steps only: far from a
+/// minimum it would make up for a wrong inertia.
+FitResult fit_all_readings(Records records, const LawModel& model, const Observations& readings,
+                           std::vector<FitResult> minima, double least_squares) {
+  const FitSetting setting = setting_of(model);
+  const FitSetting undelayed = without_time_offset(setting);
   if (minima.front().squares > hopeless * least_squares) {
     return fit_from(records, readings, minima.front().point, with_steps(setting, hopeless_steps));
   }
-  minima = fits_from(records, readings, minima, with_steps(undelayed, last_steps));
+  minima = fits_from(records, readings, std::move(minima), with_steps(undelayed, last_steps));
   const FitResult found = with_neighbours(records, model, readings, undelayed, minima.front());
   const FitResult delayed = fit_from(records, readings, found.point, with_steps(setting, last_steps));
   return std::isfinite(delayed.squares) ? delayed : found;
@@ -86,13 +128,10 @@ void observe_at(Records records, const record_fit::FitPoint& at, LawFit& fit) {
   fit.observations = record_fit::observations_along(records, fit.model, fit.noise);
 }
 
-}  // namespace
-
-LawFit fit_law(Records records, const LawModel& model, double least_squares) {
+/// The fit to the observations, from a fit to all readings.
+LawFit refined(Records records, const LawModel& model, const FitResult& rough) {
   LawFit fit;
-  fit.setting.model = model.axis;
-  fit.setting.free = model.free;
-  const FitResult rough = fit_all_readings(records, model, fit.setting, least_squares);
+  fit.setting = setting_of(model);
   fit.squares = rough.squares;
   fit.converged = rough.converged;
   observe_at(records, rough.point, fit);
@@ -113,6 +152,31 @@ LawFit fit_law(Records records, const LawModel& model, double least_squares) {
   }
   fit.setting.prior = fit.model.point.axis;
   return fit;
+}
+
+}  // namespace
+
+LawFit fit_law(Records records, const LawModel& model, double least_squares) {
+  const Observations readings = record_fit::all_readings(records);
+  std::vector<FitResult> minima =
+      first_minima(records, model, readings, without_time_offset(setting_of(model)));
+  return refined(records, model,
+                 fit_all_readings(records, model, readings, std::move(minima), least_squares));
+}
+
+LawFit search_again(Records records, const LawModel& model, double least_squares, LawFit found) {
+  const Observations readings = record_fit::all_readings(records);
+  const FitSetting setting = without_time_offset(setting_of(model));
+  std::vector<FitResult> minima;
+  for (const std::vector<LawPoint>& centres : {std::vector{found.model.point.axis}, model.starts}) {
+    for (const FitResult& fit :
+         promising_fits(records, readings, scattered(model, centres), setting, wide_search))
+      minima.push_back(fit);
+  }
+  std::ranges::sort(minima, {}, &FitResult::squares);
+  if (minima.empty() || minima.front().squares > hopeless * least_squares) return found;
+  const FitResult best = fit_all_readings(records, model, readings, std::move(minima), least_squares);
+  return best.squares < found.squares ? refined(records, model, best) : std::move(found);
 }
 
 LawErrors errors_of(Records records, const LawFit& fit) {

@@ -11,6 +11,9 @@
 
 namespace zerocount::law_identification {
 
+/// Squares in multiples of those of another law from which a law is not searched further.
+inline constexpr double hopeless = 100.0;
+
 /// A law fitted to records.
 struct LawFit {
   record_fit::FitSetting setting;
@@ -31,6 +34,10 @@ struct LawFit {
 /// @param least_squares of the laws fitted before; infinite without any
 /// @throws Failure (bad_data) if the law cannot be simulated from any of its starting points.
 LawFit fit_law(Records records, const LawModel& model, double least_squares);
+
+/// Fits a law whose fit `found` does not explain the records again, from many more starting points, scattered
+/// at random about those of the law and about `found`. @returns the better fit of both.
+LawFit search_again(Records records, const LawModel& model, double least_squares, LawFit found);
 
 /// The errors of a fit.
 struct LawErrors {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -65,6 +66,7 @@ double mean_square(const std::vector<double>& residuals) {
 struct FittedLaw {
   LawModel model;
   LawFit fit;
+  LawErrors errors;
   IdentifiedLaw law;
 };
 
@@ -101,12 +103,17 @@ void require_start(Records records, friction::FrictionModel law) {
     const bool loaded = record.start.preload != 0.0 || !record.start.history.empty();
     const bool hardened = record.start.hardening != 0.0;
     if (!(loaded && !traits.remembers_loading) && !(hardened && !friction::has_creep(law))) continue;
-    throw Failure(
-        ExitCode::bad_data,
-        fmt::format("{}: the record begins {}, which the friction model {} does not remember; leave "
-                    "that model out",
-                    record.name, hardened ? "work-hardened" : "after a preload", traits.word));
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: the record begins {}, which the friction model {} does not remember",
+                              record.name, hardened ? "work-hardened" : "after a preload", traits.word));
   }
+}
+
+/// The reasons, a line each.
+std::string reasons_of(const std::vector<LawLeftOut>& laws) {
+  std::string text;
+  for (const LawLeftOut& law : laws) text += (text.empty() ? "" : "\n") + law.reason;
+  return text;
 }
 
 /// The law as a fragment of a manifest.
@@ -121,7 +128,9 @@ std::string law_fragment(Records records, const FittedLaw& fitted) {
                                     identification::with_digits(parameter.value, parameter), parameter.unit);
   }
   fragment.remarks += identification::lack_of_fit_comment(law.checks.passed);
-  fragment.plant = fitted.model.plant_lines + identification::manifest_lines(law.parameters, "plant");
+  fragment.plant = identification::manifest_lines(law.parameters, "plant");
+  const auto slides = std::ranges::find(law.parameters, "sliding_damping", &ParameterEstimate::name);
+  if (slides != law.parameters.end() && !is_estimated(*slides)) fragment.plant += fitted.model.plant_lines;
   fragment.friction =
       fmt::format("  model: {}\n{}{}", friction::traits_of(law.law).word,
                   identification::manifest_lines(law.parameters, "friction"),
@@ -132,25 +141,69 @@ std::string law_fragment(Records records, const FittedLaw& fitted) {
 FittedLaw fitted_law(Records records, friction::FrictionModel law, bool series_compliance,
                      const RecordScales& scales, double least_squares) {
   FittedLaw result;
+  result.law.law = law;
   result.model = law_model(law, scales, records);
   if (series_compliance) result.model = with_series_compliance(result.model, scales);
   result.fit = fit_law(records, result.model, least_squares);
-  const LawErrors errors = errors_of(records, result.fit);
-  IdentifiedLaw& found = result.law;
-  found.law = law;
+  result.errors = errors_of(records, result.fit);
+  return result;
+}
+
+/// The fits of the laws. Those that cannot be fitted are left out of it.
+std::vector<FittedLaw> first_fits(Records records, const LawChoice& choice,
+                                  const identification::StageReport& enter,
+                                  std::vector<LawLeftOut>& left_out) {
+  enter("starting values");
+  const RecordScales scales = scales_of(records);
+  std::vector<FittedLaw> fitted;
+  double least_squares = std::numeric_limits<double>::infinity();
+  for (const friction::FrictionModel law : choice.laws) {
+    enter(fmt::format("fit of {}", friction::traits_of(law).word));
+    try {
+      require_start(records, law);
+      fitted.push_back(fitted_law(records, law, choice.series_compliance, scales, least_squares));
+      least_squares = std::min(least_squares, fitted.back().fit.squares);
+    } catch (const Failure& failure) {
+      if (failure.code() != ExitCode::bad_data) throw;
+      left_out.push_back({law, failure.what()});
+    }
+  }
+  if (fitted.empty()) throw Failure(ExitCode::bad_data, reasons_of(left_out));
+  return fitted;
+}
+
+/// Searches again for the laws that do not explain the records; where another one does, not for those that
+/// leave a hundred times its squares.
+void search_failed_again(Records records, const identification::StageReport& enter,
+                         std::vector<FittedLaw>& fitted) {
+  double least_squares = std::numeric_limits<double>::infinity();
+  for (const FittedLaw& one : fitted) least_squares = std::min(least_squares, one.fit.squares);
+  const bool explained =
+      std::ranges::any_of(fitted, [](const FittedLaw& one) { return one.errors.checks.passed; });
+  for (FittedLaw& one : fitted) {
+    if (one.errors.checks.passed || (explained && one.fit.squares > hopeless * least_squares)) continue;
+    enter(fmt::format("another fit of {}", friction::traits_of(one.law.law).word));
+    one.fit = search_again(records, one.model, least_squares, std::move(one.fit));
+    one.errors = errors_of(records, one.fit);
+    least_squares = std::min(least_squares, one.fit.squares);
+  }
+}
+
+/// Sets what is reported of the fit.
+void describe(Records records, FittedLaw& fitted) {
+  IdentifiedLaw& found = fitted.law;
   found.axis = records.front().axis;
   found.fitted =
-      static_cast<std::size_t>(std::count(result.model.free.begin(), result.model.free.end(), true));
-  found.checks = errors.checks;
-  found.converged = result.fit.converged;
-  set_misfit(records, result.fit, found);
-  for (const Quantity& quantity : result.model.quantities_at(result.fit.model.point.axis)) {
-    found.parameters.push_back(estimate_of(quantity, errors));
+      static_cast<std::size_t>(std::count(fitted.model.free.begin(), fitted.model.free.end(), true));
+  found.checks = fitted.errors.checks;
+  found.converged = fitted.fit.converged;
+  set_misfit(records, fitted.fit, found);
+  for (const Quantity& quantity : fitted.model.quantities_at(fitted.fit.model.point.axis)) {
+    found.parameters.push_back(estimate_of(quantity, fitted.errors));
     std::string& unit = found.parameters.back().unit;
     unit = parameters::unit_on(found.axis, unit);
   }
-  found.fragment = law_fragment(records, result);
-  return result;
+  found.fragment = law_fragment(records, fitted);
 }
 
 }  // namespace
@@ -170,22 +223,15 @@ friction::FrictionModel law_of(const std::string& word) {
 LawComparison compare_laws(std::vector<TestRecord> records, const LawChoice& choice,
                            const identification::StageReport& report) {
   identification::check_different(records);
-  for (const friction::FrictionModel law : choice.laws) require_start(records, law);
   for (TestRecord& record : records) record.parts = parts_of(record);
   const auto enter = [&](std::string_view stage) {
     if (report) report(stage);
   };
-  enter("starting values");
-  const RecordScales scales = scales_of(records);
-  std::vector<FittedLaw> fitted;
-  double least_squares = std::numeric_limits<double>::infinity();
-  for (const friction::FrictionModel law : choice.laws) {
-    enter(fmt::format("fit of {}", friction::traits_of(law).word));
-    fitted.push_back(fitted_law(records, law, choice.series_compliance, scales, least_squares));
-    least_squares = std::min(least_squares, fitted.back().fit.squares);
-  }
-  const std::vector<double> effective = effective_readings(records, fitted);
   LawComparison comparison;
+  std::vector<FittedLaw> fitted = first_fits(records, choice, enter, comparison.left_out);
+  search_failed_again(records, enter, fitted);
+  for (FittedLaw& one : fitted) describe(records, one);
+  const std::vector<double> effective = effective_readings(records, fitted);
   comparison.axis = records.front().axis;
   comparison.sample_time = records.front().sample_time;
   for (std::size_t r = 0; r < records.size(); ++r) {
@@ -197,10 +243,9 @@ LawComparison compare_laws(std::vector<TestRecord> records, const LawChoice& cho
     one.law.information_criterion = information_criterion(one, effective);
     comparison.laws.push_back(std::move(one.law));
   }
-  std::stable_sort(comparison.laws.begin(), comparison.laws.end(),
-                   [](const IdentifiedLaw& one, const IdentifiedLaw& other) {
-                     return one.information_criterion < other.information_criterion;
-                   });
+  std::ranges::stable_sort(comparison.laws, {}, [](const IdentifiedLaw& law) {
+    return std::pair(!law.checks.passed, law.information_criterion);
+  });
   const double least = comparison.laws.front().information_criterion;
   for (IdentifiedLaw& law : comparison.laws) law.information_criterion -= least;
   return comparison;

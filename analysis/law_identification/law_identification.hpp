@@ -19,15 +19,23 @@ struct IdentifiedLaw : identification::FitReport {
   std::size_t fitted{0};              ///< coordinates of the fit, with the time offset
   double misfit{0.0};                 ///< root mean square of the residuals of all readings, rad or m
   double misfit_over_travel{0.0};     ///< the same over the travel of the records, dimensionless
-  double information_criterion{0.0};  ///< BIC above that of the best law, 0 or more
+  double information_criterion{0.0};  ///< BIC less that of the best law
   record_fit::ResidualChecks checks;
   bool converged{true};
+};
+
+/// A law that could not be fitted to the records. That says nothing about the contact.
+struct LawLeftOut {
+  friction::FrictionModel law{friction::FrictionModel::presliding};
+  std::string reason;
 };
 
 /// The laws that were fitted to the same records.
 struct LawComparison {
   parameters::AxisKind axis{parameters::AxisKind::rotary};
-  std::vector<IdentifiedLaw> laws;  ///< by information criterion, the best one first
+  /// Those that explain the records first, each group by its information criterion.
+  std::vector<IdentifiedLaw> laws;
+  std::vector<LawLeftOut> left_out;
   std::vector<identification::RecordExtent> records;
   double effective_readings{0.0};  ///< number of independent residuals
   std::size_t readings{0};
@@ -56,8 +64,11 @@ struct LawChoice {
 /// neighbouring readings are alike, so that m_r is the number of independent ones, N_r over the correlation
 /// length of the residuals of the law with the least squares of this record (Thiébaux & Zwiers, J. Climate
 /// Appl. Meteor. 23, 1984, 800).
-/// @throws Failure (bad_data) if a record is given twice, begins in a state that a law does not have, or a
-/// law cannot be simulated along the records
+///
+/// A law must explain the records (record_fit::check_residuals()) before BIC compares it: BIC of a law that
+/// does not is the best of wrong ones. A law that does not explain them is searched again (search_again()).
+/// A law that begins in a state that it does not have, or cannot be simulated along the records, is left out.
+/// @throws Failure (bad_data) if a record is given twice, or no law can be fitted
 LawComparison compare_laws(std::vector<record_fit::TestRecord> records, const LawChoice& choice,
                            const identification::StageReport& report = {});
 

@@ -37,7 +37,7 @@ struct LawModel {
   std::function<std::vector<LawPoint>(const LawPoint&)> neighbours{};
   /// Lines below `friction:` in a manifest for what is not fitted, with the units of a rotary axis.
   std::function<std::string(const LawPoint&)> fixed_lines;
-  /// Such lines below `plant:`.
+  /// The line `sliding_damping` below `plant:` where the records do not determine it; empty: no such line.
   std::string plant_lines{};
 };
 

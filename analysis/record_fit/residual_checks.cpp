@@ -66,13 +66,14 @@ ResidualChecks check_residuals(const ResidualStatistics& residuals,
 std::string reason_of_misfit(const ResidualChecks& checks) {
   if (checks.passed) return "";
   const bool large = checks.spread_chance < min_chance;
-  return large
-             ? fmt::format("the residuals are {:.3g} times as large as the encoder's steps and noise explain",
-                           checks.spread / checks.expected_spread)
-             : fmt::format(
-                   "the residuals have {:.0f} runs of one sign, where the encoder's steps and noise "
-                   "would give {:.0f}: the model departs systematically from the records",
-                   checks.runs, checks.expected_runs);
+  const double ratio = checks.spread / checks.expected_spread;
+  const std::string size = ratio < 2.0 ? fmt::format("{:.2g} % larger than", 100.0 * (ratio - 1.0))
+                                       : fmt::format("{:.3g} times as large as", ratio);
+  return large ? fmt::format("the residuals are {} the encoder's steps and noise explain", size)
+               : fmt::format(
+                     "the residuals have {:.0f} runs of one sign, where the encoder's steps and noise "
+                     "would give {:.0f}: the model departs systematically from the records",
+                     checks.runs, checks.expected_runs);
 }
 
 namespace {

@@ -256,16 +256,21 @@ void TextTable::read_header(std::string_view line) {
   for (const std::string& text : header_cells(line, separator_)) {
     std::string_view cell = text;
     std::string_view unit;
+    std::pair<std::string_view, std::string_view> perhaps;
     for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
       const std::size_t bracket = cell.find(open);
       if (bracket == std::string_view::npos || !cell.ends_with(close)) continue;
       const std::string_view inside = trimmed(cell.substr(bracket + 1, cell.size() - bracket - 2));
-      if (open == '(' && !text::unit_named(inside)) continue;
+      if (open == '(' && !text::unit_named(inside)) {
+        perhaps = {trimmed(cell.substr(0, bracket)), inside};
+        continue;
+      }
       unit = inside;
       cell = trimmed(cell.substr(0, bracket));
       break;
     }
-    columns_.push_back({std::string(cell), std::string(unit)});
+    columns_.push_back(
+        {std::string(cell), std::string(unit), std::string(perhaps.first), std::string(perhaps.second)});
   }
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (columns_[i].name.empty() || find(columns_[i].name) == i) continue;
@@ -281,7 +286,6 @@ bool TextTable::read_units(std::string_view line) {
     const std::string_view unit = without_brackets(cell);
     const bool is_value = std::isfinite(number_of(unit, separator_)) && unit == cell;
     if (is_value && unit != "1") return false;  // 1 is the unit of counts
-    if (!unit.empty() && unit != "-" && !text::unit_named(unit)) return false;
     any = any || (!is_value && text::unit_named(unit));
   }
   if (!any || cells.size() != columns_.size()) return false;
@@ -313,12 +317,23 @@ std::string TextTable::columns_text() const {
   return text;
 }
 
+std::string TextTable::unit(std::string_view column) const {
+  const Column& found = columns_[find(column)];
+  return !found.before_bracket.empty() && found.before_bracket == column ? found.in_bracket : found.unit;
+}
+
 std::size_t TextTable::find(std::string_view column) const {
   const auto found = named_ ? std::find_if(columns_.begin(), columns_.end(),
                                            [&](const Column& known) { return known.name == column; })
                             : columns_.end();
-  if (found != columns_.end() || !column.starts_with('#')) {
-    return static_cast<std::size_t>(found - columns_.begin());
+  if (found != columns_.end()) return static_cast<std::size_t>(found - columns_.begin());
+  if (!column.starts_with('#')) {
+    const auto begins = [&](const Column& known) {
+      return !known.before_bracket.empty() && known.before_bracket == column;
+    };
+    const bool unique = std::ranges::count_if(columns_, begins) == 1;
+    return unique ? static_cast<std::size_t>(std::ranges::find_if(columns_, begins) - columns_.begin())
+                  : columns_.size();
   }
   const auto number = text::parse_number<std::size_t>(column.substr(1));
   return number && *number >= 1 && *number <= columns_.size() ? *number - 1 : columns_.size();

@@ -30,7 +30,8 @@ std::vector<std::string> separator_names();
 /// words
 ///   with another number of cells than the header, the row below it and the last row have.
 /// - Rows may end with a separator where the header does not.
-/// - A name may be followed by its unit: `torque [N m]`, or `torque (N m)` if the unit is known. A line of
+/// - A name may be followed by its unit: `torque [N m]`, or `torque (N m)` if the unit is known. A column
+///   `torque (…)` with something else is found by `torque`, too, and has that as its unit then. A line of
 ///   units only, below the header, gives the units of the names without one.
 /// - If the first row has numbers only, the comment above it is the header if it has as many cells; otherwise
 ///   the columns have numbers and no names.
@@ -45,7 +46,7 @@ class TextTable : public ColumnSource {
   const std::string& name() const override { return name_; }
   bool has(std::string_view column) const override { return find(column) < columns_.size(); }
   std::string columns_text() const override;
-  std::string unit(std::string_view column) const override { return columns_[find(column)].unit; }
+  std::string unit(std::string_view column) const override;
   /// @throws Failure (bad_data) that lists the cells without a finite number, or if the column has decimal
   /// points and decimal commas.
   std::vector<double> numbers(std::string_view column) const override;
@@ -60,6 +61,8 @@ class TextTable : public ColumnSource {
   struct Column {
     std::string name;
     std::string unit;
+    std::string before_bracket{};  ///< of a name that ends with (…), which is not a known unit
+    std::string in_bracket{};
   };
   struct Line {
     std::string_view text;

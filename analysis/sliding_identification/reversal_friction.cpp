@@ -15,8 +15,11 @@ constexpr std::size_t far_level = 40;
 constexpr std::size_t max_gap = 64;  // samples between strokes about a reversal
 constexpr double turned = 0.9;
 
-/// Torque that is left for the friction at a sample: u − u0 − J·a − cs·v.
+/// Torque that is left for the friction at a sample: u − u0 − p(x) − J·a − cs·v.
 double friction_near(const SlidingRecord& record, const SlidingPoint& point, std::size_t k) {
+  double of_position = 0.0;
+  for (std::size_t j = 0; j < position_terms && record.waves > 0; ++j)
+    of_position += record.shape[k][j] * point[static_cast<Eigen::Index>(position_amplitudes + j)];
   const double interval = (record.time[k + half] - record.time[k - half]) / (2.0 * half);
   double slope = 0.0;
   double bend = 0.0;
@@ -37,7 +40,8 @@ double friction_near(const SlidingRecord& record, const SlidingPoint& point, std
   for (std::size_t i = 0; i <= 2 * half; ++i) sum += record.position[k - half + i] - record.position[k];
   const double acceleration = 2.0 * (count * bend - squares * sum) / (count * quartics - squares * squares);
   const double velocity = slope / squares;
-  return torque - point[offset_torque] - std::exp(point[log_inertia]) * acceleration / (interval * interval) -
+  return torque - point[offset_torque] - of_position -
+         std::exp(point[log_inertia]) * acceleration / (interval * interval) -
          point[viscous_damping] * velocity / interval;
 }
 

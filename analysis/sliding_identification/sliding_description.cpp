@@ -100,6 +100,29 @@ std::string reversal_sentence(const SlidingIdentification& i) {
       r.samples, r.stiffness, parameters::unit_on(i.axis, "N m/rad"));
 }
 
+/// The torques that depend on the position, a sentence each, and whether the position explains more.
+std::string position_text(const SlidingIdentification& i) {
+  const std::string torque = parameters::text_on(i.axis, "$torque");
+  std::string text;
+  for (const PositionWave& wave : i.waves) {
+    const bool linear = i.axis == parameters::AxisKind::linear;
+    const std::string name = name_of(wave) + (wave.periods == 0.0 ? "" : ".amplitude");
+    const auto& size = *std::ranges::find(i.parameters, name, &identification::ParameterEstimate::name);
+    const std::string value =
+        is_estimated(size) ? fmt::format("A {} of {:.3g} {}", torque, size.value, size.unit) : "A " + torque;
+    if (wave.periods == 0.0)
+      text += fmt::format("{} times the position acts, as of a spring.\n", value);
+    else if (wave.periods == 1.0)
+      text += fmt::format("{} repeats {}{}.\n", value, linear ? "with the pitch" : "once in a revolution",
+                          linear ? "" : ", as gravity does");
+    else
+      text += fmt::format("{} repeats {:g} times in a {}, as cogging does.\n", value, wave.periods,
+                          linear ? "pitch" : "revolution");
+  }
+  const std::string reason = reason_of_distrust(i);
+  return text + (reason.empty() ? "" : "The result must not be trusted: " + reason + ".");
+}
+
 document::Description<ReversalFriction> reversal_description() {
   using document::in_data;
   return document::Description<ReversalFriction>()
@@ -142,7 +165,9 @@ document::AnswerDescription<SlidingIdentification> sliding_answer() {
       {}};
   answer.items
       .headline([](Of i) {
-        return fmt::format("{} of {} parameters of the sliding axis are estimated",
+        const std::string reason = reason_of_distrust(i);
+        return fmt::format("{}{} of {} parameters of the sliding axis are estimated",
+                           reason.empty() ? "" : "LACK OF FIT: " + reason + "; ",
                            std::ranges::count_if(i.parameters, is_estimated), i.parameters.size());
       })
       .value(in_data("kind", "always sliding"), [](Of) { return "sliding"; })
@@ -168,6 +193,7 @@ document::AnswerDescription<SlidingIdentification> sliding_answer() {
             "residuals that depend on each other within a window or a stroke.",
             i.misfit, i.unexplained_torque, i.torque, parameters::unit_on(i.axis, "N m"));
       })
+      .sentence(position_text)
       .object(in_data("reversal", "friction after reversals; null: none without a standstill"),
               reversal_description(), [](Of i) { return i.reversal ? &*i.reversal : nullptr; })
       .sentence(reversal_sentence)

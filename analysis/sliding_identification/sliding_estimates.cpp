@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,25 +19,46 @@ enum class Scale { linear, positive, logarithmic };
 
 /// A reported parameter: a function of the fitted point.
 struct Quantity {
-  const char* name;
-  const char* key;               ///< in a manifest
-  const char* unit;              ///< on a rotary axis
-  SlidingCoordinate coordinate;  ///< which must be free
-  double value;                  ///< its logarithm, if the scale is logarithmic
-  SlidingPoint gradient;         ///< of the value
+  std::string name;
+  const char* key;         ///< in a manifest
+  const char* unit;        ///< on a rotary axis
+  std::size_t coordinate;  ///< which must be free
+  double value;            ///< its logarithm, if the scale is logarithmic
+  SlidingPoint gradient;   ///< of the value
   Scale scale;
   /// Why it is not identifiable if its interval is too wide; {0} is the interval's upper end, {1} the unit.
   const char* vague;
 };
 
-std::vector<Quantity> quantities_of(const SlidingPoint& point) {
+/// Amplitude and phase of the torque A·sin(κ·x + phase) that acts on the axis; or its slope.
+void add_wave(const SlidingPoint& point, const PositionWave& wave, Eigen::Index first,
+              std::vector<Quantity>& quantities) {
+  const double sine = point[first];
+  const double cosine = point[first + 1];
+  const SlidingPoint of_sine = SlidingPoint::Unit(first);
+  const SlidingPoint of_cosine = SlidingPoint::Unit(first + 1);
+  const auto coordinate = static_cast<std::size_t>(first);
+  if (wave.periods == 0.0) {
+    quantities.push_back({name_of(wave), "", "N m/rad", coordinate, -sine, -of_sine, Scale::linear, ""});
+    return;
+  }
+  const double amplitude = std::hypot(sine, cosine);
+  const char* vague = "the record moves over too small a part of its period";
+  quantities.push_back({name_of(wave) + ".amplitude", "", "N m", coordinate, amplitude,
+                        (sine * of_sine + cosine * of_cosine) / amplitude, Scale::positive, vague});
+  quantities.push_back({name_of(wave) + ".phase", "", "rad", coordinate, std::atan2(-cosine, -sine),
+                        (sine * of_cosine - cosine * of_sine) / (amplitude * amplitude), Scale::linear, ""});
+}
+
+std::vector<Quantity> quantities_of(const SlidingFit& fit) {
+  const SlidingPoint& point = fit.point;
   const double coulomb = point[coulomb_level];
   const double excess = point[stribeck_excess];
   const double level = coulomb + excess;
   const SlidingPoint of_coulomb = SlidingPoint::Unit(coulomb_level);
   const SlidingPoint of_excess = SlidingPoint::Unit(stribeck_excess);
   const SlidingPoint of_ratio = (excess * of_coulomb - coulomb * of_excess) / (level * level);
-  return {
+  std::vector<Quantity> quantities{
       {"inertia", "plant.inertia", "kg m^2", log_inertia, point[log_inertia], SlidingPoint::Unit(log_inertia),
        Scale::logarithmic, "the velocity hardly changes; accelerate more"},
       {"sliding_damping", "plant.sliding_damping", "N m s/rad", viscous_damping, point[viscous_damping],
@@ -54,6 +76,9 @@ std::vector<Quantity> quantities_of(const SlidingPoint& point) {
        "the slow motion is too short"},
       {"offset", "", "N m", offset_torque, point[offset_torque], SlidingPoint::Unit(offset_torque),
        Scale::linear, ""}};
+  for (std::size_t i = 0; i < fit.waves.size(); ++i)
+    add_wave(point, fit.waves[i], static_cast<Eigen::Index>(position_amplitudes + 2 * i), quantities);
+  return quantities;
 }
 
 /// Whether the interval of the quantity spans at most a factor of about 2 to each side.
@@ -73,7 +98,7 @@ ParameterEstimate estimate_of(const Quantity& quantity, const SlidingFit& fit, p
   ParameterEstimate estimate;
   estimate.name = quantity.name;
   estimate.key = quantity.key;
-  estimate.unit = parameters::unit_on(axis, quantity.unit);
+  estimate.unit = quantity.name.ends_with("phase") ? quantity.unit : parameters::unit_on(axis, quantity.unit);
   estimate.status = EstimateStatus::estimated;
   if (!fit.free[quantity.coordinate]) {
     leave_open(estimate,
@@ -106,10 +131,42 @@ ParameterEstimate estimate_of(const Quantity& quantity, const SlidingFit& fit, p
 
 std::vector<ParameterEstimate> estimates_of(const SlidingFit& fit, parameters::AxisKind axis) {
   std::vector<ParameterEstimate> estimates;
-  for (const Quantity& quantity : quantities_of(fit.point))
-    estimates.push_back(estimate_of(quantity, fit, axis));
+  for (const Quantity& quantity : quantities_of(fit)) estimates.push_back(estimate_of(quantity, fit, axis));
   return estimates;
 }
+
+namespace {
+
+std::string normal_text(const ParameterEstimate& estimate, double mean) {
+  return fmt::format("{{normal: {{mean: {}, sd: {}}}}}", identification::with_digits(mean, estimate),
+                     identification::manifest_number(estimate.standard_error, 0.1));
+}
+
+/// The lines below `disturbance:`, of the estimated offset and ripples.
+std::string disturbance_lines(const SlidingIdentification& identification) {
+  const auto parameter = [&](const std::string& name) -> const ParameterEstimate& {
+    return *std::ranges::find(identification.parameters, name, &ParameterEstimate::name);
+  };
+  std::string text;
+  const ParameterEstimate& offset = parameter("offset");
+  if (is_estimated(offset))
+    text += fmt::format("  torque: {}   # {}\n", normal_text(offset, -offset.value), offset.unit);
+  std::string ripples;
+  for (const PositionWave& wave : identification.waves) {
+    if (wave.periods == 0.0 || !is_estimated(parameter(name_of(wave) + ".amplitude"))) continue;
+    const ParameterEstimate& amplitude = parameter(name_of(wave) + ".amplitude");
+    const ParameterEstimate& phase = parameter(name_of(wave) + ".phase");
+    const double pitch = 2.0 * std::numbers::pi / wave.wave_number;
+    ripples += fmt::format("    - {{amplitude: {}, {}: {:.12g}, phase: {}}}   # {}, by the angle as read\n",
+                           identification::distribution_text(amplitude),
+                           identification.axis == parameters::AxisKind::linear ? "pitch" : "periods",
+                           identification.axis == parameters::AxisKind::linear ? pitch : wave.periods,
+                           normal_text(phase, phase.value), amplitude.unit);
+  }
+  return text + (ripples.empty() ? "" : "  ripple:\n" + ripples);
+}
+
+}  // namespace
 
 std::string sliding_fragment(const SlidingIdentification& identification) {
   const auto parameter = [&](std::string_view name) -> const ParameterEstimate& {
@@ -132,15 +189,16 @@ std::string sliding_fragment(const SlidingIdentification& identification) {
   } else {
     fragment.friction = identification::manifest_lines(identification.parameters, "friction");
   }
-  std::string text = identification::fragment_text(fragment, identification.axis);
-  if (is_estimated(offset)) {
-    ParameterEstimate acting = offset;
-    acting.value = -offset.value;
-    text += fmt::format("disturbance:\n  torque: {{normal: {{mean: {}, sd: {}}}}}   # {}\n",
-                        identification::with_digits(acting.value, acting),
-                        identification::manifest_number(offset.standard_error, 0.1), offset.unit);
+  for (const PositionWave& wave : identification.waves) {
+    if (wave.periods != 0.0) continue;
+    const ParameterEstimate& slope = parameter(name_of(wave));
+    fragment.remarks += fmt::format("# A {} of {} {} times the position acts, too; a manifest has none.\n",
+                                    parameters::text_on(identification.axis, "$torque"),
+                                    identification::with_digits(slope.value, slope), slope.unit);
   }
-  return text;
+  const std::string disturbance = disturbance_lines(identification);
+  return identification::fragment_text(fragment, identification.axis) +
+         (disturbance.empty() ? "" : "disturbance:\n" + disturbance);
 }
 
 }  // namespace zerocount::sliding_identification

@@ -37,11 +37,11 @@ double solve(SlidingFit& fit) {
                              fit.point.data(), fitted.start.data());
   }
   std::vector<int> known;
-  for (std::size_t j = 0; j < sliding_dimension; ++j) {
-    if (!fit.free[j]) known.push_back(static_cast<int>(j));
+  const int size = problem.ParameterBlockSize(fit.point.data());
+  for (int j = 0; j < size; ++j) {
+    if (!fit.free[static_cast<std::size_t>(j)]) known.push_back(j);
   }
-  problem.SetManifold(fit.point.data(),
-                      new ceres::SubsetManifold(static_cast<int>(sliding_dimension), known));
+  problem.SetManifold(fit.point.data(), new ceres::SubsetManifold(size, known));
   record_fit::SearchSetting search;
   search.max_steps = 60;
   search.tolerance = 1e-9;
@@ -72,14 +72,17 @@ struct Score {
 Score score_of(const FittedWindow& fitted, const SlidingPoint& point) {
   const auto residuals = window_residuals(*fitted.record, *fitted.window);
   Eigen::VectorXd residual(residuals->num_residuals());
-  Eigen::Matrix<double, Eigen::Dynamic, sliding_dimension, Eigen::RowMajor> slopes(residual.size(),
-                                                                                   sliding_dimension);
+  const Eigen::Index size = residuals->parameter_block_sizes().front();
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> slopes(residual.size(), size);
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> by_start(residual.size(), 2);
   const std::array parameters{point.data(), fitted.start.data()};
   std::array jacobians{slopes.data(), by_start.data()};
   residuals->Evaluate(parameters.data(), residual.data(), jacobians.data());
   slopes -= numerics::product(by_start, numerics::least_squares(by_start, slopes));
-  return {numerics::transposed_product(slopes, slopes), -slopes.transpose() * residual};
+  Score score;
+  score.information.topLeftCorner(size, size) = numerics::transposed_product(slopes, slopes);
+  score.score.head(size) = -slopes.transpose() * residual;
+  return score;
 }
 
 /// Scale of each free parameter that makes them comparable: 1/√information; 0 for the others.
@@ -116,8 +119,8 @@ SlidingMatrix enlarged(const SlidingMatrix& covariance, const SlidingMatrix& oth
 }  // namespace
 
 SlidingPoint starting_point(std::span<const SlidingRecord> records, bool both_directions) {
-  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d right = Eigen::Vector4d::Zero();
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(balance_terms, balance_terms);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(balance_terms);
   for (const SlidingRecord& record : records) {
     const std::size_t reach = balance_reach(record);
     for (const Window& stroke : record.strokes) {
@@ -144,14 +147,15 @@ SlidingPoint starting_point(std::span<const SlidingRecord> records, bool both_di
                     "--column turns it with the factor -1",
                     records.front().name));
   }
-  SlidingPoint point;
-  point << std::log(found[0]), found[1], found[2], found[3], 0.0, 0.0;
+  SlidingPoint point = SlidingPoint::Zero();
+  point.head<4>() << std::log(found[0]), found[1], found[2], found[3];
   return point;
 }
 
 SlidingFit fit_sliding(std::span<const SlidingRecord> records, const SlidingPoint& start,
-                       const FreeParameters& free) {
+                       const FreeParameters& free, const std::vector<PositionWave>& waves) {
   SlidingFit fit;
+  fit.waves = waves;
   fit.point = start;
   fit.free = free;
   fit.windows = windows_of(records);

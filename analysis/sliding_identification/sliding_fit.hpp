@@ -25,6 +25,7 @@ struct FittedWindow {
 struct SlidingFit {
   SlidingPoint point{SlidingPoint::Zero()};
   FreeParameters free{};
+  std::vector<PositionWave> waves{};  ///< whose amplitudes are fitted
   std::vector<FittedWindow> windows;
   std::size_t samples{0};
   double misfit{0.0};  ///< root mean square of the residuals, in steps of the readings
@@ -34,9 +35,9 @@ struct SlidingFit {
   double unexplained_torque{0.0};   ///< its root mean square
 };
 
-/// The starting point: least squares of the torque on acceleration, direction, velocity and 1 (the inverse
-/// dynamics), over all samples of the strokes. Its derivatives are differences of the readings over a few
-/// samples, whose errors bias it; the fit does not use them.
+/// The starting point: least squares of the torque on acceleration, direction, velocity, 1 and a torque that
+/// repeats with the pitch (the inverse dynamics), over all samples of the strokes. Its derivatives are
+/// differences of the readings over a few samples, whose errors bias it; the fit does not use them.
 /// @throws Failure (bad_data) if the axis accelerates against the torque.
 SlidingPoint starting_point(std::span<const SlidingRecord> records, bool both_directions);
 
@@ -55,7 +56,7 @@ SlidingPoint starting_point(std::span<const SlidingRecord> records, bool both_di
 /// @throws Failure (bad_data) if the simulated motion is not finite at the start, or at several steps in a
 /// row.
 SlidingFit fit_sliding(std::span<const SlidingRecord> records, const SlidingPoint& start,
-                       const FreeParameters& free);
+                       const FreeParameters& free, const std::vector<PositionWave>& waves = {});
 
 /// How much of the sum of squares a Stribeck excess with this velocity (rad/s or m/s) would explain, by one
 /// Gauss–Newton step from a fit without.

@@ -16,9 +16,11 @@ namespace zerocount::sliding_identification {
 /// The inertia and the sliding friction of an axis. Units are those of a rotary or of a linear axis.
 ///
 /// The parameters are inertia, sliding_damping, coulomb_level, breakaway_level, coulomb_ratio,
-/// stribeck_velocity and offset.
+/// stribeck_velocity, offset, and for each torque that depends on the position its amplitude and phase, or
+/// its slope.
 struct SlidingIdentification : identification::FitReport {
   std::vector<SlidingRecord> records;        ///< with the windows of the fit
+  std::vector<PositionWave> waves;           ///< torques that depend on the position
   double misfit{0.0};                        ///< root mean square of the residuals, in resolutions
   double unexplained_torque{0.0};            ///< root mean square over the windows, N m or N
   double torque{0.0};                        ///< root mean square of the torque in the strokes, N m or N
@@ -37,10 +39,17 @@ struct SlidingIdentification : identification::FitReport {
 /// The windows begin with 256 samples. While the residuals are larger than the steps of the readings, forces
 /// that the law lacks make them, which add up in a window: they are quartered, to 64 and to 16 samples.
 ///
+/// A torque that depends on the position (PositionWave) is added if its amplitudes exclude 0: gravity, or
+/// what else repeats with the revolution or the pitch; of a linear axis a slope. Up to max_position_waves.
+///
 /// Intervals have 95 %, by Student's t with as many degrees of freedom as there are windows less parameters.
 /// @param records of one axis. @throws Failure (bad_data) if the axis accelerates against the torque, or the
 /// fit leaves more than a third of the torque unexplained.
 SlidingIdentification identify_sliding(std::vector<SlidingRecord> records);
+
+/// Why the result must not be trusted: no parameter is estimated, or the position explains a tenth or more of
+/// what the law leaves unexplained. Empty if neither.
+std::string reason_of_distrust(const SlidingIdentification& identification);
 
 /// The parameters as a fragment of a manifest. If sliding shows no level above the Coulomb level, the
 /// breakaway torque is taken to be the Coulomb level.

@@ -37,23 +37,26 @@ class SlidingAxis {
 
   const Number& position() const { return position_; }
 
-  void advance(const motion::TorqueCourse& course, double duration) {
+  /// @param first, last torques against the drive that depend on the position, at both ends
+  void advance(const motion::TorqueCourse& course, double duration, const Number& first, const Number& last) {
     const double rate = std::max(friction_rate_, motion::is_constant(course) ? 0.0 : course.rate);
     constexpr double max_steps = 200.0;  // no meaning beyond: the parameters are far off
     const double steps = std::clamp(std::ceil(20.0 * rate * duration), 1.0, max_steps);
     for (double i = 0.0; i < steps; i += 1.0) {
-      const auto torque = [&](double at) { return motion::course_after(course, at * duration / steps).now; };
+      const auto torque = [&](double at) -> Number {
+        return motion::course_after(course, at * duration / steps).now - offset_ -
+               (first + at / steps * (last - first));
+      };
       step(torque(i), torque(i + 0.5), torque(i + 1.0), duration / steps);
     }
   }
 
  private:
-  Number acceleration(const Number& velocity, double torque) const {
-    return per_inertia_ *
-           friction::sliding_torque<Number>(torque - offset_, damping_, curve_, direction_, velocity);
+  Number acceleration(const Number& velocity, const Number& torque) const {
+    return per_inertia_ * friction::sliding_torque<Number>(torque, damping_, curve_, direction_, velocity);
   }
 
-  void step(double first, double middle, double last, double time) {
+  void step(const Number& first, const Number& middle, const Number& last, double time) {
     const Number a1 = acceleration(velocity_, first);
     const Number a2 = acceleration(velocity_ + 0.5 * time * a1, middle);
     const Number a3 = acceleration(velocity_ + 0.5 * time * a2, middle);
@@ -72,6 +75,7 @@ class SlidingAxis {
   double friction_rate_;  ///< the largest (1/s) at which the friction can change the velocity
 };
 
+template <std::size_t terms>
 struct WindowResiduals {
   const SlidingRecord& record;
   const Window& window;
@@ -80,21 +84,38 @@ struct WindowResiduals {
   bool operator()(const Number* point, const Number* start, Number* residuals) const {
     using std::isfinite;
     SlidingAxis<Number> axis(point, start, window.direction);
+    const auto of_position = [&](std::size_t k) {
+      Number torque(0.0);
+      for (std::size_t j = 0; j < terms; ++j) torque += record.shape[k][j] * point[position_amplitudes + j];
+      return torque;
+    };
+    Number here = of_position(window.first);
     for (std::size_t k = window.first; k <= window.last; ++k) {
       if (!isfinite(axis.position())) return false;
       *residuals++ = (axis.position() - record.position[k]) / record.resolution;
-      if (k < window.last) axis.advance(record.torque[k], record.time[k + 1] - record.time[k]);
+      if (k == window.last) break;
+      const Number next = of_position(k + 1);
+      axis.advance(record.torque[k], record.time[k + 1] - record.time[k], here, next);
+      here = next;
     }
     return true;
   }
 };
 
+template <std::size_t terms>
+std::unique_ptr<ceres::CostFunction> residuals_with(const SlidingRecord& record, const Window& window) {
+  using Residuals = ceres::AutoDiffCostFunction<WindowResiduals<terms>, ceres::DYNAMIC,
+                                                static_cast<int>(position_amplitudes + terms), 2>;
+  return std::make_unique<Residuals>(new WindowResiduals<terms>{record, window},
+                                     static_cast<int>(samples_of(window)));
+}
+
 }  // namespace
 
 std::unique_ptr<ceres::CostFunction> window_residuals(const SlidingRecord& record, const Window& window) {
-  using Residuals = ceres::AutoDiffCostFunction<WindowResiduals, ceres::DYNAMIC, sliding_dimension, 2>;
-  return std::make_unique<Residuals>(new WindowResiduals{record, window},
-                                     static_cast<int>(samples_of(window)));
+  if (record.waves == 0) return residuals_with<0>(record, window);
+  return record.waves == 1 ? residuals_with<2>(record, window)
+                           : residuals_with<position_terms>(record, window);
 }
 
 }  // namespace zerocount::sliding_identification

@@ -116,7 +116,7 @@ void set_velocities(SlidingRecord& record) {
 
 }  // namespace
 
-SlidingRecord sliding_record(const records::RawSeries& series) {
+SlidingRecord sliding_record(const records::RawSeries& series, double pitch) {
   record_fit::TestRecord sampled;
   sampled.sample_time = identification::checked_sample_time(series);
   sampled.intervals = identification::uneven_intervals(series);
@@ -127,6 +127,8 @@ SlidingRecord sliding_record(const records::RawSeries& series) {
   record.torque = identification::courses_of(series, sampled);
   record.smoothing = smoothing_samples;
   const double unit = series.count_size > 0.0 ? series.count_size : 1.0;
+  record.origin = unit * series.angle.front();
+  record.pitch = series.linear ? pitch : 2.0 * std::numbers::pi;
   double now = 0.0;
   for (std::size_t k = 0; k < series.time.size(); ++k) {
     record.time.push_back(now);
@@ -137,6 +139,9 @@ SlidingRecord sliding_record(const records::RawSeries& series) {
     refuse(series, "the torque or force is constant");
   record.resolution = std::max(min_step(record.position), 3.0 * noise_of(record.position));
   if (!(record.resolution > 0.0)) record.resolution = std::numeric_limits<double>::min();
+  const auto [lowest, highest] = std::ranges::minmax_element(record.position);
+  constexpr double visible = 0.02;  // of the pitch: below, a wave looks like a spring
+  record.turns = record.pitch > 0.0 && *highest - *lowest >= visible * record.pitch;
   set_velocities(record);
   const std::vector<Window> runs = runs_of(directions_of(record, series));
   if (series.sliding.empty()) record.presliding_travel = presliding_travel(record, runs);

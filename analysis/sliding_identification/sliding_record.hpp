@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/records/raw_series.hpp"
+#include "analysis/sliding_identification/position_torque.hpp"
 #include "core/motion/torque_course.hpp"
 #include "experiments/parameters/study_units.hpp"
 
@@ -29,6 +30,11 @@ struct SlidingRecord {
   std::vector<double> position;              ///< [sample] as read, from 0 at the first sample
   std::vector<double> velocity;  ///< [sample] over `smoothing` samples to both sides, for the start
   double resolution{0.0};        ///< step of the readings, or three standard deviations of their noise
+  double origin{0.0};            ///< reading at the first sample, rad or m
+  double pitch{0.0};     ///< travel with which a torque may repeat: 2π, of a linear axis 0 if unknown
+  bool turns{false};     ///< whether it moves by a fiftieth of the pitch or more
+  std::size_t waves{0};  ///< torques that depend on the position (set_position_waves())
+  std::vector<PositionShape> shape{};  ///< [sample]; empty without such torques
   std::size_t smoothing{1};
   double presliding_travel{0.0};  ///< from a standstill or a reversal, before the axis slides; 0: not seen
   std::vector<Window> strokes;
@@ -53,7 +59,8 @@ constexpr std::size_t min_window_samples = 16;
 /// shorter than 50 steps or 20 samples are left out.
 /// @throws Failure (bad_data) if the times do not increase or have gaps, the torque is constant, or there is
 /// no stroke.
-SlidingRecord sliding_record(const records::RawSeries& series);
+/// @param pitch of a linear axis, m; 0: unknown
+SlidingRecord sliding_record(const records::RawSeries& series, double pitch = 0.0);
 
 /// Cuts the strokes into windows of about `samples` samples, and at least 50 steps of the readings.
 void cut_windows(SlidingRecord& record, std::size_t samples);

@@ -1,6 +1,7 @@
 #include "analysis/sliding_identification/torque_balance.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "core/motion/torque_course.hpp"
 
@@ -26,7 +27,12 @@ TorqueBalance torque_balance(const SlidingRecord& record, std::size_t k, double 
     const double from_middle = std::abs(static_cast<double>(i) + 0.5 - half);
     torque += (half - from_middle) * torque_after(record, k - 2 * h + i);
   }
-  return {{acceleration, direction, velocity / half, 1.0}, torque / (half * half)};
+  TorqueBalance balance{{acceleration, direction, velocity / half, 1.0, 0.0, 0.0}, torque / (half * half)};
+  if (record.turns) {
+    const double angle = 2.0 * std::numbers::pi * (record.origin + record.position[k]) / record.pitch;
+    balance.terms.tail<2>() << std::sin(angle), std::cos(angle);
+  }
+  return balance;
 }
 
 }  // namespace zerocount::sliding_identification

@@ -45,8 +45,22 @@ constexpr std::array units{
 };
 
 /// Other spellings, without blanks.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> spellings{
-    {{"°", "deg"}, {"\"", "arcsec"}, {"'", "arcmin"}, {"counts", "count"}, {"1", "count"}, {"sec", "s"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> spellings{
+    {{"°", "deg"}, {"\"", "arcsec"}, {"'", "arcmin"}, {"1", "count"}, {"sec", "s"}}};
+
+/// Words for a count, in any case and with an s or a point at the end: of drives, oscilloscopes and encoders.
+constexpr std::array<std::string_view, 18> words_of_count{
+    "count", "cnt", "ct",    "inc",     "incr",  "increment", "ink",       "inkr",     "inkrement",
+    "tick",  "lsb", "pulse", "impulse", "digit", "qc",        "quadcount", "enccount", "encodercount"};
+
+bool is_count(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const auto known = [&] { return std::ranges::find(words_of_count, text) != words_of_count.end(); };
+  if (known()) return true;
+  if (!text.ends_with('s')) return false;
+  text.pop_back();
+  return known();
+}
 
 /// The text with `to` in place of each `from`.
 std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
@@ -66,6 +80,7 @@ std::string compared(std::string_view name) {
   for (const auto& [other, usual] : spellings) {
     if (text == other) return std::string(usual);
   }
+  if (is_count(text)) return "count";
   return text;
 }
 

@@ -27,7 +27,7 @@ struct Unit {
 };
 
 /// The unit of that name, or none. Blanks, '·' and '*' inside are ignored: "N m", "Nm" and "N·m" are the
-/// same.
+/// same. A count has many names, in any case: "inc", "Ticks", "LSB".
 std::optional<Unit> unit_named(std::string_view name);
 
 /// The names of all units, for messages.

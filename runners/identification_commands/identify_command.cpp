@@ -60,13 +60,14 @@ constexpr const char* identify_help =
     "\n"
     "--sliding takes motion records instead, in which the axis slides to and fro, under open or\n"
     "closed loop, and finds the inertia, the viscous damping, the Coulomb level and, if visible,\n"
-    "the Stribeck curve. It then simulates the axis under the recorded torque without a restart, and\n"
+    "the Stribeck curve, and torques that repeat with the position, such as gravity (on a linear axis\n"
+    "with --pitch). It then simulates the axis under the recorded torque without a restart, and\n"
     "says how far it is from the record, what the unexplained torque repeats with, and how the\n"
     "friction turns over at reversals. command.torque.file in a manifest replays such a record.\n"
     "\n"
     "--model fits another friction law to the same tests (lugre, dahl, gms, spring), and --model all\n"
     "compares them by their residuals and by Schwarz's information criterion BIC, where a difference of\n"
-    "10 is very strong evidence. The parameters are those of the law with the lowest BIC.\n"
+    "10 is very strong evidence. A law must explain the records before BIC compares it.\n"
     "--series-compliance also fits the compliance of a fixture that yields under the torque.\n"
     "\n"
     "The output ends with the result as a fragment of a manifest; --format yaml prints only\n"
@@ -76,8 +77,8 @@ constexpr const char* identify_help =
     "and rsvg-convert for PNG (Debian: nodejs, librsvg2-bin).\n"
     "\n"
     "Unsuitable records are refused with the reason and exit code 4, files that are not such\n"
-    "tables with exit code 2. The exit code is 3 if nothing can be identified, or if encoder and\n"
-    "noise do not explain the residuals: the result is printed, but must not be trusted.\n"
+    "tables with exit code 2. The exit code is 3 if nothing can be identified, if encoder and noise do\n"
+    "not explain the residuals, or if what --sliding leaves goes with the position: do not trust it.\n"
     "\n"
     "Examples: zerocount identify ramps.csv steps.csv holds.csv --counts-per-revolution 1620000\n"
     "          zerocount identify tests.h5 --format yaml -o friction.yaml\n"
@@ -287,9 +288,14 @@ void refuse_fractional_delay(const command_line::Arguments& arguments) {
 
 sliding_identification::SlidingIdentification identify_sliding_axis(
     const command_line::Arguments& arguments) {
+  const double pitch =
+      command_line::number_option(arguments, "pitch", std::numeric_limits<double>::min()).value_or(0.0);
   std::vector<sliding_identification::SlidingRecord> found;
   for (const records::RawSeries& series : read_all_series(arguments)) {
-    found.push_back(sliding_identification::sliding_record(series));
+    if (pitch > 0.0 && !series.linear)
+      arguments.refuse(
+          "option '--pitch' is of a linear axis; a torque of a rotary one repeats by revolution");
+    found.push_back(sliding_identification::sliding_record(series, pitch));
     if (found.back().axis != found.front().axis) {
       arguments.refuse("the records are of a linear and of a rotary axis; expected one axis");
     }
@@ -385,7 +391,11 @@ ExitCode identify_records(const command_line::Arguments& arguments, const Identi
   if (arguments.has("sliding")) {
     refuse_fractional_delay(arguments);
     const auto found = identify_sliding_axis(arguments);
-    return write_answer(arguments, outputs, sliding_identification::sliding_answer().of(found),
+    const std::string reason = sliding_identification::reason_of_distrust(found);
+    if (!reason.empty()) status::tell("zerocount identify: the result must not be trusted: {}\n", reason);
+    return write_answer(arguments, outputs,
+                        sliding_identification::sliding_answer().of(
+                            found, reason.empty() ? ExitCode::success : ExitCode::inconclusive),
                         found.fragment);
   }
   const law_identification::LawChoice choice = chosen_laws(arguments);
@@ -431,6 +441,9 @@ std::vector<command_line::OptionSpec> identify_options() {
   for (command_line::OptionSpec& option : law_options()) options.push_back(of_tests(std::move(option)));
   append(
       {{"sliding", "", "identify inertia and sliding friction from motion records"},
+       command_line::needing({"sliding"}, {"pitch", "LENGTH",
+                                           "pitch of the screw or of the magnets of a linear axis, m, with "
+                                           "which a force may repeat"}),
        {"angle", "COLUMN",
         "count, theta or position, if several exist (default count, if its size is given)"},
        {"torque", "COLUMN", "torque, drive_torque, force or drive_force, if several exist (default drive_…)"},

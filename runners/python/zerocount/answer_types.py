@@ -793,7 +793,8 @@ class IdentifyLawsAnswer(Answer):
         - ``fitted``: fitted numbers, with the time offset
         - ``misfit``: root mean square of the residuals, rad or m
         - ``misfit_over_travel``: the same over the travel of the records
-        - ``bic_above_least``: Schwarz's criterion above that of the best law
+        - ``bic_above_least``: Schwarz's criterion less that of the best law, the first one; negative for one that does
+          not explain the records
         - ``explained``: whether they explain the residuals
         - ``spread``: root mean square of the residuals over their standard deviations
         - ``expected_spread``: its mean over replicates
@@ -811,6 +812,12 @@ class IdentifyLawsAnswer(Answer):
           - ``reason``: why it is not identifiable, or kept
           - ``distribution``: distribution in a manifest whose central 95 % are the interval
         - ``manifest``: the law as a fragment of a manifest
+
+    left_out : pandas.DataFrame
+        Laws that could not be fitted.
+
+        - ``law``: word of the friction law
+        - ``reason``: why it could not be fitted
 
     readings : int
         Readings of all records.
@@ -833,6 +840,7 @@ class IdentifyLawsAnswer(Answer):
     kind: str
     axis: Literal["rotary", "linear"]
     laws: pandas.DataFrame
+    left_out: pandas.DataFrame
     readings: int
     effective_readings: float | None
     sample_time: float | None

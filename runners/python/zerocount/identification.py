@@ -69,6 +69,7 @@ def identify(
     model: str | Sequence[str] | None = None,
     series_compliance: bool = False,
     sliding: bool = False,
+    pitch: float | None = None,
     amplifier_bandwidth: float | None = None,
     delay: float | None = None,
     dac_bits: int | None = None,
@@ -110,6 +111,8 @@ def identify(
         Fit the compliance of a fixture, too.
     sliding : bool
         The records are of motion with sliding.
+    pitch : float, optional
+        Of the screw or of the magnets of a linear axis, m, with ``sliding``.
     amplifier_bandwidth : float, optional
         Hz.
     delay : float, optional
@@ -171,6 +174,7 @@ def identify(
         model=model,
         series_compliance=series_compliance,
         sliding=sliding,
+        pitch=pitch,
         amplifier_bandwidth=amplifier_bandwidth,
         delay=delay,
         dac_bits=dac_bits,

@@ -44,9 +44,14 @@ Truth bristle_rotor(FrictionModel law, std::mt19937_64& random) {
   contact.coulomb_ratio = 1.0;
   contact.sigma1 = truth.plant.presliding_damping = 0.2 * factor(random);
   truth.plant.inertia *= factor(random);
-  truth.values = {{"sigma0", contact.sigma0},       {"breakaway", contact.breakaway},
-                  {"sigma1", contact.sigma1},       {"presliding_damping", contact.sigma1},
-                  {"inertia", truth.plant.inertia}, {"time_offset", 0.0}};
+  truth.plant.sliding_damping = 0.02 * contact.sigma1 * factor(random);
+  truth.values = {{"sigma0", contact.sigma0},
+                  {"breakaway", contact.breakaway},
+                  {"sliding_damping", truth.plant.sliding_damping},
+                  {"sigma1", contact.sigma1},
+                  {"presliding_damping", contact.sigma1},
+                  {"inertia", truth.plant.inertia},
+                  {"time_offset", 0.0}};
   return truth;
 }
 
@@ -158,6 +163,68 @@ TEST(LawIdentification, RefusesWhatALawDoesNotRemember) {
   EXPECT_THROW(law_identification::compare_laws({hardened}, {{FrictionModel::spring}}), Failure);
 }
 
+TEST(LawIdentification, LeavesOutWhatCannotBeFittedWithItsReason) {
+  std::mt19937_64 random(6);
+  identification::TestRecord record = record_of(rotor_of(FrictionModel::spring, random), random);
+  record.start.preload = 0.05;  // which the spring remembers, and Dahl's law does not
+  const LawComparison found =
+      law_identification::compare_laws({record}, {{FrictionModel::spring, FrictionModel::dahl}});
+  ASSERT_EQ(found.laws.size(), 1u);
+  EXPECT_EQ(found.laws.front().law, FrictionModel::spring);
+  ASSERT_EQ(found.left_out.size(), 1u);
+  EXPECT_EQ(found.left_out.front().law, FrictionModel::dahl);
+  const std::string text = document::text(law_identification::laws_answer().of(found));
+  EXPECT_NE(text.find("dahl is left out, which says nothing about the contact: "), std::string::npos) << text;
+  EXPECT_NE(text.find("which the friction model dahl does not remember"), std::string::npos) << text;
+}
+
+/// Slow loading and unloading without steps, as of a drive that limits the rate of its torque.
+TorqueProgramme slow_levels(std::initializer_list<double> levels, double rate) {
+  TorqueProgramme test;
+  for (const double level : levels) test.ramp(level, rate).hold(0.05);
+  return test;
+}
+
+/// A rotor on LuGre's bristle with Fs = Fc.
+Truth lugre_rotor(double sigma0, double sigma1, double breakaway, double inertia) {
+  Truth truth;
+  truth.friction.model = FrictionModel::lugre;
+  truth.friction.uniform.sigma0 = sigma0;
+  truth.friction.uniform.sigma1 = sigma1;
+  truth.friction.uniform.breakaway = breakaway;
+  truth.friction.uniform.coulomb_ratio = 1.0;
+  truth.plant.inertia = inertia;
+  return truth;
+}
+
+// BIC prefers Dahl's law here, which leaves residuals that the encoder does not explain.
+TEST(LawIdentification, ALawMustExplainTheRecordBeforeBicCompares) {
+  std::mt19937_64 random(3);
+  const Truth truth = lugre_rotor(800.0, 0.5, 0.3, 5.54e-4);
+  const TorqueProgramme test = slow_levels({0.19, -0.15, 0.11, -0.075, 0.075, -0.11, 0.15, -0.19, 0.0}, 1.0);
+  const LawComparison found = law_identification::compare_laws(
+      {simulated_test(truth.plant, truth.friction, test, {.torque_step = 2e-5}, random)},
+      {{FrictionModel::dahl, FrictionModel::lugre}});
+  EXPECT_EQ(found.laws.front().law, FrictionModel::lugre);
+  EXPECT_TRUE(found.laws.front().checks.passed);
+  for (std::size_t i = 1; i < found.laws.size(); ++i)
+    EXPECT_TRUE(!found.laws[i].checks.passed || found.laws[i].information_criterion >= 0.0);
+}
+
+// Overdamped, and loaded slowly: nothing rings, so that the first starting points miss inertia and damping by
+// an order of magnitude.
+TEST(LawIdentification, SearchesAgainForALawThatItMissed) {
+  std::mt19937_64 random(4);
+  const Truth truth = lugre_rotor(300.0, 0.75, 0.3, 6e-4);
+  const TorqueProgramme test = slow_levels({0.1875, -0.15, 0.1125, 0.0}, 0.75);
+  const LawComparison found = law_identification::compare_laws(
+      {simulated_test(truth.plant, truth.friction, test,
+                      {.counts_per_revolution = 2.5e7, .torque_step = 1e-6}, random)},
+      {{FrictionModel::lugre}});
+  EXPECT_TRUE(found.laws.front().checks.passed)
+      << document::text(law_identification::laws_answer().of(found));
+}
+
 void expect_fixture_told_from_contact(FrictionModel law) {
   std::mt19937_64 random(21);
   Truth truth = rotor_of(law, random);
@@ -170,7 +237,8 @@ void expect_fixture_told_from_contact(FrictionModel law) {
       << document::text(law_identification::laws_answer().of(found));
   const Held held = held_by(found.laws.front(), truth);
   EXPECT_GE(held.held, held.estimated - 1);
-  EXPECT_EQ(held.estimated, static_cast<int>(found.laws.front().parameters.size()));
+  // The sliding damping may be open.
+  EXPECT_GE(held.estimated, static_cast<int>(found.laws.front().parameters.size()) - 1);
 }
 
 TEST(LawIdentification, TellsAFixtureThatGivesWayFromTheContact) {

@@ -74,6 +74,19 @@ TEST(ColumnMappings, UnitsHaveTheirSiValue) {
     EXPECT_FALSE(text::unit_named(name)) << name;
 }
 
+TEST(ColumnMappings, ACountHasManyNamesInAnyCase) {
+  for (const char* name : {"count", "Counts", "CTS", "ct", "cnts", "inc", "Inc.", "INCR", "increments",
+                           "Inkr", "ticks", "LSB", "lsbs", "pulses", "Enc Counts", "qc", "digits", "1"}) {
+    ASSERT_TRUE(text::unit_named(name)) << name;
+    EXPECT_EQ(text::unit_named(name)->dimension, text::Dimension::count) << name;
+  }
+  // Case tells milli from mega, and N m from nm: other units keep theirs.
+  for (const char* name : {"MM", "NM", "RAD", "incs/s", "s", "countss"}) {
+    const std::optional<text::Unit> unit = text::unit_named(name);
+    EXPECT_TRUE(!unit || unit->dimension != text::Dimension::count) << name;
+  }
+}
+
 TEST(ColumnMappings, FaultsAreNamed) {
   EXPECT_EQ(
       fault("speed=v"),

@@ -189,6 +189,26 @@ TEST_F(ColumnSeries, WhatDoesNotFitIsNamed) {
             "the angle is in counts; --counts-per-revolution is missing");
 }
 
+// As drives and oscilloscopes write them.
+TEST_F(ColumnSeries, AnUnknownUnitIsNamedInEveryPlace) {
+  const std::string known = "time (ms);pos act (inc);I act (A)\n0,0;-7;1,5\n1,0;8;2,5\n";
+  SeriesChoice choice = columns({"time=time", "torque=I act[A]*0.12", "angle=pos act"});
+  choice.count_size = 1e-3;
+  EXPECT_EQ(one(known, choice).angle, (std::vector<double>{-7, 8}));
+  EXPECT_EQ(one(known, choice).count_size, 1e-3);
+  for (const std::string header :
+       {"time (ms);pos act (wug);I act (A)\n", "time (ms);pos act [wug];I act (A)\n",
+        "time;pos act;I act\nms;wug;A\n", "time;pos act;I act\n(ms);(wug);(A)\n"}) {
+    EXPECT_NE(refusal(header + "0;-7;1\n1;8;2\n", choice)
+                  .find("column 'pos act' is in 'wug', which is not a known unit; expected one of s, ms"),
+              std::string::npos)
+        << header;
+    SeriesChoice said = columns({"time=time", "torque=I act[A]*0.12", "angle=pos act[count]"});
+    said.count_size = 1e-3;
+    EXPECT_EQ(one(header + "0;-7;1\n1;8;2\n", said).angle, (std::vector<double>{-7, 8})) << header;
+  }
+}
+
 TEST_F(ColumnSeries, ChoicesMayNotContradictEachOther) {
   const auto contradiction = [](const std::vector<std::string>& texts, SeriesChoice choice = {}) {
     for (const std::string& text : texts) choice.columns.push_back(records::parse_mapping(text).mapping);

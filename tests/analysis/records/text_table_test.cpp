@@ -117,8 +117,12 @@ TEST_F(TextTables, ALineOfUnitsBelowTheHeader) {
     EXPECT_EQ(read.unit("z"), "") << text;
     EXPECT_EQ(read.numbers("z"), (std::vector<double>{3})) << text;
   }
+  // A unit beside a known one may be unknown: who uses its column is told so.
+  const records::TextTable unknown = table("x;y\nabc;s\n1;2\n");
+  EXPECT_EQ(unknown.unit("x"), "abc");
+  EXPECT_EQ(unknown.numbers("x"), (std::vector<double>{1}));
   // A row that is not of units is a row of data.
-  EXPECT_EQ(refusal("x;y\nabc;s\n1;2\n", ExitCode::bad_data), ":2: x: 'abc' is not a finite number");
+  EXPECT_EQ(refusal("x;y\nabc;def\n1;2\n", ExitCode::bad_data), ":2: x: 'abc' is not a finite number");
 }
 
 TEST_F(TextTables, UnitsInRoundBracketsIfTheyAreUnits) {
@@ -126,6 +130,11 @@ TEST_F(TextTables, UnitsInRoundBracketsIfTheyAreUnits) {
   EXPECT_EQ(read.unit("Time"), "ms");
   EXPECT_EQ(read.unit("phi"), "°");
   EXPECT_EQ(read.numbers("torque (filtered)"), (std::vector<double>{2}));
+  EXPECT_EQ(read.unit("torque (filtered)"), "");
+  // What is no known unit may be an unknown one, unless two columns have the name before it.
+  EXPECT_EQ(read.numbers("torque"), (std::vector<double>{2}));
+  EXPECT_EQ(read.unit("torque"), "filtered");
+  EXPECT_FALSE(table("pos (act),pos (ref)\n1,2\n").has("pos"));
 }
 
 // What numpy.savetxt(header=…) writes, and what has no header at all.

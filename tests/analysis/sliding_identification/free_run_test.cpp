@@ -74,7 +74,7 @@ records::RawSeries with_force_along_travel(double amplitude, double direction_pa
     const double part = (series.angle[k] - lowest) / (highest - lowest);
     const double direction = series.angle[k + 1] >= series.angle[k] ? 1.0 : -1.0;
     series.torque[k] +=
-        amplitude * std::sin(2.0 * std::numbers::pi * part) * (1.0 + direction_part * direction);
+        amplitude * std::sin(4.0 * std::numbers::pi * part) * (1.0 + direction_part * direction);
   }
   return series;
 }
@@ -83,6 +83,7 @@ TEST(UnexplainedForce, RepeatsWithThePosition) {
   std::mt19937_64 random(13);
   const SlidingIdentification found = identify(with_force_along_travel(2.0, 0.0, random));
   EXPECT_GT(predicted_by(found, "position"), 0.7);
+  EXPECT_NE(reason_of_distrust(found), "");
   EXPECT_GT(predicted_by(found, "position and direction"), 0.7);
   EXPECT_LT(predicted_by(found, "acceleration"), 0.3);
   const auto& force = *std::ranges::find(found.forces, std::string("position"), &RepeatingForce::with);

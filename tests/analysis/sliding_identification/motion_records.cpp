@@ -32,7 +32,8 @@ class Rig {
   Rig(const SlidingAxis& axis, const AxisLoop& loop, std::mt19937_64& random)
       : axis_(axis), loop_(loop), random_(random), plant_(plant_of(axis)) {
     series_.name = "motion.csv";
-    series_.linear = true;
+    series_.linear = !axis.rotary;
+    plant_.disturb({.ripple = axis.ripple});
   }
 
   double read() {

@@ -4,19 +4,22 @@
 #include <vector>
 
 #include "analysis/records/raw_series.hpp"
+#include "core/motion/disturbance.hpp"
 
 namespace zerocount::testing {
 
 /// A sliding axis; units of a linear one, m, N, kg.
 struct SlidingAxis {
   double mass{95.1089};
-  double damping{203.5034};        ///< N s/m
-  double coulomb{20.3935};         ///< N
-  double offset{-3.1648};          ///< N, against the drive
-  double breakaway{20.3935};       ///< N
-  double stribeck_velocity{0.01};  ///< m/s
-  double bristle_stiffness{0.0};   ///< σ0 of Dahl's law in place of that of Coulomb, N/m; 0: Coulomb
-  double friction_noise{0.0};      ///< standard deviation of a force that the record does not show, N
+  double damping{203.5034};              ///< N s/m
+  double coulomb{20.3935};               ///< N
+  double offset{-3.1648};                ///< N, against the drive
+  double breakaway{20.3935};             ///< N
+  double stribeck_velocity{0.01};        ///< m/s
+  double bristle_stiffness{0.0};         ///< σ0 of Dahl's law in place of that of Coulomb, N/m; 0: Coulomb
+  double friction_noise{0.0};            ///< standard deviation of a force that the record does not show, N
+  bool rotary{false};                    ///< a rotary axis: N m for N and rad for m
+  std::vector<motion::Ripple> ripple{};  ///< torques that depend on the position and act on the axis
 };
 
 /// Drive, sensor and loop.

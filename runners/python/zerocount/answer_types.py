@@ -1124,6 +1124,9 @@ class JudgeAnswer(Answer):
         Lower bound of the proportion of machines that meet the goal, if it is about machines.
     machines_high : float or None
         Its upper bound.
+    missed_saturated : float or None
+        Proportion of the moves that miss the goal in which the converter clipped; null: the goal is met, or the file
+        does not keep every trial.
     chosen_from : int
         Design points that the point is the best of; 1 if it was named.
     needed : Needed or None
@@ -1190,6 +1193,7 @@ class JudgeAnswer(Answer):
     rate_high: float | None
     machines_low: float | None
     machines_high: float | None
+    missed_saturated: float | None
     chosen_from: int
     needed: Needed | None
     worlds: JudgeWorlds | None

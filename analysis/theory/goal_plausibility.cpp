@@ -6,54 +6,26 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "analysis/statistics/spread_over.hpp"
+#include "analysis/theory/goal_of_trial.hpp"
 #include "analysis/theory/loop_plausibility.hpp"
+#include "analysis/theory/move_plausibility.hpp"
 #include "analysis/theory/trial_loops.hpp"
 #include "core/friction/law.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/frozen_loop.hpp"
 #include "core/theory/stability.hpp"
-#include "experiments/parameters/study_units.hpp"
 
 namespace zerocount::theory {
 namespace {
 
-constexpr std::int64_t max_draws_examined = 3;
-
-/// A goal and a trial that is to meet it.
-struct GoalOfTrial {
-  const study::Study& study;
-  const study::Goal& goal;
-  const trial::TrialParameters& trial;
-
-  bool feeds_back_coarse() const { return trial.controller.encoder == loop::EncoderChoice::coarse; }
-  double count() const {  // rad
-    return feeds_back_coarse() ? loop::coarse_resolution(trial.encoder)
-                               : loop::fine_resolution(trial.encoder);
-  }
-  const loop::EncoderErrors& errors() const {
-    return feeds_back_coarse() ? trial.encoder.coarse_errors : trial.encoder.fine_errors;
-  }
-  /// From one end of the band or tolerance to the other, rad.
-  double width() const {
-    return goal.tolerance ? 2.0 * *goal.tolerance : (2.0 * static_cast<double>(goal.band) + 1.0) * count();
-  }
-  /// Samples of the shortest move of the goal at which it must be within the band.
-  double samples_within() const {
-    const double from = std::floor(goal.within * trial.controller.sample_rate);
-    return std::max(static_cast<double>(trial::samples_of_move(trial, 0)) - from, 1.0);
-  }
-  std::string length(double value) const {
-    return fmt::format("{:.3g} {}", value, parameters::unit_on(study.units.axis, "rad"));
-  }
-  std::string band_text() const {
-    return goal.tolerance ? "a tolerance of " + length(*goal.tolerance)
-                          : fmt::format("a band of {} count{}", goal.band, goal.band == 1 ? "" : "s");
-  }
-};
+constexpr std::int64_t max_draws_examined = 3;   // by the tests of whole trials
+constexpr std::int64_t max_draws_of_moves = 50;  // by those of moves
 
 /// Upper tail probability of both sides of the normal distribution.
 double outside(double bound, double deviation) {
@@ -71,56 +43,101 @@ std::string percent_text(double proportion) {
   return (proportion < negligible ? "less than " : "") + percent_at_most(proportion);
 }
 
-/// Result of a test: a factor that is above 1 where the goal is out of reach, and the reason.
-struct Doubt {
-  double ratio{0.0};
-  std::string text{};
+/// How zero counts lie about a target: a target in SI units is not in the middle of its count.
+Doubt zero_counts_are_wider(const GoalOfTrial& of) {
+  if (!of.goal.tolerance) return {};
+  const trial::CommandParameters& command = of.trial.command;
+  const double fine = loop::fine_resolution(of.trial.encoder);
+  bool rounds = false;
+  for (const MoveOfTrial& move : moves_of(of)) {
+    constexpr double rounding = 1e-6;  // counts
+    rounds =
+        rounds || std::abs(move.to / fine - static_cast<double>(command.targets[move.number])) > rounding;
+  }
+  const double tolerance = *of.goal.tolerance / of.count();
+  const double held = rounds ? 1.0 : 0.5;  // counts
+  // Two errors, each evenly distributed over a count. Without rounding the axis may stand in the middle.
+  const double within = rounds && tolerance >= 0.5 ? tolerance * (2.0 - tolerance) : 0.0;
+  if (tolerance < held && of.goal.moves <= within) return {};
+  return {held / tolerance,
+          fmt::format("{} is less than {}, {}: an axis at zero counts stands anywhere within its count, and "
+                      "the loop does not see where{}; expected at least {}, which zero counts hold, or a "
+                      "count of at most {}",
+                      of.band_text(), rounds ? "a count" : "half a count", of.length(held * of.count()),
+                      rounds ? ", and the targets are rounded to counts" : "", of.length(held * of.count()),
+                      of.length(*of.goal.tolerance / held))};
+}
+
+/// What noise does to an axis that stays where it is, or that the loop moves.
+struct NoisyLoop {
+  double deviation;    ///< of what must stay within, counts
+  double independent;  ///< number of independent values in the samples that must
 };
 
-Doubt below_half_a_count(const GoalOfTrial& of) {
-  if (!of.goal.tolerance) return {};
-  const double half = 0.5 * of.count();
-  return {half / *of.goal.tolerance,
-          fmt::format("{} is less than half a count, {}: an axis at zero counts stands anywhere within its "
-                      "count, and the loop does not see where; expected at least {}, which zero counts hold, "
-                      "or a count of at most {}",
-                      of.band_text(), of.length(half), of.length(half), of.length(2.0 * *of.goal.tolerance))};
+/// Proportion of moves of which all samples are within ±`bound` (counts).
+double rate_within(double bound, const NoisyLoop& loop) {
+  return std::exp(loop.independent * std::log1p(-outside(bound, loop.deviation)));
+}
+
+/// That of all loops which lets most moves stay within ±`bound` (counts) at all samples, with the error that
+/// the loop reads, or with the axis. Contacts that stick; without friction the loop of the axis.
+std::optional<NoisyLoop> quietest_loop(const GoalOfTrial& of, NoiseAt at, double bound) {
+  const loop::EncoderErrors& errors = of.errors();
+  std::optional<NoisyLoop> quietest;
+  const auto consider = [&](const NoisyLoop& loop) {
+    if (!quietest || rate_within(bound, loop) > rate_within(bound, *quietest)) quietest = loop;
+  };
+  const bool has_friction = friction::has_friction(of.trial.friction.model);
+  if (has_friction && at == NoiseAt::error) {
+    // Noise with a bandwidth has about two independent values in each period of it.
+    const double of_noise = std::min(1.0, 2.0 * errors.noise_bandwidth / of.trial.controller.sample_rate);
+    consider({errors.noise, std::max(of_noise * of.samples_within(), 1.0)});
+  }
+  // A loop amplifies white noise (Bode's integral): an axis that stands still reads least of it.
+  if (quietest && std::isinf(errors.noise_bandwidth)) return quietest;
+  for (const TrialLoop& loop : trial_loops(of.trial)) {
+    if ((has_friction && loop.slides) ||
+        stability_of(loop.loop, of.trial.command.hold) != LoopStability::stable)
+      continue;
+    const NoiseResponse response = response_to_noise(loop.loop, at, errors.noise_bandwidth);
+    consider(
+        {errors.noise * response.gain, std::max(of.samples_within() / response.correlated_samples, 1.0)});
+  }
+  return quietest;
 }
 
 Doubt noise_leaves_the_band(const GoalOfTrial& of) {
   const loop::EncoderErrors& errors = of.errors();
   if (of.goal.tolerance || !(errors.noise > 0.0)) return {};
-  // Noise with a bandwidth has about two independent values in each period of it.
-  const double independent =
-      std::min(1.0, 2.0 * errors.noise_bandwidth / of.trial.controller.sample_rate) * of.samples_within();
-  const double rate =
-      highest_rate_within_band(static_cast<double>(of.goal.band), errors.noise, std::max(independent, 1.0));
-  return {
-      of.goal.moves / rate,
-      fmt::format("encoder noise of {:.3g} counts rms leaves {} in {} of the samples of an axis that stands "
-                  "still, and {:.0f} samples of a move must be within it: at most {} of the moves can meet "
-                  "the goal, which asks for {}; expected less noise, a wider band, or a tolerance",
-                  errors.noise, of.band_text(),
-                  percent_text(outside(static_cast<double>(of.goal.band) + 0.5, errors.noise)),
-                  of.samples_within(), percent_at_most(rate), percent_text(of.goal.moves))};
+  const double bound = static_cast<double>(of.goal.band) + 0.5;
+  const std::optional<NoisyLoop> loop = quietest_loop(of, NoiseAt::error, bound);
+  if (!loop) return {};
+  const double rate = rate_within(bound, *loop);
+  const bool stands = friction::has_friction(of.trial.friction.model);
+  return {of.goal.moves / rate,
+          fmt::format("encoder noise of {:.3g} counts rms leaves {} in {} of the samples of an axis that {}, "
+                      "and {:.0f} samples of a move must be within it: at most {} of the moves can meet the "
+                      "goal, which asks for {}; expected less noise, a wider band, or a tolerance",
+                      errors.noise, of.band_text(), percent_text(outside(bound, loop->deviation)),
+                      stands ? "stands still" : "the loop holds", of.samples_within(), percent_at_most(rate),
+                      percent_text(of.goal.moves))};
 }
 
 Doubt noise_moves_the_axis(const GoalOfTrial& of) {
   const loop::EncoderErrors& errors = of.errors();
   if (!of.goal.tolerance || !(errors.noise > 0.0)) return {};
-  double least = std::numeric_limits<double>::infinity();
-  for (const TrialLoop& loop : trial_loops(of.trial)) {
-    if (loop.slides || stability_of(loop.loop, of.trial.command.hold) != LoopStability::stable) continue;
-    least = std::min(least, motion_by_noise(loop.loop, errors.noise, of.count(), errors.noise_bandwidth));
-  }
-  if (!std::isfinite(least)) return {};
-  const double rate = 1.0 - outside(*of.goal.tolerance, least);  // of the last sample alone
+  const double bound = *of.goal.tolerance / of.count();
+  const std::optional<NoisyLoop> loop = quietest_loop(of, NoiseAt::axis, bound);
+  if (!loop) return {};
+  const double rate = rate_within(bound, *loop);
   return {of.goal.moves / rate,
           fmt::format("encoder noise of {:.3g} counts rms moves the axis by {} rms by the linear loop: it is "
-                      "within {} in {} of the samples, and the goal asks for {} of the moves; expected less "
-                      "noise, lower gains, or a wider tolerance",
-                      errors.noise, of.length(least), of.band_text(), percent_text(rate),
-                      percent_text(of.goal.moves))};
+                      "within {} in {} of the samples, and {:.0f} samples of a move must be: at most {} of "
+                      "the moves can meet the goal, which asks for {}; expected less noise, lower gains, or "
+                      "a wider tolerance",
+                      errors.noise, of.length(loop->deviation * of.count()), of.band_text(),
+                      percent_text(1.0 - outside(bound, loop->deviation)), of.samples_within(),
+                      percent_at_most(rate), percent_text(of.goal.moves))};
 }
 
 Doubt code_leaves_the_band(const GoalOfTrial& of) {
@@ -129,52 +146,114 @@ Doubt code_leaves_the_band(const GoalOfTrial& of) {
   const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
   const double stiffness = contact.k1 + contact.k2;
   const double travel = p.dac.resolution / stiffness;
-  const std::string torque = parameters::unit_on(of.study.units.axis, "N m");
-  return {travel / of.width(),
-          fmt::format(
-              "one code of the DAC, {:.3g} {}, moves the axis by {} = {:.3g} counts even at k1 + k2, right "
-              "after a reversal, more than the {} from one end of {} to the other; expected a code of at "
-              "most {:.3g} {}, dac.sigma_delta, or a wider one",
-              p.dac.resolution, torque, of.length(travel), travel / of.count(), of.length(of.width()),
-              of.band_text(), stiffness * of.width(), torque)};
+  return {
+      travel / of.width(),
+      fmt::format("one code of the DAC, {}, moves the axis by {} = {:.3g} counts even at k1 + k2, right "
+                  "after a reversal, more than the {} from one end of {} to the other; expected a code of at "
+                  "most {}, dac.sigma_delta, or a wider one",
+                  of.torque(p.dac.resolution), of.length(travel), travel / of.count(), of.length(of.width()),
+                  of.band_text(), of.torque(stiffness * of.width()))};
 }
 
-using GoalTest = Doubt (*)(const GoalOfTrial&);
-constexpr std::array<GoalTest, 4> goal_tests{below_half_a_count, noise_leaves_the_band, noise_moves_the_axis,
-                                             code_leaves_the_band};
+/// A test of goals: of whole trials, or of each of their moves.
+struct GoalTest {
+  Doubt (*of_trial)(const GoalOfTrial&){nullptr};
+  Doubt (*of_move)(const MoveOfTrial&){nullptr};
+  bool needs_goal{true};
+};
+constexpr std::array<GoalTest, 9> goal_tests{{{zero_counts_are_wider},
+                                              {noise_leaves_the_band},
+                                              {noise_moves_the_axis},
+                                              {code_leaves_the_band},
+                                              {band_is_half_a_step},
+                                              {nullptr, reference_is_on_its_way},
+                                              {nullptr, torque_is_too_small_for_the_move, false},
+                                              {nullptr, torque_is_too_small_at_the_target, false},
+                                              {nullptr, encoder_misplaces_the_target}}};
 
-/// The smallest doubt of the first trials of a point under a condition.
-Doubt smallest_doubt(GoalTest test, const study::Study& study, const study::Goal& goal, std::int64_t point,
-                     std::int64_t condition) {
-  Doubt smallest{std::numeric_limits<double>::infinity()};
-  for (std::int64_t draw = 0; draw < std::min(study::draw_count(study), max_draws_examined); ++draw) {
-    const trial::TrialParameters p =
-        study::study_trial(study, point, study::turns_of(study).trial_of(draw, condition)).parameters;
-    Doubt doubt = test({study, goal, p});
-    if (doubt.ratio < smallest.ratio) smallest = std::move(doubt);
-    if (!(smallest.ratio > 1.0)) break;
+/// What a test says of the trials of a point under a condition.
+class DoubtOfTrials {
+ public:
+  DoubtOfTrials(const GoalTest& test, const study::Study& study, const study::Goal& goal)
+      : test_(test), study_(study), goal_(goal) {}
+
+  void add(const trial::TrialParameters& trial, std::int64_t draw) {
+    const GoalOfTrial of{study_, goal_, trial};
+    if (test_.of_trial != nullptr) {
+      const bool may_fail = !smallest_ || smallest_->ratio > 1.0;
+      if (draw < max_draws_examined && may_fail) add_trial(test_.of_trial(of));
+      return;
+    }
+    for (const MoveOfTrial& move : moves_of(of)) add_move(test_.of_move(move));
   }
-  return smallest;
-}
 
-std::optional<std::string> worst_doubt(GoalTest test, const study::Study& study,
-                                       const std::vector<std::int64_t>& points) {
-  double worst = 1.0;
-  std::optional<std::string> line;
-  for (const std::int64_t point : points) {
-    for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
-      for (const study::Goal& goal : study.goals) {
-        const Doubt doubt = smallest_doubt(test, study, goal, point, condition);
-        if (!(doubt.ratio > worst)) continue;
-        worst = doubt.ratio;
-        line =
-            fmt::format("point {} ({}){}: {}{}", point, study.points.labels[static_cast<std::size_t>(point)],
-                        study::condition_text(study, condition),
-                        goal.name.empty() ? "" : "goal " + goal.name + ": ", doubt.text);
-      }
+  /// The goal is out of reach if a whole trial is in each of those examined, or more moves than it permits.
+  std::optional<Doubt> doubt() const {
+    if (test_.of_trial != nullptr) return smallest_ && smallest_->ratio > 1.0 ? smallest_ : std::nullopt;
+    if (failing_ == 0) return {};
+    const auto moves = static_cast<double>(moves_);
+    const double permitted = moves * permitted_proportion();
+    constexpr double chance = 1.645;  // standard deviations: 5 % of them are larger
+    if (static_cast<double>(failing_) <= permitted + chance * std::sqrt(permitted)) return {};
+    Doubt doubt = worst_;
+    if (failing_ < moves_) doubt.text += fmt::format(" (so in {} of {} moves examined)", failing_, moves_);
+    return doubt;
+  }
+
+ private:
+  double permitted_proportion() const {
+    return study_.goals.empty() ? 0.0 : 1.0 - goal_.moves * goal_.machines.value_or(1.0);
+  }
+  void add_trial(Doubt doubt) {
+    if (!smallest_ || doubt.ratio < smallest_->ratio) smallest_ = std::move(doubt);
+  }
+  void add_move(Doubt doubt) {
+    ++moves_;
+    if (!(doubt.ratio > 1.0)) return;
+    ++failing_;
+    if (doubt.ratio > worst_.ratio) worst_ = std::move(doubt);
+  }
+
+  const GoalTest& test_;
+  const study::Study& study_;
+  const study::Goal& goal_;
+  std::optional<Doubt> smallest_;
+  Doubt worst_;
+  std::int64_t moves_{0};
+  std::int64_t failing_{0};
+};
+
+/// The worst doubt of a test so far, as a line.
+struct WorstLine {
+  double ratio{1.0};
+  std::string text;
+};
+using WorstLines = std::array<WorstLine, goal_tests.size()>;
+
+void examine_goals(const study::Study& study, std::span<const study::Goal> goals, std::int64_t point,
+                   std::int64_t condition, std::int64_t draws, WorstLines& worst) {
+  std::vector<std::pair<std::size_t, DoubtOfTrials>> all;
+  for (const study::Goal& goal : goals) {
+    for (std::size_t i = 0; i < goal_tests.size(); ++i) {
+      if (!study.goals.empty() || !goal_tests[i].needs_goal)
+        all.emplace_back(i, DoubtOfTrials(goal_tests[i], study, goal));
     }
   }
-  return line;
+  for (std::int64_t draw = 0; draw < draws; ++draw) {
+    const trial::TrialParameters p =
+        study::study_trial(study, point, study::turns_of(study).trial_of(draw, condition)).parameters;
+    for (auto& [test, doubts] : all) doubts.add(p, draw);
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::optional<Doubt> doubt = all[i].second.doubt();
+    WorstLine& line = worst[all[i].first];
+    if (!doubt || !(doubt->ratio > line.ratio)) continue;
+    const std::string& name = goals[i / (all.size() / goals.size())].name;
+    line = {doubt->ratio,
+            fmt::format("point {} ({}){}: {}{}", point, study.points.labels[static_cast<std::size_t>(point)],
+                        study::condition_text(study, condition), name.empty() ? "" : "goal " + name + ": ",
+                        doubt->text)};
+  }
 }
 
 }  // namespace
@@ -183,28 +262,56 @@ double highest_rate_within_band(double band, double noise, double samples) {
   return std::exp(samples * std::log1p(-outside(band + 0.5, noise)));
 }
 
-double motion_by_noise(const FrozenLoop& loop, double noise, double resolution, double bandwidth) {
+NoiseResponse response_to_noise(const FrozenLoop& loop, NoiseAt at, double bandwidth) {
   constexpr int angles = 4000;
+  constexpr double uncorrelated = 0.1;
   const double pole = std::exp(-2.0 * std::numbers::pi * bandwidth * loop.sample_time);  // 0: white
   const OpenLoop open_loop_at = open_loop(loop);
-  double mean_square = 0.0;
+  std::vector<double> power(angles);
   for (int i = 0; i < angles; ++i) {
     const double angle = (i + 0.5) * std::numbers::pi / angles;
     const std::complex<double> open = open_loop_at.at_angle(angle);
     const double spectrum = (1.0 - pole * pole) / std::norm(1.0 - std::polar(pole, -angle));
-    mean_square += std::norm(open / (1.0 + open)) * spectrum / angles;
+    power[static_cast<std::size_t>(i)] =
+        std::norm((at == NoiseAt::axis ? open : 1.0) / (1.0 + open)) * spectrum / angles;
   }
-  return noise * resolution * std::sqrt(mean_square);
+  const auto correlation = [&](int lag) {
+    double sum = 0.0;
+    for (int i = 0; i < angles; ++i)
+      sum += power[static_cast<std::size_t>(i)] * std::cos((i + 0.5) * std::numbers::pi / angles * lag);
+    return sum;
+  };
+  const double mean_square = correlation(0);
+  const auto is_correlated = [&](int lag) { return std::abs(correlation(lag)) > uncorrelated * mean_square; };
+  // An oscillation is uncorrelated at a lag and correlated again later.
+  int lag = 1;
+  while (lag < angles / 4 && (is_correlated(lag) || is_correlated(lag + lag / 2) || is_correlated(2 * lag) ||
+                              is_correlated(3 * lag)))
+    lag *= 2;
+  return {std::sqrt(mean_square), static_cast<double>(lag)};
 }
 
 std::vector<std::string> doubtful_goals(const study::Study& study) {
   std::vector<std::string> lines;
-  if (study.goals.empty()) return lines;
-  const std::int64_t claims = study::condition_count(study) * std::ssize(study.goals);
+  if (study.open_loop) return lines;
+  const study::Goal none{.within = std::numeric_limits<double>::infinity()};
+  const std::span<const study::Goal> goals =
+      study.goals.empty() ? std::span(&none, 1) : std::span<const study::Goal>(study.goals);
+  const std::int64_t conditions = study::condition_count(study);
   const std::vector<std::int64_t> points = statistics::spread_over(
-      study::point_count(study), std::max<std::int64_t>(max_trials_doubted / claims, 1));
-  for (const GoalTest test : goal_tests) {
-    if (const auto line = worst_doubt(test, study, points)) lines.push_back(*line);
+      study::point_count(study),
+      std::max<std::int64_t>(max_trials_doubted / (conditions * std::ssize(goals)), 1));
+  const std::int64_t draws =
+      std::min(study::draw_count(study),
+               std::clamp<std::int64_t>(max_trials_doubted / (conditions * std::ssize(points)),
+                                        max_draws_examined, max_draws_of_moves));
+  WorstLines worst;
+  for (const std::int64_t point : points) {
+    for (std::int64_t condition = 0; condition < conditions; ++condition)
+      examine_goals(study, goals, point, condition, draws, worst);
+  }
+  for (WorstLine& line : worst) {
+    if (!line.text.empty()) lines.push_back(std::move(line.text));
   }
   return lines;
 }

@@ -2,79 +2,156 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <vector>
+#include <cstdlib>
+#include <string>
+#include <utility>
 
-#include "analysis/theory/trial_loops.hpp"
+#include <fmt/format.h>
+
 #include "core/friction/law.hpp"
-#include "core/loop/controller/controller.hpp"
-#include "core/loop/encoder.hpp"
-#include "core/theory/describing_function.hpp"
-#include "core/theory/frozen_loop.hpp"
+#include "core/loop/reference.hpp"
+#include "core/trial/trial.hpp"
 
 namespace zerocount::theory {
 namespace {
 
-/// In the fine phase, which comes first of the loops that slide.
-bool is_stable_while_sliding(const trial::TrialParameters& trial) {
-  const std::vector<TrialLoop> loops = trial_loops(trial);
-  const auto sliding = std::ranges::find_if(loops, &TrialLoop::slides);
-  return sliding != loops.end() && stability_of(sliding->loop, trial.command.hold) == LoopStability::stable;
+constexpr std::int64_t first_samples = 1 << 13;
+constexpr std::int64_t max_samples = 1 << 17;
+constexpr std::int64_t longer = 2;
+constexpr double min_amplitude = 1.0;  // counts: the encoder does not see less
+constexpr double min_periods = 2.0;    // in the last half of the hold
+constexpr double alike = 0.05;         // amplitudes of a cycle, measured in whole counts
+
+/// The longest move of a trial.
+struct LongestMove {
+  std::int64_t from{0};
+  std::int64_t to{0};
+  std::int64_t length() const { return std::abs(to - from); }
+};
+
+LongestMove longest_move(const trial::TrialParameters& trial) {
+  LongestMove longest;
+  std::int64_t before = 0;
+  for (const std::int64_t target : trial.command.targets) {
+    if (std::abs(target - before) > longest.length()) longest = {before, target};
+    before = target;
+  }
+  return longest;
 }
 
-bool is_disturbed(const trial::TrialParameters& trial) {
-  const trial::DisturbanceParameters& d = trial.disturbance;
-  return d.torque != 0.0 || !d.ripple.empty() || !d.vibration.empty() || !d.spectra.empty();
+/// The trial with this move from its start alone, and nothing that moves the axis by itself.
+trial::TrialParameters trial_of_move(trial::TrialParameters trial, const LongestMove& move) {
+  trial.command.targets = {move.to - move.from};
+  trial.command.exact_targets.clear();
+  trial.verdict = {};
+  trial.encoder.fine_errors.noise = 0.0;
+  trial.encoder.coarse_errors.noise = 0.0;
+  trial.dac.noise = 0.0;
+  trial.disturbance.vibration.clear();
+  trial.disturbance.spectra.clear();
+  return trial;
 }
 
-/// Stiffness of the contact before it slides, N m/rad; 0 for a relay.
-double stiffest_stiffness(const trial::TrialParameters& trial, const friction::FrictionParameters& contact) {
-  const friction::LawTraits& law = friction::traits_of(trial.friction.model);
-  return friction::stiffest_of(law.linear_contacts(trial.plant, trial.friction, contact)).stiffness;
+trial::MoveOutcome held_for(trial::TrialParameters& trial, std::int64_t samples) {
+  trial.command.hold = static_cast<double>(samples) / trial.controller.sample_rate;
+  trial.verdict.window = 0.5 * trial.command.hold;
+  trial.verdict.dwell = 1.0 / trial.controller.sample_rate;
+  return trial::run_trial(trial).moves.front();
 }
 
-/// Counts.
-double first_step(const trial::TrialParameters& trial) {
-  const std::vector<std::int64_t>& targets = trial.command.targets;
-  const auto moved = std::ranges::find_if(targets, [](std::int64_t target) { return target != 0; });
-  return moved == targets.end() ? 0.0 : std::abs(static_cast<double>(*moved));
+/// Whether the torque of a standing axis changes, so that it may break away later.
+bool has_integral(const loop::ControllerParameters& controller) {
+  const bool cascade = controller.blocks.structure == loop::ControlStructure::cascade;
+  return (cascade ? controller.blocks.cascade.ki : controller.ki) > 0.0 || controller.user.plugin;
+}
+
+bool stays_within_a_count(const trial::MoveOutcome& move) {
+  return move.outcome == trial::Outcome::zero_count || move.outcome == trial::Outcome::one_count;
+}
+
+bool has_come_to_rest(const trial::MoveOutcome& move, const trial::TrialParameters& trial) {
+  if (move.final_settling_time <= 0.5 * trial.command.hold) return true;
+  return move.outcome == trial::Outcome::off_target && !has_integral(trial.controller) &&
+         move.midway_error == move.final_error;
+}
+
+bool is_cycle(const trial::MoveOutcome& move, double amplitude_before, const trial::TrialParameters& trial) {
+  return move.oscillation_amplitude > min_amplitude &&
+         min_periods * move.oscillation_period <= 0.5 * trial.command.hold &&
+         std::abs(move.oscillation_amplitude - amplitude_before) <= alike * move.oscillation_amplitude;
 }
 
 }  // namespace
 
-Roughness roughness_of(const LimitCycle& cycle, const HuntingPrediction& hunting) {
-  constexpr double counts = 10.0;
-  constexpr double samples = 10.0;
-  if (cycle.amplitude < counts * hunting.count_angle) return Roughness::few_counts;
-  if (cycle.period < samples * hunting.sample_time) return Roughness::few_samples;
-  return hunting.range > 0.0 && cycle.amplitude > hunting.range ? Roughness::bristle : Roughness::none;
-}
-
 std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& trial) {
-  const friction::FrictionModel model = trial.friction.model;
-  if (has_no_linear_loop(trial) || !has_describing_function(model)) return std::nullopt;
-  const loop::ControllerParameters controller =
-      loop::controller_in_phase(trial.controller, loop::ControlPhase::fine);
-  HuntingPrediction prediction;
-  prediction.left_out = left_out_of_hunting(trial.plant, controller);
-  if (prediction.left_out.empty() && is_disturbed(trial)) prediction.left_out = "the disturbance";
-  if (!prediction.left_out.empty()) return prediction;
-  const friction::FrictionParameters contact = friction::friction_at(trial.friction, trial.initial.position);
-  prediction.count_angle = loop::fine_resolution(trial.encoder);
-  prediction.sample_time = 1.0 / trial.controller.sample_rate;
-  prediction.grows_while_sliding = !is_stable_while_sliding(trial);
-  prediction.by_function =
-      harmonic_balance(model, contact, trial.plant, trial.encoder, controller, drive_of(trial));
-  const double stiffness = stiffest_stiffness(trial, contact);
-  prediction.range = stiffness > 0.0 ? contact.breakaway / stiffness : 0.0;
-  const double step = first_step(trial);
-  prediction.sticks = step * prediction.count_angle > prediction.range;
-  if (!prediction.sticks) return prediction;
-  for (const LimitCycle& cycle :
-       stick_slip_cycle(model, contact, trial.plant, trial.encoder, controller, drive_of(trial), step)) {
-    if (cycle.amplitude > prediction.range) prediction.by_stick_slip.push_back(cycle);
+  if (!trial.command.torque.levels.empty() || !friction::has_friction(trial.friction.model) ||
+      trial.command.profile.shape == loop::ReferenceShape::sine)
+    return std::nullopt;
+  const LongestMove move = longest_move(trial);
+  trial::TrialParameters p = trial_of_move(trial, move);
+  HuntingPrediction prediction{.step = move.length()};
+  trial::MoveOutcome before;
+  for (std::int64_t samples = first_samples; samples <= max_samples; samples *= longer) {
+    const trial::MoveOutcome outcome = held_for(p, samples);
+    prediction.duration = p.command.hold;
+    if (has_come_to_rest(outcome, p) || (stays_within_a_count(outcome) && stays_within_a_count(before))) {
+      prediction.state = Hunting::rests;
+      return prediction;
+    }
+    if (outcome.outcome == trial::Outcome::nonfinite) {
+      prediction.state = Hunting::diverges;
+      return prediction;
+    }
+    if (is_cycle(outcome, before.oscillation_amplitude, p)) {
+      prediction.state = Hunting::hunts;
+      prediction.amplitude = outcome.oscillation_amplitude;
+      prediction.period = outcome.oscillation_period;
+      return prediction;
+    }
+    before = outcome;
   }
   return prediction;
+}
+
+document::Description<HuntingPrediction> hunting_description() {
+  using document::in_data;
+  using Of = const HuntingPrediction&;
+  const auto if_hunts = [](double HuntingPrediction::*number) {
+    return [number](Of hunting) -> std::optional<double> {
+      if (hunting.state != Hunting::hunts) return std::nullopt;
+      return hunting.*number;
+    };
+  };
+  document::Item state = in_data("hunting", "what the longest move of trial 0 comes to");
+  state.words = {"rests", "hunts", "diverges", "undecided"};
+  document::Description<HuntingPrediction> description;
+  description
+      .value(state,
+             [words = state.words](Of hunting) { return words[static_cast<std::size_t>(hunting.state)]; })
+      .value(in_data("hunting_step", "length of that move", "count"), &HuntingPrediction::step)
+      .value(in_data("hunting_amplitude", "half of the range of its oscillation; null: it does not hunt",
+                     "count"),
+             if_hunts(&HuntingPrediction::amplitude))
+      .value(in_data("hunting_period", "period of the oscillation", "s"),
+             if_hunts(&HuntingPrediction::period))
+      .value(in_data("hunting_duration", "time that the move was held to see it", "s"),
+             &HuntingPrediction::duration)
+      .value({.key = "hunting_text", .heading = "hunting of trial 0", .shown = document::Shown::to_people},
+             [](Of hunting) -> std::string {
+               switch (hunting.state) {
+                 case Hunting::rests:
+                   return "none, it comes to rest";
+                 case Hunting::hunts:
+                   return fmt::format("amplitude {:.4g} counts, period {:.4g} s", hunting.amplitude,
+                                      hunting.period);
+                 case Hunting::diverges:
+                   return "the motion grows without bound";
+                 case Hunting::undecided:
+                   break;
+               }
+               return fmt::format("not decided: neither a cycle nor rest within {:.3g} s", hunting.duration);
+             });
+  return description;
 }
 
 }  // namespace zerocount::theory

@@ -1,37 +1,43 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
-#include <string_view>
-#include <vector>
 
-#include "core/theory/hunting.hpp"
+#include "analysis/document/description.hpp"
 #include "core/trial/parameters.hpp"
 
+/// Hunting, the lasting oscillation of a position loop with friction, as trials of the loop show it.
 namespace zerocount::theory {
 
-/// The hunting that theory predicts of a trial.
+enum class Hunting : std::uint8_t {
+  rests,     ///< the axis comes to rest, or stays within a count of its target
+  hunts,     ///< it oscillates for good
+  diverges,  ///< the motion leaves the finite numbers
+  undecided  ///< neither is seen in the longest trial
+};
+
 struct HuntingPrediction {
-  std::string_view left_out;            ///< part of the loop that the predictions do not model; else empty
-  double count_angle{0.0};              ///< Δx of the fine encoder, rad
-  bool grows_while_sliding{false};      ///< the loop is unstable while the rotor slides
-  double sample_time{0.0};              ///< T, s
-  std::vector<LimitCycle> by_function;  ///< by describing function
-  double range{0.0};                    ///< by which the bristle yields before it slides, rad; 0 for a relay
-  bool sticks{false};                   ///< stick-slip is sought: the first move is longer than the range
-  std::vector<LimitCycle> by_stick_slip;
+  Hunting state{Hunting::undecided};
+  std::int64_t step{0};   ///< of the move, counts
+  double amplitude{0.0};  ///< half of the range of the count, counts; where it hunts
+  double period{0.0};     ///< s; where it hunts
+  double duration{0.0};   ///< of the longest trial, s
 };
 
-/// Why a predicted cycle is rough: it is within a third of what trials show, otherwise within a twentieth.
-enum class Roughness {
-  none,
-  few_counts,   ///< the amplitude is below 10 counts
-  few_samples,  ///< fewer than 10 samples a period
-  bristle       ///< slides on a bristle, whose elastic travel the prediction makes at once
-};
-
-Roughness roughness_of(const LimitCycle& cycle, const HuntingPrediction& hunting);
-
-/// None where the loop is open, the controller is a plugin, or the friction has no describing function.
+/// The trial with its longest move alone, which is held for 2¹³, 2¹⁴ … 2¹⁷ samples until it
+///
+///     rests   the error is 0 for good before half of the hold, or at most a count in the last half of two
+///     holds hunts   in the last half of the hold the count oscillates by more than a count on either side,
+///     over two
+///             periods at least, and by as much as in the hold before, within 5 %
+///
+/// so that a decay is told from a cycle unless its time constant is more than about ten times the hold.
+/// Without noise of the encoder and the converter, and without vibration, which move the axis by themselves.
+///
+/// None without a loop, without friction, and where the reference does not end.
 std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& trial);
+
+/// For data each number, for people a sentence.
+document::Description<HuntingPrediction> hunting_description();
 
 }  // namespace zerocount::theory

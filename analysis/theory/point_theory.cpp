@@ -235,7 +235,6 @@ void for_trials(const ExaminedPoint& at, std::int64_t count, Add add) {
 
 void examine_outside(const ExaminedPoint& at, const trial::TrialParameters& first, PointTheory& theory) {
   const study::Study& study = at.study;
-  theory.hunting = predict_hunting(first);
   theory.free = !has_no_linear_loop(first) && !friction::has_friction(first.friction.model);
   for_trials(at, max_trials_examined_closely, [&](const trial::TrialParameters& p) {
     add_loops(theory.loops, p);

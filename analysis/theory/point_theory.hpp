@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "analysis/document/description.hpp"
-#include "analysis/theory/hunting_prediction.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "core/friction/profile.hpp"
 #include "core/theory/frozen_loop.hpp"
@@ -96,7 +95,6 @@ struct LoopRanges {
 struct PointTheory {
   std::string outside;  ///< reason why (6) and (7) do not apply; empty if they do
   bool free{false};     ///< no spring: `gain` and `approach` are of the loop without friction
-  std::optional<HuntingPrediction> hunting;  ///< of trial 0, where `outside`
   GainTheory gain;
   DesignRules rules;
   LowestStiffness lowest;

@@ -17,11 +17,6 @@ using document::Shown;
 using std::optional;
 using std::string;
 
-/// A prediction of hunting that leaves nothing out.
-const HuntingPrediction* predicted(const HuntingPrediction& hunting) {
-  return hunting.left_out.empty() ? &hunting : nullptr;
-}
-
 string range_text(const Range& range) {
   if (range.low == range.high) return fmt::format("{:.3g}", range.low);
   return fmt::format("{:.3g} … {:.3g}", range.low, range.high);
@@ -236,91 +231,6 @@ Description<Approach> approach_description() {
       });
 }
 
-/// Why a predicted cycle is rough; empty if it is not.
-string roughness_text(const LimitCycle& cycle, const HuntingPrediction& hunting) {
-  switch (roughness_of(cycle, hunting)) {
-    case Roughness::none:
-      return "";
-    case Roughness::few_counts:
-      return ", roughly (few counts)";
-    case Roughness::few_samples:
-      return fmt::format(", roughly ({:.2g} samples a period)", cycle.period / hunting.sample_time);
-    case Roughness::bristle:
-      break;
-  }
-  return fmt::format(", within a third (before it slides, the bristle yields by {:.3g} counts and more)",
-                     hunting.range / hunting.count_angle);
-}
-
-string cycles_text(const std::vector<LimitCycle>& cycles, const HuntingPrediction& hunting) {
-  std::vector<string> texts;
-  texts.reserve(cycles.size());
-  for (const LimitCycle& cycle : cycles)
-    texts.push_back(fmt::format("amplitude {:.4g} counts, period {:.4g} s{}",
-                                cycle.amplitude / hunting.count_angle, cycle.period,
-                                roughness_text(cycle, hunting)));
-  if (!texts.empty()) return fmt::format("{}", fmt::join(texts, "; "));
-  return hunting.grows_while_sliding ? "no lasting cycle; the loop is unstable while the rotor slides: what "
-                                       "has broken loose may grow"
-                                     : "no lasting cycle";
-}
-
-struct CycleReading {
-  double amplitude, period;
-  bool rough;
-};
-
-/// Cycles for data.
-void add_cycles(Description<HuntingPrediction>& description, const Item& item,
-                std::vector<LimitCycle> HuntingPrediction::*cycles) {
-  description.table(
-      item,
-      Description<CycleReading>()
-          .value(in_data("amplitude", "half of its range", "count"), &CycleReading::amplitude)
-          .value(in_data("period", "its period", "s"), &CycleReading::period)
-          .value(in_data("rough", "within a third of trials, not a twentieth"), &CycleReading::rough),
-      [cycles](const HuntingPrediction& hunting) {
-        std::vector<CycleReading> readings;
-        for (const LimitCycle& cycle : hunting.*cycles)
-          readings.push_back({cycle.amplitude / hunting.count_angle, cycle.period,
-                              roughness_of(cycle, hunting) != Roughness::none});
-        return readings;
-      });
-}
-
-/// A cycle that one method finds is there, since each leaves out cycles that the other has: what finds none
-/// is silent then.
-Description<HuntingPrediction> hunting_description() {
-  using Of = const HuntingPrediction&;
-  Description<HuntingPrediction> description;
-  description
-      .value(in_data("hunting_left_out", "part of the loop that the predictions leave out"),
-             &HuntingPrediction::left_out)
-      .value(statement("hunting_text", "hunting of trial 0"), [](Of hunting) -> optional<string> {
-        if (predicted(hunting) != nullptr) return {};
-        return fmt::format("not predicted, since the predictions leave out {}", hunting.left_out);
-      });
-  add_cycles(description, in_data("hunting_by_function", "cycles of trial 0 by describing function"),
-             &HuntingPrediction::by_function);
-  add_cycles(description, in_data("hunting_by_stick_slip", "cycles of trial 0 by stick-slip"),
-             &HuntingPrediction::by_stick_slip);
-  return description
-      .value(statement("by_function_text", "hunting of trial 0, by describing function"),
-             [](Of hunting) -> optional<string> {
-               if (predicted(hunting) == nullptr ||
-                   (hunting.by_function.empty() && !hunting.by_stick_slip.empty()))
-                 return {};
-               return cycles_text(hunting.by_function, hunting);
-             })
-      .value(statement("by_stick_slip_text", "hunting of trial 0, by stick-slip"),
-             [](Of hunting) -> optional<string> {
-               if (predicted(hunting) == nullptr || !hunting.sticks ||
-                   (hunting.by_stick_slip.empty() && !hunting.by_function.empty()))
-                 return {};
-               return cycles_text(hunting.by_stick_slip, hunting);
-             });
-}
-
 }  // namespace
 
 string slowness_text(const Approach& approach) {
@@ -369,7 +279,6 @@ Description<PointTheory> point_theory_description() {
   return Description<PointTheory>()
       .value({"outside", "the criteria do not apply", "why (6) and (7) do not apply; null: they do"},
              [=](Of t) { return applies(t) ? std::nullopt : optional(t.outside); })
-      .include(hunting_description(), [=](Of t) { return applies(t) ? std::nullopt : t.hunting; })
       .include(gain_description(), [=](Of t) { return applies(t) || t.free ? &t.gain : nullptr; })
       .include(rules_description(), [=](Of t) { return applies(t) ? &t.rules : nullptr; })
       .include(lowest_description(), [=](Of t) { return applies(t) ? &t : nullptr; })

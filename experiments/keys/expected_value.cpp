@@ -32,8 +32,7 @@ std::string example_distribution(const parameters::Parameter& parameter,
   const double low = is_whole(parameter) ? std::round(0.8 * value) : with_two_digits(0.8 * value);
   const double high = is_whole(parameter) ? std::round(1.2 * value) : with_two_digits(1.2 * value);
   const std::string_view form = is_whole(parameter) ? "integers" : "uniform";
-  const bool fits =
-      low < high && numerics::contains(parameters::range_of(parameter, units), numerics::closed(low, high));
+  const bool fits = low < high && numerics::contains(parameter.range, numerics::closed(low, high));
   if (!fits) return fmt::format("{{{}: [low, high]}}", form);
   if (is_whole(parameter))
     return fmt::format("{{{}: [{}, {}]}}", form, static_cast<std::int64_t>(low),
@@ -55,7 +54,7 @@ std::string number_alternatives(const parameters::Parameter& parameter, const pa
 
 std::string allowed_values(const parameters::Parameter& parameter, const parameters::StudyUnits& units) {
   if (parameters::has_labels(parameter)) return fmt::format("one of {}", fmt::join(parameter.labels, ", "));
-  const std::string words = numerics::range_text(parameters::range_of(parameter, units));
+  const std::string words = numerics::range_text(parameter.range);
   const std::string noun = is_whole(parameter) ? "whole numbers" : "numbers";
   const std::string values =
       words.rfind("any", 0) == 0 ? "finite " + noun + " only" : noun + " " + words + " only";
@@ -63,10 +62,10 @@ std::string allowed_values(const parameters::Parameter& parameter, const paramet
 }
 
 std::string cure_of_normal(const distributions::Distribution& distribution,
-                           const parameters::Parameter& parameter, const parameters::StudyUnits& units) {
+                           const parameters::Parameter& parameter) {
   const auto* const normal = std::get_if<distributions::Normal>(&distribution);
   if (normal == nullptr || is_whole(parameter)) return {};
-  const numerics::Interval range = parameters::range_of(parameter, units);
+  const numerics::Interval& range = parameter.range;
   const auto [mean, sd] = *normal;
   if (!numerics::contains(range, mean)) return ": truncated_normal or lognormal with such values";
   double low = mean - 3.0 * sd;

@@ -22,6 +22,6 @@ std::string allowed_values(const parameters::Parameter& parameter, const paramet
 /// ": {truncated_normal: {mean: 110, sd: 15, low: 65, high: 155}} or {lognormal: {median: 110, cv: 0.136}}".
 /// Empty for other distributions, and where only whole numbers are allowed.
 std::string cure_of_normal(const distributions::Distribution& distribution,
-                           const parameters::Parameter& parameter, const parameters::StudyUnits& units);
+                           const parameters::Parameter& parameter);
 
 }  // namespace zerocount::keys

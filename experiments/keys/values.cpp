@@ -53,21 +53,20 @@ study::Value read_number(const yaml::Field& field, const parameters::Parameter& 
                                         static_cast<std::int64_t>(parameter.range.high), problems, or_else);
     return whole ? number_value(static_cast<double>(*whole)) : unreadable_value();
   }
-  const auto real =
-      yaml::read_real(field, parameters::range_of(parameter, reading.plan.units), problems, or_else);
+  const auto real = yaml::read_real(field, parameter.range, problems, or_else);
   return real ? number_value(*real) : unreadable_value();
 }
 
 bool check_support(const yaml::Field& field, const parameters::Parameter& parameter,
                    const distributions::Distribution& distribution, Reading& reading) {
   const numerics::Interval values = distributions::support(distribution);
-  const numerics::Interval range = parameters::range_of(parameter, reading.plan.units);
+  const numerics::Interval& range = parameter.range;
   if (numerics::contains(range, values)) return true;
-  reading.problems.add(field,
-                       fmt::format("its values {} exceed the allowed range {}", numerics::notation(values),
-                                   numerics::notation(range)),
-                       allowed_values(parameter, reading.plan.units) +
-                           cure_of_normal(distribution, parameter, reading.plan.units));
+  reading.problems.add(
+      field,
+      fmt::format("its values {} exceed the allowed range {}", numerics::notation(values),
+                  numerics::notation(range)),
+      allowed_values(parameter, reading.plan.units) + cure_of_normal(distribution, parameter));
   return false;
 }
 
@@ -84,8 +83,7 @@ study::Value read_drawn(const distributions::DistributionForm& form, const yaml:
                       ? "integers, or a choice of whole numbers, with per: world"
                       : "integers, or a choice of whole numbers");
   }
-  if (!distributions::extremes_are_inside(*distribution,
-                                          parameters::range_of(parameter, reading.plan.units))) {
+  if (!distributions::extremes_are_inside(*distribution, parameter.range)) {
     return refuse(reading, field, "its extreme values are too large or too small for a double",
                   allowed_values(parameter, reading.plan.units));
   }
@@ -242,8 +240,7 @@ study::Value checked_number(const yaml::Field& field, std::size_t slot, double n
   const bool fits =
       parameter.kind == parameters::ParameterKind::real ||
       (parameter.kind == parameters::ParameterKind::whole_number && number == std::trunc(number));
-  if (fits && numerics::contains(parameters::range_of(parameter, reading.plan.units), number))
-    return number_value(number);
+  if (fits && numerics::contains(parameter.range, number)) return number_value(number);
   return refuse(reading, field, fmt::format("the value {} is not allowed", number),
                 allowed_values(parameter, reading.plan.units));
 }

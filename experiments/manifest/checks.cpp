@@ -207,7 +207,7 @@ std::pair<double, double> aged_extremes(const study::StudyPlan& plan, std::size_
 void check_range_at_ages(const Checking& c, std::size_t slot) {
   const study::StudyPlan& plan = c.plan();
   const parameters::Parameter& parameter = plan.table.rows[slot];
-  const numerics::Interval range = parameters::range_of(parameter, plan.units);
+  const numerics::Interval& range = parameter.range;
   study::visit_points(plan, {&slot, 1}, [&](std::size_t point) {
     const study::Value& value = *study::value_at_point(plan, slot, point);
     if (!value.aging || std::isnan(value.number)) return true;

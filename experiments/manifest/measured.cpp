@@ -223,7 +223,7 @@ void check_what_follows(const keys::PlanPlaces& places, keys::Reading& reading) 
     if (following.value == nullptr) continue;  // it has the range of its source
     study::visit_points(plan, {&slot, 1}, [&](std::size_t point) {
       const study::ValueLimits limits = study::limits_of_slot(plan, slot, point);
-      const numerics::Interval range = parameters::range_of(row, plan.units);
+      const numerics::Interval& range = row.range;
       const bool is_allowed = std::isnan(limits.low) ||  // reported already, or by check_measured_machines()
                               numerics::contains(range, numerics::closed(limits.low, limits.high));
       if (is_allowed && !std::isinf(limits.high)) return true;

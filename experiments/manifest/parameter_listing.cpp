@@ -12,10 +12,10 @@
 namespace zerocount::manifest {
 namespace {
 
-std::string allowed(const parameters::Parameter& parameter, const parameters::StudyUnits& units) {
+std::string allowed(const parameters::Parameter& parameter) {
   if (parameters::has_labels(parameter)) return fmt::format("{}", fmt::join(parameter.labels, " | "));
   return (parameter.kind == parameters::ParameterKind::whole_number ? "whole, " : "") +
-         numerics::notation(parameters::range_of(parameter, units)) + (parameter.none ? " | none" : "");
+         numerics::notation(parameter.range) + (parameter.none ? " | none" : "");
 }
 
 /// The default; without one the range over the guides, if they have the parameter.
@@ -31,7 +31,7 @@ ListedParameter listed(const parameters::Parameter& p, const parameters::StudyUn
   return {std::string(p.name),
           parameters::unit_of(p, units),
           default_or_guides(p, units),
-          allowed(p, units),
+          allowed(p),
           parameters::default_holds(p, units) ? std::string(p.source) : "-",
           parameters::meaning_of(p, units) + (p.profiled != nullptr ? " [profile allowed]" : "")};
 }

@@ -146,8 +146,7 @@ Json value_schema(const parameters::Parameter& parameter) {
   if (parameter.kind == parameters::ParameterKind::enumeration) return {{"enum", parameter.labels}};
   const bool whole = parameter.kind == parameters::ParameterKind::whole_number;
   Json number{{"type", whole ? "integer" : "number"}};
-  // The schema does not know controller.units, so a gain may be as large as in SI units.
-  limit(number, parameters::range_of(parameter, {.gains = parameters::GainUnits::si}), whole);
+  limit(number, parameter.range, whole);
   Json forms = Json::array({number});
   if (!whole)
     forms.push_back(object_of({{std::string(keys::value_key), std::move(number)},

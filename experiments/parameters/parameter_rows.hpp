@@ -47,6 +47,11 @@ constexpr std::string_view no_constant_disturbance = "no constant disturbance";
 /// exact arithmetic of counts in double.
 constexpr double max_count = 1e12;
 
+/// Gains of any axis, from a galvanometer to a telescope, in any unit: far above those of real machines, and
+/// far below the maximum of a double. What is absurd on the axis at hand is a matter of
+/// rules::plausible_gains().
+constexpr numerics::Interval gain_range{.low = 0, .high = 1e15, .low_included = true, .high_included = true};
+
 /// For a row without a field in TrialParameters.
 struct NoField {};
 

@@ -12,9 +12,6 @@
 namespace zerocount::parameters {
 namespace {
 
-/// Far above the gains of real machines, and far below the maximum of a double.
-constexpr double max_si_gain = 1e15;
-
 std::vector<Parameter> make_table() {
   std::vector<Parameter> table;
   const auto add = [&table](std::vector<Parameter> section, bool of_machine) {
@@ -118,11 +115,6 @@ double default_value(const Parameter& parameter) {
 std::string unit_of(const Parameter& parameter, const StudyUnits& units) {
   const bool si = units.gains == GainUnits::si && !parameter.si_unit.empty();
   return unit_on(units.axis, si ? parameter.si_unit : parameter.unit);
-}
-
-numerics::Interval range_of(const Parameter& parameter, const StudyUnits& units) {
-  const bool si = units.gains == GainUnits::si && !parameter.si_unit.empty();
-  return si ? numerics::closed(0.0, max_si_gain) : parameter.range;
 }
 
 std::string meaning_of(const Parameter& parameter, const StudyUnits& units) {

@@ -143,10 +143,6 @@ std::string length_text(const ListOfValues& list);
 /// Its unit in a study; "1" if dimensionless.
 std::string unit_of(const Parameter& parameter, const StudyUnits& units);
 
-/// The values allowed in a study. The range of a gain in SI units is wide enough for the finest encoder and
-/// the shortest sample time.
-numerics::Interval range_of(const Parameter& parameter, const StudyUnits& units);
-
 /// Its meaning, in the terms of the study's kind of axis and units.
 std::string meaning_of(const Parameter& parameter, const StudyUnits& units);
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,7 +13,9 @@ namespace {
 using Limits = std::span<const study::ValueLimits>;
 using Faults = std::vector<ValueFault>;
 
-constexpr double lowest_natural_frequency = 2.0;  // Hz; that of a positioning axis is tens to hundreds
+// That of a positioning axis is tens to hundreds of Hz; of a telescope, which is sampled slowly, below 1 Hz.
+constexpr double max_lowest_natural_frequency = 2.0;  // Hz
+constexpr double min_of_sample_rate = 1e-3;
 
 constexpr double min_delay = 0.01;  // samples; nobody measures less
 constexpr double max_delay = 20.0;  // samples; a loop has some of them
@@ -62,9 +65,9 @@ std::vector<ValueRule> plausible_dynamics(const study::StudyPlan& plan) {
         const std::string what = fmt::format(
             "the natural frequency is {:.3g} Hz, that of an inertia of {:.4g} {} on {} = {:.4g} {}",
             frequency, l[0].typical, kg, k.name, k.value, stiff);
-        if (frequency < lowest_natural_frequency)
-          return {{what, fmt::format("at least {} Hz; is a power of ten wrong, or a unit?",
-                                     lowest_natural_frequency)}};
+        const double lowest = std::min(max_lowest_natural_frequency, min_of_sample_rate * l[4].typical);
+        if (frequency < lowest)
+          return {{what, fmt::format("at least {:.3g} Hz; is a power of ten wrong, or a unit?", lowest)}};
         if (frequency > 0.5 * l[4].typical)
           return {
               {what, fmt::format("less than half the sample rate of {:.4g} Hz; is a power of ten wrong, or a "

@@ -6,6 +6,7 @@
 #include "core/loop/dac.hpp"
 #include "core/theory/gains.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/parameters/phase_path.hpp"
 #include "experiments/rules/plausibility.hpp"
 
 namespace zerocount::rules {
@@ -60,6 +61,12 @@ double max_torque(Limits l) {
   return l[range].typical > 0.0 ? l[range].typical : -loop::lowest_torque(dac);
 }
 
+/// What a gain does, and the torque that it commands by it, N m.
+struct TorqueOf {
+  std::string_view action;
+  double torque;
+};
+
 ValueRule within_the_converter(const study::StudyPlan& plan, const Gain& gain) {
   const parameters::Parameter& row =
       parameters::parameter_table()[parameters::find_parameter(gain.name).value()];
@@ -85,12 +92,63 @@ ValueRule within_the_converter(const study::StudyPlan& plan, const Gain& gain) {
       });
 }
 
+/// The rows of one phase of the control that has a cascade.
+template <parameters::Phase phase>
+std::vector<ValueRule> cascade_within_the_converter(const study::StudyPlan& plan) {
+  enum : std::size_t { kp = 0, feedforward = 0, kv = 8, ki = 9 };  // after those of a gain
+  const auto rule = [&plan](std::string_view first, std::vector<std::string_view> more,
+                            const std::function<std::vector<TorqueOf>(Limits, double count)>& torques) {
+    std::vector<std::string_view> between{first,
+                                          parameters::phase_path<phase, "structure">,
+                                          "dac.bits",
+                                          "dac.resolution",
+                                          "dac.range",
+                                          "controller.sample_rate",
+                                          fine_encoder_name(plan),
+                                          "controller.coarse.coarse_beyond"};
+    between.insert(between.end(), more.begin(), more.end());
+    return plausibility_rule(between, [&plan, torques](Limits l) -> Faults {
+      if (phase == parameters::Phase::coarse && !study::can_have_coarse_phase(l[coarse_beyond])) return {};
+      const double largest = max_torque(l);
+      const std::string unit = parameters::unit_on(plan.units.axis, "N m");
+      for (const TorqueOf& of : torques(l, typical_count(plan, l[encoder].typical))) {
+        if (!(of.torque > largest)) continue;
+        return {{fmt::format("{} {:.3g} {}, beyond the ±{:.3g} {} of the DAC", of.action, of.torque, unit,
+                             largest, unit),
+                 "a gain of this axis; is a power of ten wrong, or a unit?"}};
+      }
+      return {};
+    });
+  };
+  const auto is_cascade = [](Limits l) {
+    return l[structure].low == static_cast<double>(loop::ControlStructure::cascade);
+  };
+  return {rule(parameters::phase_path<phase, "cascade.kp">,
+               {parameters::phase_path<phase, "cascade.kv">, parameters::phase_path<phase, "cascade.ki">},
+               [is_cascade](Limits l, double count) -> std::vector<TorqueOf> {
+                 if (!is_cascade(l)) return {};
+                 const double T = 1.0 / l[sample_rate].typical;
+                 return {{by_error, l[kp].typical * l[kv].typical * count},
+                         {by_change, l[kp].typical * count / T},
+                         {by_sum, l[ki].typical * 0.5 * T * l[kv].typical * count}};
+               }),
+          rule(parameters::phase_path<phase, "feedforward.friction">, {},
+               [](Limits l, double) -> std::vector<TorqueOf> {
+                 return {{"the feed-forward of friction commands", l[feedforward].typical}};
+               })};
+}
+
 }  // namespace
 
 std::vector<ValueRule> plausible_gains(const study::StudyPlan& plan) {
   std::vector<ValueRule> rules;
   if (plan.open_loop || plan.plugin) return rules;
-  for (const Gain& gain : gains) rules.push_back(within_the_converter(plan, gain));
+  const auto add = [&rules](const std::vector<ValueRule>& more) {
+    rules.insert(rules.end(), more.begin(), more.end());
+  };
+  for (const Gain& gain : gains) add({within_the_converter(plan, gain)});
+  add(cascade_within_the_converter<parameters::Phase::fine>(plan));
+  add(cascade_within_the_converter<parameters::Phase::coarse>(plan));
   return rules;
 }
 

@@ -105,7 +105,7 @@ void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuni
     study::FreeParameter parameter{.name = std::string(row.name),
                                    .unit = parameters::unit_of(row, plan.units),
                                    .whole = row.kind == parameters::ParameterKind::whole_number};
-    read_range(field, parameters::range_of(row, plan.units), parameter, problems);
+    read_range(field, row.range, parameter, problems);
     tuning.free.push_back(parameter);
   }
 }

@@ -78,7 +78,7 @@ Widened PointEdit::widen(double factor) {
     const std::string_view name = row.name;
     const Value* const drawn = value_at_point(plan_, slot, point_);
     if (drawn == nullptr || name.starts_with("initial.") || name.starts_with("command.")) continue;
-    const numerics::Interval range = parameters::range_of(row, plan_.units);
+    const numerics::Interval& range = row.range;
     if (std::ranges::find(plan_.sampled_slots, static_cast<std::uint32_t>(slot)) != plan_.sampled_slots.end())
       continue;
     Value value = *drawn;
@@ -122,7 +122,7 @@ std::string PointEdit::out_of_range() const {
   for (const Assignment& one : plan_.axes.back().assignments) {
     const parameters::Parameter& parameter = plan_.table.rows[one.slot];
     const ValueLimits limits = limits_of(plan_, one.value);
-    const numerics::Interval range = parameters::range_of(parameter, plan_.units);
+    const numerics::Interval& range = parameter.range;
     const auto is_allowed = [&](double value) {
       return value == parameter.none || numerics::contains(range, value);
     };

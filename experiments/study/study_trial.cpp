@@ -110,7 +110,7 @@ double age_factor_of(const TrialDraws& draws, const Value& value, std::size_t po
 double at_age(const TrialDraws& draws, std::uint32_t slot, std::size_t point, double number, double factor) {
   const StudyPlan& plan = draws.plan();
   const parameters::Parameter& parameter = plan.table.rows[slot];
-  const numerics::Interval range = parameters::range_of(parameter, plan.units);
+  const numerics::Interval& range = parameter.range;
   if (numerics::contains(range, number * factor)) return number * factor;
   throw Failure(
       ExitCode::bad_input,

@@ -13,8 +13,8 @@
 namespace zerocount::reading {
 namespace {
 
-bool is_allowed(const parameters::Parameter& row, const parameters::StudyUnits& units, double value) {
-  return numerics::contains(parameters::range_of(row, units), value) || (row.none && value == *row.none);
+bool is_allowed(const parameters::Parameter& row, double value) {
+  return numerics::contains(row.range, value) || (row.none && value == *row.none);
 }
 
 }  // namespace
@@ -29,9 +29,9 @@ void check_inputs(const TrialTables& trials, const study::Study& study, layout::
     const std::vector<double> values = trials.input(column, positions);
     const parameters::Parameter& row = study.plan->table.rows[sources[column].slot];
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (is_allowed(row, study.units, values[i])) continue;
+      if (is_allowed(row, values[i])) continue;
       report(fmt::format("/trial/input/{}: trial {}: it is {}; expected {}", columns[column].name, rows[i],
-                         values[i], numerics::range_text(parameters::range_of(row, study.units))));
+                         values[i], numerics::range_text(row.range)));
     }
   }
 }

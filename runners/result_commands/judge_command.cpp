@@ -10,6 +10,7 @@
 #include "analysis/summary/claims_of_point.hpp"
 #include "analysis/summary/conditions_of_point.hpp"
 #include "analysis/summary/judged_point.hpp"
+#include "analysis/summary/missed_moves.hpp"
 #include "analysis/summary/worlds_description.hpp"
 #include "analysis/summary/worlds_of_point.hpp"
 #include "results/shards/pieces.hpp"
@@ -44,6 +45,7 @@ struct Judgement {
   std::vector<summary::ClaimOfPoint> claims;          ///< each goal under each condition
   std::vector<summary::ConditionOfPoint> conditions;  ///< [condition]; empty without conditions
   std::vector<summary::AgeOfPoint> ages;              ///< [age]; empty without ages
+  std::optional<summary::SaturatedMoves> saturated;   ///< of the worst goal and condition, unless it is met
 
   const std::string& label() const { return summary.labels[static_cast<std::size_t>(judged.chosen.point)]; }
   const goal::JudgedPart& worst_goal() const { return summary.question.parts[judged.verdict.goal]; }
@@ -54,6 +56,10 @@ struct Judgement {
   std::optional<std::string> condition() const {
     const std::vector<std::string>& names = summary.question.conditions;
     return names.empty() ? std::nullopt : std::optional(names[judged.verdict.condition]);
+  }
+  /// Proportion of the moves that miss the goal in which the converter clipped.
+  std::optional<double> missed_saturated() const {
+    return saturated && saturated->missed > 0 ? std::optional(saturated->of_missed()) : std::nullopt;
   }
   std::vector<summary::ClaimOfPoint> several_claims() const {
     return claims.size() > 1 ? claims : std::vector<summary::ClaimOfPoint>();
@@ -115,6 +121,14 @@ document::AnswerDescription<Judgement> judge_answer(const goal::Question& questi
       .value({.key = "machines_high", .meaning = "its upper bound", .unit = "1", .shown = Shown::in_data},
              [](Of j) { return j.of_machines(j.judged.verdict.machines.high); })
       .sentence([](Of j) { return summary::judgement_details(j.summary, j.judged); })
+      .value(
+          {.key = "missed_saturated",
+           .meaning = "proportion of the moves that miss the goal in which the converter clipped; null: the "
+                      "goal is met, or the file does not keep every trial",
+           .unit = "1",
+           .shown = Shown::in_data},
+          &Judgement::missed_saturated)
+      .sentence([](Of j) { return j.saturated ? summary::saturation_sentence(*j.saturated) : ""; })
       .value({.key = "chosen_from",
               .meaning = "design points that the point is the best of; 1 if it was named",
               .shown = Shown::in_data},
@@ -146,8 +160,8 @@ document::AnswerDescription<Judgement> judge_answer(const goal::Question& questi
   return answer;
 }
 
-/// Refuses what the description of the file tells, before its trials are read.
-void require_judgeable(const command_line::Arguments& arguments) {
+/// The study of the file. Refuses what its description tells, before its trials are read.
+study::Study judgeable_study(const command_line::Arguments& arguments) {
   const std::filesystem::path path = arguments.operands()[0];
   std::error_code error;
   if (!std::filesystem::exists(path, error) && shards::has_begun(path)) {
@@ -159,22 +173,33 @@ void require_judgeable(const command_line::Arguments& arguments) {
   const study::Study study = commands::described_study(path);
   command_line::point_option(arguments, study.points.labels);
   goal::require_claim(study, path.string());
+  return study;
+}
+
+std::optional<summary::SaturatedMoves> saturated_in(const command_line::Arguments& arguments,
+                                                    const study::Study& study,
+                                                    const summary::JudgedPoint& judged) {
+  if (judged.verdict.status == goal::Status::met) return {};
+  return summary::saturated_moves(arguments.operands()[0], study,
+                                  {judged.chosen.point, judged.verdict.goal, judged.verdict.condition});
 }
 
 ExitCode judge(const command_line::Arguments& arguments) {
-  require_judgeable(arguments);
+  const study::Study study = judgeable_study(arguments);
   const summary::StudySummary summary =
       commands::with_progress("zerocount judge", "computing statistics",
                               [&] { return summary::summarise_file(arguments.operands()[0]); });
   const auto point = command_line::point_option(arguments, summary.labels);
   const summary::ChosenPoint chosen = summary::choose_point(summary, point);
+  const summary::JudgedPoint judged = summary::judge_point(summary, chosen);
   const Judgement judgement{
       summary,
-      summary::judge_point(summary, chosen),
+      judged,
       summary::worlds_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
       summary::claims_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
       summary::conditions_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
-      summary::ages_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from))};
+      summary::ages_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
+      saturated_in(arguments, study, judged)};
   return answers::print(
       arguments,
       judge_answer(summary.question).of(judgement, commands::exit_code_of(judgement.judged.verdict.status)));

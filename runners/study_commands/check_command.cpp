@@ -13,6 +13,7 @@
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary/point_names.hpp"
+#include "analysis/theory/hunting_prediction.hpp"
 #include "analysis/theory/point_theory.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/text/counted.hpp"
@@ -46,7 +47,8 @@ constexpr const char* check_help =
     "    slowest move needs, to compare with the hold\n"
     "  - gain and phase margins of the sampled loop, with all blocks of the controller, at k1, at\n"
     "    k1 + k2 and while the rotor slides\n"
-    "  - for coulomb, dahl and lugre the hunting of trial 0: amplitude and period\n"
+    "  - the hunting of trial 0, with the amplitude and period of its longest move: that move is held\n"
+    "    longer and longer, without noise, until it rests or oscillates for good\n"
     "  - the bandwidth while it slides: the highest frequency at which the open loop has gain 1\n"
     "\n"
     "Example: zerocount check experiments/manifests/paper-gains.yaml\n";
@@ -61,6 +63,7 @@ struct PointReading {
   std::optional<std::string> name;       ///< a short label; none in a study of one point
   std::optional<std::string> condition;  ///< none without conditions
   theory::PointTheory theory;
+  std::optional<theory::HuntingPrediction> hunting;  ///< of trial 0
   std::optional<std::string> targets;
 };
 
@@ -237,6 +240,7 @@ document::Description<PointReading> point_description() {
               .optional = true},
              &PointReading::condition)
       .include(theory::point_theory_description(), &PointReading::theory)
+      .include(theory::hunting_description(), &PointReading::hunting)
       .value({"targets", "targets of trial 0", "targets of trial 0 in SI units, and their counts"},
              &PointReading::targets);
 }
@@ -348,6 +352,12 @@ std::optional<std::string> targets_text(const study::Study& study, std::int64_t 
                      unit, text, moves > shown ? ", …" : "");
 }
 
+std::optional<theory::HuntingPrediction> hunting_of(const study::Study& study, std::int64_t point,
+                                                    std::int64_t condition) {
+  return theory::predict_hunting(
+      study::study_trial(study, point, study::turns_of(study).trial_of(0, condition)).parameters);
+}
+
 /// Warns of the first point whose moves may end before they arrive, and says how many there are.
 void warn_of_short_moves(std::span<const PointReading> points) {
   const auto is_short = [](const PointReading& point) { return point.theory.approach.exceeds_hold(); };
@@ -376,6 +386,7 @@ std::vector<PointReading> examined_points(const study::Study& study, std::int64_
                      ? std::nullopt
                      : std::optional(study.conditions[static_cast<std::size_t>(condition)]),
                  theory::examine(study, point, condition, rotors),
+                 hunting_of(study, point, condition),
                  targets_text(study, point, condition)};
   };
   std::vector<theory::KnownRotor> of_first;

@@ -95,15 +95,6 @@ class CheckAnswer(Answer):
         - ``label``: label of the design point
         - ``condition``: what every machine bears
         - ``outside``: why (6) and (7) do not apply; null: they do
-        - ``hunting_left_out``: part of the loop that the predictions leave out
-        - ``hunting_by_function``: cycles of trial 0 by describing function
-          - ``amplitude``: half of its range, count
-          - ``period``: its period, s
-          - ``rough``: within a third of trials, not a twentieth
-        - ``hunting_by_stick_slip``: cycles of trial 0 by stick-slip
-          - ``amplitude``: half of its range, count
-          - ``period``: its period, s
-          - ``rough``: within a third of trials, not a twentieth
         - ``gain_name``: name of the integral gain
         - ``gain_unit``: unit of the gain and its bounds
         - ``gain``.* (low, high): integral gain, over the trials
@@ -144,6 +135,11 @@ class CheckAnswer(Answer):
           - ``gain_margin_at``.* (low, high): frequency of the gain margin, over the trials, Hz
           - ``phase_margin``.* (low, high): phase margin, over the trials, °
           - ``phase_margin_at``.* (low, high): frequency of the phase margin, over the trials, Hz
+        - ``hunting``: what the longest move of trial 0 comes to
+        - ``hunting_step``: length of that move, count
+        - ``hunting_amplitude``: half of the range of its oscillation; null: it does not hunt, count
+        - ``hunting_period``: period of the oscillation, s
+        - ``hunting_duration``: time that the move was held to see it, s
         - ``targets``: targets of trial 0 in SI units, and their counts
 
     """
@@ -1136,6 +1132,9 @@ class JudgeAnswer(Answer):
         Lower bound of the proportion of machines that meet the goal, if it is about machines.
     machines_high : float or None
         Its upper bound.
+    missed_saturated : float or None
+        Proportion of the moves that miss the goal in which the converter clipped; null: the goal is met, or the file
+        does not keep every trial.
     chosen_from : int
         Design points that the point is the best of; 1 if it was named.
     needed : Needed or None
@@ -1202,6 +1201,7 @@ class JudgeAnswer(Answer):
     rate_high: float | None
     machines_low: float | None
     machines_high: float | None
+    missed_saturated: float | None
     chosen_from: int
     needed: Needed | None
     worlds: JudgeWorlds | None

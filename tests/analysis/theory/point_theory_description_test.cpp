@@ -23,23 +23,6 @@ document::Answer theory_with(const std::string& friction) {
   return answer.of(examine(study, 0));
 }
 
-// A stiff bristle with a static level sticks and slides as Coulomb friction does.
-TEST(PointTheoryDescription, PredictsStickSlipWithABristleToo) {
-  const std::string levels = "breakaway: 0.1, coulomb_ratio: 0.6, stribeck_velocity: 1.0e-3";
-  const auto coulomb = document::json(theory_with("model: coulomb, " + levels));
-  EXPECT_EQ(coulomb["hunting_by_stick_slip"].size(), 1U);
-  const document::Answer bristle = theory_with("model: lugre, sigma0: 3.0e+4, sigma1: 15, " + levels);
-  EXPECT_EQ(document::json(bristle)["hunting_by_stick_slip"].size(), 1U);
-  EXPECT_EQ(document::json(bristle)["hunting_by_stick_slip"][0]["rough"], true);
-  const std::string text = document::text(bristle);
-  EXPECT_NE(text.find("within a third (before it slides, the bristle yields"), std::string::npos) << text;
-  EXPECT_EQ(text.find("by describing function"), std::string::npos) << "which leaves this cycle out\n"
-                                                                    << text;
-  const std::string dahl = document::text(theory_with("model: dahl, sigma0: 3.0e+4, breakaway: 0.1"));
-  EXPECT_NE(dahl.find("hunting of trial 0, by stick-slip: "), std::string::npos) << dahl;
-  EXPECT_NE(dahl.find(" no lasting cycle\n"), std::string::npos) << dahl;
-}
-
 TEST(PointTheoryDescription, HasTheNumbersOfEachStatement) {
   const document::Answer answer = theory_with("k1: 110");
   const auto theory = document::json(answer);

@@ -12,7 +12,7 @@
 namespace zerocount::sections {
 namespace {
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr double without_limit = std::numeric_limits<double>::infinity();
 
 PluginLoader two_parameters() {
   return known_plugin(std::make_shared<const plugin::ControllerPlugin>(
@@ -20,7 +20,7 @@ PluginLoader two_parameters() {
                                 "1",
                                 "0123",
                                 {{"gain", "N m/count", "a gain", 3.0, 0.0, 10.0},
-                                 {"offset", "1", "any", 0.0, -unlimited, unlimited}}}}));
+                                 {"offset", "1", "any", 0.0, -without_limit, without_limit}}}}));
 }
 
 study::Study study_with_plugin(const std::string& more, const std::vector<std::string>& overrides = {}) {

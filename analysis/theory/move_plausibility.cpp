@@ -1,0 +1,191 @@
+#include "analysis/theory/move_plausibility.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/friction/law.hpp"
+#include "core/loop/dac.hpp"
+#include "core/loop/encoder.hpp"
+#include "core/loop/measurement.hpp"
+#include "core/loop/reference.hpp"
+#include "core/motion/disturbance.hpp"
+#include "core/theory/shortest_move.hpp"
+
+namespace zerocount::theory {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double largest_torque(const loop::DacParameters& dac) {
+  return std::max(std::abs(loop::torque_with_errors(dac, loop::lowest_code(dac))),
+                  std::abs(loop::torque_with_errors(dac, loop::highest_code(dac))));
+}
+
+/// Friction as a bound of motion.
+struct FrictionBound {
+  double sliding{0.0};    ///< least torque while it slides, N m
+  double breakaway{0.0};  ///< largest torque, N m
+  double travel{0.0};     ///< before it slides, rad
+};
+
+FrictionBound friction_bound(const trial::TrialParameters& p) {
+  if (!friction::has_friction(p.friction.model)) return {};
+  constexpr double travels = 5.0;  // a bristle approaches its level by exp(−travel·σ0/level)
+  const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
+  FrictionBound bound{contact.coulomb_ratio * contact.breakaway, contact.breakaway};
+  for (const friction::LinearContact& linear :
+       friction::traits_of(p.friction.model).linear_contacts(p.plant, p.friction, contact)) {
+    if (!linear.slides && linear.stiffness > 0.0)
+      bound.travel = std::max(bound.travel, travels * contact.breakaway / linear.stiffness);
+  }
+  return bound;
+}
+
+double viscous_damping(const trial::TrialParameters& p) {
+  const friction::LawTraits& law = friction::traits_of(p.friction.model);
+  if (law.has_sliding_damping) return p.plant.sliding_damping;
+  return law.has_presliding_damping ? p.plant.presliding_damping : 0.0;
+}
+
+/// The torques of a move at their best.
+struct BestTorques {
+  double driving;  ///< N m, without friction
+  double braking;  ///< N m, with friction
+};
+
+BestTorques best_torques(const MoveOfTrial& move, const FrictionBound& friction) {
+  const trial::TrialParameters& p = move.of.trial;
+  double favour = largest_torque(p.dac);
+  for (const trial::RippleParameters& ripple : p.disturbance.ripple) favour += std::abs(ripple.amplitude);
+  for (const trial::VibrationParameters& one : p.disturbance.vibration) favour += std::abs(one.amplitude);
+  const double along = move.direction() * p.disturbance.torque;
+  return {favour + along, favour - along + friction.breakaway};
+}
+
+/// Over a travel before it slides the axis gains all the energy that the torque has.
+double shortest_time(const MoveOfTrial& move) {
+  const trial::TrialParameters& p = move.of.trial;
+  const FrictionBound friction = friction_bound(p);
+  const BestTorques torques = best_torques(move, friction);
+  const double inertia = p.plant.inertia + p.plant.load.inertia;
+  const double distance = move.distance() - 0.5 * move.of.width();
+  DrivenAxis axis{inertia, viscous_damping(p), torques.driving, torques.braking};
+  if (!(torques.driving > 0.0) || distance <= friction.travel) return shortest_move(axis, distance);
+  const double energy = torques.driving * friction.travel;
+  const double sliding = distance - friction.travel;
+  axis.driving -= friction.sliding;
+  if (!(axis.driving > 0.0)) return sliding * -axis.driving > energy ? infinity : 0.0;
+  const double run_up = energy / axis.driving;  // from rest to that energy
+  const double run_up_time = std::sqrt(2.0 * run_up * inertia / axis.driving);
+  return std::max(shortest_move(axis, sliding + run_up) - run_up_time, 0.0);
+}
+
+/// Constant torque and ripple at an angle, N m.
+double standing_torque(const trial::TrialParameters& p, double theta) {
+  trial::DisturbanceParameters standing = p.disturbance;
+  standing.vibration.clear();
+  standing.spectra.clear();
+  const motion::Disturbance disturbance = trial::disturbance_of(standing, p.initial.position, p.randomness);
+  return disturbance.torque + motion::value({disturbance, 0.0, theta});
+}
+
+}  // namespace
+
+Doubt band_is_half_a_step(const GoalOfTrial& of) {
+  constexpr double half_or_more = 1.0 + 1e-9;
+  const double reach =
+      of.goal.tolerance ? *of.goal.tolerance : static_cast<double>(of.goal.band) * of.count();
+  Doubt worst;
+  for (const MoveOfTrial& move : moves_of(of)) {
+    const double ratio = half_or_more * 2.0 * reach / move.distance();
+    if (!(ratio > worst.ratio)) continue;
+    worst = {ratio,
+             fmt::format("{} is half of the step of {} by {}, or more: the move is within it on its way; "
+                         "expected less than half of a step, or goal.on without this move",
+                         of.band_text(), move.name(), of.length(move.distance()))};
+  }
+  return worst;
+}
+
+Doubt reference_is_on_its_way(const MoveOfTrial& move) {
+  const trial::TrialParameters& p = move.of.trial;
+  const double resolution = loop::fine_resolution(p.encoder);
+  const auto counts = [&](double angle) {
+    return static_cast<std::int64_t>(std::llround(angle / resolution));
+  };
+  const loop::Reference reference(p.command.profile, counts(move.from), counts(move.to), resolution);
+  const double within = move.of.goal.within;
+  if (!(within < reference.duration())) return {};
+  const double left =
+      std::abs(static_cast<double>(counts(move.to)) - reference.exact_at(within)) * resolution;
+  return {left / (0.5 * move.of.width()),
+          fmt::format("{} takes {:.4g} s by its profile, and after the {:.4g} s of the goal the reference is "
+                      "still {} from its end, beyond {}; expected `within` of at least {:.4g} s, or higher "
+                      "limits of the profile",
+                      move.name(), reference.duration(), within, move.of.length(left), move.of.band_text(),
+                      reference.duration())};
+}
+
+Doubt torque_is_too_small_for_the_move(const MoveOfTrial& move) {
+  const trial::TrialParameters& p = move.of.trial;
+  const bool starts_at_rest = move.number > 0 || p.initial.velocity == 0.0;
+  if (!p.disturbance.spectra.empty() || !starts_at_rest) return {};
+  const double time = shortest_time(move) + p.controller.delay / p.controller.sample_rate;
+  const std::string what =
+      fmt::format("{} by {} with an inertia of {:.3g} {} and the ±{} of the converter", move.name(),
+                  move.of.length(move.distance()), p.plant.inertia + p.plant.load.inertia,
+                  move.of.unit("kg m^2"), move.of.torque(largest_torque(p.dac)));
+  if (std::isinf(time))
+    return {infinity, what +
+                          " never ends: friction and disturbance exceed the torque; expected a larger "
+                          "range of the converter"};
+  return {time / move.within(),
+          fmt::format("{} takes {:.3g} s at least, longer than the {:.4g} s that it has; expected a larger "
+                      "range, more time, or a shorter move",
+                      what, time, move.within())};
+}
+
+Doubt torque_is_too_small_at_the_target(const MoveOfTrial& move) {
+  const trial::TrialParameters& p = move.of.trial;
+  const double range = largest_torque(p.dac);
+  const double torque = std::abs(standing_torque(p, move.to));
+  const bool sticks = torque <= range + friction_bound(p).breakaway;
+  return {
+      torque / range,
+      fmt::format("at the target of {} the disturbance (torque and ripple) is {}, more than the ±{} of the "
+                  "converter: {}; expected a larger range, or less disturbance",
+                  move.name(), move.of.torque(torque), move.of.torque(range),
+                  sticks ? "only friction can hold the axis there" : "nothing holds the axis there")};
+}
+
+Doubt encoder_misplaces_the_target(const MoveOfTrial& move) {
+  const GoalOfTrial& of = move.of;
+  const trial::TrialParameters& p = of.trial;
+  loop::EncoderErrors systematic = of.errors();
+  systematic.noise = 0.0;
+  systematic.missed = 0.0;
+  if (!of.goal.tolerance || of.feeds_back_coarse() || !loop::has_errors(systematic)) return {};
+  const double count = of.count();
+  const double phase = p.initial.encoder_phase;
+  const auto count_at = [&](double theta) {
+    loop::ImperfectEncoder encoder(loop::fine_encoder(p.encoder, phase), systematic, p.initial.position,
+                                   1.0 / p.controller.sample_rate, 0, {}, {});
+    return encoder.read(0, theta);
+  };
+  const std::int64_t target = p.command.targets[move.number];
+  const double middle = move.to + (0.5 - phase) * count;  // where the position error is 0
+  const std::int64_t lowest = count_at(middle - *of.goal.tolerance);
+  const std::int64_t highest = count_at(middle + *of.goal.tolerance);
+  if (lowest <= target && target <= highest) return {};
+  const double error = std::abs(static_cast<double>(count_at(middle) - target)) * count;
+  return {
+      std::max(error / *of.goal.tolerance, 1.0 + 1e-9),
+      fmt::format("the systematic errors of the encoder misplace the target of {} by about {}, beyond {}; "
+                  "expected smaller errors, or a wider tolerance",
+                  move.name(), of.length(error), of.band_text())};
+}
+
+}  // namespace zerocount::theory

@@ -160,16 +160,17 @@ struct GoalTest {
   Doubt (*of_trial)(const GoalOfTrial&){nullptr};
   Doubt (*of_move)(const MoveOfTrial&){nullptr};
   bool needs_goal{true};
+  bool holds_for_any_controller{false};
 };
 constexpr std::array<GoalTest, 9> goal_tests{{{zero_counts_are_wider},
                                               {noise_leaves_the_band},
                                               {noise_moves_the_axis},
                                               {code_leaves_the_band},
                                               {band_is_half_a_step},
-                                              {nullptr, reference_is_on_its_way},
-                                              {nullptr, torque_is_too_small_for_the_move, false},
+                                              {nullptr, reference_is_on_its_way, true, true},
+                                              {nullptr, torque_is_too_small_for_the_move, false, true},
                                               {nullptr, torque_is_too_small_at_the_target, false},
-                                              {nullptr, encoder_misplaces_the_target}}};
+                                              {nullptr, encoder_misplaces_the_target, true, true}}};
 
 /// What a test says of the trials of a point under a condition.
 class DoubtOfTrials {
@@ -291,9 +292,12 @@ NoiseResponse response_to_noise(const FrozenLoop& loop, NoiseAt at, double bandw
   return {std::sqrt(mean_square), static_cast<double>(lag)};
 }
 
-std::vector<std::string> doubtful_goals(const study::Study& study) {
-  std::vector<std::string> lines;
-  if (study.open_loop) return lines;
+namespace {
+
+/// The worst line of each test, [test]; empty where it does not fail.
+WorstLines worst_lines(const study::Study& study) {
+  WorstLines worst;
+  if (study.open_loop) return worst;
   const study::Goal none{.within = std::numeric_limits<double>::infinity()};
   const std::span<const study::Goal> goals =
       study.goals.empty() ? std::span(&none, 1) : std::span<const study::Goal>(study.goals);
@@ -305,14 +309,27 @@ std::vector<std::string> doubtful_goals(const study::Study& study) {
       std::min(study::draw_count(study),
                std::clamp<std::int64_t>(max_trials_doubted / (conditions * std::ssize(points)),
                                         max_draws_examined, max_draws_of_moves));
-  WorstLines worst;
   for (const std::int64_t point : points) {
     for (std::int64_t condition = 0; condition < conditions; ++condition)
       examine_goals(study, goals, point, condition, draws, worst);
   }
-  for (WorstLine& line : worst) {
+  return worst;
+}
+
+}  // namespace
+
+std::vector<std::string> doubtful_goals(const study::Study& study) {
+  std::vector<std::string> lines;
+  for (WorstLine& line : worst_lines(study))
     if (!line.text.empty()) lines.push_back(std::move(line.text));
-  }
+  return lines;
+}
+
+std::vector<std::string> goals_out_of_reach(const study::Study& study) {
+  std::vector<std::string> lines;
+  const WorstLines worst = worst_lines(study);
+  for (std::size_t i = 0; i < worst.size(); ++i)
+    if (goal_tests[i].holds_for_any_controller && !worst[i].text.empty()) lines.push_back(worst[i].text);
   return lines;
 }
 

@@ -27,6 +27,10 @@ struct FrozenLoop;
 /// for more of their moves than the goal permits, by more than chance.
 std::vector<std::string> doubtful_goals(const study::Study& study);
 
+/// Those of the tests that no value of the controller changes: the torque is too small for a move, its
+/// reference is still on its way at `within`, or the encoder misplaces its target.
+std::vector<std::string> goals_out_of_reach(const study::Study& study);
+
 /// Largest proportion of moves whose |count error| is within the band at all of `samples` sampling instants:
 /// the axis stands in the middle of its count, and the encoder has Gaussian noise.
 ///

@@ -113,6 +113,14 @@ void add_margins(const StudySearch& search, bool slides, const std::stop_token& 
   answer.lowest_mode = search.examiner().lowest_mode(tuned, slides, stop);
 }
 
+/// Whether theory excludes the goal for all values of the free parameters, which are of the controller alone.
+bool is_out_of_reach(const study::Study& proven, std::span<const study::FreeParameter> free) {
+  const auto is_of_controller = [](const study::FreeParameter& one) {
+    return one.name.starts_with("controller.");
+  };
+  return std::ranges::all_of(free, is_of_controller) && !theory::goals_out_of_reach(proven).empty();
+}
+
 /// Completes the answer by a proof, of which `file` is the results file.
 void describe_proof(study::Study proven, const reading::AllTrialsFile& file, const Judged& judged,
                     TuneAnswer& answer) {
@@ -120,7 +128,8 @@ void describe_proof(study::Study proven, const reading::AllTrialsFile& file, con
   answer.gains = judged.candidate.values;
   answer.at_edges = edges_of(answer.free, answer.gains);
   answer.status = verdict.status;
-  if (answer.status == goal::Status::missed && !answer.missed.shows_unreachable())
+  if (answer.status == goal::Status::missed && !answer.missed.shows_unreachable() &&
+      !is_out_of_reach(proven, answer.free))
     answer.status = goal::Status::undecided;
   answer.worst = worst_machine(proven, 0, judged.candidate.units);
   const std::size_t worst_claim = claim_at(proven, {verdict.goal, verdict.condition});

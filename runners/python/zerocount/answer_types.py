@@ -2625,6 +2625,11 @@ class AcceptAnswer(Answer):
     ----------
     status : Literal["accepted", "rejected", "undecided"]
         Verdict on the machines.
+    judged : Literal["all_machines", "these_machines"]
+        Machines that the goals are judged for.
+    needed_machines : int or None
+        Machines, with as many moves each, that would decide the goals for all machines; null: they are decided, or no
+        number is known.
     study : str
         The results file of the prediction.
     point : str
@@ -2635,7 +2640,8 @@ class AcceptAnswer(Answer):
         Each goal.
 
         - ``goal``: name of the goal
-        - ``status``: verdict on the goal
+        - ``status``: verdict on the machines by the goal and its prediction
+        - ``goal_status``: verdict on the goal alone, whatever was predicted
         - ``wanted``: proportion of moves that should meet it
         - ``predicted``: proportion of the simulated moves that meet it; bounds: of as many machines, in as many moves
           as are compared, with 95 %
@@ -2685,6 +2691,8 @@ class AcceptAnswer(Answer):
     """
 
     status: Literal["accepted", "rejected", "undecided"]
+    judged: Literal["all_machines", "these_machines"]
+    needed_machines: int | None
     study: str
     point: str
     simulated_machines: int

@@ -335,6 +335,17 @@ TEST_F(Tune, OfAGoalBeyondReachSaysSo) {
   EXPECT_EQ(program({"judge", "tuned.h5"}).code, 1);
 }
 
+// Moves of some counts within 4 ms take more torque than the converter has: 0 % everywhere, and no gains help.
+TEST_F(Tune, OfAMoveThatTheTorqueCannotMakeIsUnreachableWithoutALandscape) {
+  write_axis("dac: {bits: 12, resolution: 1.0e-7}\ngoal: {band: 0, within: 0.004, moves: 0.98}\n" +
+             std::string(two_gains));
+  const ProgramResult result = tune({}, "5000");
+  EXPECT_EQ(result.code, 1) << result.out << result.err;
+  const Json answer = Json::parse(result.out);
+  EXPECT_EQ(answer["status"], "unreachable");
+  EXPECT_NE(answer["obstacles"].dump().find("longer than the"), std::string::npos) << answer["obstacles"];
+}
+
 // The quietest gains that meet the goal are lower than the fastest ones.
 TEST_F(Tune, MinimisesTheTorqueNoiseAtRest) {
   const std::string goal = "verdict: {motion: true}\ngoal: {band: 1, within: 0.1, moves: 0.95}\n";

@@ -16,11 +16,11 @@ inline constexpr std::size_t min_possible_worlds = 4;
 /// reached.
 struct Learned {
   std::size_t input{0};
-  std::int64_t decided_good{0};  ///< worlds in which the goal is reached, and in all that remain possible
-  std::int64_t decided_bad{0};   ///< worlds that fall short, as all that remain possible
+  std::int64_t decided_good{0};   ///< worlds in which the goal is reached, and in all that remain possible
+  std::int64_t decided_bad{0};    ///< worlds that fall short, as all that remain possible
   std::int64_t rejected_good{0};  ///< good worlds, of which all others that remain possible fall short
   std::int64_t missed_bad{0};     ///< bad worlds, in all others of which that remain possible it is reached
-  std::int64_t open{0};          ///< worlds with both kinds among those that remain possible
+  std::int64_t open{0};           ///< worlds with both kinds among those that remain possible
   /// Probability of as many decided, less misjudged, for this or any other parameter, if good and bad worlds
   /// had nothing to do with any of them: an unknown that does not matter decides too where few worlds are
   /// bad.
@@ -28,9 +28,9 @@ struct Learned {
 
   std::int64_t decided() const { return decided_good + decided_bad; }
   std::int64_t misjudged() const { return rejected_good + missed_bad; }
-  /// Whether the measurement does better than a word that needs none: it finds more bad worlds than it rejects
-  /// good ones ("all are good" finds and rejects none), and more good worlds than it misses bad ones ("all are
-  /// bad"). A world that it leaves open is taken as by that word.
+  /// Whether the measurement does better than a word that needs none: it finds more bad worlds than it
+  /// rejects good ones ("all are good" finds and rejects none), and more good worlds than it misses bad ones
+  /// ("all are bad"). A world that it leaves open is taken as by that word.
   bool does_better_than_no_measurement() const {
     return decided_bad > rejected_good && decided_good > missed_bad;
   }

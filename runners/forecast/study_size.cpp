@@ -31,8 +31,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t max_sampled_trials = 512;
-constexpr double max_sampled_samples = 1.5e6;  // takes some tenths of a second
-constexpr double max_traced_samples = 2e5;     // by the slower reference engine
+constexpr double max_sampled_samples = 5e5;  // takes a tenth of a second
+constexpr double max_traced_samples = 2e5;   // by the slower reference engine
 /// For the sampled trials, and for those with traces. Where none ends in time, a trial without jerks stands
 /// for them.
 constexpr double sampling_limit = 2.0;  // s

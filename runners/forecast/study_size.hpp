@@ -13,7 +13,7 @@ struct StudySize {
   double memory_bytes{0.0};  ///< peak
 };
 
-/// Forecasts the sizes from the columns of the tables. Up to 512 trials spread over the study (about 1 500
+/// Forecasts the sizes from the columns of the tables. Up to 512 trials spread over the study (about 500
 /// 000 samples at most) tell how many jerks and failures there are, how long sums are, and how well the
 /// values are compressed. For a study with `stop`: the maximum number of trials.
 /// @param threads of the run; 0: all cores

@@ -84,8 +84,8 @@ struct Outcome {
     return static_cast<std::size_t>(std::count(worlds.bad.begin(), worlds.bad.end(), true));
   }
   bool worlds_differ() const { return bad() > 0 && bad() < worlds.bad.size(); }
-  /// The measurement that decides most, of those that are shown to decide more than chance, and do better than
-  /// no measurement.
+  /// The measurement that decides most, of those that are shown to decide more than chance, and do better
+  /// than no measurement.
   const worlds::Learned* best() const {
     const auto found = std::ranges::find_if(learned, [](const worlds::Learned& one) {
       return one.p_value <= significance && one.does_better_than_no_measurement();
@@ -150,7 +150,8 @@ std::string unmeasured_sentence(const Outcome& outcome) {
   if (outcome.learned.empty()) return "";
   const std::size_t all = outcome.worlds.bad.size();
   return fmt::format(
-      "without a measurement: to call all worlds good is right in {} of {}, finds none of the {} bad ones and "
+      "without a measurement: to call all worlds good is right in {} of {}, finds none of the {} bad ones "
+      "and "
       "rejects no good one; to call all bad is right in {}, and rejects the {} good ones",
       all - outcome.bad(), all, outcome.bad(), outcome.bad(), all - outcome.bad());
 }
@@ -185,10 +186,11 @@ std::string headline_of(const Outcome& outcome) {
           outcome.bad() == 0 ? std::string("none") : fmt::format("all {}", all));
     case Next::measure: {
       const worlds::Learned& best = *outcome.best();
-      return fmt::format("measure {}: it finds {} of the {} worlds that fall short and rejects {} of the {} "
-                         "others; it leaves {} open",
-                         outcome.inputs()[best.input].name, best.decided_bad, outcome.bad(),
-                         best.rejected_good, all - outcome.bad(), best.open);
+      return fmt::format(
+          "measure {}: it finds {} of the {} worlds that fall short and rejects {} of the {} "
+          "others; it leaves {} open",
+          outcome.inputs()[best.input].name, best.decided_bad, outcome.bad(), best.rejected_good,
+          all - outcome.bad(), best.open);
     }
     case Next::no_single:
       break;

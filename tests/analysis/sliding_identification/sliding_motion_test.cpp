@@ -25,21 +25,27 @@ constexpr double excess = 0.15;
 constexpr double stribeck_velocity = 0.5;
 
 SlidingPoint point_of_motion() {
-  SlidingPoint point;
-  point << std::log(inertia), coulomb, damping, offset, excess, std::log(stribeck_velocity);
+  SlidingPoint point = SlidingPoint::Zero();
+  point.head<sliding_identification::position_amplitudes>() << std::log(inertia), coulomb, damping, offset,
+      excess, std::log(stribeck_velocity);
   return point;
 }
 
-/// 200 samples under a wavy torque; behind an amplifier if `rate` is not 0.
+/// 200 samples under a wavy torque; behind an amplifier if `rate` is not 0. Torques that depend on the
+/// position have a shape at each sample; their amplitudes are those of the point.
 SlidingRecord wavy_record(double direction, double rate) {
   SlidingRecord record;
   for (int k = 0; k < 200; ++k) {
     record.time.push_back(1e-3 * k);
     const double torque = direction * (0.6 + 0.1 * std::sin(0.05 * k));
     record.torque.push_back({torque, rate > 0.0 ? torque + 0.02 : torque, rate});
+    auto& shape = record.shape.emplace_back();
+    for (std::size_t term = 0; term < shape.size(); ++term)
+      shape[term] = std::sin(0.01 * k * static_cast<double>(term + 1));
   }
   record.position.assign(200, 0.0);
   record.resolution = 1.0;
+  record.waves = sliding_identification::max_position_waves;
   return record;
 }
 
@@ -103,7 +109,9 @@ TEST(SlidingMotion, IsThatOfThePlant) {
 TEST(SlidingMotion, DerivativesAreThoseOfTheMotion) {
   const SlidingRecord record = wavy_record(1.0, 0.0);
   const Window window{3, 180, 0, 1.0};
-  const MotionStart start = start_of_motion(0.1, 0.3);
+  MotionStart start = start_of_motion(0.1, 0.3);
+  start.segment<sliding_identification::position_terms>(sliding_identification::position_amplitudes)
+      .setConstant(0.005);
   const WindowMotion motion = window_motion(record, window, start);
   for (Eigen::Index column = 0; column < start.size(); ++column) {
     const MotionStart step = 1e-5 * MotionStart::Unit(column);

@@ -335,7 +335,8 @@ TEST_F(Tune, OfAGoalBeyondReachSaysSo) {
   EXPECT_EQ(program({"judge", "tuned.h5"}).code, 1);
 }
 
-// Moves of some counts within 4 ms take more torque than the converter has: 0 % everywhere, and no gains help.
+// Moves of some counts within 4 ms take more torque than the converter has: 0 % everywhere, and no gains
+// help.
 TEST_F(Tune, OfAMoveThatTheTorqueCannotMakeIsUnreachableWithoutALandscape) {
   write_axis("dac: {bits: 12, resolution: 1.0e-7}\ngoal: {band: 0, within: 0.004, moves: 0.98}\n" +
              std::string(two_gains));

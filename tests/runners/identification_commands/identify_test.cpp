@@ -132,7 +132,7 @@ TEST_F(Identify, TellsWhichLawARecordFollows) {
   EXPECT_EQ(answer.err, "");
   const auto json = nlohmann::json::parse(answer.out);
   EXPECT_TRUE(json["headline"].get<std::string>().starts_with(
-      "lugre explains the records; it is the nearest of these laws, dahl is next"))
+      "lugre explains the records, and no other of these 2 laws was found to"))
       << json["headline"];
   EXPECT_EQ(json["laws"][0]["law"], "lugre");
   EXPECT_TRUE(json["laws"][0]["explained"].get<bool>());

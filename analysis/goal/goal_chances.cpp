@@ -26,6 +26,13 @@ ObservedWorld::ObservedWorld(const study::Goal& goal, measures::MoveCounts count
   if (!goal_.machines) {
     const double worth = statistics::effective_events(sums_);
     of_all_moves_ = likely_proportions(statistics::rate(sums_.hits, sums_.events) * worth, worth);
+    // Clusters with some misses, or hits, leave no less likely than as many without any.
+    if (sums_.clusters == sums_.events || sums_.events == 0) return;
+    const double clusters = statistics::events_of_whole_clusters(sums_);
+    const Proportions without_hit = likely_proportions(0.0, clusters);
+    const Proportions without_miss = likely_proportions(clusters, clusters);
+    for (std::size_t i = 0; i < of_all_moves_.size(); ++i)
+      of_all_moves_[i] = std::clamp(of_all_moves_[i], without_hit[i], without_miss[i]);
     return;
   }
   for (const statistics::RigMoves& rig : counts_.rigs) ++machines_[rig.met];

@@ -28,7 +28,8 @@ struct Chances {
 /// n − k + ½) for k of n independent events (the posterior of Jeffreys' prior; assurance after O'Hagan,
 /// Stevens and Campbell, Pharmaceutical Statistics 4 (2005) 187).
 ///
-/// Events are moves, as many as the clusters observed are worth: with e1 of a rig of m moves, a rig of c·m
+/// Events are moves, as many as the clusters observed are worth, and what is likely is at most what as many
+/// clusters without a miss leave likely: with e1 of a rig of m moves, a rig of c·m
 /// moves is worth 1/(1/e1 − 1/m + 1/(c·m)). For a goal on machines the planned rigs are like those observed,
 /// each of which meets the goal in its moves as often as observed: the bounds of rig_proportion.hpp leave a
 /// range of proportions open that no study decides, so that what is likely cannot be decided with any

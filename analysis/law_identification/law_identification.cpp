@@ -183,8 +183,13 @@ void search_failed_again(Records records, const identification::StageReport& ent
   for (FittedLaw& one : fitted) {
     if (one.errors.checks.passed || (explained && one.fit.squares > hopeless * least_squares)) continue;
     enter(fmt::format("another fit of {}", friction::traits_of(one.law.law).word));
-    one.fit = search_again(records, one.model, least_squares, std::move(one.fit));
-    one.errors = errors_of(records, one.fit);
+    try {
+      auto fit = search_again(records, one.model, least_squares, one.fit);
+      one.errors = errors_of(records, fit);
+      one.fit = std::move(fit);
+    } catch (const Failure& failure) {
+      if (failure.code() != ExitCode::bad_data) throw;  // the first fit stays
+    }
     least_squares = std::min(least_squares, one.fit.squares);
   }
 }

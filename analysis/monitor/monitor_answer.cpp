@@ -186,12 +186,17 @@ std::string dependent_sentence(const MonitorReading& r) {
     if (!state->dependence.alternates) over = std::max(over, state->dependence.over);
   const std::vector<std::string> names = dependent_names(r, false);
   if (names.empty()) return "";
+  const std::string remedy =
+      r.baseline.groups.empty()
+          ? fmt::format(
+                "a column of what neighbours have in common, such as the day (--group), or longer "
+                "blocks (--block, now {}) make them rarer",
+                r.monitor.settings().block)
+          : "a column of larger groups makes them rarer";
   return fmt::format(
-      "they are not in the baseline, where neighbours resemble each other in {}, over some {} {}: false "
-      "alarms "
-      "are more frequent; a column of what neighbours have in common, such as the day (--group), or longer "
-      "blocks (--block, now {}) make them rarer",
-      fmt::join(names, ", "), over, values_text(r), r.monitor.settings().block);
+      "in the baseline neighbours resemble each other in {}, over some {} {}, so that they are not "
+      "exchangeable: false alarms are more frequent; {}",
+      fmt::join(names, ", "), over, values_text(r), remedy);
 }
 
 std::string alternating_sentence(const MonitorReading& r) {

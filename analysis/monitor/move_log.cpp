@@ -237,7 +237,10 @@ void MoveLog::note_label(std::size_t cell, const ColumnHead& head) {
 void MoveLog::read_labels(const std::vector<std::string_view>& cells) {
   MoveLabel label;
   if (label_cells_.move) {
-    numbers_.push_back(text::parse_number<std::int64_t>(cells[*label_cells_.move]).value_or(-1));
+    // A column of whole numbers with a gap is written as 0.0, 1.0, … by some programs.
+    const double number = text::parse_number<double>(cells[*label_cells_.move]).value_or(-1.0);
+    const bool is_whole = number >= 0.0 && number < 1e15 && number == std::floor(number);
+    numbers_.push_back(is_whole ? static_cast<std::int64_t>(number) : -1);
     if (numbers_.back() >= 0) label.number = numbers_.back();
   }
   std::optional<double> before;
@@ -248,6 +251,7 @@ void MoveLog::read_labels(const std::vector<std::string_view>& cells) {
   }
   if (label_cells_.target) {
     label.target = number_in(cells[*label_cells_.target], separator_);
+    if (label.target && !std::isfinite(*label.target)) label.target.reset();  // written NaN for an empty cell
     if (label.target) *label.target *= target_factor_;
     if (label.target && before)
       label.direction = static_cast<int>(*label.target > *before) - static_cast<int>(*label.target < *before);

@@ -185,7 +185,9 @@ class DoubtOfTrials {
       if (draw < max_draws_examined && may_fail) add_trial(test_.of_trial(of));
       return;
     }
-    for (const MoveOfTrial& move : moves_of(of)) add_move(test_.of_move(move));
+    const std::vector<MoveOfTrial> moves = moves_of(of);
+    moves_of_trial_ = std::max(moves_of_trial_, static_cast<double>(moves.size()));
+    for (const MoveOfTrial& move : moves) add_move(test_.of_move(move));
   }
 
   /// The goal is out of reach if a whole trial is in each of those examined, or more moves than it permits.
@@ -195,7 +197,10 @@ class DoubtOfTrials {
     const auto moves = static_cast<double>(moves_);
     const double permitted = moves * permitted_proportion();
     constexpr double chance = 1.645;  // standard deviations: 5 % of them are larger
-    if (static_cast<double>(failing_) <= permitted + chance * std::sqrt(permitted)) return {};
+    // All moves of a trial may fail together: trials count, each of so many moves.
+    const double by_chance =
+        permitted > 0.0 ? chance * std::sqrt(permitted * moves_of_trial_) + moves_of_trial_ : 0.0;
+    if (failing_ < moves_ && static_cast<double>(failing_) <= permitted + by_chance) return {};
     Doubt doubt = worst_;
     if (failing_ < moves_) doubt.text += fmt::format(" (so in {} of {} moves examined)", failing_, moves_);
     return doubt;
@@ -220,6 +225,7 @@ class DoubtOfTrials {
   const study::Goal& goal_;
   std::optional<Doubt> smallest_;
   Doubt worst_;
+  double moves_of_trial_{1.0};
   std::int64_t moves_{0};
   std::int64_t failing_{0};
 };

@@ -91,7 +91,14 @@ std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& t
   trial::TrialParameters p = trial_of_move(trial, move);
   HuntingPrediction prediction{.step = move.length()};
   trial::MoveOutcome before;
-  for (std::int64_t samples = first_samples; samples <= max_samples; samples *= longer) {
+  // The last half of the samples tells: the reference has long ended there.
+  const double profile =
+      loop::Reference(p.command.profile, 0, p.command.targets.front(), loop::fine_resolution(p.encoder))
+          .duration() *
+      p.controller.sample_rate;
+  if (!(3.0 * profile <= static_cast<double>(max_samples) * longer)) return prediction;
+  const std::int64_t first = std::max(first_samples, static_cast<std::int64_t>(3.0 * profile));
+  for (std::int64_t samples = first; samples <= std::max(max_samples, first); samples *= longer) {
     const trial::MoveOutcome outcome = held_for(p, samples);
     prediction.duration = p.command.hold;
     if (has_come_to_rest(outcome, p) || (stays_within_a_count(outcome) && stays_within_a_count(before))) {

@@ -65,12 +65,17 @@ BestTorques best_torques(const MoveOfTrial& move, const FrictionBound& friction)
   return {favour + along, favour - along + friction.breakaway};
 }
 
+/// Inertia that the torque has to move: a coupling lets the motor move without the load.
+double moved_inertia(const trial::TrialParameters& p) {
+  return p.plant.inertia + (p.plant.load.encoder == motion::EncoderPlace::load ? p.plant.load.inertia : 0.0);
+}
+
 /// Over a travel before it slides the axis gains all the energy that the torque has.
 double shortest_time(const MoveOfTrial& move) {
   const trial::TrialParameters& p = move.of.trial;
   const FrictionBound friction = friction_bound(p);
   const BestTorques torques = best_torques(move, friction);
-  const double inertia = p.plant.inertia + p.plant.load.inertia;
+  const double inertia = moved_inertia(p);
   const double distance = move.distance() - 0.5 * move.of.width();
   DrivenAxis axis{inertia, viscous_damping(p), torques.driving, torques.braking};
   if (!(torques.driving > 0.0) || distance <= friction.travel) return shortest_move(axis, distance);
@@ -134,10 +139,9 @@ Doubt torque_is_too_small_for_the_move(const MoveOfTrial& move) {
   const bool starts_at_rest = move.number > 0 || p.initial.velocity == 0.0;
   if (!p.disturbance.spectra.empty() || !starts_at_rest) return {};
   const double time = shortest_time(move) + p.controller.delay / p.controller.sample_rate;
-  const std::string what =
-      fmt::format("{} by {} with an inertia of {:.3g} {} and the ±{} of the converter", move.name(),
-                  move.of.length(move.distance()), p.plant.inertia + p.plant.load.inertia,
-                  move.of.unit("kg m^2"), move.of.torque(largest_torque(p.dac)));
+  const std::string what = fmt::format("{} by {} with an inertia of {:.3g} {} and the ±{} of the converter",
+                                       move.name(), move.of.length(move.distance()), moved_inertia(p),
+                                       move.of.unit("kg m^2"), move.of.torque(largest_torque(p.dac)));
   if (std::isinf(time))
     return {infinity, what +
                           " never ends: friction and disturbance exceed the torque; expected a larger "

@@ -11,7 +11,8 @@ Doubt band_is_half_a_step(const GoalOfTrial& of);
 /// At `within` the reference of the move is still farther from its end than the band or tolerance.
 Doubt reference_is_on_its_way(const MoveOfTrial& move);
 
-/// The move takes longer than it may, even at the largest torque (shortest_move): with all inertia, the
+/// The move takes longer than it may, even at the largest torque (shortest_move): with the inertia that it
+/// has to move (of a second mass only where the encoder is on it), the
 /// constant disturbance, and with ripple and vibration always in its favour. Before it slides, a law with
 /// presliding motion is taken to have no friction; over what travel is five times breakaway over its softest
 /// stiffness. Not said of an axis with a random vibration, which has no largest torque.

@@ -30,19 +30,41 @@ std::string_view same_name_elsewhere(std::string_view key) {
   return {};
 }
 
-// Other usual names of parameters.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 3> synonyms{
-    {{"mass", "plant.inertia"}, {"moment_of_inertia", "plant.inertia"}, {"full_scale", "dac.range"}}};
+// Other usual names, as data sheets and drives have them: of a key anywhere, or of a path.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 22> synonyms{
+    {{"mass", "plant.inertia"},
+     {"moment_of_inertia", "plant.inertia"},
+     {"full_scale", "dac.range"},
+     {"torque_limit", "dac.range"},
+     {"force_limit", "dac.range"},
+     {"current_limit", "dac.range"},
+     {"dac.limit", "dac.range"},
+     {"viscous", "plant.sliding_damping"},
+     {"plant.damping", "plant.sliding_damping"},
+     {"stiction", "friction.breakaway"},
+     {"dead_time", "controller.delay"},
+     {"latency", "controller.delay"},
+     {"notch", "controller.filters"},
+     {"lowpass", "controller.filters"},
+     {"gear", "plant.load"},
+     {"lsb", "encoder.fine"},
+     {"encoder.motor", "encoder.fine"},
+     {"encoder.load", "plant.load.encoder"},
+     {"controller.position", "controller.cascade"},
+     {"controller.velocity", "controller.cascade"},
+     {"goal.overshoot", "goal.limits"},
+     {"settle_after_profile", "goal.within"}}};
 
-std::string_view named_otherwise(std::string_view key) {
-  const auto found =
-      std::find_if(synonyms.begin(), synonyms.end(), [key](const auto& pair) { return pair.first == key; });
+std::string_view named_otherwise(std::string_view key, std::string_view path) {
+  const auto found = std::find_if(synonyms.begin(), synonyms.end(),
+                                  [&](const auto& pair) { return pair.first == key || pair.first == path; });
   return found == synonyms.end() ? std::string_view{} : found->second;
 }
 
 // A typing error in this map is more likely than a key of another map.
-std::string_view nearest_key(std::string_view key, std::span<const std::string> known) {
-  if (const std::string_view name = named_otherwise(key); !name.empty()) return name;
+std::string_view nearest_key(std::string_view key, std::string_view path,
+                             std::span<const std::string> known) {
+  if (const std::string_view name = named_otherwise(key, path); !name.empty()) return name;
   const std::string_view here = yaml::nearest_name(key, known);
   const std::string_view elsewhere = same_name_elsewhere(key);
   return elsewhere.empty() || yaml::is_near(key, here) ? here : elsewhere;
@@ -66,7 +88,7 @@ void add_unknown_key(const yaml::Field& map, const yaml::YamlEntry& entry, std::
                              entry.key.substr(entry.key.find('.') + 1)));
     return;
   }
-  const std::string_view nearest = nearest_key(entry.key, known);
+  const std::string_view nearest = nearest_key(entry.key, path, known);
   const std::string what =
       nearest.empty() ? "unknown key" : fmt::format("unknown key, nearest known: {}", nearest);
   constexpr std::size_t max_listed = 32;

@@ -163,7 +163,8 @@ std::string causes_sentence(const std::vector<Limit>& limits) {
     tried.push_back(one.effect);
     units = one.gain->units;
     if (one.is_shown_cause())
-      shown.push_back(fmt::format("{} ({})", one.effect, text::percent_near(*one.rate)));
+      shown.push_back(fmt::format("{} ({})", one.effect,
+                                  text::percent_near(one.estimate.rates[limits.front().estimate.worst])));
   }
   if (tried.empty()) return "";
   const std::int64_t alternatives = std::ssize(tried);
@@ -298,11 +299,14 @@ trials::Replicates affordable_units(const study::Study& study, std::int64_t poin
   double speed = std::numeric_limits<double>::infinity();
   if (!std::isinf(effort.seconds_left())) speed = part_of_speed * tuning::measured_speed(study, effort);
   const std::int64_t trials = tuning::affordable_trials(effort, speed);
-  const double each = runs_of(study, units) * static_cast<double>(units.trials_each);
-  const auto affordable = static_cast<std::int64_t>(static_cast<double>(trials) / each);
-  if (affordable >= units.count) return units;
   const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
-  units.count = affordable / worlds * worlds;
+  constexpr int rounds = 3;  // pairs take a larger part of fewer units
+  for (int round = 0; round < rounds && units.count >= fewest; ++round) {
+    const double each = runs_of(study, units) * static_cast<double>(units.trials_each);
+    const auto affordable = static_cast<std::int64_t>(static_cast<double>(trials) / each);
+    if (affordable >= units.count) return units;
+    units.count = affordable / worlds * worlds;
+  }
   if (units.count < fewest) throw trials::Spent{};
   return units;
 }

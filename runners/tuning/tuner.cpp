@@ -113,10 +113,11 @@ void add_margins(const StudySearch& search, bool slides, const std::stop_token& 
   answer.lowest_mode = search.examiner().lowest_mode(tuned, slides, stop);
 }
 
-/// Whether theory excludes the goal for all values of the free parameters, which are of the controller alone.
+/// Whether theory excludes the goal for all values of the free parameters, which are gains.
 bool is_out_of_reach(const study::Study& proven, std::span<const study::FreeParameter> free) {
   const auto is_of_controller = [](const study::FreeParameter& one) {
-    return one.name.starts_with("controller.");
+    return one.name.starts_with("controller.") && one.name != "controller.delay" &&
+           one.name != "controller.sample_rate";
   };
   return std::ranges::all_of(free, is_of_controller) && !theory::goals_out_of_reach(proven).empty();
 }

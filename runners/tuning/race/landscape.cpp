@@ -1,5 +1,6 @@
 #include "runners/tuning/race/landscape.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "analysis/statistics/proportion.hpp"
@@ -7,17 +8,29 @@
 namespace zerocount::tuning {
 namespace {
 
-constexpr double hardly_any = 0.01;  // of the moves
-constexpr double confidence = 0.95;  // of the bound of a point's rate
-constexpr std::int64_t fewest = 10;  // telling points: single ones are there by chance
-constexpr std::int64_t one_in = 20;  // of all points
+constexpr double hardly_any = 0.01;   // of the moves
+constexpr double confidence = 0.999;  // of the bounds of a point's rate, of which there are hundreds
+constexpr std::int64_t fewest = 10;   // telling points: single ones are there by chance
+constexpr std::int64_t one_in = 20;   // of all points
 
-bool is_telling(const Aim& aim, const Estimate& estimate) {
-  if (estimate.units == 0 || !(estimate.rate < wanted_rate(aim.claims[estimate.worst]))) return false;
-  // The moves of a unit may depend on each other: a unit counts once.
+/// Of the moves that meet the worst goal. The moves of a unit may depend on each other: a unit counts once.
+statistics::ConfidenceInterval bounds_of(const Estimate& estimate) {
   const auto met =
       static_cast<std::int64_t>(std::floor(estimate.moves * static_cast<double>(estimate.units)));
-  return statistics::clopper_pearson(met, estimate.units, confidence).low > hardly_any;
+  return statistics::clopper_pearson(met, estimate.units, confidence);
+}
+
+/// The rate that is found anywhere, such as that of moves that meet the goal at all points.
+double floor_of(std::span<const TriedPoint> tried) {
+  double lowest = 1.0;
+  for (const TriedPoint& one : tried)
+    if (one.estimate.units > 0) lowest = std::min(lowest, bounds_of(one.estimate).high);
+  return std::max(lowest, hardly_any);
+}
+
+bool is_telling(const Aim& aim, const Estimate& estimate, double floor) {
+  return estimate.units > 0 && estimate.rate < wanted_rate(aim.claims[estimate.worst]) &&
+         bounds_of(estimate).low > floor;
 }
 
 }  // namespace
@@ -28,7 +41,8 @@ bool Landscape::leads() const {
 
 Landscape landscape_of(const Aim& aim, std::span<const TriedPoint> tried) {
   Landscape landscape{.points = std::ssize(tried)};
-  for (const TriedPoint& one : tried) landscape.telling += is_telling(aim, one.estimate) ? 1 : 0;
+  const double floor = floor_of(tried);
+  for (const TriedPoint& one : tried) landscape.telling += is_telling(aim, one.estimate, floor) ? 1 : 0;
   return landscape;
 }
 

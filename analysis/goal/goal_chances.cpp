@@ -24,15 +24,9 @@ ObservedWorld::ObservedWorld(const study::Goal& goal, measures::MoveCounts count
       confidence_high_(statistics::confidence_of_each(goal.confidence, points * parts)),
       sums_(measures::clusters_of(counts_)) {
   if (!goal_.machines) {
-    const double worth = statistics::effective_events(sums_);
-    of_all_moves_ = likely_proportions(statistics::rate(sums_.hits, sums_.events) * worth, worth);
-    // Clusters with some misses, or hits, leave no less likely than as many without any.
-    if (sums_.clusters == sums_.events || sums_.events == 0) return;
-    const double clusters = statistics::events_of_whole_clusters(sums_);
-    const Proportions without_hit = likely_proportions(0.0, clusters);
-    const Proportions without_miss = likely_proportions(clusters, clusters);
-    for (std::size_t i = 0; i < of_all_moves_.size(); ++i)
-      of_all_moves_[i] = std::clamp(of_all_moves_[i], without_hit[i], without_miss[i]);
+    worth_ = sums_.hits > 0 && sums_.hits < sums_.events ? statistics::effective_events(sums_)
+                                                         : static_cast<double>(sums_.events);
+    of_all_moves_ = likely_proportions(statistics::rate(sums_.hits, sums_.events) * worth_, worth_);
     return;
   }
   for (const statistics::RigMoves& rig : counts_.rigs) ++machines_[rig.met];
@@ -64,7 +58,7 @@ double ObservedWorld::chance_of_at_least(const Proportions& proportions, std::in
 double ObservedWorld::planned_events(const PlannedSize& planned) const {
   const auto clusters = static_cast<double>(sums_.clusters);
   const double moves = static_cast<double>(sums_.events) / clusters;
-  const double worth = std::min(moves, statistics::effective_events(sums_) / clusters);
+  const double worth = std::min(moves, worth_ / clusters);
   const double between = 1.0 / worth - 1.0 / moves;
   const double events = static_cast<double>(planned.units) /
                         (between + 1.0 / (moves * static_cast<double>(planned.more_on_each_rig)));

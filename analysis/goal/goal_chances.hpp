@@ -28,12 +28,12 @@ struct Chances {
 /// n − k + ½) for k of n independent events (the posterior of Jeffreys' prior; assurance after O'Hagan,
 /// Stevens and Campbell, Pharmaceutical Statistics 4 (2005) 187).
 ///
-/// Events are moves, as many as the clusters observed are worth, and what is likely is at most what as many
-/// clusters without a miss leave likely: with e1 of a rig of m moves, a rig of c·m
-/// moves is worth 1/(1/e1 − 1/m + 1/(c·m)). For a goal on machines the planned rigs are like those observed,
-/// each of which meets the goal in its moves as often as observed: the bounds of rig_proportion.hpp leave a
-/// range of proportions open that no study decides, so that what is likely cannot be decided with any
-/// probability.
+/// Events are moves, as many as the clusters observed are worth. Without a miss, or without a hit, nothing
+/// tells how clusters differ, and each move is one; the bounds of the planned study count its clusters: with
+/// e1 of a rig of m moves, a rig of c·m moves is worth 1/(1/e1 − 1/m + 1/(c·m)). For a goal on machines the
+/// planned rigs are like those observed, each of which meets the goal in its moves as often as observed: the
+/// bounds of rig_proportion.hpp leave a range of proportions open that no study decides, so that what is
+/// likely cannot be decided with any probability.
 class ObservedWorld {
  public:
   /// @param counts of one world, with moves @param points, parts as of judge_goal()
@@ -58,6 +58,7 @@ class ObservedWorld {
   std::size_t parts_;
   double confidence_low_, confidence_high_;  ///< of the bounds
   statistics::ClusterSums sums_;
+  double worth_{0.0};  ///< events that the clusters are worth
   Proportions of_all_moves_{};
   std::map<std::int64_t, std::int64_t>
       machines_{};  ///< number of those with so many moves that meet the goal

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -65,9 +66,16 @@ BestTorques best_torques(const MoveOfTrial& move, const FrictionBound& friction)
   return {favour + along, favour - along + friction.breakaway};
 }
 
-/// Inertia that the torque has to move: a coupling lets the motor move without the load.
-double moved_inertia(const trial::TrialParameters& p) {
-  return p.plant.inertia + (p.plant.load.encoder == motion::EncoderPlace::load ? p.plant.load.inertia : 0.0);
+/// Inertia that the torque has to move. A coupling that is soft for so short a move lets the motor move
+/// without its load.
+double moved_inertia(const MoveOfTrial& move) {
+  const motion::PlantParameters& plant = move.of.trial.plant;
+  if (!(plant.load.inertia > 0.0)) return plant.inertia;
+  constexpr double periods = 10.0;  // of the mode of both masses, in which they move as one
+  const double mode = std::sqrt(plant.load.stiffness * (1.0 / plant.inertia + 1.0 / plant.load.inertia));
+  const bool is_soft = periods * 2.0 * std::numbers::pi / mode > move.within();
+  return plant.inertia +
+         (is_soft && plant.load.encoder == motion::EncoderPlace::motor ? 0.0 : plant.load.inertia);
 }
 
 /// Over a travel before it slides the axis gains all the energy that the torque has.
@@ -75,7 +83,7 @@ double shortest_time(const MoveOfTrial& move) {
   const trial::TrialParameters& p = move.of.trial;
   const FrictionBound friction = friction_bound(p);
   const BestTorques torques = best_torques(move, friction);
-  const double inertia = moved_inertia(p);
+  const double inertia = moved_inertia(move);
   const double distance = move.distance() - 0.5 * move.of.width();
   DrivenAxis axis{inertia, viscous_damping(p), torques.driving, torques.braking};
   if (!(torques.driving > 0.0) || distance <= friction.travel) return shortest_move(axis, distance);
@@ -140,7 +148,7 @@ Doubt torque_is_too_small_for_the_move(const MoveOfTrial& move) {
   if (!p.disturbance.spectra.empty() || !starts_at_rest) return {};
   const double time = shortest_time(move) + p.controller.delay / p.controller.sample_rate;
   const std::string what = fmt::format("{} by {} with an inertia of {:.3g} {} and the ±{} of the converter",
-                                       move.name(), move.of.length(move.distance()), moved_inertia(p),
+                                       move.name(), move.of.length(move.distance()), moved_inertia(move),
                                        move.of.unit("kg m^2"), move.of.torque(largest_torque(p.dac)));
   if (std::isinf(time))
     return {infinity, what +

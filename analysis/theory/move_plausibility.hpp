@@ -12,7 +12,7 @@ Doubt band_is_half_a_step(const GoalOfTrial& of);
 Doubt reference_is_on_its_way(const MoveOfTrial& move);
 
 /// The move takes longer than it may, even at the largest torque (shortest_move): with the inertia that it
-/// has to move (of a second mass only where the encoder is on it), the
+/// has to move (of a second mass unless the motor can move without it), the
 /// constant disturbance, and with ripple and vibration always in its favour. Before it slides, a law with
 /// presliding motion is taken to have no friction; over what travel is five times breakaway over its softest
 /// stiffness. Not said of an axis with a random vibration, which has no largest torque.

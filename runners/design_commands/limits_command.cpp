@@ -301,13 +301,13 @@ trials::Replicates affordable_units(const study::Study& study, std::int64_t poin
   const std::int64_t trials = tuning::affordable_trials(effort, speed);
   const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
   constexpr int rounds = 3;  // pairs take a larger part of fewer units
-  for (int round = 0; round < rounds && units.count >= fewest; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     const double each = runs_of(study, units) * static_cast<double>(units.trials_each);
     const auto affordable = static_cast<std::int64_t>(static_cast<double>(trials) / each);
     if (affordable >= units.count) return units;
     units.count = affordable / worlds * worlds;
+    if (units.count < fewest) throw trials::Spent{};
   }
-  if (units.count < fewest) throw trials::Spent{};
   return units;
 }
 

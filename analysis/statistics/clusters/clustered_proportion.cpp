@@ -19,6 +19,12 @@ bool are_single_events(const ClusterSums& sums) {
   return sums.clusters == sums.events;
 }
 
+/// Events whose clusters are each taken as one: n²/Σnᵢ², the number of clusters if they are of one size.
+double events_of_whole_clusters(const ClusterSums& sums) {
+  const auto n = static_cast<double>(sums.events);
+  return n * n / sums.events_squared;
+}
+
 /// The lower bound if no event were a miss. Of single events Clopper–Pearson shows no more.
 double shown_without_miss(const ClusterSums& sums, double tail) {
   return are_single_events(sums) ? 1.0 : shown_by_clusters(events_of_whole_clusters(sums), 1.0 - tail);
@@ -85,11 +91,6 @@ double effective_events(const ClusterSums& sums) {
   const double variance = m / (m - 1.0) * std::max(0.0, squares) / (n * n);
   const double of_independent = p * (1.0 - p) / n;
   return variance > of_independent ? std::max(1.0, n * of_independent / variance) : n;
-}
-
-double events_of_whole_clusters(const ClusterSums& sums) {
-  const auto n = static_cast<double>(sums.events);
-  return n * n / sums.events_squared;
 }
 
 double shown_by_clusters(double clusters, double confidence) {

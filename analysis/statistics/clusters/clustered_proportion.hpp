@@ -66,10 +66,6 @@ double effective_events(const ClusterSums& sums);
 /// @param tail probability beyond each bound, in (0, 1)
 double adjusted_events(const ClusterSums& sums, double tail);
 
-/// n²/Σnᵢ²: the events that clusters are worth if all of each are alike, the number of clusters if they are
-/// of one size.
-double events_of_whole_clusters(const ClusterSums& sums);
-
 /// α^(1/m) with α = 1 − confidence: the largest lower bound of a proportion that m clusters can show. A
 /// population in which the proportion q of clusters consists of misses shows none of them among m with the
 /// probability (1 − q)^m, however many events each cluster has.

@@ -8,10 +8,10 @@
 namespace zerocount::tuning {
 namespace {
 
-constexpr double hardly_any = 0.01;   // of the moves
-constexpr double confidence = 0.999;  // of the bounds of a point's rate, of which there are hundreds
-constexpr std::int64_t fewest = 10;   // telling points: single ones are there by chance
-constexpr std::int64_t one_in = 20;   // of all points
+constexpr double hardly_any = 0.01;  // of the moves
+constexpr double confidence = 0.95;  // of the bounds of a point's rate
+constexpr std::int64_t fewest = 10;  // telling points: single ones are there by chance
+constexpr std::int64_t one_in = 20;  // of all points
 
 /// Of the moves that meet the worst goal. The moves of a unit may depend on each other: a unit counts once.
 statistics::ConfidenceInterval bounds_of(const Estimate& estimate) {
@@ -20,29 +20,28 @@ statistics::ConfidenceInterval bounds_of(const Estimate& estimate) {
   return statistics::clopper_pearson(met, estimate.units, confidence);
 }
 
-/// The rate that is found anywhere, such as that of moves that meet the goal at all points.
-double floor_of(std::span<const TriedPoint> tried) {
-  double lowest = 1.0;
-  for (const TriedPoint& one : tried)
-    if (one.estimate.units > 0) lowest = std::min(lowest, bounds_of(one.estimate).high);
-  return std::max(lowest, hardly_any);
-}
-
-bool is_telling(const Aim& aim, const Estimate& estimate, double floor) {
+bool is_telling(const Aim& aim, const Estimate& estimate) {
   return estimate.units > 0 && estimate.rate < wanted_rate(aim.claims[estimate.worst]) &&
-         bounds_of(estimate).low > floor;
+         bounds_of(estimate).low > hardly_any;
 }
 
 }  // namespace
 
 bool Landscape::leads() const {
-  return telling >= fewest && telling * one_in >= points;
+  return varies && telling >= fewest && telling * one_in >= points;
 }
 
 Landscape landscape_of(const Aim& aim, std::span<const TriedPoint> tried) {
   Landscape landscape{.points = std::ssize(tried)};
-  const double floor = floor_of(tried);
-  for (const TriedPoint& one : tried) landscape.telling += is_telling(aim, one.estimate, floor) ? 1 : 0;
+  double highest = 0.0, lowest = 1.0;
+  for (const TriedPoint& one : tried) {
+    landscape.telling += is_telling(aim, one.estimate) ? 1 : 0;
+    if (one.estimate.units == 0) continue;
+    const statistics::ConfidenceInterval bounds = bounds_of(one.estimate);
+    highest = std::max(highest, bounds.low);
+    lowest = std::min(lowest, bounds.high);
+  }
+  landscape.varies = highest > lowest;
   return landscape;
 }
 

@@ -11,13 +11,14 @@ namespace zerocount::tuning {
 /// What the rates of the points of a search tell of the values between them.
 struct Landscape {
   std::int64_t points{0};  ///< that were simulated
-  /// Points at which more moves meet the worst goal for sure than at the point with the fewest, and than 1 %,
-  /// but fewer than it asks.
+  /// Points at which some moves meet the worst goal for sure, more than 1 % of them, and fewer than it asks.
   std::int64_t telling{0};
+  /// Whether more moves meet it at one point than at another for sure: moves that are trivial meet it at all.
+  bool varies{false};
 
-  /// Whether the rates led somewhere: at least ten points, and one in twenty, are telling. Where the rate is
-  /// the same nearly everywhere, 0 or another, no point tells where to go, and a narrow range of good values
-  /// may lie between them.
+  /// Whether the rates led somewhere: they vary, and at least ten points, and one in twenty, are telling.
+  /// Where the rate is the same nearly everywhere, 0 or another, no point tells where to go, and a narrow
+  /// range of good values may lie between them.
   bool leads() const;
 };
 

@@ -53,11 +53,12 @@ TEST(Landscape, FollowsTheMovesOfAGoalForMachines) {
 }
 
 TEST(Landscape, DecidesAMissedGoalOnlyTogetherWithTheSearch) {
-  const Landscape leads{.points = 100, .telling = 50};
+  const Landscape leads{.points = 100, .telling = 50, .varies = true};
   EXPECT_TRUE((MissedSearch{.landscape = leads}.shows_unreachable()));
   EXPECT_FALSE((MissedSearch{.approaching = true, .landscape = leads}.shows_unreachable()));
   EXPECT_FALSE((MissedSearch{.all_tried = false, .landscape = leads}.shows_unreachable()));
-  EXPECT_FALSE((MissedSearch{.landscape = {.points = 100, .telling = 0}}.shows_unreachable()));
+  EXPECT_FALSE(
+      (MissedSearch{.landscape = {.points = 100, .telling = 0, .varies = true}}.shows_unreachable()));
 }
 
 }  // namespace

@@ -74,10 +74,10 @@ std::vector<Figure> figures(const Answer& answer);
 /// @param indent blanks of a level; text::one_line: no line breaks
 void write_json(const Answer& answer, int indent, const std::function<void(std::string_view)>& take);
 
-/// The same as one text.
+/// The JSON of the answer as one text.
 std::string json_text(const Answer& answer, int indent = 2);
 
-/// The same as a tree, for answers that are not large.
+/// The JSON of the answer as a tree. A large answer takes much memory as a tree: see json_text().
 nlohmann::ordered_json json(const Answer& answer);
 
 /// The object of these items, as in json() of an answer.

@@ -24,7 +24,7 @@ std::string escaped(std::string_view text) {
   return escaped;
 }
 
-/// The same at the start of a line, where some characters begin a heading, a list, a quotation or a rule.
+/// Escapes a text that begins a line. There some characters begin a heading, a list, a quotation or a rule.
 std::string escaped_line(std::string_view text) {
   std::string line = escaped(text);
   const std::size_t digits = std::min(line.find_first_not_of("0123456789"), line.size());

@@ -55,7 +55,7 @@ RunValue value_of(const MonitorJson& answer, const MonitorJson& measure) {
   return value;
 }
 
-/// Of a measure with two peaks: the medians of the moves that are alike.
+/// The medians of each kind of moves, for a measure whose kinds make several peaks.
 std::vector<RunValue> values_of_likes(const MonitorJson& answer, const MonitorJson& measure) {
   std::vector<RunValue> values;
   if (!answer.contains("likes")) return values;

@@ -19,7 +19,7 @@ std::string_view to_string(const IdentifiedLaw& law) {
   return friction::traits_of(law.law).word;
 }
 
-/// How far the best of the laws that explain the records is ahead of the next of them.
+/// The lead of the best law that explains the records over the next one that does.
 std::string lead_of(const LawComparison& comparison) {
   const IdentifiedLaw& best = comparison.laws.front();
   const IdentifiedLaw& next = comparison.laws[1];

@@ -9,7 +9,7 @@
 
 namespace zerocount::monitor {
 
-/// What the order of values says against their exchangeability.
+/// Evidence in the order of values against their exchangeability.
 struct Dependence {
   double p{1.0};         ///< probability of as much dependence in a random order
   std::int64_t over{0};  ///< consecutive values that resemble each other most clearly

@@ -10,7 +10,7 @@ namespace zerocount::monitor {
 
 std::string_view word_of(ChangeTold told);
 
-/// Which parameter differs, in a sentence.
+/// A sentence that names the parameter that differs.
 std::string explanation_text(const ChangeExplanation& explanation);
 
 document::Description<ParameterChange> parameter_description();

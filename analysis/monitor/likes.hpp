@@ -34,7 +34,7 @@ class Likes {
   const std::vector<std::size_t>& of_baseline() const { return of_baseline_; }
   /// The class of a later move; nothing if the baseline has no move like it.
   std::optional<std::size_t> of(const MoveLabel& label) const;
-  /// Likewise of a move with a label of the baseline's own kind.
+  /// The class of a move whose label is in the units of the baseline.
   std::optional<std::size_t> of_own(const MoveLabel& label) const;
   /// "move 3", "target 20 count upwards"
   const std::string& name(std::size_t like) const { return names_[like]; }

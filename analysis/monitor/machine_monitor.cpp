@@ -256,7 +256,7 @@ void MachineMonitor::update(const MoveLog& log) {
   for (MeasureState& state : states_) update_median(state, log);
 }
 
-/// Of the moves that have a like, since the change or all.
+/// Takes the median of the moves that the baseline has a like of: those since the change, or all.
 void MachineMonitor::update_median(MeasureState& state, const MoveLog& log) {
   const std::vector<double>& moves = log.find(state.measure.name)->values;
   std::vector<std::vector<double>> by_like(likes_.count());

@@ -45,7 +45,7 @@ struct MeasureState {
   std::optional<Direction> direction{};    ///< of the change, with an alarm
   std::optional<std::int64_t> alarm_at{};  ///< move, from 1
   std::optional<std::int64_t> since{};     ///< move, from 1
-  /// Of a quality the mean; infinite: never; nothing where the likes make several peaks: see by_like.
+  /// The mean for a quality. Infinite: never. Nothing where the kinds of moves make several peaks (by_like).
   std::optional<double> baseline_median{};
   std::optional<double> median{};    ///< likewise of the moves since `since`, or of all
   std::vector<LikeValue> by_like{};  ///< where likes explain at least half of the variance of the ranks

@@ -85,7 +85,7 @@ std::string unseen_text(const MonitorReading& r) {
   return fmt::format(" in {}", fmt::join(names, ", "));
 }
 
-/// What is ranked, in the singular.
+/// The unit that is ranked, in the singular.
 std::string_view unit_text(const MonitorReading& r) {
   return r.monitor.settings().group.empty() ? "block" : "group";
 }
@@ -111,7 +111,7 @@ std::string headline_of(const MonitorReading& r) {
                      moves_text(r.state.moves), change_text(r), unseen_text(r));
 }
 
-/// What is ranked, in the plural: "moves", "blocks of 5 moves", "groups of day".
+/// The units that are ranked, in the plural: "moves", "blocks of 5 moves", "groups of day".
 std::string values_text(const MonitorReading& r) {
   const MonitorSettings& settings = r.monitor.settings();
   if (!settings.group.empty()) return fmt::format("groups of {}", text::printable(settings.group));

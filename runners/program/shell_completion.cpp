@@ -99,7 +99,7 @@ std::string bash_action(const OptionSpec& option) {
     case Offered::files:
       return "_zerocount_files";
     case Offered::keys:
-      return "_zerocount_offer $keys; compopt -o nospace 2>/dev/null";
+      return "_zerocount_offer $keys; compopt -o nospace 2>/dev/null || true";
     case Offered::words:
       return "_zerocount_offer " + offer.text;
     case Offered::list:
@@ -279,7 +279,7 @@ _zerocount_offer() {
 _zerocount_list() {
   case ${word#"$lead"} in *,*) lead=${word%,*}, ;; esac
   _zerocount_offer "$@"
-  compopt -o nospace 2>/dev/null
+  compopt -o nospace 2>/dev/null || true  # bash 3 has none
 }
 _zerocount_files() {
   local path
@@ -287,7 +287,7 @@ _zerocount_files() {
     path=$lead$path
     COMPREPLY+=("${path:start}")
   done < <(compgen -f -- "${word#"$lead"}")
-  compopt -o filenames 2>/dev/null
+  compopt -o filenames 2>/dev/null || true
 }
 # The lines that a command prints for the first file of the command line.
 _zerocount_lines() {

@@ -24,9 +24,9 @@ def require(holds, what):
         raise SystemExit(f"not so: {what}")
 
 
-def completions(script, *words, cwd=None):
-    """What bash offers for the last of the words."""
-    lines = (f"source {script}; COMP_WORDS=({' '.join(words)}); COMP_CWORD={len(words) - 1}; _zerocount; "
+def completions(script, line, cwd=None):
+    """What bash offers for the last word of a command line."""
+    lines = (f"source {script}; COMP_LINE='{line}'; COMP_POINT=${{#COMP_LINE}}; _zerocount; "
              "printf '%s\\n' \"${COMPREPLY[@]}\"")
     return run("bash", "-c", lines, cwd=cwd).splitlines()
 
@@ -49,24 +49,24 @@ def check_shell_files(prefix):
                                  capture_output=True, text=True, check=True)
         require(not checked.stderr, f"groff warns of nothing: {checked.stderr}")
     script = prefix / "share/bash-completion/completions/zerocount"
-    require(completions(script, "zerocount", "summ") == ["summary"], "bash completes a command")
-    require(completions(script, "zerocount", "run", "--th") == ["--threads"], "bash completes an option")
-    require(completions(script, "zerocount", "help", "comp") == ["compare", "completion"], "bash completes the operand of help")
-    require(completions(script, "zerocount", "completion", "z") == ["zsh"], "bash completes an operand of a few words")
-    require(completions(script, "zerocount", "run", "--set", "plant.inert") == ["plant.inertia="], "bash completes a key to set")
-    program = prefix / "bin/zerocount"
     manifest = prefix / "share/zerocount/manifests/paper-gains.yaml"
-    require(completions(script, str(program), "trace", str(manifest), "--point", "b") == ["b", "b-with-kp"],
-            "bash completes the label of a design point")
-    require(completions(script, "zerocount", "new", "paper-g") == ["paper-gains"], "bash completes a manifest that comes with it")
-    for value in (["--format", "js"], ["--format", "=", "js"]):
-        require(completions(script, "zerocount", "summary", "a.h5", *value) == ["json"], f"bash completes {' '.join(value)}")
-    require("text json markdown html csv" in " ".join(completions(script, "zerocount", "summary", "--format", "=")), "bash offers all formats")
+    for line, offered, what in (
+            ("zerocount summ", ["summary"], "a command"),
+            ("zerocount run --th", ["--threads"], "an option"),
+            ("zerocount help comp", ["compare", "completion"], "the operand of help"),
+            ("zerocount completion z", ["zsh"], "an operand of a few words"),
+            ("zerocount run --set plant.inert", ["plant.inertia="], "a key to set"),
+            (f"{prefix}/bin/zerocount trace {manifest} --point b", ["b", "b-with-kp"], "the label of a design point"),
+            ("zerocount new paper-g", ["paper-gains"], "a manifest that comes with it"),
+            ("zerocount summary a.h5 --format js", ["json"], "a value"),
+            ("zerocount summary a.h5 --format=js", ["json"], "a value after ="),
+            ("zerocount summary --format=", ["text", "json", "markdown", "html", "csv"], "all formats")):
+        require(completions(script, line) == offered, f"bash completes {what}")
     with tempfile.TemporaryDirectory() as folder:
         (pathlib.Path(folder) / "my study.yaml").touch()
-        for words in (["run"], ["history", "add"], ["history", "show", "--database"], ["new", "paper-gains", "-o"]):
-            require(completions(script, "zerocount", *words, "my", cwd=folder) == ["my study.yaml"],
-                    f"bash completes a name with a blank after {' '.join(words)}")
+        for words in ("run", "history add", "history show --database", "new paper-gains -o"):
+            require(completions(script, f"zerocount {words} my", cwd=folder) == ["my study.yaml"],
+                    f"bash completes a name with a blank after {words}")
     if shutil.which("zsh"):
         run("zsh", "-n", prefix / "share/zsh/vendor-completions/_zerocount")
     if shutil.which("fish"):

@@ -312,9 +312,12 @@ TEST(TuneAnswer, IsUndecidedWhereAnotherFinalistMayMeetTheGoal) {
   const study::Study study = axis();
   TuneAnswer answer = answer_for(study, goal::Status::undecided);
   answer.proof->verdict.status = goal::Status::missed;
-  answer.missed = {.all_tried = false, .landscape = {.points = 100, .telling = 50}};
+  answer.missed = {.all_tried = false, .landscape = {.points = 100, .telling = 100, .varies = true}};
   EXPECT_THAT(text_of(answer, study),
               HasSubstr("undecided: not all values that may meet the goal were tried"));
+  answer.missed.landscape.telling = 40;
+  EXPECT_THAT(text_of(answer, study),
+              HasSubstr("undecided: at 60 of 100 points that were tried hardly any move meets the goal"));
 }
 
 TEST(TuneAnswer, NamesASimplerControlInTheRangesThatDoesBetter) {

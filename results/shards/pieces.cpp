@@ -70,12 +70,6 @@ fs::path parts_directory(const fs::path& output) {
   return directory += ".parts";
 }
 
-Part part_of(const fs::path& output, std::int64_t number, std::int64_t count) {
-  const std::size_t digits = std::to_string(count).size();
-  return {parts_directory(output) / fmt::format("part-{:0{}}-of-{}.h5", number, digits, count), number,
-          count};
-}
-
 std::optional<Part> part_named(const fs::path& path) {
   constexpr std::string_view begin = "part-", middle = "-of-", end = ".h5";
   const fs::path file = path.extension() == ".shards" ? fs::path(path).replace_extension() : path;

@@ -17,8 +17,6 @@ struct Part {
 /// The folder of the parts of `output`: OUTPUT.parts.
 std::filesystem::path parts_directory(const std::filesystem::path& output);
 
-Part part_of(const std::filesystem::path& output, std::int64_t number, std::int64_t count);
-
 /// The part that a file, or its folder of shards, is or belongs to; nothing if its name is not that of a
 /// part.
 std::optional<Part> part_named(const std::filesystem::path& path);

@@ -118,7 +118,6 @@ std::vector<commands::Command> commands() {
                                      result_commands::sensitivity_command(),
                                      result_commands::report_command(),
                                      result_commands::plot_command(),
-                                     study_commands::slurm_command(),
                                      study_commands::status_command(),
                                      completion_command(),
                                      manual_command(),

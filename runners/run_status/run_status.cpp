@@ -16,7 +16,6 @@
 #include "results/shards/pieces.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/output_lock.hpp"
-#include "runners/cluster/submission.hpp"
 #include "runners/study_run/earlier_shards.hpp"
 
 namespace zerocount::run_status {
@@ -100,18 +99,15 @@ fs::path lock_file(const fs::path& output) {
   return path += ".lock";
 }
 
-/// Start of the run; nothing if no file shows it.
-std::optional<Time> begin_of(const fs::path& output) {
-  if (const std::optional<Time> submitted = time_of(cluster::submission_file(output))) return submitted;
-  return time_of(lock_file(output));
-}
-
-double rate_of(const std::vector<Piece>& pieces, std::optional<Time> begin) {
+/// Rate of the process that writes `output`: trials of the shards written since it locked the output, over
+/// the time up to the newest of them. NaN: unknown
+double rate_of(const fs::path& output, const std::vector<Piece>& pieces) {
+  const std::optional<Time> begin = time_of(lock_file(output));
   if (!begin) return std::nan("");
   std::int64_t trials = 0;
   Time end = *begin;
   for (const Piece& piece : pieces) {
-    if (piece.written <= *begin) continue;
+    if (piece.written <= *begin || piece.path.parent_path() != layout::shards_directory(output)) continue;
     trials += piece.rows.count;
     end = std::max(end, piece.written);
   }
@@ -144,11 +140,9 @@ bool is_running(const fs::path& output, const std::set<fs::path>& lately) {
   return lock == storage::LockState::held || (lock == storage::LockState::unknown && lately.contains(output));
 }
 
-/// Whether jobs were submitted after the results file was written, or there is none.
-bool is_awaited(const fs::path& output) {
-  const std::optional<Time> submitted = time_of(cluster::submission_file(output));
-  const std::optional<Time> written = time_of(output);
-  return submitted && (!written || *written < *submitted);
+/// Processes add up; those that have written no shard yet are left out.
+void add_rate(double rate, RunStatus& status) {
+  if (!std::isnan(rate)) status.rate = std::isnan(status.rate) ? rate : status.rate + rate;
 }
 
 PartCounts count_parts(const fs::path& output, const Pieces& found, RunStatus& status) {
@@ -163,12 +157,12 @@ PartCounts count_parts(const fs::path& output, const Pieces& found, RunStatus& s
     const std::optional<shards::Part> part = shards::part_named(piece.path);
     if (part) complete.emplace(part->number, part->path);
   }
-  if (const std::optional<cluster::Submission> submission = cluster::read_submission(output))
-    counts.all = submission->parts;
   const std::set<fs::path> lately = written_lately(found.pieces);
   for (const auto& [number, path] : begun) {
     if (complete.contains(number)) continue;
-    (is_running(path, lately) ? counts.running : counts.interrupted) += 1;
+    const bool running = is_running(path, lately);
+    (running ? counts.running : counts.interrupted) += 1;
+    if (running) add_rate(rate_of(path, found.pieces), status);
   }
   counts.complete = std::ssize(complete);
   return counts;
@@ -216,14 +210,14 @@ RunStatus read_status(const fs::path& output) {
   const Pieces found = read_pieces(output);
   const bool running = is_running(output, written_lately(found.pieces));
   const bool has_nothing = found.pieces.empty() && found.problems.empty();
-  if (has_nothing && !running && !is_awaited(output)) return status_of_file(output);
+  if (has_nothing && !running) return status_of_file(output);
   RunStatus status;
   status.running = running;
   status.name = found.name;
   status.trials = found.trials;
   status.problems = found.problems;
   status.finished = finished_trials(found.pieces);
-  status.rate = rate_of(found.pieces, begin_of(output));
+  if (running) add_rate(rate_of(output, found.pieces), status);
   status.shards = std::count_if(found.pieces.begin(), found.pieces.end(),
                                 [](const Piece& piece) { return !shards::part_named(piece.path); });
   add_damaged(layout::shards_directory(output), status);
@@ -233,9 +227,9 @@ RunStatus read_status(const fs::path& output) {
     if (parts.all > 1) status.parts = parts;
     if (is_merged(output, status, found.pieces)) return status_of_merged(output, status);
   }
-  if (!status.running) status.rate = std::nan("");
+  const bool may_be_queued = status.parts && status.parts->waiting() > 0;
   status.stopped =
-      !status.running && !is_awaited(output) && storage::lock_state(output) != storage::LockState::unknown;
+      !status.running && !may_be_queued && storage::lock_state(output) != storage::LockState::unknown;
   return status;
 }
 

@@ -27,7 +27,7 @@ struct RunStatus {
   std::int64_t finished{0};  ///< trials in complete files
   std::int64_t shards{0};    ///< finished, not counting complete parts
   bool running{false};       ///< the output, or one of its parts
-  bool stopped{false};       ///< incomplete, no process runs it, and no submitted job is awaited
+  bool stopped{false};       ///< incomplete, no process runs it, and no part waits to begin
   std::optional<PartCounts> parts{};
   std::vector<std::string> problems{};  ///< files that cannot be read, or were set aside as damaged
   double rate{std::numeric_limits<double>::quiet_NaN()};  ///< trials/s; NaN: unknown
@@ -38,9 +38,9 @@ struct RunStatus {
 /// The state of the run that makes `output`.
 ///
 /// An output or part is running if a process has it locked. Where there is the lock file of another machine,
-/// whose lock may not be seen here: if its newest shard is younger than a minute. The rate is that of the
-/// trials whose files were written since the jobs were submitted, or the run has begun, over the time up to
-/// the newest of them.
+/// whose lock may not be seen here: if its newest shard is younger than a minute. The rate is the sum of
+/// those of the processes that run: the trials whose shards one has written since it began, over the time up
+/// to the newest of them.
 ///
 /// Reads only the headers of the files with trials, without checking their checksums.
 /// @throws Failure: bad_input if there is neither a file nor a run; bad_data if the file is not a

@@ -14,6 +14,7 @@
 #include "analysis/text/report_json.hpp"
 #include "core/failure/failure.hpp"
 #include "core/text/shell_word.hpp"
+#include "results/shards/pieces.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/run_status/run_status.hpp"
@@ -26,10 +27,10 @@ namespace {
 
 constexpr const char* status_help =
     "Prints the progress of a run, and the summary of its finished trials: of a run on this machine,\n"
-    "which writes FILE.shards/, or of an array job (zerocount slurm), which writes FILE.parts/.\n"
+    "which writes FILE.shards/, or of an array job, whose parts are FILE.parts/part-1-of-8.h5 and so on.\n"
     "It reads only these files, so it works on any machine that sees them. A part is running if a\n"
     "process has locked it; if the locks of another machine cannot be seen, if one of its shards was\n"
-    "written in the last minute. The rate is the mean since the run began or the jobs were submitted.\n"
+    "written in the last minute. The rate is the sum of those of the processes, each since it began.\n"
     "For a study with `stop` the number of trials is the maximum. JSON has no summary (see\n"
     "zerocount summary), and is one line each time with --watch.\n"
     "--watch ends when FILE is complete, or with exit code 4 when no process runs the study any more.\n"
@@ -69,7 +70,8 @@ std::string next_step(Status s) {
   if (s.status.complete) return fmt::format("see: zerocount summary {}", text::shell_path(s.output));
   const std::optional<run_status::PartCounts>& parts = s.status.parts;
   if (parts && parts->complete == parts->all)
-    return "not merged: see merge.log in the folder of the parts, or give the command 'slurm' again";
+    return fmt::format("not merged: zerocount merge {} -o {}",
+                       text::shell_path(shards::parts_directory(s.output)), text::shell_path(s.output));
   return {};
 }
 
@@ -119,9 +121,11 @@ document::Description<run_status::RunStatus> run_description() {
              &Run::shards)
       .value({.heading = "shards", .shown = Shown::to_people},
              [](const Run& run) { return run.complete ? std::nullopt : std::optional(run.shards); })
-      .value(
-          {.key = "rate", .meaning = "mean rate since the run began", .unit = "1/s", .shown = Shown::in_data},
-          &Run::rate)
+      .value({.key = "rate",
+              .meaning = "sum of the mean rates of the processes that run",
+              .unit = "1/s",
+              .shown = Shown::in_data},
+             &Run::rate)
       .value({.key = "remaining", .meaning = "time to go at this rate", .unit = "s", .shown = Shown::in_data},
              &Run::remaining)
       .value({.key = "problems",

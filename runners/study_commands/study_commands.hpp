@@ -4,7 +4,6 @@
 
 namespace zerocount::study_commands {
 
-commands::Command slurm_command();
 commands::Command new_command();
 commands::Command status_command();
 commands::Command run_command();

@@ -52,9 +52,8 @@ EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout:
 }
 
 EarlierShards earlier_shards(const fs::path& directory, const study::Study& study, layout::RowRange wanted,
-                             ForeignShards foreign, Inspection inspection) {
-  const shards::ShardSurvey survey = shards::list_shards(
-      directory, study, inspection == Inspection::values ? check_contents : shards::ShardCheck{});
+                             ForeignShards foreign) {
+  const shards::ShardSurvey survey = shards::list_shards(directory, study, check_contents);
   for (const shards::ShardProblem& bad : survey.problems) {
     if (bad.kind == shards::ShardProblem::Kind::foreign && foreign == ForeignShards::remove) {
       std::error_code ignored;

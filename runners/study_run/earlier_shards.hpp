@@ -25,15 +25,11 @@ EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout:
 /// Treatment of shards of another study.
 enum class ForeignShards { refuse, remove };
 
-/// How a shard is checked. values: reads every value, which may be wrong under a right checksum. checksum:
-/// reads the bytes of the file and its header.
-enum class Inspection { values, checksum };
-
-/// Finds the shards of earlier runs. Damaged shards are renamed and their trials run again.
+/// Finds the shards of earlier runs and reads every value of them, which may be wrong under a right checksum.
+/// Damaged shards are renamed and their trials run again.
 /// @throws Failure (bad_input) if the folder has shards of another study and `refuse` is given.
 EarlierShards earlier_shards(const std::filesystem::path& directory, const study::Study& study,
-                             layout::RowRange wanted, ForeignShards foreign = ForeignShards::refuse,
-                             Inspection inspection = Inspection::values);
+                             layout::RowRange wanted, ForeignShards foreign = ForeignShards::refuse);
 
 /// Removes the shards, and their folder if it is then empty.
 void remove_shards(const std::filesystem::path& directory, const std::vector<std::filesystem::path>& shards);

@@ -42,7 +42,7 @@ def check_program(prefix, folder):
 
 def check_shell_files(prefix):
     manual = gzip.decompress((prefix / "share/man/man1/zerocount.1.gz").read_bytes()).decode()
-    for command in ("run", "summary", "slurm"):
+    for command in ("run", "summary", "status"):
         require(f".SS {command}\n" in manual, f"the manual page has {command}")
     if shutil.which("groff"):
         checked = subprocess.run(["groff", "-k", "-man", "-Tutf8", "-ww", "-z"], input=manual,

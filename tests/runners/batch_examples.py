@@ -5,6 +5,7 @@ usage: batch_examples.py ZEROCOUNT ROOT
 
 import contextlib
 import fcntl
+import json
 import os
 import pathlib
 import re
@@ -186,9 +187,10 @@ class Contract(Batch):
 
 class Examples(Batch):
     trials = 16000
+    parts = "parts"  # their folder
 
     def some_parts(self):
-        return 0 < len(list((self.folder / "parts").glob("*-of-8.h5"))) < 8
+        return 0 < len(list((self.folder / self.parts).glob("*-of-8.h5"))) < 8
 
     def require_goes_on(self, *words, before=(), unseen=0):
         """The same bytes as by one machine, after a kill in the middle, and without running again what was finished.
@@ -196,14 +198,14 @@ class Examples(Batch):
         unseen: parts that may run again, because the system was killed before it saw that they had ended
         """
         self.killed(self.some_parts, *words)
-        kept = {path.name: path.stat().st_ino for path in (self.folder / "parts").glob("*-of-8.h5")}
+        kept = {path.name: path.stat().st_ino for path in (self.folder / self.parts).glob("*-of-8.h5")}
         self.assertFalse((self.folder / "study.h5").exists())
         self.wait_for_locks()
         if before:
             self.ended(*before)
         self.ended(*words)
         self.require_alone()
-        again = [name for name in kept if (self.folder / "parts" / name).stat().st_ino != kept[name]]
+        again = [name for name in kept if (self.folder / self.parts / name).stat().st_ino != kept[name]]
         self.assertLessEqual(len(again), unseen)
 
     def wait_for_locks(self):
@@ -221,6 +223,21 @@ class Examples(Batch):
     def test_make(self):
         self.require_goes_on("make", "-f", EXAMPLES / "Makefile", "-j", "2", "STUDY=study.yaml", "PARTS=8")
         self.assertIn("up to date", self.ended("make", "-f", EXAMPLES / "Makefile", "STUDY=study.yaml", "PARTS=8"))
+
+    def test_slurm(self):
+        """What Slurm does with slurm.sh (really: tests/slurm), of an array with fewer elements than parts; `status` counts the parts."""
+        self.parts = "study.h5.parts"
+        (self.folder / "slurm").write_text(
+            f"for id in 1 2 3; do SLURM_ARRAY_TASK_ID=$id SLURM_ARRAY_TASK_MAX=3 {EXAMPLES}/slurm.sh study.yaml 8 || exit; done\n"
+            f"exec {EXAMPLES}/slurm.sh study.yaml 8\n")
+        self.require_goes_on("sh", "slurm", before=("sh", "-c", "zerocount status study.h5 --format json > status"))
+        counts = json.loads((self.folder / "status").read_text())["parts"]
+        self.assertEqual((counts["all"], counts["running"]), (8, 0))
+        self.assertTrue(0 < counts["complete"] < 8, counts)
+        edited = (self.folder / "study.yaml").read_text().replace("130", "150")
+        (self.folder / "study.yaml").write_text(edited)
+        self.ended("sh", "slurm", code=2)
+        self.require_alone()
 
     @unittest.skipUnless(shutil.which("parallel"), "no GNU parallel here")
     def test_parallel(self):

@@ -3014,7 +3014,7 @@ class StatusAnswer(Answer):
     shards : int
         Finished shards, without those of complete parts.
     rate : float or None
-        Mean rate since the run began, 1/s.
+        Sum of the mean rates of the processes that run, 1/s.
     remaining : float or None
         Time to go at this rate, s.
     problems : list[str]

@@ -142,7 +142,6 @@ TEST_F(Places, APipeIsReadLikeAFile) {
   }
   EXPECT_EQ(stored_datasets(at("piped.h5")), stored_datasets(at("all.h5")));
   EXPECT_EQ(folder_.read("piped.csv"), folder_.read("file.csv"));
-  EXPECT_EQ(shell("export Z && bash -c '$Z slurm <(cat study.yaml) -o a.h5 --tasks 2 --dry-run'"), 2);
 }
 
 // The system's `timeout` ends a program that waits for the other end with exit code 124.

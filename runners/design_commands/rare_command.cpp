@@ -24,7 +24,6 @@
 #include "runners/commands/timeline_option.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/examined_point.hpp"
-#include "runners/design_commands/rare_figure.hpp"
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/rare/rare_answer.hpp"
 #include "runners/rare/rare_run.hpp"
@@ -120,14 +119,6 @@ rare::RareSettings settings_of(const command_line::Arguments& arguments) {
   return settings;
 }
 
-document::AnswerDescription<rare::RareReading> rare_answer() {
-  document::AnswerDescription<rare::RareReading> answer{
-      {.name = "rare", .meaning = "the probability of a rare failure", .csv_table = "inputs"},
-      rare::rare_description()};
-  answer.items.figures([](const rare::RareReading& r) { return rare_figures(r.answer.inputs); });
-  return answer;
-}
-
 /// @throws Failure (bad_input) if there is nothing that could make a trial fail
 rare::Question question_with_draws(const study::Study& study, const rare::Population& of,
                                    measures::MoveEvent event, const std::string& name) {
@@ -160,7 +151,7 @@ ExitCode rare(const command_line::Arguments& arguments) {
   return commands::recorded(timeline, "rare", [&] {
     const rare::RareAnswer answer = rare::run_rare(question, settings, interruption.token());
     const bool is_estimated = answer.estimate.status == rare::EstimateStatus::estimated;
-    return answers::print(arguments, rare_answer(), rare::RareReading{answer, question, settings.output},
+    return answers::print(arguments, rare::rare_answer(), answer,
                           is_estimated ? ExitCode::success : ExitCode::inconclusive);
   });
 }
@@ -178,7 +169,7 @@ document::Answer rare_of(const study::Study& study, const rare::Population& of,
   settings.quiet = true;
   const rare::RareAnswer answer = rare::run_rare(question, settings, effort.stop());
   effort.spend(std::min(answer.state.trials, effort.trials_left()));
-  return rare_answer().of(rare::RareReading{answer, question, {}});
+  return rare::rare_answer().of(answer);
 }
 
 commands::Command rare_command() {
@@ -202,7 +193,7 @@ commands::Command rare_command() {
           "the probability of a failure that plain trials do not see",
           rare_help,
           rare,
-          [] { return std::vector{rare_answer().complete_type()}; }};
+          [] { return std::vector{rare::rare_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::design_commands

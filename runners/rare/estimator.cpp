@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <string_view>
@@ -11,10 +12,9 @@
 
 #include <fmt/format.h>
 
+#include "analysis/statistics/betting_bounds.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "experiments/designs/random_key.hpp"
-#include "runners/rare/splitting.hpp"
-#include "runners/rare/tried_values.hpp"
 
 namespace zerocount::rare {
 namespace {
@@ -51,21 +51,71 @@ constexpr double cap_beyond_usual = 2.0;
 constexpr double quantile_of_cap = 0.998;  // of the likelihood ratio of failures
 constexpr std::int64_t max_learnings = 8;
 constexpr double steps_per_independent_point = 5.0;  // of a Markov chain
+constexpr double disagreement = 10.0;                // of splitting and the bounds
 
-/// Scales the weights of components to a sum.
-void scale_weights(std::vector<NormalComponent>& components, double sum) {
-  double all = 0.0;
-  for (const NormalComponent& one : components) all += one.weight;
-  for (NormalComponent& one : components) one.weight *= sum / all;
+double sum_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// Gives the points the sum of weights `size`.
+void balance(WeightedPoints& points, double size) {
+  const double sum = sum_of(points.weights);
+  for (double& weight : points.weights) weight *= size / sum;
 }
 
 /// The mixture of two fits, of which the second has this share if there is a first.
 std::vector<NormalComponent> mixed(std::vector<NormalComponent> first, std::vector<NormalComponent> second,
                                    double share) {
+  const auto scale_weights = [](std::vector<NormalComponent>& components, double sum) {
+    double all = 0.0;
+    for (const NormalComponent& one : components) all += one.weight;
+    for (NormalComponent& one : components) one.weight *= sum / all;
+  };
   scale_weights(first, second.empty() ? 1.0 : 1.0 - share);
   scale_weights(second, first.empty() ? 1.0 : share);
   std::ranges::move(second, std::back_inserter(first));
   return first;
+}
+
+/// A value of a discrete draw, and the largest value of each score among its last trials; −∞: not known.
+struct TriedValue {
+  PinnedValue value;
+  std::vector<double> scores;
+
+  void take(std::span<const Trial> trials) {
+    value.trials = std::ssize(trials);
+    value.failures = std::ranges::count_if(trials, [](const Trial& one) { return one.failed > 0.0; });
+    scores.assign(trials.front().scores.size(), -std::numeric_limits<double>::infinity());
+    for (const Trial& one : trials) {
+      for (std::size_t i = 0; i < scores.size(); ++i) scores[i] = std::fmax(scores[i], one.scores[i]);
+    }
+  }
+};
+
+/// At most `count` values: those with most failures, and by turns those with the largest value of each score.
+std::vector<TriedValue> most_suspicious(const std::vector<TriedValue>& tried, std::size_t count,
+                                        std::size_t scores) {
+  if (tried.size() <= count) return tried;
+  std::vector<std::size_t> order(tried.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<bool> chosen(tried.size(), false);
+  std::vector<TriedValue> found;
+  const auto take_first = [&](std::size_t most, const auto& is_wanted) {
+    for (std::size_t i = 0; i < order.size() && most > 0 && found.size() < count; ++i) {
+      if (chosen[order[i]] || !is_wanted(tried[order[i]])) continue;
+      chosen[order[i]] = true;
+      found.push_back(tried[order[i]]);
+      --most;
+    }
+  };
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return tried[i].value.failures; });
+  take_first(count, [](const TriedValue& one) { return one.value.failures > 0; });
+  const std::size_t of_each = (count - found.size() + scores - 1) / scores;
+  for (std::size_t score = 0; score < scores; ++score) {
+    std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return tried[i].scores[score]; });
+    take_first(of_each, [](const TriedValue&) { return true; });
+  }
+  return found;
 }
 
 class Estimator {
@@ -77,7 +127,9 @@ class Estimator {
   Estimate run() {
     if (!state_.learned && !learn()) return answer_of(state_, settings_);
     estimate_by_drawing();
-    if (!state_.proposal.is_natural() && has_failed(answer_of(state_, settings_).status) && go_on_(state_)) {
+    const EstimateStatus status = answer_of(state_, settings_).status;
+    const bool is_of_no_use = status == EstimateStatus::not_covered || status == EstimateStatus::too_many;
+    if (!state_.proposal.is_natural() && is_of_no_use && go_on_(state_)) {
       draw_plainly();
       state_.drawn.clear();
       ++state_.learnings;
@@ -87,32 +139,7 @@ class Estimator {
   }
 
  private:
-  /// Whether the learned proposal is of no use.
-  static bool has_failed(EstimateStatus status) {
-    return status == EstimateStatus::not_covered || status == EstimateStatus::too_many;
-  }
-
-  void estimate_by_drawing() {
-    while (!answer_of(state_, settings_).narrow) {
-      if (state_.drawn.size() >= max_drawn || !go_on_(state_)) return;
-      draw_more();
-      if (!is_covered() && !learn_again()) return;
-    }
-  }
-
-  NumberSource numbers_for(std::string_view use, std::uint32_t stream = 0) const {
-    return NumberSource(designs::random_key(settings_.seed, fmt::format("rare/{}", use)), stream);
-  }
-
-  double ratio_at(std::span<const double> z) const {
-    return likelihood_ratio(settings_.space, state_.proposal, z);
-  }
-
-  std::vector<PointResult> run_trials(std::span<const TrialPoint> points) {
-    std::vector<PointResult> results = simulate_(points);
-    state_.trials += std::ssize(points);
-    return results;
-  }
+  // Learning.
 
   bool learn() {
     if (state_.plain_trials > 0) ++state_.searched;  // a search anew has other random numbers
@@ -138,8 +165,7 @@ class Estimator {
                                                max_ratio_of_pinned(state_.proposal));
       if (state_.cap < narrow_cap * probability) break;
     }
-    for (const std::vector<double>& z : plain_failing_)
-      state_.cap = std::max(state_.cap, cap_beyond_usual * ratio_at(z));
+    raise_cap(plain_failing_);
     state_.learned = true;
     state_.learnings = 1;
     if (state_.cap >= cap_of_no_use) draw_plainly();
@@ -154,28 +180,16 @@ class Estimator {
     state_.learnings = std::max<std::int64_t>(state_.learnings, 1);
   }
 
-  std::vector<TrialPoint> numbered(std::vector<std::vector<double>> points) const {
-    std::vector<TrialPoint> trials;
-    trials.reserve(points.size());
-    for (std::vector<double>& z : points)
-      trials.push_back({std::move(z), state_.trials + std::ssize(trials)});
-    return trials;
-  }
-
   /// Trials of their own distribution: where failures are common, they are enough to learn from.
   void run_plain() {
     NumberSource numbers = numbers_for("plain", static_cast<std::uint32_t>(state_.searched));
     std::vector<std::vector<double>> points;
     for (std::size_t i = 0; i < plain_at_first; ++i)
       points.push_back(numbers.normals(settings_.space.coordinates));
-    const std::vector<TrialPoint> trials = numbered(std::move(points));
-    const std::vector<PointResult> results = run_trials(trials);
-    for (std::size_t i = 0; i < trials.size(); ++i) {
-      if (results[i].failed > 0.0) searched_.add(trials[i].z, results[i].failed);
+    for (const Trial& trial : run_at(std::move(points))) {
+      count_plain(trial);
+      if (trial.failed > 0.0) add_plain_failure(trial, trial.failed);
     }
-    state_.plain_trials += std::ssize(trials);
-    state_.plain_failures += std::ssize(searched_.z);
-    plain_failing_ = searched_.z;
   }
 
   /// Trials at every value of each discrete draw, whatever its probability: a value that fails need not be
@@ -224,18 +238,17 @@ class Estimator {
   bool run_tried(std::vector<TriedValue>& values, std::int64_t trials_of_each, NumberSource& numbers) {
     const auto at_once =
         static_cast<std::size_t>(std::max<std::int64_t>(trials_of_values_at_once / trials_of_each, 1));
+    const auto each = static_cast<std::size_t>(trials_of_each);
     for (std::size_t first = 0; first < values.size(); first += at_once) {
       if (!go_on_(state_)) return false;
       const std::span part = std::span(values).subspan(first, std::min(at_once, values.size() - first));
       std::vector<std::vector<double>> points;
       for (const TriedValue& one : part) {
-        for (std::int64_t i = 0; i < trials_of_each; ++i)
+        for (std::size_t i = 0; i < each; ++i)
           points.push_back(draw_pinned(settings_.space, one.value, numbers));
       }
-      const std::vector<PointResult> results = run_trials(numbered(std::move(points)));
-      const auto count = static_cast<std::size_t>(trials_of_each);
-      for (std::size_t i = 0; i < part.size(); ++i)
-        part[i].take(std::span(results).subspan(i * count, count));
+      const std::vector<Trial> trials = run_at(std::move(points));
+      for (std::size_t i = 0; i < part.size(); ++i) part[i].take(std::span(trials).subspan(i * each, each));
     }
     return true;
   }
@@ -249,25 +262,19 @@ class Estimator {
       for (int i = 0; i < repeated; ++i) {
         NumberSource numbers = numbers_for("splitting", stream++);
         const SplittingResult found = split(
-            {.coordinates = settings_.space.coordinates,
-             .unordered = settings_.space.unordered,
-             .score = score,
-             .least = std::max(min_probability, min_beside_the_best * best),
-             .first_number = state_.trials},
-            [&, plain = true](std::span<const TrialPoint> points) mutable {
-              return run_beside_pinned(points, std::exchange(plain, false));
+            {score, std::max(min_probability, min_beside_the_best * best), state_.trials}, settings_.space,
+            [&, plain = true](std::span<Trial> trials) mutable {
+              run_beside_pinned(trials, std::exchange(plain, false));
             },
             numbers, [&] { return go_on_(state_); });
-        state_.plain_trials += found.plain_trials;
-        state_.plain_failures += std::ssize(found.plain_failing);
-        state_.searches.push_back({score, found.reached, found.probability, found.levels, found.trials});
-        for (const TrialPoint& point : found.plain_failing) {
-          searched_.add(point.z, 1.0);
-          plain_failing_.push_back(point.z);
+        state_.searches.push_back(found.search);
+        for (const Trial& trial : found.plain) {
+          count_plain(trial);
+          if (trial.failed > 0.0) add_plain_failure(trial, 1.0);
         }
         if (!go_on_(state_)) return false;
-        if (!found.reached) continue;
-        best = std::max(best, found.probability);
+        if (!found.search.reached) continue;
+        best = std::max(best, found.search.probability);
         add_points(found, numbers);
       }
     }
@@ -276,34 +283,29 @@ class Estimator {
 
   /// Runs trials of a search for failures other than those at pinned values, which lead nowhere there.
   /// @param plain they are drawn from their own distribution
-  std::vector<PointResult> run_beside_pinned(std::span<const TrialPoint> points, bool plain) {
-    std::vector<PointResult> results = run_trials(points);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!is_pinned(settings_.space, state_.proposal, points[i].z)) continue;
-      if (plain && results[i].failed > 0.0) {
+  void run_beside_pinned(std::span<Trial> trials, bool plain) {
+    run_trials(trials);
+    for (Trial& trial : trials) {
+      if (!is_pinned(settings_.space, state_.proposal, trial.z)) continue;
+      if (plain && trial.failed > 0.0) {
         ++state_.plain_failures;
-        plain_failing_.push_back(points[i].z);
+        plain_failing_.push_back(trial.z);
       }
-      results[i] = {0.0, std::vector<double>(settings_.scores, statistics::unknown)};
+      trial.failed = 0.0;
+      trial.scores.assign(settings_.scores, statistics::unknown);
     }
-    return results;
   }
 
   void add_points(const SplittingResult& found, NumberSource& numbers) {
-    const double each = 1.0 / steps_per_independent_point;
-    for (const TrialPoint& point : found.failing) searched_.add(point.z, each);
-    for (const std::vector<TrialPoint>& level : found.above) {
+    for (const Trial& trial : found.failing) searched_.add(trial.z, 1.0 / steps_per_independent_point);
+    for (const std::vector<Trial>& level : found.above) {
       WeightedPoints points;
-      for (const TrialPoint& point : level) points.add(proposal_coordinates(settings_.space, point.z), 1.0);
+      for (const Trial& trial : level) points.add(proposal_coordinates(settings_.space, trial.z), 1.0);
       levels_.push_back(fitted_normal(points, numbers));
     }
   }
 
-  /// Gives the points the sum of weights `size`.
-  static void balance(WeightedPoints& points, double size) {
-    const double sum = std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
-    for (double& weight : points.weights) weight *= size / sum;
-  }
+  // The proposal.
 
   /// Those points that no pinned value explains, as normal components see them.
   WeightedPoints unexplained(const WeightedPoints& points) const {
@@ -338,35 +340,18 @@ class Estimator {
     proposal.pinned = proposal.values.empty() ? 0.0 : proposal.components.empty() ? 1.0 : share_of_pinned;
   }
 
-  std::vector<WeightedTrial> draw_trials(std::size_t count, NumberSource& numbers) {
-    std::vector<std::vector<double>> points;
-    std::vector<bool> natural;
-    for (std::size_t i = 0; i < count; ++i) {
-      DrawnPoint point = draw(settings_.space, state_.proposal, numbers);
-      points.push_back(std::move(point.z));
-      natural.push_back(point.natural);
-    }
-    std::vector<TrialPoint> trials = numbered(std::move(points));
-    const std::vector<PointResult> results = run_trials(trials);
-    std::vector<WeightedTrial> drawn;
-    for (std::size_t i = 0; i < count; ++i) {
-      state_.plain_trials += natural[i] ? 1 : 0;
-      state_.plain_failures += natural[i] && results[i].failed > 0.0 ? 1 : 0;
-      const double weight = ratio_at(trials[i].z);
-      drawn.push_back({std::move(trials[i]), weight, results[i].failed});
-    }
-    return drawn;
+  double ratio_at(std::span<const double> z) const {
+    return likelihood_ratio(settings_.space, state_.proposal, z);
   }
 
   /// @return the probability by these trials
   double run_pilot(NumberSource& numbers) {
     WeightedPoints found;
     double sum = 0.0;
-    for (const WeightedTrial& trial : draw_trials(pilot_trials, numbers)) {
+    for (const Trial& trial : draw_trials(pilot_trials, numbers)) {
       const double part = trial.weight * trial.failed;
       sum += part;
-      if (part > 0.0 && !is_pinned(settings_.space, state_.proposal, trial.point.z))
-        found.add(trial.point.z, part);
+      if (part > 0.0 && !is_pinned(settings_.space, state_.proposal, trial.z)) found.add(trial.z, part);
     }
     if (!found.z.empty()) balance(found, effective_size(found.weights));
     for (std::size_t i = 0; i < found.z.size(); ++i) pilots_.add(found.z[i], found.weights[i]);
@@ -379,7 +364,7 @@ class Estimator {
     for (std::size_t i = 0; i < points.z.size(); ++i)
       ratios.emplace_back(ratio_at(points.z[i]), points.weights[i]);
     std::ranges::sort(ratios);
-    double left = quantile_of_cap * std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
+    double left = quantile_of_cap * sum_of(points.weights);
     for (const auto& [ratio, weight] : ratios) {
       left -= weight;
       if (left <= 0.0) return ratio;
@@ -387,35 +372,92 @@ class Estimator {
     return ratios.empty() ? 0.0 : ratios.back().first;
   }
 
-  void draw_more() {
-    NumberSource numbers = numbers_for(fmt::format("drawn/{}", state_.learnings),
-                                       static_cast<std::uint32_t>(state_.drawn.size() / drawn_at_once));
-    const std::size_t count =
-        std::max(drawn_at_once, state_.drawn.size() / drawn_at_once / 8 * drawn_at_once);
-    std::ranges::move(draw_trials(count, numbers), std::back_inserter(state_.drawn));
+  /// The bounds are to allow for failures at these points.
+  void raise_cap(const std::vector<std::vector<double>>& points) {
+    for (const std::vector<double>& z : points)
+      state_.cap = std::max(state_.cap, cap_beyond_usual * ratio_at(z));
   }
 
-  bool is_covered() const {
-    return std::ranges::none_of(
-        state_.drawn, [&](const WeightedTrial& trial) { return trial.weight * trial.failed > state_.cap; });
+  // Estimation.
+
+  void estimate_by_drawing() {
+    while (!answer_of(state_, settings_).narrow) {
+      if (state_.drawn.size() >= max_drawn || !go_on_(state_)) return;
+      NumberSource numbers = numbers_for(fmt::format("drawn/{}", state_.learnings),
+                                         static_cast<std::uint32_t>(state_.drawn.size() / drawn_at_once));
+      const std::size_t count =
+          std::max(drawn_at_once, state_.drawn.size() / drawn_at_once / 8 * drawn_at_once);
+      std::ranges::move(draw_trials(count, numbers), std::back_inserter(state_.drawn));
+      const bool is_covered = std::ranges::none_of(
+          state_.drawn, [&](const Trial& trial) { return trial.weight * trial.failed > state_.cap; });
+      if (!is_covered && !learn_again()) return;
+    }
   }
 
   bool learn_again() {
     if (state_.learnings >= max_learnings) return false;
     WeightedPoints found;
-    for (const WeightedTrial& trial : state_.drawn) {
-      if (trial.failed > 0.0) found.add(trial.point.z, trial.weight * trial.failed);
+    for (const Trial& trial : state_.drawn) {
+      if (trial.failed > 0.0) found.add(trial.z, trial.weight * trial.failed);
     }
     const WeightedPoints unforeseen = unexplained(found);
     if (unforeseen.z.empty()) return false;
     NumberSource numbers = numbers_for("again", static_cast<std::uint32_t>(state_.learnings));
     set_components(
         mixed(std::move(state_.proposal.components), fitted_mixture(unforeseen, numbers), share_of_new));
-    for (const std::vector<double>& z : found.z)
-      state_.cap = std::max(state_.cap, cap_beyond_usual * ratio_at(z));
+    raise_cap(found.z);
     state_.drawn.clear();
     ++state_.learnings;
     return true;
+  }
+
+  // Trials.
+
+  NumberSource numbers_for(std::string_view use, std::uint32_t stream) const {
+    return NumberSource(designs::random_key(settings_.seed, fmt::format("rare/{}", use)), stream);
+  }
+
+  void run_trials(std::span<Trial> trials) {
+    simulate_(trials);
+    state_.trials += std::ssize(trials);
+  }
+
+  /// Runs trials at these points, with numbers of their own.
+  std::vector<Trial> run_at(std::vector<std::vector<double>> points) {
+    std::vector<Trial> trials;
+    trials.reserve(points.size());
+    for (std::vector<double>& z : points)
+      trials.push_back({std::move(z), state_.trials + std::ssize(trials)});
+    run_trials(trials);
+    return trials;
+  }
+
+  /// Weighted trials of the proposal, without scores.
+  std::vector<Trial> draw_trials(std::size_t count, NumberSource& numbers) {
+    std::vector<std::vector<double>> points;
+    std::vector<bool> natural;
+    for (std::size_t i = 0; i < count; ++i) {
+      DrawnPoint point = draw(settings_.space, state_.proposal, numbers);
+      points.push_back(std::move(point.z));
+      natural.push_back(point.natural);
+    }
+    std::vector<Trial> trials = run_at(std::move(points));
+    for (std::size_t i = 0; i < count; ++i) {
+      if (natural[i]) count_plain(trials[i]);
+      trials[i].weight = ratio_at(trials[i].z);
+      trials[i].scores = {};
+    }
+    return trials;
+  }
+
+  /// Counts a trial that was drawn from its own distribution.
+  void count_plain(const Trial& trial) {
+    ++state_.plain_trials;
+    if (trial.failed > 0.0) ++state_.plain_failures;
+  }
+  void add_plain_failure(const Trial& trial, double weight) {
+    searched_.add(trial.z, weight);
+    plain_failing_.push_back(trial.z);
   }
 
   EstimatorState& state_;
@@ -429,11 +471,64 @@ class Estimator {
   std::vector<NormalComponent> levels_;  ///< a normal distribution of each level of splitting
 };
 
+/// Confidence of the bounds of one proposal: the error probabilities of all have the sum that is allowed. The
+/// first has most of it, then the plain trials that follow a proposal of no use.
+double confidence_of(const EstimatorState& state, double confidence) {
+  const double part = state.learnings <= 1 ? 0.7
+                      : state.proposal.is_natural()
+                          ? 0.2
+                          : 0.1 * std::ldexp(1.0, static_cast<int>(1 - state.learnings));
+  return 1.0 - (1.0 - confidence) * part;
+}
+
+/// Whether splitting along the first score found failures of a far larger probability than the bounds allow,
+/// each time that it found some. Along the others it may end with copies of a few failures, whose number says
+/// little.
+bool splitting_disagrees(const EstimatorState& state, double high) {
+  const auto is_meant = [](const ScoreSearch& search) { return search.score == 0 && search.reached; };
+  return std::ranges::any_of(state.searches, is_meant) &&
+         std::ranges::none_of(state.searches, [&](const ScoreSearch& search) {
+           return is_meant(search) && search.probability <= disagreement * high;
+         });
+}
+
 }  // namespace
 
 Estimate estimate(EstimatorState& state, const EstimatorSettings& settings, const Simulation& simulate,
                   const std::function<bool(const EstimatorState&)>& go_on) {
   return Estimator(state, settings, simulate, go_on).run();
+}
+
+Estimate answer_of(const EstimatorState& state, const EstimatorSettings& settings) {
+  Estimate answer;
+  answer.plain_high =
+      statistics::clopper_pearson(state.plain_failures, state.plain_trials, settings.confidence).high;
+  answer.bounds = {0.0, answer.plain_high};
+  if (!state.learned || state.drawn.empty()) return answer;
+  std::vector<double> values;
+  for (const Trial& trial : state.drawn) {
+    if (trial.failed > 0.0) values.push_back(trial.weight * trial.failed);
+  }
+  answer.bounds = statistics::betting_bounds(values, std::ssize(state.drawn), state.cap,
+                                             confidence_of(state, settings.confidence));
+  answer.probability = sum_of(values) / static_cast<double>(state.drawn.size());
+  answer.bounds.high = std::min(answer.bounds.high, 1.0);
+  const bool exceeds = std::ranges::any_of(values, [&](double value) { return value > state.cap; });
+  answer.narrow =
+      !exceeds && answer.bounds.low > 0.0 && answer.bounds.high <= settings.ratio * answer.bounds.low;
+  const bool natural = state.proposal.is_natural();
+  if (exceeds || (!natural && answer.narrow && splitting_disagrees(state, answer.bounds.high))) {
+    answer.status = EstimateStatus::not_covered;
+  } else if (answer.narrow) {
+    answer.status = EstimateStatus::estimated;
+  } else if (natural && state.plain_failures == 0) {
+    answer.status = EstimateStatus::no_failure;
+  } else if (state.drawn.size() >= max_drawn) {
+    answer.status = EstimateStatus::too_many;
+  }
+  if (answer.status != EstimateStatus::estimated)
+    answer.bounds.high = std::max(answer.bounds.high, answer.plain_high);
+  return answer;
 }
 
 }  // namespace zerocount::rare

@@ -1,30 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 #include "analysis/statistics/proportion.hpp"
-#include "runners/rare/proposal.hpp"
-#include "runners/rare/trial_point.hpp"
+#include "runners/rare/splitting.hpp"
 
 namespace zerocount::rare {
-
-/// A trial that was drawn from the proposal.
-struct WeightedTrial {
-  TrialPoint point;
-  double weight{0.0};  ///< likelihood_ratio()
-  double failed{0.0};  ///< proportion of its moves that fail
-};
-
-/// How splitting along a score went.
-struct ScoreSearch {
-  std::size_t score{0};
-  bool reached{false};
-  double probability{1.0};  ///< of the last level; of a failure if it was reached
-  int levels{0};
-  std::int64_t trials{0};
-};
 
 /// State of an estimate, from which it can go on: what has been learned, and the trials drawn since.
 struct EstimatorState {
@@ -36,8 +20,12 @@ struct EstimatorState {
   std::int64_t searched{0};   ///< learnings begun before this one that did not end
   std::int64_t learnings{0};  ///< how often a proposal was learned
   Proposal proposal;
-  double cap{0.0};                   ///< largest weight of a failure that the bounds allow for
-  std::vector<WeightedTrial> drawn;  ///< from this proposal
+  double cap{0.0};           ///< largest weight of a failure that the bounds allow for
+  std::vector<Trial> drawn;  ///< from this proposal, without scores
+
+  std::int64_t failures() const {  ///< of the drawn trials
+    return std::ranges::count_if(drawn, [](const Trial& trial) { return trial.failed > 0.0; });
+  }
 };
 
 struct EstimatorSettings {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/quantile.hpp"
@@ -13,37 +15,23 @@
 namespace zerocount::rare {
 namespace {
 
-constexpr std::size_t usual_trials = 2000;
-constexpr std::size_t max_failures = 2000;
-constexpr std::size_t examined_machines = 48;
-constexpr std::size_t moves_of_machine = 64;
-
-/// A failure, and its part of the probability.
-struct Failed {
-  const WeightedTrial* trial;
-  double weight;
-};
-
-std::vector<Failed> failures_of(const EstimatorState& state) {
-  std::vector<Failed> failures;
-  for (const WeightedTrial& trial : state.drawn) {
-    if (trial.failed > 0.0) failures.push_back({&trial, trial.weight * trial.failed});
-  }
-  return failures;
-}
+constexpr std::int64_t usual_trials = 2000;
+constexpr std::int64_t max_failures = 2000;
+constexpr std::int64_t examined_machines = 48;
+constexpr std::int64_t moves_of_machine = 64;
 
 /// So many failures drawn by their weights, at equal steps of the cumulative weight.
-std::vector<const WeightedTrial*> drawn_failures(const EstimatorState& state, std::size_t count) {
-  const std::vector<Failed> failures = failures_of(state);
+std::vector<Trial> drawn_failures(const EstimatorState& state, std::int64_t count) {
   double sum = 0.0;
-  for (const Failed& one : failures) sum += one.weight;
-  std::vector<const WeightedTrial*> chosen;
+  for (const Trial& trial : state.drawn) sum += trial.weight * trial.failed;
+  std::vector<Trial> chosen;
   double passed = 0.0;
-  for (const Failed& one : failures) {
-    passed += one.weight / sum;
-    while (chosen.size() < count &&
+  for (const Trial& trial : state.drawn) {
+    if (!(trial.failed > 0.0)) continue;
+    passed += trial.weight * trial.failed / sum;
+    while (std::ssize(chosen) < count &&
            (static_cast<double>(chosen.size()) + 0.5) / static_cast<double>(count) < passed)
-      chosen.push_back(one.trial);
+      chosen.push_back(trial);
   }
   return chosen;
 }
@@ -61,31 +49,33 @@ double normal_score(const std::vector<double>& sorted, double value) {
   return numerics::normal_quantile(std::clamp(rank, 0.5, size - 0.5) / size);
 }
 
-double mean_score(const std::vector<double>& sorted, const std::vector<double>& values) {
+template <class Values, class Get>
+double mean_of(const Values& values, const Get& get) {
   double sum = 0.0;
-  for (const double value : values) sum += normal_score(sorted, value);
+  for (const auto& value : values) sum += get(value);
   return sum / static_cast<double>(values.size());
 }
 
 /// Mean of the random coordinate that alone decides this input; nothing if there is none.
 std::optional<double> mean_coordinate(const Question& question, std::string_view input,
-                                      const std::vector<const WeightedTrial*>& failed) {
+                                      const std::vector<Trial>& failed) {
   if (!question.study.correlations.empty()) return std::nullopt;
   const auto coordinate = std::ranges::find(question.coordinates, input, &randomness::RandomCoordinate::name);
   if (coordinate == question.coordinates.end() ||
       coordinate->kind != randomness::RandomCoordinate::Kind::values)
     return std::nullopt;
-  double sum = 0.0;
-  for (const WeightedTrial* trial : failed)
-    sum += trial->point.z[static_cast<std::size_t>(coordinate - question.coordinates.begin())];
-  return sum / static_cast<double>(failed.size());
+  const auto index = static_cast<std::size_t>(coordinate - question.coordinates.begin());
+  return mean_of(failed, [&](const Trial& trial) { return trial.z[index]; });
 }
 
-/// [input column][trial], each sorted.
-std::vector<std::vector<double>> sorted_columns(const std::vector<std::vector<double>>& trials) {
-  std::vector<std::vector<double>> columns(trials.front().size());
-  for (const std::vector<double>& inputs : trials) {
-    for (std::size_t i = 0; i < inputs.size(); ++i) columns[i].push_back(inputs[i]);
+/// [input column][trial] what the trials have drawn, each sorted.
+std::vector<std::vector<double>> sorted_inputs(const Question& question, const std::vector<Trial>& trials) {
+  std::vector<std::vector<double>> inputs(trials.size());
+  parallel::for_each_index(
+      trials.size(), [&](std::size_t i) { inputs[i] = trial_at(question, trials[i]).inputs; }, "draw");
+  std::vector<std::vector<double>> columns(inputs.front().size());
+  for (const std::vector<double>& of_trial : inputs) {
+    for (std::size_t i = 0; i < of_trial.size(); ++i) columns[i].push_back(of_trial[i]);
   }
   for (std::vector<double>& column : columns) std::ranges::sort(column);
   return columns;
@@ -103,52 +93,25 @@ bool correlates_machine_and_move(const Question& question) {
   });
 }
 
-/// Trials of the machine that failed, with moves of their own.
-void add_moves(const Question& question, const WeightedTrial& failed, std::int64_t first_number,
-               NumberSource& numbers, std::vector<study::GivenDraws>& draws) {
-  const double start = trial_at(question, failed.point).parameters.initial.position;
-  for (std::size_t move = 0; move < moves_of_machine; ++move) {
-    TrialPoint point = failed.point;
-    for (std::size_t i = 0; i < point.z.size(); ++i) {
-      if (!question.coordinates[i].of_machine) point.z[i] = numbers.normal();
-    }
-    point.number = first_number + static_cast<std::int64_t>(draws.size());
-    study::GivenDraws& one = draws.emplace_back(draws_at(question, point));
-    one.rotor = failed.point.number;
-    for (auto& [slot, profile] : one.profiles) profile.position = start;
-  }
-}
-
-/// [point] what its trial has drawn.
-std::vector<std::vector<double>> inputs_at(const Question& question, std::span<const TrialPoint> points) {
-  std::vector<std::vector<double>> inputs(points.size());
-  parallel::for_each_index(
-      points.size(), [&](std::size_t i) { inputs[i] = trial_at(question, points[i]).inputs; }, "draw");
-  return inputs;
-}
-
 }  // namespace
 
 std::vector<FailureInput> failure_inputs(const Question& question, const EstimatorState& state) {
-  const std::vector<const WeightedTrial*> failed =
-      drawn_failures(state, std::min(max_failures, failures_of(state).size()));
+  const std::vector<Trial> failed = drawn_failures(state, std::min(max_failures, state.failures()));
   std::vector<FailureInput> found;
   if (failed.empty()) return found;
   NumberSource numbers(designs::random_key(question.study.seed, "rare/usual"));
-  std::vector<TrialPoint> usual;
-  for (std::size_t i = 0; i < usual_trials; ++i)
-    usual.push_back({numbers.normals(question.coordinates.size()), static_cast<std::int64_t>(i)});
-  std::vector<TrialPoint> failing;
-  failing.reserve(failed.size());
-  for (const WeightedTrial* trial : failed) failing.push_back(trial->point);
-  const std::vector<std::vector<double>> usual_columns = sorted_columns(inputs_at(question, usual));
-  const std::vector<std::vector<double>> columns = sorted_columns(inputs_at(question, failing));
+  std::vector<Trial> usual;
+  for (std::int64_t i = 0; i < usual_trials; ++i)
+    usual.push_back({numbers.normals(question.coordinates.size()), i});
+  const std::vector<std::vector<double>> usual_columns = sorted_inputs(question, usual);
+  const std::vector<std::vector<double>> columns = sorted_inputs(question, failed);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const std::vector<double>& all = usual_columns[i];
     if (!(all.front() < all.back())) continue;
     const study::InputColumn& column = question.study.columns.inputs[i];
+    const std::optional<double> shift = mean_coordinate(question, column.name, failed);
     found.push_back({column.name, column.unit,
-                     mean_coordinate(question, column.name, failed).value_or(mean_score(all, columns[i])),
+                     shift ? *shift : mean_of(columns[i], [&](double x) { return normal_score(all, x); }),
                      range_of(all), range_of(columns[i])});
   }
   std::ranges::stable_sort(found, [](const FailureInput& a, const FailureInput& b) {
@@ -161,24 +124,36 @@ std::optional<CarryingMachines> carrying_machines(const Question& question, cons
                                                   double probability, const trials::Effort& effort) {
   const auto of_machine =
       std::ranges::count_if(question.coordinates, &randomness::RandomCoordinate::of_machine);
-  const std::vector<const WeightedTrial*> failed = drawn_failures(state, examined_machines);
+  const std::vector<Trial> failed = drawn_failures(state, examined_machines);
   if (failed.empty() || of_machine == 0 || of_machine == std::ssize(question.coordinates) ||
       correlates_machine_and_move(question))
     return std::nullopt;
   NumberSource numbers(designs::random_key(question.study.seed, "rare/machines"));
+  std::vector<Trial> moves;  // of each machine in turn
   std::vector<study::GivenDraws> draws;
-  for (const WeightedTrial* trial : failed) add_moves(question, *trial, state.trials, numbers, draws);
-  const std::vector<PointResult> results = run_trials(question, draws, effort);
+  for (const Trial& machine : failed) {
+    const double start = trial_at(question, machine).parameters.initial.position;
+    for (std::int64_t i = 0; i < moves_of_machine; ++i) {
+      Trial& move = moves.emplace_back(machine);
+      for (std::size_t k = 0; k < move.z.size(); ++k) {
+        if (!question.coordinates[k].of_machine) move.z[k] = numbers.normal();
+      }
+      move.number = state.trials + std::ssize(draws);
+      study::GivenDraws& given = draws.emplace_back(draws_at(question, move));
+      given.rotor = machine.number;
+      for (auto& [slot, profile] : given.profiles) profile.position = start;
+    }
+  }
+  run_trials(question, moves, effort, std::move(draws));
+  const auto count = static_cast<double>(failed.size());
+  CarryingMachines machines{std::ssize(failed), moves_of_machine};
   std::vector<double> rates;
-  CarryingMachines machines{std::ssize(failed), static_cast<std::int64_t>(moves_of_machine)};
   for (std::size_t i = 0; i < failed.size(); ++i) {
-    double sum = 0.0;
-    for (std::size_t move = 0; move < moves_of_machine; ++move)
-      sum += results[i * moves_of_machine + move].failed;
-    rates.push_back(sum / static_cast<double>(moves_of_machine));
+    rates.push_back(mean_of(std::span(moves).subspan(i * moves_of_machine, moves_of_machine),
+                            std::mem_fn(&Trial::failed)));
     if (rates.back() <= 0.5) continue;
-    machines.mostly_failing += 1.0 / static_cast<double>(failed.size());
-    machines.probability_of_one += probability / rates.back() / static_cast<double>(failed.size());
+    machines.mostly_failing += 1.0 / count;
+    machines.probability_of_one += probability / rates.back() / count;
   }
   std::ranges::sort(rates);
   machines.median_rate = statistics::sample_quantile(rates, 0.5);

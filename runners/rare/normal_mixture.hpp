@@ -1,11 +1,14 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "runners/rare/trial_point.hpp"
+#include "core/random/number_source.hpp"
 
 namespace zerocount::rare {
+
+using random::NumberSource;
 
 /// One normal distribution of a mixture, of d coordinates.
 struct NormalComponent {

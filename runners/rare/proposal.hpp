@@ -2,14 +2,30 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "experiments/randomness/discrete_draws.hpp"
 #include "runners/rare/normal_mixture.hpp"
-#include "runners/rare/trial_point.hpp"
 
+/// The probability of a rare failure. A trial is a function of independent standard normal coordinates, and
+/// of further random numbers that follow from its number.
 namespace zerocount::rare {
+
+/// A trial: the point at which the function is taken, and its result.
+struct Trial {
+  std::vector<double> z;   ///< [coordinate]
+  std::int64_t number{0};  ///< of which all other random numbers of the trial follow
+  double failed{0.0};      ///< proportion of its moves that fail
+  /// [score] The largest of its moves, continuous; a useful score is larger the nearer a move is to failure.
+  /// NaN: not known.
+  std::vector<double> scores{};
+  double weight{1.0};  ///< likelihood_ratio(), of a trial that was drawn from a proposal
+};
+
+/// Runs trials: sets `failed` and `scores`.
+using Simulation = std::function<void(std::span<Trial>)>;
 
 /// The independent standard normal coordinates of a trial, and what is drawn from them in discrete steps.
 struct TrialSpace {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -14,6 +13,7 @@
 
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/goal/question.hpp"
+#include "analysis/report/figures/figure.hpp"
 #include "analysis/text/percent.hpp"
 #include "core/numerics/normal_distribution.hpp"
 #include "core/text/shell_word.hpp"
@@ -27,37 +27,23 @@ using document::Notation;
 using document::Shown;
 using document::with_words;
 
-using Of = const RareReading&;
+using Of = const RareAnswer&;
 
-constexpr double min_shift = 0.3;  // of an input that is shown
+constexpr double min_shift = 0.3;  // of an input that people are shown
 constexpr std::size_t max_inputs = 8;
 constexpr std::size_t max_replays = 3;
 
-bool is_estimated(const RareAnswer& answer) {
+bool is_estimated(Of answer) {
   return answer.estimate.status == EstimateStatus::estimated;
 }
 
 /// Whether failures were found and weighted, so that there is a number.
-bool has_probability(const RareAnswer& answer) {
+bool has_probability(Of answer) {
   return !answer.state.drawn.empty() && answer.estimate.probability > 0.0;
 }
 
-/// Whether the answer rests on what was learned.
-bool is_learned(const RareAnswer& answer) {
-  return is_estimated(answer) && !answer.state.proposal.is_natural();
-}
-
-std::int64_t failures_drawn(const EstimatorState& state) {
-  return std::ranges::count_if(state.drawn, [](const WeightedTrial& trial) { return trial.failed > 0.0; });
-}
-
-std::string event_text(const Question& question) {
-  if (!question.event.text.empty()) return fmt::format("has {}", question.event.text);
-  return goal::missing_text(goal::question_of(question.study));
-}
-
-std::string_view reason_of(EstimateStatus status) {
-  switch (status) {
+std::string_view reason_of(Of answer) {
+  switch (answer.estimate.status) {
     case EstimateStatus::estimated:
       return "the bounds are as narrow as asked";
     case EstimateStatus::no_failure:
@@ -72,72 +58,66 @@ std::string_view reason_of(EstimateStatus status) {
   return "";
 }
 
-/// Plain trials with bounds that have the same ratio: of k failures high/low is about exp(2·z/√k).
-double plain_trials_for(const Estimate& estimate, double confidence) {
-  const double z = numerics::normal_quantile(0.5 + 0.5 * confidence);
-  const double failures = std::pow(2.0 * z / std::log(estimate.bounds.high / estimate.bounds.low), 2.0);
-  return failures / estimate.probability;
-}
-
-/// Discrete draws with more values than are tried one by one, as "a and b"; empty if there are none.
-std::string untried_draws(const Question& question) {
-  std::vector<std::string> names;
-  for (const randomness::DiscreteDraw& draw : question.space.discrete) {
-    if (draw.values() > max_tried_values) names.push_back(draw.name);
+/// What the upper bound assumes; nothing where the answer does not rest on what was learned.
+std::optional<std::string> premise_of(Of answer) {
+  if (!is_estimated(answer) || answer.state.proposal.is_natural()) return std::nullopt;
+  std::vector<std::string> untried;
+  for (const randomness::DiscreteDraw& draw : answer.question.space.discrete) {
+    if (draw.values() > max_tried_values) untried.push_back(draw.name);
   }
-  return fmt::format("{}", fmt::join(names, " and "));
-}
-
-std::string premise_of(const Question& question) {
-  const std::string untried = untried_draws(question);
-  return "every kind of failure was reached by a plain trial or by a score" +
+  return "high: every kind of failure was reached by a plain trial or by a score" +
          (untried.empty()
               ? ""
               : fmt::format(", and none is at single values of {}, which are too many to be tried each",
-                            untried));
+                            fmt::join(untried, " and ")));
 }
 
 // Sentences.
 
-std::string rare_headline(Of r) {
-  const Estimate& estimate = r.answer.estimate;
-  const std::string number = has_probability(r.answer)
+std::string headline(Of answer) {
+  const Question& question = answer.question;
+  const Estimate& estimate = answer.estimate;
+  const std::string number = has_probability(answer)
                                  ? fmt::format("{:.3g} [{:.3g}, {:.3g}]", estimate.probability,
                                                estimate.bounds.low, estimate.bounds.high)
                                  : fmt::format("at most {:.3g}", estimate.bounds.high);
+  const std::string event = question.event.text.empty()
+                                ? goal::missing_text(goal::question_of(question.study))
+                                : "has " + question.event.text;
   return fmt::format("the probability is {}, with {} confidence, that a move {}{}", number,
-                     text::percent(r.answer.confidence), event_text(r.question),
-                     study::condition_text(r.question.whole, r.question.of.condition.value_or(0)));
+                     text::percent(answer.settings.confidence), event,
+                     study::condition_text(question.whole, question.of.condition.value_or(0)));
 }
 
-std::string status_sentence(Of r) {
-  const RareAnswer& answer = r.answer;
-  const std::string_view reason = reason_of(answer.estimate.status);
-  if (is_estimated(answer)) return std::string(reason);
-  std::string text = fmt::format("undecided: {}", reason);
+std::string undecided_sentence(Of answer) {
+  if (is_estimated(answer)) return "";
+  std::string text = fmt::format("undecided: {}", reason_of(answer));
   if (answer.estimate.status == EstimateStatus::budget ||
       answer.estimate.status == EstimateStatus::no_failure)
-    text += answer.state.learned && !r.output.empty() ? "; the same command goes on"
-                                                      : "; the search for failures needs a larger --budget";
-  if (answer.max_seconds)
+    text += answer.state.learned && !answer.settings.output.empty()
+                ? "; the same command goes on"
+                : "; the search for failures needs a larger --budget";
+  if (answer.settings.seconds)
     text += "\na --budget in time makes this answer depend on the machine; one in trials does not";
   return text;
 }
 
-std::string plain_need_sentence(Of r) {
-  const Estimate& estimate = r.answer.estimate;
-  if (!has_probability(r.answer) || !is_estimated(r.answer) || estimate.probability >= 0.01) return "";
+/// Plain trials with bounds that have the same ratio: of k failures high/low is about exp(2·z/√k).
+std::string plain_need_sentence(Of answer) {
+  const auto& [low, high] = answer.estimate.bounds;
+  const double probability = answer.estimate.probability;
+  if (!has_probability(answer) || !is_estimated(answer) || probability >= 0.01) return "";
+  const double z = numerics::normal_quantile(0.5 + 0.5 * answer.settings.confidence);
   return fmt::format("one in {:.3g} moves; by plain trials bounds as narrow take about {:.2g}",
-                     1.0 / estimate.probability, plain_trials_for(estimate, r.answer.confidence));
+                     1.0 / probability, std::pow(2.0 * z / std::log(high / low), 2.0) / probability);
 }
 
-std::string plain_sentence(Of r) {
-  const EstimatorState& state = r.answer.state;
+std::string plain_sentence(Of answer) {
+  const EstimatorState& state = answer.state;
   std::string text;
-  if (r.answer.estimate.plain_high < 1.0)
+  if (answer.estimate.plain_high < 1.0)
     text = fmt::format("of {} plain trials {} failed: that alone shows at most {:.2g}\n", state.plain_trials,
-                       state.plain_failures == 0 ? "none" : std::to_string(state.plain_failures),
-                       r.answer.estimate.plain_high);
+                       state.plain_failures, answer.estimate.plain_high);
   if (state.learned && state.proposal.is_natural())
     text +=
         "plain trials went on: failures are frequent, or depend too much on chance for a learned "
@@ -145,23 +125,9 @@ std::string plain_sentence(Of r) {
   return text;
 }
 
-std::string simulated_sentence(Of r) {
-  return fmt::format(
-      "simulated: {} trials, each on a machine of its own: {} plain ones, the others driven towards "
-      "failures{}",
-      r.answer.state.trials, r.answer.state.plain_trials,
-      is_learned(r.answer) ? ", or drawn from what these showed and weighted" : "");
-}
-
-std::string premise_sentence(Of r) {
-  if (!is_learned(r.answer)) return "";
-  return fmt::format("the upper bound assumes that {}; the lower bound holds in any case",
-                     premise_of(r.question));
-}
-
-std::string machines_sentence(Of r) {
-  if (!r.answer.machines) return "";
-  const CarryingMachines& machines = *r.answer.machines;
+std::string machines_sentence(Of answer) {
+  if (!answer.machines) return "";
+  const CarryingMachines& machines = *answer.machines;
   std::string text =
       fmt::format("of {} machines that failed, with {} new moves each, the median fails in {:.3g} % of them",
                   machines.examined, machines.moves_each, 100.0 * machines.median_rate);
@@ -173,111 +139,104 @@ std::string machines_sentence(Of r) {
   return text;
 }
 
-std::string replays_sentence(Of r) {
-  const std::vector<WeightedTrial>& drawn = r.answer.state.drawn;
+std::string replays_sentence(Of answer) {
+  const std::vector<Trial>& drawn = answer.state.drawn;
+  const std::filesystem::path& output = answer.settings.output;
   std::vector<std::string> replays;
   for (std::size_t i = 0; i < drawn.size() && replays.size() < max_replays; ++i) {
     if (drawn[i].failed > 0.0) replays.push_back(fmt::format("--trial {}", i));
   }
-  if (replays.empty() || r.output.empty()) return "";
-  return fmt::format("{0} holds {1} drawn trials, {2} of them failures; for example\nzerocount trace {3} {4}",
-                     r.output.string(), drawn.size(), failures_drawn(r.answer.state),
-                     text::shell_path(r.output), fmt::join(replays, ", "));
+  if (replays.empty() || output.empty()) return "";
+  return fmt::format("{} holds {} drawn trials, {} of them failures; for example\nzerocount trace {} {}",
+                     output.string(), drawn.size(), answer.state.failures(), text::shell_path(output),
+                     fmt::join(replays, ", "));
 }
 
-// Tables.
+// Tables and objects.
 
-struct SearchRow {
-  const ScoreSearch& search;
+/// A part of an answer, with the question that says what it is of.
+template <class Part>
+struct PartOf {
+  Part part;
   const Question& question;
 };
 
-std::vector<SearchRow> search_rows(Of r) {
-  std::vector<SearchRow> rows;
-  for (const ScoreSearch& search : r.answer.state.searches) rows.push_back({search, r.question});
+template <class Part>
+std::vector<PartOf<Part>> parts_of(const std::vector<Part>& parts, const Question& question) {
+  std::vector<PartOf<Part>> rows;
+  rows.reserve(parts.size());
+  for (const Part& part : parts) rows.push_back({part, question});
   return rows;
 }
 
-Description<SearchRow> search_columns() {
-  using Row = const SearchRow&;
-  return Description<SearchRow>()
+Description<PartOf<ScoreSearch>> search_columns() {
+  using Row = const PartOf<ScoreSearch>&;
+  return Description<PartOf<ScoreSearch>>()
       .value({.key = "score", .heading = "score", .meaning = "quantity that leads towards failures"},
              [](Row row) {
-               return measures::name_of(measures::move_scores[row.search.score], row.question.event);
+               return measures::name_of(measures::move_scores[row.part.score], row.question.event);
              })
       .value({.key = "reached", .heading = "leads to failures", .meaning = "whether failures were reached"},
-             [](Row row) { return row.search.reached; })
+             [](Row row) { return row.part.reached; })
       .value({.key = "levels", .heading = "levels", .meaning = "levels of the search"},
-             [](Row row) { return row.search.levels; })
+             [](Row row) { return row.part.levels; })
       .value({.key = "probability",
               .heading = "probability",
               .meaning = "probability of the last level, without bounds",
               .unit = "1",
               .notation = Notation::two_digits},
-             [](Row row) { return row.search.probability; })
-      .value(in_data("trials", "trials of the search"), [](Row row) { return row.search.trials; });
+             [](Row row) { return row.part.probability; })
+      .value(in_data("trials", "trials of the search"), [](Row row) { return row.part.trials; });
 }
-
-struct ValueRow {
-  PinnedValue pinned;
-  const randomness::DiscreteDraw& draw;
-};
 
 /// The values of discrete draws at which failures are frequent, the most probable failure first.
-std::vector<ValueRow> value_rows(Of r) {
-  std::vector<PinnedValue> values = r.answer.state.proposal.values;
+std::vector<PartOf<PinnedValue>> value_rows(Of answer) {
+  std::vector<PinnedValue> values = answer.state.proposal.values;
   std::ranges::stable_sort(values, std::greater<>(), &PinnedValue::weight);
-  std::vector<ValueRow> rows;
-  rows.reserve(values.size());
-  for (const PinnedValue& one : values) rows.push_back({one, r.question.space.discrete[one.draw]});
-  return rows;
+  return parts_of(values, answer.question);
 }
 
-Description<ValueRow> value_columns() {
-  using Row = const ValueRow&;
-  return Description<ValueRow>()
+Description<PartOf<PinnedValue>> value_columns() {
+  using Row = const PartOf<PinnedValue>&;
+  const auto draw_of = [](Row row) -> const randomness::DiscreteDraw& {
+    return row.question.space.discrete[row.part.draw];
+  };
+  return Description<PartOf<PinnedValue>>()
       .value({.key = "parameter", .heading = "parameter", .meaning = "parameter with single values"},
-             [](Row row) { return row.draw.name; })
+             [draw_of](Row row) { return draw_of(row).name; })
       .value({.key = "value", .heading = "value", .meaning = "value at which failures are frequent"},
-             [](Row row) { return randomness::value_text(row.draw, row.pinned.value); })
+             [draw_of](Row row) { return randomness::value_text(draw_of(row), row.part.value); })
       .value({.key = "probability",
               .heading = "its probability",
               .meaning = "probability of the value",
               .unit = "1",
               .notation = Notation::three_digits},
-             [](Row row) { return row.pinned.probability; })
+             [](Row row) { return row.part.probability; })
       .value({.key = "failures", .heading = "failures", .meaning = "trials at the value that failed"},
-             [](Row row) { return row.pinned.failures; })
+             [](Row row) { return row.part.failures; })
       .value({.key = "trials", .heading = "of trials", .meaning = "trials at the value"},
-             [](Row row) { return row.pinned.trials; });
+             [](Row row) { return row.part.trials; });
 }
 
-/// The first rows, for people.
-template <class Row>
-std::vector<Row> first_rows(std::vector<Row> rows) {
-  while (rows.size() > max_inputs) rows.pop_back();
-  return rows;
-}
-
-std::vector<FailureInput> shifted_inputs(Of r) {
-  std::vector<FailureInput> inputs = r.answer.inputs;
+/// The inputs that failure shifts most, for people.
+std::vector<FailureInput> shifted_inputs(Of answer) {
+  std::vector<FailureInput> inputs = answer.inputs;
   std::erase_if(inputs, [](const FailureInput& input) { return std::abs(input.shift) < min_shift; });
-  return first_rows(std::move(inputs));
+  if (inputs.size() > max_inputs) inputs.erase(inputs.begin() + max_inputs, inputs.end());
+  return inputs;
 }
 
 std::string range_text(const InputRange& range) {
   return fmt::format("{:.4g} ({:.4g} to {:.4g})", range.median, range.low, range.high);
 }
 
-Description<InputRange> range_description() {
-  return Description<InputRange>()
-      .value(in_data("low", "5 % quantile, in the unit of the parameter"), &InputRange::low)
-      .value(in_data("median", "median"), &InputRange::median)
-      .value(in_data("high", "95 % quantile"), &InputRange::high);
-}
-
 Description<FailureInput> input_columns() {
   using Input = const FailureInput&;
+  const auto range =
+      Description<InputRange>()
+          .value(in_data("low", "5 % quantile, in the unit of the parameter"), &InputRange::low)
+          .value(in_data("median", "median"), &InputRange::median)
+          .value(in_data("high", "95 % quantile"), &InputRange::high);
   return Description<FailureInput>()
       .value({.key = "parameter", .heading = "parameter", .meaning = "dotted path of the parameter"},
              &FailureInput::name)
@@ -292,27 +251,17 @@ Description<FailureInput> input_columns() {
               .unit = "1",
               .notation = Notation::change},
              &FailureInput::shift)
-      .object(in_data("failures", "quantiles in failures"), range_description(), &FailureInput::failures)
-      .object(in_data("usual", "quantiles in all trials"), range_description(), &FailureInput::usual);
-}
-
-// Objects.
-
-Description<RareAnswer> budget_description() {
-  return Description<RareAnswer>()
-      .value(in_data("trials", "trials of this run"), &RareAnswer::max_trials)
-      .value(in_data("seconds", "time of this run", "s"), &RareAnswer::max_seconds);
+      .object(in_data("failures", "quantiles in failures"), range, &FailureInput::failures)
+      .object(in_data("usual", "quantiles in all trials"), range, &FailureInput::usual);
 }
 
 Description<RareAnswer> plain_description() {
-  using Answer = const RareAnswer&;
   return Description<RareAnswer>()
       .value(in_data("trials", "trials drawn from their own distribution"),
-             [](Answer a) { return a.state.plain_trials; })
+             [](Of a) { return a.state.plain_trials; })
       .value(in_data("failures", "those with a move that failed"),
-             [](Answer a) { return a.state.plain_failures; })
-      .value(in_data("high", "upper bound by these alone", "1"),
-             [](Answer a) { return a.estimate.plain_high; });
+             [](Of a) { return a.state.plain_failures; })
+      .value(in_data("high", "upper bound by these alone", "1"), [](Of a) { return a.estimate.plain_high; });
 }
 
 Description<CarryingMachines> machines_description() {
@@ -329,107 +278,131 @@ Description<CarryingMachines> machines_description() {
              &Machines::probability_of_one);
 }
 
-void add_probability(Description<RareReading>& items) {
-  items.headline(rare_headline)
+/// The probability, and how it was found.
+void add_probability(Description<RareAnswer>& items) {
+  items.headline(headline)
       .value(in_data("probability",
                      "probability of the event in a move; unknown where no failure was weighted", "1"),
-             [](Of r) {
-               return has_probability(r.answer) ? std::optional(r.answer.estimate.probability) : std::nullopt;
-             })
-      .value(in_data("low", "its lower bound", "1"), [](Of r) { return r.answer.estimate.bounds.low; })
-      .value(in_data("high", "its upper bound", "1"), [](Of r) { return r.answer.estimate.bounds.high; })
-      .sentence(status_sentence)
+             [](Of a) { return has_probability(a) ? std::optional(a.estimate.probability) : std::nullopt; })
+      .value(in_data("low", "its lower bound", "1"), [](Of a) { return a.estimate.bounds.low; })
+      .value(in_data("high", "its upper bound", "1"), [](Of a) { return a.estimate.bounds.high; })
+      .sentence(undecided_sentence)
       .sentence(plain_need_sentence)
       .value({.key = "trials", .heading = "trials", .meaning = "trials that were run"},
-             [](Of r) { return r.answer.state.trials; })
+             [](Of a) { return a.state.trials; })
       .value(with_words(in_data("status", "whether the bounds are as narrow as asked"),
                         {"estimated", "undecided"}),
-             [](Of r) { return is_estimated(r.answer) ? "estimated" : "undecided"; })
-      .value(in_data("reason", "why it ended"), [](Of r) { return reason_of(r.answer.estimate.status); })
-      .value(in_data("premise", "what a bound assumes"),
-             [](Of r) {
-               return is_learned(r.answer) ? std::optional("high: " + premise_of(r.question)) : std::nullopt;
-             })
-      .object(in_data("budget", "what it could spend"), budget_description(),
-              [](Of r) -> const RareAnswer& { return r.answer; })
+             [](Of a) { return is_estimated(a) ? "estimated" : "undecided"; })
+      .value(in_data("reason", "why it ended"), reason_of)
+      .value({.key = "premise", .heading = "assumed", .meaning = "what a bound assumes"}, premise_of)
+      .object(in_data("budget", "what it could spend"),
+              Description<RareSettings>()
+                  .value(in_data("trials", "trials of this run"), &RareSettings::max_trials)
+                  .value(in_data("seconds", "time of this run", "s"), &RareSettings::seconds),
+              &RareAnswer::settings)
       .value(in_data("confidence", "confidence of both bounds together", "1"),
-             [](Of r) { return r.answer.confidence; });
+             [](Of a) { return a.settings.confidence; })
+      .value({.key = "seconds",
+              .heading = "time",
+              .meaning = "time of all runs",
+              .unit = "s",
+              .notation = Notation::three_digits},
+             &RareAnswer::seconds);
 }
 
-void add_question(Description<RareReading>& items) {
+void add_question(Description<RareAnswer>& items) {
   items
       .value(in_data("event", "the event; goal, success: it is missed"),
-             [](Of r) {
-               return r.question.event.text.empty()
-                          ? std::string(goal::words_of(goal::question_of(r.question.study)).subject)
-                          : r.question.event.text;
+             [](Of a) {
+               const Question& question = a.question;
+               return question.event.text.empty()
+                          ? std::string(goal::words_of(goal::question_of(question.study)).subject)
+                          : question.event.text;
              })
-      .value(in_data("point", "number of the design point"), [](Of r) { return r.question.of.point; })
+      .value(in_data("point", "number of the design point"), [](Of a) { return a.question.of.point; })
       .value(
           in_data("label", "label of the design point"),
-          [](Of r) { return r.question.study.points.labels[static_cast<std::size_t>(r.question.of.point)]; })
-      .value(in_data("world", "the world, of a study with worlds"), [](Of r) { return r.question.of.world; })
+          [](Of a) { return a.question.study.points.labels[static_cast<std::size_t>(a.question.of.point)]; })
+      .value(in_data("world", "the world, of a study with worlds"), [](Of a) { return a.question.of.world; })
       .value({.key = "condition",
               .meaning = "the condition, of a study with conditions",
               .shown = Shown::in_data,
               .optional = true},
-             [](Of r) -> std::optional<std::string> {
-               if (!r.question.of.condition) return {};
-               return r.question.whole.conditions[static_cast<std::size_t>(*r.question.of.condition)];
+             [](Of a) -> std::optional<std::string> {
+               if (!a.question.of.condition) return {};
+               return a.question.whole.conditions[static_cast<std::size_t>(*a.question.of.condition)];
              });
 }
 
-void add_failures(Description<RareReading>& items) {
-  items.table(in_data("values", "single values at which failures are frequent"), value_columns(), value_rows)
-      .table({.heading = "single values at which failures are frequent", .shown = Shown::to_people},
-             value_columns(), [](Of r) { return first_rows(value_rows(r)); })
-      .table(in_data("inputs", "inputs that differ between trials, the most shifted first"), input_columns(),
-             [](Of r) -> const std::vector<FailureInput>& { return r.answer.inputs; })
-      .table({.heading = "what failures have in common (shift in standard deviations of all trials)",
-              .shown = Shown::to_people},
-             input_columns(), shifted_inputs)
-      .object(in_data("machines", "machines that carry the probability"), machines_description(),
-              [](Of r) -> const std::optional<CarryingMachines>& { return r.answer.machines; })
-      .sentence(machines_sentence)
-      .value(in_data("drawn", "weighted trials in the file"),
-             [](Of r) { return r.answer.state.drawn.size(); })
-      .value(in_data("failures_drawn", "those that failed"),
-             [](Of r) { return failures_drawn(r.answer.state); })
-      .sentence(replays_sentence);
-}
-
-}  // namespace
-
-Description<RareReading> rare_description() {
-  Description<RareReading> items;
-  add_probability(items);
-  items.value({.key = "seconds",
-               .heading = "time",
-               .meaning = "time of all runs",
-               .unit = "s",
-               .notation = Notation::three_digits},
-              [](Of r) { return r.answer.seconds; });
-  add_question(items);
+void add_failures(Description<RareAnswer>& items) {
   items
       .object(in_data("plain", "what the plain trials show"), plain_description(),
-              [](Of r) -> const RareAnswer& { return r.answer; })
+              [](Of a) -> const RareAnswer& { return a; })
       .sentence(plain_sentence)
-      .sentence(simulated_sentence)
-      .sentence(premise_sentence)
       .table(
           {.key = "scores",
            .heading =
                "searches for failures, each along a score; the probability of the last level has no bounds",
            .meaning = "searches for failures along scores"},
-          search_columns(), search_rows);
-  add_failures(items);
-  return items;
+          search_columns(), [](Of a) { return parts_of(a.state.searches, a.question); })
+      .table({.key = "values",
+              .heading = "single values at which failures are frequent",
+              .meaning = "single values at which failures are frequent"},
+             value_columns(), value_rows)
+      .table(in_data("inputs", "inputs that differ between trials, the most shifted first"), input_columns(),
+             &RareAnswer::inputs)
+      .table({.heading = "what failures have in common (shift in standard deviations of all trials)",
+              .shown = Shown::to_people},
+             input_columns(), shifted_inputs)
+      .object(in_data("machines", "machines that carry the probability"), machines_description(),
+              &RareAnswer::machines)
+      .sentence(machines_sentence)
+      .value(in_data("drawn", "weighted trials in the file"), [](Of a) { return a.state.drawn.size(); })
+      .value(in_data("failures_drawn", "those that failed"), [](Of a) { return a.state.failures(); })
+      .sentence(replays_sentence)
+      .figures([](Of a) { return rare_figures(a.inputs); });
 }
 
-std::string progress_text(const Estimate& estimate, const EstimatorState& state) {
-  if (!state.learned) return fmt::format("learns where failures are: {} trials", state.trials);
-  return fmt::format("{} trials: {:.2g} [{:.2g}, {:.2g}]", state.trials, estimate.probability,
-                     estimate.bounds.low, estimate.bounds.high);
+}  // namespace
+
+document::AnswerDescription<RareAnswer> rare_answer() {
+  document::AnswerDescription<RareAnswer> answer{
+      {.name = "rare", .meaning = "the probability of a rare failure", .csv_table = "inputs"}, {}};
+  add_probability(answer.items);
+  add_question(answer.items);
+  add_failures(answer.items);
+  return answer;
+}
+
+std::vector<document::Figure> rare_figures(const std::vector<FailureInput>& inputs) {
+  using report::datum;
+  document::FigureData data{"inputs",
+                            {{"parameter", "parameter", ""},
+                             {"trials", "of", ""},
+                             {"low", "5 %", ""},
+                             {"median", "median", ""},
+                             {"high", "95 %", ""},
+                             {"unit", "unit", ""},
+                             {"low_place", "", ""},
+                             {"median_place", "", ""},
+                             {"high_place", "", ""}}};
+  for (const FailureInput& input : inputs) {
+    const double size = input.usual.high - input.usual.low;
+    if (!(size > 0.0)) continue;
+    const auto place = [&](double value) { return datum((value - input.usual.low) / size); };
+    for (const auto& [trials, of] : {std::pair("all trials", input.usual), {"failures", input.failures}})
+      data.rows.push_back({input.name, trials, datum(of.low), datum(of.median), datum(of.high), input.unit,
+                           place(of.low), place(of.median), place(of.high)});
+  }
+  if (data.rows.empty()) return {};
+  const std::size_t rows = data.rows.size();
+  document::Figure figure = report::figure_of("rare-inputs", "rare-inputs", "What failures have in common",
+                                              "Medians and 5 % to 95 % of the inputs in failures and in all "
+                                              "trials. 0 % and 100 % are the ends of the "
+                                              "range of all trials.",
+                                              {std::move(data)});
+  report::set_rows(figure, rows, 16);
+  return {figure};
 }
 
 }  // namespace zerocount::rare

@@ -5,11 +5,8 @@
 #include <optional>
 #include <string>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "results/layout/header.hpp"
-#include "runners/rare/estimator.hpp"
-#include "runners/rare/rare_question.hpp"
+#include "runners/rare/rare_run.hpp"
 
 namespace zerocount::rare {
 
@@ -22,12 +19,10 @@ struct RareRecord {
   double seconds{0.0};  ///< that the estimate took so far
 };
 
-/// Writes the file: the header and the manifest, /estimate (JSON: what was learned and the answer), and
-/// /drawn, a row for each trial drawn from the proposal with its weight, inputs and coordinates.
-/// @param answer by rare_description(), for readers
+/// Writes the answer's file: the header and the manifest, /estimate (JSON: what was learned and the answer),
+/// and /drawn, a row for each trial drawn from the proposal with its weight, inputs and coordinates.
 /// @throws Failure (machine_failed)
-void write_rare_file(const std::filesystem::path& path, const Question& question, const EstimatorState& state,
-                     double seconds, const nlohmann::ordered_json& answer);
+void write_rare_file(const RareAnswer& answer);
 
 /// @throws Failure: bad_data for a damaged file, ForeignFile for another format
 RareRecord read_rare_file(const std::filesystem::path& path);

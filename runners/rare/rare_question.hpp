@@ -9,7 +9,6 @@
 #include "experiments/randomness/random_coordinates.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/rare/proposal.hpp"
-#include "runners/rare/trial_point.hpp"
 #include "runners/trials/effort.hpp"
 
 /// The probability of a rare failure of the moves of a study: trials by their random coordinates, the results
@@ -39,20 +38,18 @@ struct Question {
 Question question_of(study::Study study, const Population& of, measures::MoveEvent event);
 
 /// The random numbers of a trial.
-study::GivenDraws draws_at(const Question& question, const TrialPoint& trial);
+study::GivenDraws draws_at(const Question& question, const Trial& trial);
 
 /// The parameters and inputs of a trial.
-study::StudyTrial trial_at(const Question& question, const TrialPoint& trial);
+study::StudyTrial trial_at(const Question& question, const Trial& trial);
 
-/// Proportion of the moves that are asked to which the event happens, and the scores measures::move_scores.
-PointResult result_of(const Question& question, std::span<const trial::MoveOutcome> moves);
+/// Sets the proportion of the moves that are asked to which the event happens, and the scores
+/// measures::move_scores.
+void set_result(Trial& trial, const Question& question, std::span<const trial::MoveOutcome> moves);
 
-/// Runs trials with these random numbers on all cores; the results in their order.
+/// Runs trials on all cores. @param draws of each trial; draws_at() where there are none
 /// @throws trial::Interrupted
-std::vector<PointResult> run_trials(const Question& question, std::span<const study::GivenDraws> draws,
-                                    const trials::Effort& effort);
-
-/// Runs trials on all cores. @param question outlives it
-Simulation simulation_of(const Question& question, const trials::Effort& effort);
+void run_trials(const Question& question, std::span<Trial> trials, const trials::Effort& effort,
+                std::vector<study::GivenDraws> draws = {});
 
 }  // namespace zerocount::rare

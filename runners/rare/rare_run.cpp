@@ -8,14 +8,11 @@
 #include <system_error>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "analysis/document/answer.hpp"
 #include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/recorded_values.hpp"
-#include "runners/rare/rare_answer.hpp"
 #include "runners/rare/rare_file.hpp"
 #include "runners/status/status.hpp"
 
@@ -56,17 +53,22 @@ std::optional<RareRecord> earlier_record(const Question& question, const RareSet
                             settings.output.string(), problem));
 }
 
+/// One line while the estimate goes on.
+std::string progress_text(const Estimate& estimate, const EstimatorState& state) {
+  if (!state.learned) return fmt::format("learns where failures are: {} trials", state.trials);
+  return fmt::format("{} trials: {:.2g} [{:.2g}, {:.2g}]", state.trials, estimate.probability,
+                     estimate.bounds.low, estimate.bounds.high);
+}
+
 class RareRun {
  public:
   RareRun(const Question& question, const RareSettings& settings, const std::stop_token& stop)
-      : question_(question),
-        settings_(settings),
+      : answer_{question, settings},
+        estimator_{question.space, measures::move_scores.size(), settings.confidence, settings.ratio,
+                   question.study.seed},
         whole_(stop),
         effort_(whole_.share({}, settings.seconds)),
         line_(settings.quiet) {
-    answer_.confidence = settings.confidence;
-    answer_.max_trials = settings.max_trials;
-    answer_.max_seconds = settings.seconds;
     if (std::optional<RareRecord> earlier = earlier_record(question, settings)) {
       answer_.state = std::move(earlier->state);
       earlier_seconds_ = earlier->seconds;
@@ -75,27 +77,24 @@ class RareRun {
   }
 
   RareAnswer run() {
-    const EstimatorSettings settings = estimator_settings();
     try {
-      const Simulation simulate = simulation_of(question_, effort_);
       estimate(
-          answer_.state, settings,
-          [&](std::span<const TrialPoint> points) {
-            trials_ += std::ssize(points);
-            return simulate(points);
+          answer_.state, estimator_,
+          [this](std::span<Trial> trials) {
+            trials_ += std::ssize(trials);
+            run_trials(answer_.question, trials, effort_);
           },
-          [this](const EstimatorState& state) { return goes_on(state); });
+          [this](const EstimatorState&) { return goes_on(); });
     } catch (const trial::Interrupted&) {
       // The state is as it was before the trials that were in work.
     }
-    answer_.estimate = answer_of(answer_.state, settings);
-    answer_.seconds = elapsed();
+    take_estimate();
     if (whole_.is_interrupted()) {
       if (answer_.state.learned) write();
       throw Failure(ExitCode::interrupted,
                     answer_.state.learned
                         ? fmt::format("interrupted: {} holds the trials so far; the same command goes on",
-                                      settings_.output.string())
+                                      answer_.settings.output.string())
                         : "interrupted while it learned where failures are: nothing was written");
     }
     describe();
@@ -105,57 +104,45 @@ class RareRun {
   }
 
  private:
-  EstimatorSettings estimator_settings() const {
-    EstimatorSettings settings;
-    settings.space = question_.space;
-    settings.scores = measures::move_scores.size();
-    settings.confidence = settings_.confidence;
-    settings.ratio = settings_.ratio;
-    settings.seed = question_.study.seed;
-    return settings;
-  }
-
   /// Seconds, those of earlier runs included.
   double elapsed() const {
     return earlier_seconds_ + std::chrono::duration<double>(Clock::now() - start_).count();
   }
 
-  bool goes_on(const EstimatorState& state) {
-    line_.show([&] { return progress_text(answer_of(state, estimator_settings()), state); });
-    if (state.learned && elapsed() > next_write_) write_meanwhile(state);
-    const bool has_trials = !settings_.max_trials || trials_ < *settings_.max_trials;
-    return has_trials && !effort_.is_spent();
+  void take_estimate() {
+    answer_.estimate = answer_of(answer_.state, estimator_);
+    answer_.seconds = elapsed();
   }
 
-  /// Keeps the trials so far. Writing takes a tenth of the time at most.
-  void write_meanwhile(const EstimatorState& state) {
-    answer_.estimate = answer_of(state, estimator_settings());
-    answer_.seconds = elapsed();
-    write();
-    const double taken = elapsed() - answer_.seconds;
-    next_write_ = elapsed() + std::max(seconds_between_writes, 9.0 * taken);
+  bool goes_on() {
+    const EstimatorState& state = answer_.state;
+    line_.show([&] { return progress_text(answer_of(state, estimator_), state); });
+    if (state.learned && elapsed() > next_write_) {
+      // Keeps the trials so far. Writing takes a tenth of the time at most.
+      take_estimate();
+      write();
+      next_write_ = elapsed() + std::max(seconds_between_writes, 9.0 * (elapsed() - answer_.seconds));
+    }
+    const std::optional<std::int64_t>& most = answer_.settings.max_trials;
+    return (!most || trials_ < *most) && !effort_.is_spent();
   }
 
   void describe() {
+    const Question& question = answer_.question;
     try {
-      answer_.inputs = failure_inputs(question_, answer_.state);
-      answer_.machines = carrying_machines(question_, answer_.state, answer_.estimate.probability, whole_);
+      answer_.inputs = failure_inputs(question, answer_.state);
+      answer_.machines = carrying_machines(question, answer_.state, answer_.estimate.probability, whole_);
     } catch (const trial::Interrupted&) {
       answer_.machines.reset();  // the answer does not rest on them
     }
   }
 
   void write() const {
-    if (settings_.output.empty()) return;
-    const document::Description<RareReading> description = rare_description();
-    const document::Members contents =
-        description.members_of(RareReading{answer_, question_, settings_.output});
-    write_rare_file(settings_.output, question_, answer_.state, answer_.seconds,
-                    document::json(description.items(), contents));
+    if (!answer_.settings.output.empty()) write_rare_file(answer_);
   }
 
-  const Question& question_;
-  const RareSettings& settings_;
+  RareAnswer answer_;
+  EstimatorSettings estimator_;
   trials::Effort whole_;
   trials::Effort effort_;  ///< with the limit of time
   status::StatusLine line_;
@@ -163,7 +150,6 @@ class RareRun {
   double earlier_seconds_{0.0};
   double next_write_{seconds_between_writes};  ///< s, by elapsed()
   std::int64_t trials_{0};                     ///< of this run
-  RareAnswer answer_;
 };
 
 }  // namespace

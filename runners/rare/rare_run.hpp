@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <optional>
 #include <stop_token>
-#include <string>
 #include <vector>
 
 #include "runners/rare/estimator.hpp"
@@ -24,18 +23,18 @@ struct RareSettings {
 };
 
 struct RareAnswer {
-  double confidence{statistics::summary_confidence};
-  std::optional<std::int64_t> max_trials{};  ///< RareSettings::max_trials
-  std::optional<double> max_seconds{};       ///< RareSettings::seconds
-  EstimatorState state;
-  Estimate estimate;
-  std::vector<FailureInput> inputs;
-  std::optional<CarryingMachines> machines;
+  const Question& question;
+  RareSettings settings;
+  EstimatorState state{};
+  Estimate estimate{};
+  std::vector<FailureInput> inputs{};
+  std::optional<CarryingMachines> machines{};
   double seconds{0.0};  ///< of all runs
 };
 
 /// Estimates the probability of the event, and writes the results file. Goes on from an earlier file that
 /// answers the same question.
+/// @param question outlives the answer
 /// @throws Failure: bad_input if the file exists and answers another question; machine_failed; interrupted,
 /// after the trials drawn so far are written
 RareAnswer run_rare(const Question& question, const RareSettings& settings, const std::stop_token& stop);

@@ -11,6 +11,8 @@
 namespace zerocount::rare {
 namespace {
 
+constexpr std::size_t particles_of_level = 600;
+constexpr int steps_of_level = 3;  // of the Markov chain between two levels
 constexpr double kept_proportion = 0.2;
 constexpr double enough_failures = 0.2;  // of the trials of a level
 constexpr double min_failures = 10;      // from which copies are made
@@ -19,85 +21,68 @@ constexpr double wanted_acceptance = 0.35;
 constexpr double redrawn_proportion = 0.2;  // of the steps of an unordered coordinate
 constexpr double failed_score = std::numeric_limits<double>::infinity();
 
-/// A trial with its score; a failure has the largest.
-struct Particle {
-  TrialPoint point;
-  double score;
-};
-
 class Splitting {
  public:
-  Splitting(const SplittingSettings& settings, const Simulation& simulate, NumberSource& numbers)
-      : settings_(settings), simulate_(simulate), numbers_(numbers), number_(settings.first_number) {}
+  Splitting(const SplittingSettings& settings, const TrialSpace& space, const Simulation& simulate,
+            NumberSource& numbers)
+      : settings_(settings),
+        space_(space),
+        simulate_(simulate),
+        numbers_(numbers),
+        number_(settings.first_number) {
+    result_.search.score = settings.score;
+  }
 
   SplittingResult run(const std::function<bool()>& go_on) {
+    ScoreSearch& search = result_.search;
     if (!go_on()) return std::move(result_);
-    start();
+    for (std::size_t i = 0; i < particles_of_level; ++i)
+      particles_.push_back({numbers_.normals(space_.coordinates), number_++});
+    run_trials(particles_);
+    result_.plain = particles_;
     double level = -failed_score;
-    while (failing_proportion() < enough_failures) {
+    while (proportion_from(failed_score) < enough_failures) {
       const double next = next_level(level);
       if (next == failed_score &&
-          failing_proportion() * static_cast<double>(particles_.size()) >= min_failures)
+          proportion_from(failed_score) * static_cast<double>(particles_.size()) >= min_failures)
         break;
-      if (!(next > level) || next == failed_score || result_.probability < settings_.least || !go_on())
+      if (!(next > level) || next == failed_score || search.probability < settings_.least || !go_on())
         return std::move(result_);
       level = next;
       climb(level);
-      result_.above.push_back(points());
-      ++result_.levels;
+      result_.above.push_back(particles_);
+      ++search.levels;
     }
     if (!go_on()) return std::move(result_);
     climb(failed_score);
-    result_.reached = true;
-    result_.failing = points();
+    search.reached = true;
+    result_.failing = std::move(particles_);
     return std::move(result_);
   }
 
  private:
-  std::vector<TrialPoint> points() const {
-    std::vector<TrialPoint> all;
-    for (const Particle& particle : particles_) all.push_back(particle.point);
-    return all;
+  /// The score of a trial that was run; a failure has the largest.
+  double score_of(const Trial& trial) const {
+    if (trial.failed > 0.0) return failed_score;
+    const double score = trial.scores[settings_.score];
+    return std::isnan(score) ? -failed_score : score;
   }
 
-  double failing_proportion() const {
-    const auto failing = std::ranges::count_if(
-        particles_, [](const Particle& particle) { return particle.score == failed_score; });
-    return static_cast<double>(failing) / static_cast<double>(particles_.size());
+  void run_trials(std::vector<Trial>& trials) {
+    simulate_(trials);
+    result_.search.trials += std::ssize(trials);
   }
 
   double proportion_from(double level) const {
     const auto above =
-        std::ranges::count_if(particles_, [&](const Particle& particle) { return particle.score >= level; });
+        std::ranges::count_if(particles_, [&](const Trial& particle) { return score_of(particle) >= level; });
     return static_cast<double>(above) / static_cast<double>(particles_.size());
-  }
-
-  std::vector<double> scores_of(const std::vector<TrialPoint>& trials) {
-    std::vector<double> scores;
-    for (const PointResult& result : simulate_(trials)) {
-      const double score = result.scores[settings_.score];
-      scores.push_back(result.failed > 0.0 ? failed_score : std::isnan(score) ? -failed_score : score);
-    }
-    result_.trials += std::ssize(trials);
-    return scores;
-  }
-
-  void start() {
-    std::vector<TrialPoint> trials;
-    for (std::size_t i = 0; i < settings_.particles; ++i)
-      trials.push_back({numbers_.normals(settings_.coordinates), number_++});
-    const std::vector<double> scores = scores_of(trials);
-    for (std::size_t i = 0; i < trials.size(); ++i) {
-      if (scores[i] == failed_score) result_.plain_failing.push_back(trials[i]);
-      particles_.push_back({std::move(trials[i]), scores[i]});
-    }
-    result_.plain_trials = std::ssize(scores);
   }
 
   /// The score that a fifth of the trials reach; where many trials have the same one, the next larger.
   double next_level(double level) const {
     std::vector<double> scores;
-    for (const Particle& particle : particles_) scores.push_back(particle.score);
+    for (const Trial& particle : particles_) scores.push_back(score_of(particle));
     std::ranges::sort(scores, std::greater<>());
     double next = scores[static_cast<std::size_t>(kept_proportion * static_cast<double>(scores.size()))];
     if (next > level && proportion_from(next) <= max_proportion) return next;
@@ -108,53 +93,52 @@ class Splitting {
 
   /// Moves the particles at or above the level, copied to all places, in it.
   void climb(double level) {
-    result_.probability *= proportion_from(level);
-    std::erase_if(particles_, [&](const Particle& particle) { return particle.score < level; });
-    const std::vector<Particle> seeds = particles_;
+    result_.search.probability *= proportion_from(level);
+    std::erase_if(particles_, [&](const Trial& particle) { return score_of(particle) < level; });
+    const std::vector<Trial> seeds = particles_;
     std::size_t next = 0;
-    while (particles_.size() < settings_.particles) particles_.push_back(seeds[next++ % seeds.size()]);
-    for (int step = 0; step < settings_.steps; ++step) move_all(level, step % 2 == 1);
+    while (particles_.size() < particles_of_level) particles_.push_back(seeds[next++ % seeds.size()]);
+    for (int step = 0; step < steps_of_level; ++step) move_all(level, step % 2 == 1);
   }
 
   double moved_coordinate(std::size_t i, double z, double kept) {
-    if (!std::ranges::binary_search(settings_.unordered, i)) return kept * z + step_ * numbers_.normal();
+    if (!std::ranges::binary_search(space_.unordered, i)) return kept * z + step_ * numbers_.normal();
     return numbers_.uniform() < redrawn_proportion ? numbers_.normal() : z;
   }
 
   void move_all(double level, bool new_numbers) {
-    std::vector<TrialPoint> proposed;
+    std::vector<Trial> proposed = particles_;
     const double kept = std::sqrt(1.0 - step_ * step_);
-    for (const Particle& particle : particles_) {
-      TrialPoint moved = particle.point;
+    for (Trial& moved : proposed) {
       for (std::size_t i = 0; i < moved.z.size(); ++i) moved.z[i] = moved_coordinate(i, moved.z[i], kept);
       if (new_numbers) moved.number = number_++;
-      proposed.push_back(std::move(moved));
     }
-    const std::vector<double> scores = scores_of(proposed);
+    run_trials(proposed);
     std::size_t accepted = 0;
     for (std::size_t i = 0; i < proposed.size(); ++i) {
-      if (scores[i] < level) continue;
-      particles_[i] = {std::move(proposed[i]), scores[i]};
+      if (score_of(proposed[i]) < level) continue;
+      particles_[i] = std::move(proposed[i]);
       ++accepted;
     }
     const double acceptance = static_cast<double>(accepted) / static_cast<double>(proposed.size());
     step_ = std::clamp(step_ * numerics::exp(1.5 * (acceptance - wanted_acceptance)), 0.02, 1.0);
   }
 
-  SplittingSettings settings_;
+  const SplittingSettings& settings_;
+  const TrialSpace& space_;
   const Simulation& simulate_;
   NumberSource& numbers_;
   std::int64_t number_;
   double step_{0.6};
-  std::vector<Particle> particles_;
+  std::vector<Trial> particles_;
   SplittingResult result_;
 };
 
 }  // namespace
 
-SplittingResult split(const SplittingSettings& settings, const Simulation& simulate, NumberSource& numbers,
-                      const std::function<bool()>& go_on) {
-  return Splitting(settings, simulate, numbers).run(go_on);
+SplittingResult split(const SplittingSettings& settings, const TrialSpace& space, const Simulation& simulate,
+                      NumberSource& numbers, const std::function<bool()>& go_on) {
+  return Splitting(settings, space, simulate, numbers).run(go_on);
 }
 
 }  // namespace zerocount::rare

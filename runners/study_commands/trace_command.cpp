@@ -122,15 +122,16 @@ ExitCode trace_rare(const command_line::Arguments& arguments, const std::filesys
     arguments.refuse(
         fmt::format("{}: it holds no drawn trials: its search ended before any was drawn", input));
   const std::int64_t index = arguments.whole_number("trial", 0, drawn - 1).value_or(0);
-  const rare::WeightedTrial& trial = record.state.drawn[static_cast<std::size_t>(index)];
-  const study::StudyTrial drawn_trial = rare::trial_at(question, trial.point);
+  const rare::Trial& trial = record.state.drawn[static_cast<std::size_t>(index)];
+  const study::StudyTrial drawn_trial = rare::trial_at(question, trial);
   const shards::TrialResult replayed =
       write_trace_to(place, {question.study, question.of.point, index, drawn_trial}, json);
-  const std::vector<study::GivenDraws> draws{rare::draws_at(question, trial.point)};
-  const double failed = rare::run_trials(question, draws, {}).front().failed;
+  rare::Trial again = trial;
+  rare::run_trials(question, {&again, 1}, {});
+  const double failed = again.failed;
   if (failed == trial.failed) {
-    if (rare::result_of(question, replayed.outcome.moves).failed != failed)
-      tell_parting(input, verification::parting_of_engines(drawn_trial.parameters));
+    rare::set_result(again, question, replayed.outcome.moves);
+    if (again.failed != failed) tell_parting(input, verification::parting_of_engines(drawn_trial.parameters));
     return ExitCode::success;
   }
   throw Failure(

@@ -24,13 +24,12 @@ struct ClosedForm {
 };
 
 Simulation simulation_of(const Score& score) {
-  return [score](std::span<const TrialPoint> points) {
-    std::vector<PointResult> results;
-    for (const TrialPoint& point : points) {
-      const double value = score(point.z);
-      results.push_back({value > 0.0 ? 1.0 : 0.0, {value}});
+  return [score](std::span<Trial> trials) {
+    for (Trial& trial : trials) {
+      const double value = score(trial.z);
+      trial.failed = value > 0.0 ? 1.0 : 0.0;
+      trial.scores = {value};
     }
-    return results;
   };
 }
 
@@ -104,11 +103,9 @@ INSTANTIATE_TEST_SUITE_P(ClosedForms, RareEstimatorOf,
 // The first score says nothing, the second leads to the failure.
 TEST(RareEstimator, TakesTheScoreThatLeads) {
   const ClosedForm one = plane(1e-6);
-  const Simulation simulate = [&](std::span<const TrialPoint> points) {
-    std::vector<PointResult> results = simulation_of(one.score)(points);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      results[i].scores = {points[i].z[0] > 0.0 ? 1.0 : 0.0, results[i].scores[0]};
-    return results;
+  const Simulation simulate = [&](std::span<Trial> trials) {
+    simulation_of(one.score)(trials);
+    for (Trial& trial : trials) trial.scores = {trial.z[0] > 0.0 ? 1.0 : 0.0, trial.scores[0]};
   };
   EstimatorState state;
   const Estimate answer =
@@ -254,13 +251,12 @@ TEST(RareEstimator, AFailureThatAlwaysHappensHasTheProbabilityOne) {
 
 // A failure by chance alone, whatever the coordinates: plain trials are as good as any, and are what is run.
 TEST(RareEstimator, ACommonFailureOfChanceIsCountedByPlainTrials) {
-  const Simulation simulate = [](std::span<const TrialPoint> points) {
-    std::vector<PointResult> results;
-    for (const TrialPoint& point : points) {
-      const double u = NumberSource({static_cast<std::uint32_t>(point.number), 5}).uniform();
-      results.push_back({u < 0.002 ? 1.0 : 0.0, {-u}});
+  const Simulation simulate = [](std::span<Trial> trials) {
+    for (Trial& trial : trials) {
+      const double u = NumberSource({static_cast<std::uint32_t>(trial.number), 5}).uniform();
+      trial.failed = u < 0.002 ? 1.0 : 0.0;
+      trial.scores = {-u};
     }
-    return results;
   };
   EstimatorState state;
   const Estimate answer = estimate(state, {.space = trial_space(4, {}), .seed = 1}, simulate, goes_on);
@@ -309,8 +305,8 @@ TEST(RareEstimator, ABudgetThatEndsTheSearchDecidesNothing) {
 // A failure that jumps out of nowhere is not found: the answer is the bound of the plain trials, to which the
 // whole budget goes.
 TEST(RareEstimator, IsUndecidedWhereNoScoreLeadsToAFailure) {
-  const Simulation simulate = [](std::span<const TrialPoint> points) {
-    return std::vector<PointResult>(points.size(), PointResult{0.0, {0.0}});
+  const Simulation simulate = [](std::span<Trial> trials) {
+    for (Trial& trial : trials) trial.scores = {0.0};
   };
   EstimatorState state;
   const Estimate answer = estimate(state, {.space = trial_space(3, {}), .seed = 1}, simulate, goes_on);

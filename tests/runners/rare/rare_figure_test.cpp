@@ -1,15 +1,14 @@
 // The figure of `rare`: where failures lie in the range of all trials.
-#include "runners/design_commands/rare_figure.hpp"
-
 #include <gtest/gtest.h>
 
-namespace zerocount::design_commands {
+#include "runners/rare/rare_answer.hpp"
+
+namespace zerocount::rare {
 namespace {
 
 TEST(RareFigure, PlacesFailuresInTheRangeOfAllTrials) {
-  const rare::FailureInput stiffness{
-      "friction.k1", "N m/rad", 2.0, {100.0, 110.0, 120.0}, {115.0, 120.0, 130.0}};
-  const rare::FailureInput constant{"dac.bits", "1", 0.4, {12.0, 12.0, 12.0}, {12.0, 12.0, 12.0}};
+  const FailureInput stiffness{"friction.k1", "N m/rad", 2.0, {100.0, 110.0, 120.0}, {115.0, 120.0, 130.0}};
+  const FailureInput constant{"dac.bits", "1", 0.4, {12.0, 12.0, 12.0}, {12.0, 12.0, 12.0}};
   const std::vector<document::Figure> figures = rare_figures({stiffness, constant});
   ASSERT_EQ(figures.size(), 1U);
   const auto& rows = figures[0].data[0].rows;
@@ -20,4 +19,4 @@ TEST(RareFigure, PlacesFailuresInTheRangeOfAllTrials) {
 }
 
 }  // namespace
-}  // namespace zerocount::design_commands
+}  // namespace zerocount::rare

@@ -19,6 +19,15 @@ bool is_for_people(const Item& item) {
   return is_shown(item.shown, Audience::people);
 }
 
+/// What people are shown of an item.
+const Content& shown_content(const Content& content) {
+  return content.for_people ? *content.for_people : content;
+}
+
+Kind shown_kind(const Item& item) {
+  return item.kind_for_people.value_or(item.kind);
+}
+
 bool is_percent(Notation notation) {
   return notation == Notation::percent || notation == Notation::given_percent;
 }
@@ -79,8 +88,9 @@ struct ValueText {
     std::vector<std::string> values;
     for (std::size_t i = 0; i < members.contents.size(); ++i) {
       const Item& member = item.members[i];
-      if (!is_for_people(member) || members.contents[i].is_empty()) continue;
-      values.push_back(fmt::format("{} {}", member.heading, shown_value(member, members.contents[i])));
+      const Content& content = shown_content(members.contents[i]);
+      if (!is_for_people(member) || content.is_empty()) continue;
+      values.push_back(fmt::format("{} {}", member.heading, shown_value(member, content)));
     }
     return fmt::format("{}", fmt::join(values, ", "));
   }
@@ -90,34 +100,153 @@ struct ValueText {
 
 /// The unit as it is shown beside numbers in this notation.
 std::string shown_unit(const Item& item) {
-  return item.unit == "1" || is_percent(item.notation) ? "" : item.unit;
+  const bool is_text = item.kind_for_people == Kind::text;
+  return item.unit == "1" || is_percent(item.notation) || is_text ? "" : item.unit;
 }
 
 bool is_numeric(const Item& item) {
-  return item.kind == Kind::whole || item.kind == Kind::number || item.numeric;
+  const Kind kind = shown_kind(item);
+  return kind == Kind::whole || kind == Kind::number || item.numeric;
+}
+
+/// Whether it stands in the table of its rows as a column, or with its members as columns.
+bool is_column(const Item& item) {
+  const Kind kind = shown_kind(item);
+  return is_for_people(item) && item.own_table.empty() && !item.names_row && kind != Kind::sentence &&
+         kind != Kind::table;
+}
+
+/// Whether its members stand beside other items of its level.
+bool is_flat(const Item& item) {
+  return shown_kind(item) == Kind::object && item.heading.empty();
+}
+
+/// The cells of these items, of rows that may be missing.
+void add_columns(std::vector<BlockColumn>& columns, const std::vector<Item>& items,
+                 const std::vector<const Members*>& rows) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const Item& item = items[i];
+    if (!is_column(item)) continue;
+    if (is_flat(item)) {
+      std::vector<const Members*> inner;
+      for (const Members* const row : rows)
+        inner.push_back(row == nullptr ? nullptr : std::get_if<Members>(&row->contents[i].value));
+      add_columns(columns, item.members, inner);
+      continue;
+    }
+    BlockColumn shown{item.heading, shown_unit(item), is_numeric(item)};
+    bool is_known = false;
+    for (const Members* const row : rows) {
+      const Content& content = row == nullptr ? Content{} : shown_content(row->contents[i]);
+      shown.cells.push_back(content.is_empty() && !is_numeric(item) ? "" : shown_value(item, content));
+      is_known = is_known || (!shown.cells.back().empty() && shown.cells.back() != unknown_text);
+    }
+    if (is_known) columns.push_back(std::move(shown));
+  }
 }
 
 TableBlock table_block(const Item& item, const Rows& rows) {
   TableBlock table{item.heading, {}};
-  for (std::size_t i = 0; i < item.members.size(); ++i) {
-    const Item& column = item.members[i];
-    if (!is_for_people(column)) continue;
-    BlockColumn shown{column.heading, shown_unit(column), is_numeric(column)};
-    for (const Members& row : rows.rows)
-      shown.cells.push_back(
-          row.contents[i].is_empty() && !is_numeric(column) ? "" : shown_value(column, row.contents[i]));
-    const bool is_known = std::ranges::any_of(
-        shown.cells, [](const std::string& cell) { return !cell.empty() && cell != unknown_text; });
-    if (is_known) table.columns.push_back(std::move(shown));
-  }
+  std::vector<const Members*> lines;
+  for (const Members& row : rows.rows) lines.push_back(&row);
+  add_columns(table.columns, item.members, lines);
   return table;
+}
+
+/// The item that names the rows of a table in their own tables.
+std::size_t naming_item(const std::vector<Item>& items) {
+  const auto named = std::ranges::find(items, true, &Item::names_row);
+  const auto found = named != items.end() ? named : std::ranges::find_if(items, is_column);
+  return static_cast<std::size_t>(found - items.begin());
+}
+
+/// A table and its rows.
+struct ItemWithRows {
+  Item item;
+  Rows rows;
+};
+
+/// The table with this title that members of the rows of `outer` have for themselves. Its first column names
+/// the row, where there are several.
+ItemWithRows own_table(const Item& outer, const Rows& rows, const std::string& title) {
+  ItemWithRows own{{.heading = title, .kind = Kind::table}, {}};
+  const std::size_t naming = naming_item(outer.members);
+  const bool is_named = rows.rows.size() > 1 && naming < outer.members.size();
+  if (is_named) {
+    own.item.members = {outer.members[naming]};
+    own.item.members.front().names_row = false;
+  }
+  std::vector<std::size_t> members;
+  bool has_rows = false;
+  for (std::size_t i = 0; i < outer.members.size(); ++i) {
+    Item member = outer.members[i];
+    if (member.own_table != title || !is_for_people(member)) continue;
+    members.push_back(i);
+    has_rows = has_rows || member.kind == Kind::table;
+    member.own_table.clear();
+    if (!member.note.empty()) own.item.note += (own.item.note.empty() ? "" : "\n") + member.note;
+    const std::vector<Item> columns =
+        member.kind == Kind::table || member.kind == Kind::object ? member.members : std::vector{member};
+    if (member.kind == Kind::object) {
+      member.heading.clear();  // beside the others
+      own.item.members.push_back(std::move(member));
+    } else {
+      own.item.members.insert(own.item.members.end(), columns.begin(), columns.end());
+    }
+  }
+  for (const Members& row : rows.rows) {
+    Members first;
+    if (is_named) first.contents.push_back(row.contents[naming]);
+    if (has_rows) {
+      const auto* const inner = std::get_if<Rows>(&row.contents[members.front()].value);
+      if (inner == nullptr) continue;
+      for (const Members& one : inner->rows) {
+        Members line = first;
+        line.contents.insert(line.contents.end(), one.contents.begin(), one.contents.end());
+        own.rows.rows.push_back(std::move(line));
+      }
+      continue;
+    }
+    const auto is_empty = [&](std::size_t i) { return shown_content(row.contents[i]).is_empty(); };
+    if (std::ranges::all_of(members, is_empty)) continue;
+    for (const std::size_t i : members) first.contents.push_back(row.contents[i]);
+    own.rows.rows.push_back(std::move(first));
+  }
+  return own;
+}
+
+/// The sentences of a row, a line each.
+std::vector<std::string> sentences_of(const std::vector<Item>& items, const Members& row) {
+  std::vector<std::string> sentences;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const Content& content = row.contents[i];
+    if (items[i].kind == Kind::sentence && !content.is_empty())
+      sentences.push_back(std::get<std::string>(content.value));
+    const auto* const members = std::get_if<Members>(&content.value);
+    if (members == nullptr || !is_flat(items[i]) || !is_for_people(items[i])) continue;
+    for (std::string& one : sentences_of(items[i].members, *members)) sentences.push_back(std::move(one));
+  }
+  return sentences;
+}
+
+/// The sentences of the rows of such a table, behind the names of the rows, and its note.
+std::string text_below(const ItemWithRows& own, bool is_named) {
+  std::string text;
+  for (const Members& row : own.rows.rows) {
+    const std::string name =
+        is_named ? shown_value(own.item.members.front(), shown_content(row.contents.front())) + ": " : "";
+    for (const std::string& one : sentences_of(own.item.members, row)) text += name + one + "\n";
+  }
+  if (own.item.note.empty() && !text.empty()) text.pop_back();
+  return text + own.item.note;
 }
 
 class BlockList {
  public:
   void add(const std::vector<Item>& items, const Members& members) {
     for (std::size_t i = 0; i < items.size(); ++i) {
-      if (is_for_people(items[i]) && !members.contents[i].is_empty()) add(items[i], members.contents[i]);
+      const Content& content = shown_content(members.contents[i]);
+      if (is_for_people(items[i]) && !content.is_empty()) add(items[i], content);
     }
   }
 
@@ -125,7 +254,7 @@ class BlockList {
 
  private:
   void add(const Item& item, const Content& content) {
-    switch (item.kind) {
+    switch (shown_kind(item)) {
       case Kind::headline:
         blocks_.emplace_back(HeadlineBlock{std::get<std::string>(content.value)});
         return;
@@ -142,7 +271,7 @@ class BlockList {
         for (const Members& row : std::get<Rows>(content.value).rows) add(item.members, row);
         return;
       case Kind::object:
-        blocks_.emplace_back(SectionBlock{item.heading});
+        if (!item.heading.empty()) blocks_.emplace_back(SectionBlock{item.heading});
         add(item.members, std::get<Members>(content.value));
         return;
       case Kind::figure:
@@ -166,6 +295,26 @@ class BlockList {
     TableBlock table = table_block(item, rows);
     if (item.common_above) add_common_columns(table);
     if (!table.columns.empty()) blocks_.emplace_back(std::move(table));
+    if (!item.note.empty()) blocks_.emplace_back(SentenceBlock{item.note});
+    add_own_tables(item, rows);
+  }
+
+  void add_own_tables(const Item& item, const Rows& rows) {
+    std::vector<std::string> titles;
+    for (const Item& member : item.members) {
+      if (!member.own_table.empty() && std::ranges::find(titles, member.own_table) == titles.end())
+        titles.push_back(member.own_table);
+    }
+    for (const std::string& title : titles) {
+      const ItemWithRows own = own_table(item, rows, title);
+      if (own.rows.rows.empty()) continue;
+      const bool is_named = rows.rows.size() > 1;
+      TableBlock table = table_block(own.item, own.rows);
+      if (table.columns.size() > (is_named ? 1U : 0U)) blocks_.emplace_back(std::move(table));
+      if (std::string text = text_below(own, is_named); !text.empty())
+        blocks_.emplace_back(SentenceBlock{std::move(text)});
+      add_own_tables(own.item, own.rows);
+    }
   }
 
   /// Moves the columns whose cells are all equal, of a single row all, out of the table into facts below its

@@ -50,6 +50,7 @@ struct Content {
   std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, Bounded, std::string, Members, List,
                Named, Rows, std::shared_ptr<const Figure>>
       value{};
+  std::shared_ptr<const Content> for_people{};  ///< where people are shown something else
 
   bool is_empty() const { return value.index() == 0; }
 };

@@ -149,6 +149,25 @@ class Description {
     });
   }
 
+  /// How people see the item that was added last: as the value that `get` returns. A text stands without the
+  /// unit of the item.
+  template <class Get>
+  Description& shown_as(Get get) {
+    using Value = ValueType<std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>>;
+    Item shown;
+    Value::describe(shown);
+    items_.back().kind_for_people = shown.kind;
+    contents_.back() = [data = std::move(contents_.back()), get = std::move(get)](const Row& row,
+                                                                                  Audience audience) {
+      if (audience == Audience::people) return Value::content(std::invoke(get, row));
+      Content content = data(row, audience);
+      if (audience == Audience::all)
+        content.for_people = std::make_shared<const Content>(Value::content(std::invoke(get, row)));
+      return content;
+    };
+    return *this;
+  }
+
   /// An object with the items of `parts`. `get` returns a Part, an optional one, or a pointer to one.
   template <class Part, class Get>
   Description& object(Item item, Description<Part> parts, Get get) {
@@ -243,6 +262,10 @@ class Description {
 
  private:
   Description& add(Item item, ContentOf content) {
+    const bool is_value = item.kind != Kind::object && item.kind != Kind::table &&
+                          item.kind != Kind::sections && item.kind != Kind::headline;
+    if (item.shown == Shown::everywhere && item.key.empty()) item.shown = Shown::to_people;
+    if (item.shown == Shown::everywhere && item.heading.empty() && is_value) item.shown = Shown::in_data;
     items_.push_back(std::move(item));
     contents_.push_back(std::move(content));
     return *this;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,13 +27,16 @@ enum class Kind {
   figure     ///< for people only
 };
 
-/// Where an item is shown.
+/// Where an item is shown. What has no key is shown to people only; a value without a heading is not shown to
+/// people.
 enum class Shown {
   everywhere,
-  in_data,   ///< in JSON and CSV only
-  in_json,   ///< in JSON only
-  in_csv,    ///< in CSV only: a column of what the JSON has in another form
-  to_people  ///< in text, Markdown and HTML only
+  in_data,      ///< in JSON and CSV only
+  in_json,      ///< in JSON only
+  in_csv,       ///< in CSV only: a column of what the JSON has in another form
+  not_in_json,  ///< in CSV and to people, likewise
+  not_in_csv,   ///< in JSON and to people: rows of a row
+  to_people     ///< in text, Markdown and HTML only
 };
 
 /// For whom an answer is made: what others are shown is not computed.
@@ -40,19 +44,20 @@ enum class Audience { all, people, json, csv };
 
 /// Whether the audience is shown an item with this `shown`.
 constexpr bool is_shown(Shown shown, Audience audience) {
-  switch (shown) {
-    case Shown::everywhere:
-      return true;
-    case Shown::in_data:
-      return audience != Audience::people;
-    case Shown::in_json:
-      return audience == Audience::all || audience == Audience::json;
-    case Shown::in_csv:
-      return audience == Audience::all || audience == Audience::csv;
-    case Shown::to_people:
+  const bool people = shown != Shown::in_data && shown != Shown::in_json && shown != Shown::in_csv;
+  const bool json = shown != Shown::in_csv && shown != Shown::not_in_json && shown != Shown::to_people;
+  const bool csv = shown != Shown::in_json && shown != Shown::not_in_csv && shown != Shown::to_people;
+  switch (audience) {
+    case Audience::people:
+      return people;
+    case Audience::json:
+      return json;
+    case Audience::csv:
+      return csv;
+    case Audience::all:
       break;
   }
-  return audience == Audience::all || audience == Audience::people;
+  return true;
 }
 
 /// How a number is written for people. In JSON and CSV every number reads back to the same double.
@@ -82,11 +87,20 @@ struct Item {
   bool free_keys{false};             ///< of an object: its members are alike, and a study gives their keys
   bool common_above{false};          ///< of a table: what all its rows say alike is said once, above it
 
+  /// Of a member of a row: for people it stands in a table with this title below that of the rows, beside
+  /// others of the same title. An object has its members as columns there, a table its rows, and both their
+  /// sentences below it, each behind the name of the row. Empty: in the table of the rows, where an object
+  /// without heading has its members as columns.
+  std::string own_table{};
+  std::string note{};     ///< for people: sentences below its table
+  bool names_row{false};  ///< of a member of a row: it is the first column of those tables, and of no other
+
   // Description sets the members below.
 
   Kind kind{Kind::sentence};
-  bool bounded{false};          ///< a number with bounds, "<key>_low" and "<key>_high"
-  bool nullable{false};         ///< may be without content
+  std::optional<Kind> kind_for_people{};  ///< where it is shown as something else (Description::shown_as)
+  bool bounded{false};                    ///< a number with bounds, "<key>_low" and "<key>_high"
+  bool nullable{false};                   ///< may be without content
   std::vector<Item> members{};  ///< of an object, a table, sections or their rows; [0] of a list and a map
 };
 

@@ -6,12 +6,17 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/goal/goal_chances.hpp"
 #include "analysis/goal/goal_verdict.hpp"
+#include "analysis/statistics/clusters/clustered_proportion.hpp"
+#include "analysis/statistics/clusters/rig_proportion.hpp"
+#include "analysis/statistics/distributions.hpp"
+#include "analysis/statistics/proportion.hpp"
 #include "core/numerics/bisection.hpp"
 
 namespace zerocount::goal {
 namespace {
+
+using numerics::first_where;
 
 constexpr std::int64_t max_trials = 1'000'000'000;
 constexpr std::int64_t max_rigs = 100'000;
@@ -59,6 +64,154 @@ std::int64_t smallest(std::int64_t low, std::int64_t high, const Decides& decide
 }
 
 constexpr std::int64_t max_more_trials = 1024;  ///< times the trials of a rig that are observed
+
+/// Size of one world of a planned study, or of a study without worlds.
+struct PlannedSize {
+  std::int64_t units{0};             ///< rigs, or trials without rigs
+  std::int64_t more_on_each_rig{1};  ///< trials of a rig, as a multiple of those observed
+};
+
+/// Probabilities of the verdicts that a planned study will have.
+struct Chances {
+  double met{0.0};
+  double missed{0.0};
+};
+
+/// The chances of a planned study of one world, after what was observed in it. The proportion π that the
+/// verdict is about is not known: it has the distribution that the observation leaves likely, Beta(k + ½,
+/// n − k + ½) for k of n independent events (the posterior of Jeffreys' prior; assurance after O'Hagan,
+/// Stevens and Campbell, Pharmaceutical Statistics 4 (2005) 187).
+///
+/// Events are moves, as many as the clusters observed are worth. Without a miss, or without a hit, nothing
+/// tells how clusters differ, and each move is one; the bounds of the planned study count its clusters: with
+/// e1 of a rig of m moves, a rig of c·m moves is worth 1/(1/e1 − 1/m + 1/(c·m)). For a goal on machines the
+/// planned rigs are like those observed, each of which meets the goal in its moves as often as observed: the
+/// bounds of rig_proportion.hpp leave a range of proportions open that no study decides, so that what is
+/// likely cannot be decided with any probability.
+class ObservedWorld {
+ public:
+  /// @param counts of one world, with moves @param points, parts as of judge_goal()
+  ObservedWorld(const study::Goal& goal, measures::MoveCounts counts, std::size_t points, std::size_t parts)
+      : goal_(goal),
+        counts_(std::move(counts)),
+        points_(points),
+        parts_(parts),
+        confidence_low_(statistics::confidence_of_each(goal.confidence, points)),
+        confidence_high_(statistics::confidence_of_each(goal.confidence, points * parts)),
+        sums_(measures::clusters_of(counts_)) {
+    if (goal_.machines) {
+      for (const statistics::RigMoves& rig : counts_.rigs) ++machines_[rig.met];
+      return;
+    }
+    worth_ = sums_.hits > 0 && sums_.hits < sums_.events ? statistics::effective_events(sums_)
+                                                         : static_cast<double>(sums_.events);
+    const double hits = statistics::rate(sums_.hits, sums_.events) * worth_;
+    for (std::size_t i = 0; i < likely_.size(); ++i)
+      likely_[i] = statistics::lower_bound_on_p(
+          hits + 0.5, worth_, (static_cast<double>(i) + 0.5) / static_cast<double>(likely_.size()));
+  }
+
+  Chances chances_of(const PlannedSize& planned) {
+    return goal_.machines ? of_machines(planned) : of_moves(planned);
+  }
+
+ private:
+  double chance_of_at_least(std::int64_t events, std::int64_t hits) const {
+    if (hits > events) return 0.0;
+    if (hits <= 0) return 1.0;
+    double sum = 0.0;
+    for (const double p : likely_) sum += statistics::binomial_upper_tail(events, p, hits - 1);
+    return sum / static_cast<double>(likely_.size());
+  }
+
+  /// Independent moves that all clusters of the planned study are worth.
+  double planned_events(const PlannedSize& planned) const {
+    const auto clusters = static_cast<double>(sums_.clusters);
+    const double moves = static_cast<double>(sums_.events) / clusters;
+    const double worth = std::min(moves, worth_ / clusters);
+    const double between = 1.0 / worth - 1.0 / moves;
+    const double events = static_cast<double>(planned.units) /
+                          (between + 1.0 / (moves * static_cast<double>(planned.more_on_each_rig)));
+    if (sums_.clusters == sums_.events) return events;
+    // The bounds use Student's distribution, because the differences between clusters are estimated.
+    const double t =
+        statistics::student_t_quantile(static_cast<double>(planned.units - 1), confidence_high_) /
+        statistics::student_t_quantile(std::max(1.0, events - 1.0), confidence_high_);
+    return std::max(1.0, events / (t * t));
+  }
+
+  /// Single events stand for those that the clusters are worth; the number of clusters limits what they show.
+  Chances of_moves(const PlannedSize& planned) const {
+    const auto n = static_cast<std::int64_t>(planned_events(planned));
+    const auto status = [&](std::int64_t hits) {
+      const auto k = static_cast<double>(hits);
+      const measures::MoveCounts counts{
+          .moves = n, .met = hits, .of_trials = {n, hits, n, k, k, static_cast<double>(n)}, .rigs = {}};
+      return judge_goal(goal_, counts, points_, parts_).status;
+    };
+    const auto clusters = static_cast<double>(planned.units);
+    const bool can_meet = statistics::shown_by_clusters(clusters, confidence_low_) >= goal_.moves;
+    const bool can_miss = 1.0 - statistics::shown_by_clusters(clusters, confidence_high_) < goal_.moves;
+    const std::int64_t met =
+        can_meet ? first_where(0, n + 1, [&](std::int64_t hits) { return status(hits) == Status::met; })
+                 : n + 1;
+    const std::int64_t not_missed =
+        can_miss ? first_where(0, n + 1, [&](std::int64_t hits) { return status(hits) != Status::missed; })
+                 : 0;
+    return {chance_of_at_least(n, met), 1.0 - chance_of_at_least(n, not_missed)};
+  }
+
+  /// So many of the rigs observed would show `met` or more moves that meet the goal.
+  double rigs_passing(std::int64_t met, std::int64_t more) {
+    const auto [at, is_new] = passing_.try_emplace({met, more}, 0.0);
+    if (!is_new) return at->second;
+    const std::int64_t moves = counts_.rigs.front().moves;
+    for (const auto& [observed, rigs] : machines_) {
+      const double chance = met <= 0 ? 1.0
+                                     : statistics::binomial_upper_tail(
+                                           moves * more, statistics::rate(observed, moves), met - 1);
+      at->second += static_cast<double>(rigs) * chance;
+    }
+    return at->second;
+  }
+
+  /// The chance of the mark that shows best what is wanted: that of any of them is not smaller.
+  Chances of_machines(const PlannedSize& planned) {
+    const statistics::RigMoves& rig = counts_.rigs.front();
+    const statistics::RigStudy study{planned.units, rig.trials * planned.more_on_each_rig,
+                                     rig.moves * planned.more_on_each_rig};
+    const auto observed = static_cast<double>(counts_.rigs.size());
+    const auto chance = [&](const statistics::RigBound::Enough& enough, double passing) {
+      if (enough.rigs > study.rigs) return 0.0;
+      return statistics::binomial_upper_tail(study.rigs, std::clamp(passing / observed, 0.0, 1.0),
+                                             enough.rigs - 1);
+    };
+    Chances chances;
+    const statistics::RigClaim met{goal_.moves, *goal_.machines, confidence_low_};
+    for (const auto& enough : statistics::RigBound(study, met).enough())
+      chances.met = std::max(chances.met, chance(enough, rigs_passing(enough.met, planned.more_on_each_rig)));
+    const statistics::RigClaim missed =
+        statistics::of_missing({goal_.moves, *goal_.machines, confidence_high_});
+    for (const auto& enough : statistics::RigBound(study, missed).enough()) {
+      const std::int64_t at_most = study.moves - enough.met;
+      const double missing = observed - rigs_passing(at_most + 1, planned.more_on_each_rig);
+      chances.missed = std::max(chances.missed, chance(enough, missing));
+    }
+    return chances;
+  }
+
+  study::Goal goal_;
+  measures::MoveCounts counts_;
+  std::size_t points_;
+  std::size_t parts_;
+  double confidence_low_, confidence_high_;  ///< of the bounds
+  statistics::ClusterSums sums_;
+  double worth_{0.0};                 ///< events that the clusters are worth
+  std::array<double, 100> likely_{};  ///< equally probable values of π
+  std::map<std::int64_t, std::int64_t>
+      machines_{};  ///< number of those with so many moves that meet the goal
+  std::map<std::pair<std::int64_t, std::int64_t>, double> passing_{};  ///< rigs_passing()
+};
 
 /// One claim: a goal, under one condition, in all worlds. Worlds in which the same was observed have the same
 /// chances.

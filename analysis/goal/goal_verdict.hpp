@@ -105,7 +105,7 @@ struct Needs {
 inline constexpr double probability_of_needs = 0.9;
 
 /// Studies of which the verdict on all goals under all conditions is decided with this probability, at least,
-/// by what these counts leave likely (goal_chances.hpp), whatever goals and conditions have in common:
+/// by what these counts leave likely (goal_needs.cpp), whatever goals and conditions have in common:
 ///
 ///   P(decided) ≥ max(1 − Σ P(a claim is undecided), max P(a claim is missed)).
 ///

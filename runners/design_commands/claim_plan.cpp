@@ -1,5 +1,3 @@
-#include "runners/design_commands/claim_plan.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,13 +19,14 @@
 #include "results/reading/all_trials_file.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/design_commands/plans.hpp"
 
 namespace zerocount::design_commands {
 namespace {
 
 using document::Description;
+using document::everywhere;
 using document::in_data;
-using document::Shown;
 using statistics::ClaimPlan;
 using statistics::RigPlan;
 using statistics::SequentialCost;
@@ -38,10 +37,10 @@ constexpr double worst_case_rate = 0.5;
 /// The parsed options.
 struct PlanRequest {
   double confidence{statistics::summary_confidence};
-  std::optional<double> success, true_success, power, halfwidth;
-  std::optional<double> rig_sd, rigs_share;
+  std::optional<double> success{}, true_success{}, power{}, halfwidth{};
+  std::optional<double> rig_sd{}, rigs_share{};
   std::int64_t failures{default_failures};
-  std::string pilot;  ///< source of rig_sd and the rate, for people
+  std::string pilot{};  ///< source of rig_sd and the rate, for people
 
   double rate() const { return true_success.value_or(worst_case_rate); }
 };
@@ -53,35 +52,32 @@ struct PilotPoint {
   double rig_sd{0.0};  ///< standard deviation of the success probability between rigs
 };
 
-/// The point whose rigs differ most; none where no rigs have several trials.
-std::optional<PilotPoint> worst_point(const summary::StudySummary& summary, std::string_view condition) {
+/// The point, and the condition, under which the rigs of the pilot differ most; none where no rigs have
+/// several trials.
+std::optional<PilotPoint> worst_point(const std::string& path) {
   std::optional<PilotPoint> worst;
-  for (std::size_t i = 0; i < summary.points.size(); ++i) {
-    const measures::PointSummary& point = summary.points[i];
-    const double sd = point.rigs.success_sd;
-    if (!std::isnan(sd) && (!worst || sd > worst->rig_sd))
-      worst = {study::label_under(summary.labels[i], condition), point.success_rate().value, sd};
-  }
-  return worst;
-}
-
-/// The point, and the condition, under which the rigs of the pilot differ most.
-std::optional<PilotPoint> worst_point_of(const std::string& path) {
+  const auto take = [&](const summary::StudySummary& summary, std::string_view condition) {
+    for (std::size_t i = 0; i < summary.points.size(); ++i) {
+      const measures::PointSummary& point = summary.points[i];
+      const double sd = point.rigs.success_sd;
+      if (!std::isnan(sd) && (!worst || sd > worst->rig_sd))
+        worst = {study::label_under(summary.labels[i], condition), point.success_rate().value, sd};
+    }
+  };
   const study::Study study = commands::described_study(path);
-  if (study.conditions.empty()) return worst_point(summary::summarise_file(path), "");
-  const reading::AllTrialsFile file(path);
-  std::optional<PilotPoint> worst;
-  for (std::int64_t i = 0; i < study::condition_count(study); ++i) {
-    const std::optional<PilotPoint> one = worst_point(summary::summarise(file.under_condition(i)),
-                                                      study.conditions[static_cast<std::size_t>(i)]);
-    if (one && (!worst || one->rig_sd > worst->rig_sd)) worst = one;
+  if (study.conditions.empty()) {
+    take(summary::summarise_file(path), "");
+    return worst;
   }
+  const reading::AllTrialsFile file(path);
+  for (std::size_t i = 0; i < study.conditions.size(); ++i)
+    take(summary::summarise(file.under_condition(static_cast<std::int64_t>(i))), study.conditions[i]);
   return worst;
 }
 
 /// Takes the standard deviation and the rate from the point of a pilot study whose rigs differ most.
 void measure_pilot(PlanRequest& request, const std::string& path) {
-  const std::optional<PilotPoint> worst = worst_point_of(path);
+  const std::optional<PilotPoint> worst = worst_point(path);
   if (!worst) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: has no differences between rigs; expected the results of a study with "
@@ -99,40 +95,25 @@ void measure_pilot(PlanRequest& request, const std::string& path) {
 }
 
 PlanRequest request_of(const command_line::Arguments& arguments) {
-  PlanRequest request;
-  request.confidence =
-      command_line::probability_option(arguments, "confidence").value_or(statistics::summary_confidence);
-  request.success = command_line::probability_option(arguments, "success");
-  request.true_success = command_line::probability_option(arguments, "true-success");
-  request.power = command_line::probability_option(arguments, "power");
-  request.halfwidth = command_line::probability_option(arguments, "halfwidth");
-  request.failures = arguments.whole_number("failures", 0, 1000).value_or(default_failures);
-  request.rigs_share = command_line::probability_option(arguments, "rigs-share");
-  request.rig_sd = command_line::probability_option(arguments, "rig-sd");
-  if (!arguments.operands().empty()) {
-    if (request.rig_sd) arguments.refuse("expected --rig-sd or a pilot FILE, not both");
-    if (!request.halfwidth) arguments.refuse("a pilot FILE needs --halfwidth");
-    measure_pilot(request, arguments.operands()[0]);
-  }
-  if (request.rig_sd && !request.halfwidth) arguments.refuse("option '--rig-sd' needs --halfwidth");
-  if (request.rigs_share && !request.success) arguments.refuse("option '--rigs-share' needs --success");
-  if (request.rigs_share && (request.power || request.true_success))
-    arguments.refuse("option '--rigs-share' plans without a failure: expected no --power or --true-success");
+  const auto probability = [&](const char* option) {
+    return command_line::probability_option(arguments, option);
+  };
+  PlanRequest request{.confidence = probability("confidence").value_or(statistics::summary_confidence),
+                      .success = probability("success"),
+                      .true_success = probability("true-success"),
+                      .power = probability("power"),
+                      .halfwidth = probability("halfwidth"),
+                      .rig_sd = probability("rig-sd"),
+                      .rigs_share = probability("rigs-share"),
+                      .failures = arguments.whole_number("failures", 0, 1000).value_or(default_failures)};
   if (!request.success && !request.halfwidth) arguments.refuse("expected --success or --halfwidth");
-  if (request.power && !(request.success && request.true_success))
-    arguments.refuse("option '--power' needs --success and --true-success");
-  if (!request.success && arguments.has("failures")) arguments.refuse("option '--failures' needs --success");
+  if (request.power && !request.success) arguments.refuse("option '--power' needs --success");
+  if (arguments.operands().empty()) return request;
+  if (request.rig_sd) arguments.refuse("expected --rig-sd or a pilot FILE, not both");
+  if (!request.halfwidth) arguments.refuse("a pilot FILE needs --halfwidth");
+  measure_pilot(request, arguments.operands()[0]);
   return request;
 }
-
-/// What was asked, and the plans that answer it; those of other questions are empty.
-struct Plans {
-  PlanRequest request;
-  std::vector<ClaimPlan> claims{};
-  std::vector<RigPlan> tolerance{};
-  std::vector<RigPlan> halfwidth_on_rigs{};
-  std::optional<SequentialCost> halfwidth{};  ///< without rigs
-};
 
 /// A plan of a claim, and its probability to show it at the assumed true proportion.
 struct ClaimRow {
@@ -141,27 +122,30 @@ struct ClaimRow {
   std::optional<bool> has_power{};
 };
 
-std::vector<ClaimRow> claim_rows(const Plans& plans) {
-  const PlanRequest& request = plans.request;
+/// What was asked, and the plans that answer it; those of other questions are empty.
+struct Plans {
+  PlanRequest request;
+  std::vector<ClaimRow> claims{};
+  std::vector<RigPlan> tolerance{};
+  std::vector<RigPlan> halfwidth_on_rigs{};
+  std::optional<SequentialCost> halfwidth{};  ///< without rigs
+};
+
+std::vector<ClaimRow> claim_plans(const PlanRequest& request) {
   std::vector<ClaimRow> rows;
-  for (const ClaimPlan& plan : plans.claims) {
+  const auto add = [&](const ClaimPlan& plan) {
     ClaimRow& row = rows.emplace_back(ClaimRow{plan});
-    if (!request.true_success) continue;
+    if (!request.true_success) return;
     row.chance = statistics::chance_of_claim(plan.trials, plan.failures, *request.true_success);
     if (request.power) row.has_power = *row.chance >= *request.power;
-  }
-  return rows;
-}
-
-std::vector<ClaimPlan> claims_of(const PlanRequest& request) {
-  std::vector<ClaimPlan> plans;
+  };
   for (std::int64_t failures = 0; failures <= request.failures; ++failures)
-    plans.push_back({failures, statistics::trials_for_claim(*request.success, request.confidence, failures)});
-  if (!request.power) return plans;
+    add({failures, statistics::trials_for_claim(*request.success, request.confidence, failures)});
+  if (!request.power) return rows;
   const ClaimPlan strong = statistics::plan_with_power(*request.success, request.confidence,
                                                        *request.true_success, *request.power);
-  if (strong.failures > request.failures) plans.push_back(strong);
-  return plans;
+  if (strong.failures > request.failures) add(strong);
+  return rows;
 }
 
 std::vector<RigPlan> halfwidth_plans(const PlanRequest& request) {
@@ -195,7 +179,7 @@ Plans plans_of(PlanRequest request) {
   if (asked.rigs_share) {
     plans.tolerance = tolerance_plans(asked);
   } else if (asked.success) {
-    plans.claims = claims_of(asked);
+    plans.claims = claim_plans(asked);
   }
   if (!asked.halfwidth) return plans;
   if (asked.rig_sd) {
@@ -214,7 +198,7 @@ std::string with_confidence(const PlanRequest& request) {
 
 /// The first plan with the power that is asked for, or without a failure.
 std::string claim_headline(const Plans& plans) {
-  const std::vector<ClaimRow> rows = claim_rows(plans);
+  const std::vector<ClaimRow>& rows = plans.claims;
   const auto strong = std::ranges::find(rows, std::optional(true), &ClaimRow::has_power);
   const ClaimRow& row = strong == rows.end() ? rows.front() : *strong;
   return fmt::format(
@@ -223,11 +207,6 @@ std::string claim_headline(const Plans& plans) {
                              : fmt::format("at most {} of which fail", row.plan.failures),
       row.chance ? fmt::format(" with a probability of {}", text::percent_near(*row.chance)) : "",
       text::percent(*plans.request.success), with_confidence(plans.request));
-}
-
-std::string chance_sentence(const Plans& plans) {
-  if (!plans.request.true_success) return "";
-  return fmt::format("chance: if {} of axes succeed in truth", text::percent(*plans.request.true_success));
 }
 
 std::string tolerance_headline(const Plans& plans) {
@@ -254,14 +233,6 @@ std::string halfwidth_headline(const Plans& plans) {
                      request.pilot.empty() ? "" : " (" + request.pilot + ")");
 }
 
-std::string stop_sentence(const Plans& plans) {
-  if (!plans.halfwidth) return "";
-  return fmt::format(
-      "with `stop`, which decides by the outcomes when to end, it takes about {}: {:.1f} times as many, "
-      "because its bounds hold at whatever number of trials it ends",
-      plans.halfwidth->sequential, plans.halfwidth->ratio());
-}
-
 std::string rigs_sentence(const Plans& plans) {
   if (plans.halfwidth_on_rigs.empty()) return "";
   const double rate = plans.request.rate();
@@ -272,28 +243,23 @@ std::string rigs_sentence(const Plans& plans) {
 
 Description<RigPlan> rig_columns() {
   return Description<RigPlan>()
-      .value({.key = "rigs", .heading = "rigs", .meaning = "rigs"}, &RigPlan::rigs)
-      .value({.key = "trials_per_rig", .heading = "trials on each", .meaning = "trials on each"},
-             &RigPlan::trials_per_rig)
-      .value({.key = "trials", .heading = "trials", .meaning = "trials on all rigs"},
+      .value(everywhere("rigs", "rigs", "rigs"), &RigPlan::rigs)
+      .value(everywhere("trials_per_rig", "trials on each", "trials on each"), &RigPlan::trials_per_rig)
+      .value(everywhere("trials", "trials", "trials on all rigs"),
              [](const RigPlan& plan) { return plan.rigs * plan.trials_per_rig; });
 }
 
 Description<ClaimRow> claim_columns() {
   using Row = const ClaimRow&;
   return Description<ClaimRow>()
-      .value({.key = "failures", .heading = "failures at most", .meaning = "failures at most"},
+      .value(everywhere("failures", "failures at most", "failures at most"),
              [](Row row) { return row.plan.failures; })
-      .value({.key = "trials", .heading = "trials", .meaning = "trials"},
-             [](Row row) { return row.plan.trials; })
-      .value({.key = "chance",
-              .heading = "chance to show it",
-              .meaning = "probability that the plan shows the claim, if true_success is the proportion",
-              .unit = "1"},
+      .value(everywhere("trials", "trials", "trials"), [](Row row) { return row.plan.trials; })
+      .value(everywhere("chance", "chance to show it",
+                        "probability that the plan shows the claim, if true_success is the proportion", "1"),
              &ClaimRow::chance)
-      .value({.key = "has_power",
-              .heading = "power is enough",
-              .meaning = "whether this probability is at least the power that is asked for"},
+      .value(everywhere("has_power", "power is enough",
+                        "whether this probability is at least the power that is asked for"),
              &ClaimRow::has_power);
 }
 
@@ -304,77 +270,63 @@ Description<Plans> halfwidth_description() {
       .value(in_data("rate", "assumed rate", "1"), [](Of p) { return p.request.rate(); })
       .value(in_data("rig_sd", "standard deviation of the success probability between rigs", "1"),
              [](Of p) { return p.request.rig_sd; })
-      .table(in_data("rig_plans", "rigs and trials; none without rig_sd"), rig_columns(),
+      .table({.key = "rig_plans", .meaning = "rigs and trials; none without rig_sd"}, rig_columns(),
              &Plans::halfwidth_on_rigs)
-      .value(in_data("trials", "trials without rigs, decided beforehand"),
+      .value(everywhere("trials", "trials, decided beforehand", "trials without rigs, decided beforehand"),
              [](Of p) { return p.halfwidth ? std::optional(p.halfwidth->fixed) : std::nullopt; })
-      .value(in_data("trials_with_stop", "trials without rigs, decided by the outcomes"),
-             [](Of p) { return p.halfwidth ? std::optional(p.halfwidth->sequential) : std::nullopt; });
-}
-
-const PlanRequest& request_in(const Plans& plans) {
-  return plans.request;
-}
-
-Description<PlanRequest> confidence_item() {
-  return Description<PlanRequest>().value(
-      in_data("confidence", "confidence of the claim, or of the bounds", "1"), &PlanRequest::confidence);
-}
-
-void add_halfwidth(Description<Plans>& items) {
-  items
-      .object(in_data("halfwidth", "plan of the bounds of a rate"), halfwidth_description(),
-              [](const Plans& plans) { return plans.request.halfwidth ? &plans : nullptr; })
-      .table({.shown = Shown::to_people}, rig_columns(), &Plans::halfwidth_on_rigs)
-      .sentence(stop_sentence)
+      .value(everywhere("trials_with_stop", "trials with `stop`, about",
+                        "trials without rigs, decided by the outcomes"),
+             [](Of p) { return p.halfwidth ? std::optional(p.halfwidth->sequential) : std::nullopt; })
       .sentence(rigs_sentence);
 }
 
-document::AnswerDescription<Plans> success_answer() {
-  document::AnswerDescription<Plans> answer{{.name = "plan-success",
-                                             .meaning = "trials that show a proportion of successful axes",
-                                             .csv_table = "plans"},
-                                            {}};
-  const auto asked =
-      confidence_item()
-          .value(in_data("success", "proportion of axes to be shown to succeed", "1"), &PlanRequest::success)
-          .value(in_data("true_success", "assumed true proportion", "1"), &PlanRequest::true_success)
-          .value(in_data("power", "probability that is asked for", "1"), &PlanRequest::power);
-  answer.items.headline(claim_headline)
-      .include(asked, request_in)
-      .table({.key = "plans", .meaning = "plans by the number of failures"}, claim_columns(), claim_rows)
-      .sentence(chance_sentence)
-      .sentence(halfwidth_headline);
-  add_halfwidth(answer.items);
-  return answer;
-}
-
-document::AnswerDescription<Plans> rigs_answer() {
+/// The answer to one of the questions: `success`, `rigs` or `halfwidth`.
+document::AnswerDescription<Plans> answer_to(std::string_view question) {
+  const bool of_claim = question == "success";
+  const bool of_rigs = question == "rigs";
   document::AnswerDescription<Plans> answer{
-      {.name = "plan-rigs",
-       .meaning = "rigs and trials that show a proportion of successful rigs",
-       .csv_table = "rig_plans"},
+      {.name = fmt::format("plan-{}", question),
+       .meaning = of_claim  ? "trials that show a proportion of successful axes"
+                  : of_rigs ? "rigs and trials that show a proportion of successful rigs"
+                            : "trials that bring the bounds of a rate within a half-width",
+       .csv_table = of_claim  ? "plans"
+                    : of_rigs ? "rig_plans"
+                              : ""},
       {}};
-  const auto asked = confidence_item()
-                         .value(in_data("success", "proportion of its moves in which a rig holds zero", "1"),
-                                &PlanRequest::success)
-                         .value(in_data("rigs_share", "proportion of rigs to be shown to succeed", "1"),
-                                &PlanRequest::rigs_share);
-  answer.items.headline(tolerance_headline)
-      .include(asked, request_in)
-      .table({.key = "rig_plans", .meaning = "rigs and trials, if no trial fails"}, rig_columns(),
-             &Plans::tolerance)
-      .sentence(halfwidth_headline);
-  add_halfwidth(answer.items);
-  return answer;
-}
-
-document::AnswerDescription<Plans> halfwidth_answer() {
-  document::AnswerDescription<Plans> answer{
-      {.name = "plan-halfwidth", .meaning = "trials that bring the bounds of a rate within a half-width"},
-      {}};
-  answer.items.headline(halfwidth_headline).include(confidence_item(), request_in);
-  add_halfwidth(answer.items);
+  Description<PlanRequest> asked;
+  asked.value(in_data("confidence", "confidence of the claim, or of the bounds", "1"),
+              &PlanRequest::confidence);
+  if (of_claim) {
+    asked.value(in_data("success", "proportion of axes to be shown to succeed", "1"), &PlanRequest::success)
+        .value({.key = "true_success",
+                .heading = "assumed true proportion",
+                .meaning = "assumed true proportion",
+                .unit = "1",
+                .notation = document::Notation::given_percent},
+               &PlanRequest::true_success)
+        .value(in_data("power", "probability that is asked for", "1"), &PlanRequest::power);
+  }
+  if (of_rigs) {
+    asked
+        .value(in_data("success", "proportion of its moves in which a rig holds zero", "1"),
+               &PlanRequest::success)
+        .value(in_data("rigs_share", "proportion of rigs to be shown to succeed", "1"),
+               &PlanRequest::rigs_share);
+  }
+  answer.items.headline(of_claim  ? claim_headline
+                        : of_rigs ? tolerance_headline
+                                  : halfwidth_headline)
+      .include(asked, &Plans::request);
+  if (of_claim)
+    answer.items.table({.key = "plans", .meaning = "plans by the number of failures"}, claim_columns(),
+                       &Plans::claims);
+  if (of_rigs)
+    answer.items.table({.key = "rig_plans", .meaning = "rigs and trials, if no trial fails"}, rig_columns(),
+                       &Plans::tolerance);
+  if (of_claim || of_rigs) answer.items.sentence(halfwidth_headline);
+  answer.items.object(everywhere("halfwidth", "bounds of the rate", "plan of the bounds of a rate"),
+                      halfwidth_description(),
+                      [](const Plans& plans) { return plans.request.halfwidth ? &plans : nullptr; });
   return answer;
 }
 
@@ -382,13 +334,13 @@ document::AnswerDescription<Plans> halfwidth_answer() {
 
 document::Answer claim_plan(const command_line::Arguments& arguments) {
   const Plans plans = plans_of(request_of(arguments));
-  if (plans.request.rigs_share) return rigs_answer().of(plans);
-  return (plans.request.success ? success_answer() : halfwidth_answer()).of(plans);
+  const PlanRequest& asked = plans.request;
+  return answer_to(asked.rigs_share ? "rigs" : asked.success ? "success" : "halfwidth").of(plans);
 }
 
 std::vector<document::AnswerType> claim_plan_types() {
-  return {success_answer().complete_type(), rigs_answer().complete_type(),
-          halfwidth_answer().complete_type()};
+  return {answer_to("success").complete_type(), answer_to("rigs").complete_type(),
+          answer_to("halfwidth").complete_type()};
 }
 
 }  // namespace zerocount::design_commands

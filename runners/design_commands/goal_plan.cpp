@@ -1,5 +1,3 @@
-#include "runners/design_commands/goal_plan.hpp"
-
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -16,14 +14,17 @@
 #include "analysis/goal/question.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/design_commands/plans.hpp"
 #include "runners/forecast/cost.hpp"
 #include "runners/status/progress.hpp"
 
 namespace zerocount::design_commands {
 namespace {
 
+using document::everywhere;
 using document::in_data;
 using document::Shown;
+using document::to_people;
 using document::with_words;
 
 constexpr std::string_view other_plans = ", or --success, --halfwidth or --margin";
@@ -50,36 +51,24 @@ std::vector<PlannedStudy> with_times(const std::vector<goal::Needs>& studies, co
   return planned;
 }
 
-document::Description<PlannedStudy> data_columns() {
+document::Description<PlannedStudy> study_columns() {
+  using Of = const PlannedStudy&;
   return document::Description<PlannedStudy>()
-      .include(goal::needs_description(), &PlannedStudy::needs)
+      .value(everywhere("rigs", "rigs", "machines; 0 without rigs"), [](Of one) { return one.needs.rigs; })
+      .value(to_people("trials on each"),
+             [](Of one) {
+               return one.needs.rigs > 0 ? std::optional(one.needs.trials / one.needs.rigs) : std::nullopt;
+             })
+      .value(everywhere("trials", "trials", "trials of a design point"),
+             [](Of one) { return one.needs.trials; })
+      .value({.heading = "time here", .shown = Shown::to_people, .numeric = true},
+             [](Of one) { return one.seconds ? status::duration_text(*one.seconds) : std::string(); })
       .value({.key = "seconds",
               .meaning = "computing time with all cores of this machine; of goals on machines",
               .unit = "s",
               .shown = Shown::in_data,
               .optional = true},
              &PlannedStudy::seconds);
-}
-
-document::Description<PlannedStudy> study_columns() {
-  using Of = const PlannedStudy&;
-  return document::Description<PlannedStudy>()
-      .value({.heading = "rigs"}, [](Of one) { return one.needs.rigs; })
-      .value({.heading = "trials on each"}, [](Of one) { return one.needs.trials / one.needs.rigs; })
-      .value({.heading = "trials"}, [](Of one) { return one.needs.trials; })
-      .value({.heading = "time here", .numeric = true}, [](Of one) -> std::optional<std::string> {
-        if (!one.seconds) return std::nullopt;
-        return status::duration_text(*one.seconds);
-      });
-}
-
-/// "cheapest: 120 rigs with 100 trials on each"; empty where there is no choice.
-std::string cheapest_sentence(const std::vector<PlannedStudy>& studies) {
-  if (studies.size() < 2 || !studies.front().seconds) return {};
-  const PlannedStudy& best =
-      *std::ranges::min_element(studies, {}, [](const PlannedStudy& one) { return one.needs.trials; });
-  return fmt::format("cheapest: {} rigs with {} trials on each, {} on this machine", best.needs.rigs,
-                     best.needs.trials / best.needs.rigs, status::duration_text(*best.seconds));
 }
 
 /// The smallest studies that can meet the goals of a manifest.
@@ -89,16 +78,14 @@ struct GoalPlans {
 };
 
 std::string smallest_headline(const GoalPlans& plans) {
-  const bool several = plans.study.goals.size() > 1;
-  const std::string_view goals = several ? "goals" : "goal";
-  if (plans.smallest.empty()) return fmt::format("no study of up to 10⁹ trials can meet the {}", goals);
+  if (plans.smallest.empty()) return "no study of up to 10⁹ trials can meet the goal";
   const goal::Needs& first = plans.smallest.front().needs;
   const bool on_rigs = plans.study.rigs > 0;
-  return fmt::format("the {} can be met from {} {} on, if no move misses {}", goals,
-                     on_rigs ? first.rigs : first.trials, on_rigs ? "rigs" : "trials",
-                     several ? "them" : "it");
+  return fmt::format("the goal can be met from {} {} on, if no move misses it",
+                     on_rigs ? first.rigs : first.trials, on_rigs ? "rigs" : "trials");
 }
 
+/// What the numbers are of.
 std::string extent_sentence(const GoalPlans& plans) {
   std::string lines;
   if (plans.study.worlds > 0)
@@ -113,11 +100,6 @@ std::string extent_sentence(const GoalPlans& plans) {
          "study";
 }
 
-/// The studies for people, who see those on rigs as a table.
-std::vector<PlannedStudy> smallest_on_rigs(const GoalPlans& plans) {
-  return plans.study.rigs > 0 ? plans.smallest : std::vector<PlannedStudy>();
-}
-
 document::AnswerDescription<GoalPlans> goal_answer() {
   document::AnswerDescription<GoalPlans> answer{
       {.name = "plan-goal",
@@ -125,14 +107,13 @@ document::AnswerDescription<GoalPlans> goal_answer() {
        .csv_table = "plans"},
       {}};
   answer.items.headline(smallest_headline)
-      .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
+      .value(everywhere("goal", "goal", "the goal in words"),
              [](const GoalPlans& plans) { return goal::claim_sentence(goal::question_of(plans.study)); })
       .value(in_data("worlds", "worlds; 0 without worlds"),
              [](const GoalPlans& plans) { return plans.study.worlds; })
-      .table(in_data("plans", "studies, if no move misses the goal"), data_columns(), &GoalPlans::smallest)
-      .table({.heading = "the fewest rigs with which it can be met", .shown = Shown::to_people},
-             study_columns(), smallest_on_rigs)
-      .sentence([](const GoalPlans& plans) { return cheapest_sentence(plans.smallest); })
+      .table(everywhere("plans", "the smallest studies with which it can be met",
+                        "studies, if no move misses the goal"),
+             study_columns(), &GoalPlans::smallest)
       .sentence(extent_sentence);
   return answer;
 }
@@ -144,13 +125,15 @@ struct Pilot {
   std::vector<PlannedStudy> studies{};  ///< that decide it, where it leaves a choice between rigs and trials
 };
 
-/// @param leaves_choice between rigs and trials on each
-document::AnswerDescription<Pilot> pilot_answer(bool leaves_choice = true) {
+document::AnswerDescription<Pilot> pilot_answer() {
   document::AnswerDescription<Pilot> answer{
       {.name = "plan-pilot", .meaning = "the study that decides the goal, by the results of a small one"},
       {}};
+  document::Item studies =
+      everywhere("studies", "studies that decide it", "studies that decide it; of goals on machines");
+  studies.optional = true;
   answer.items.headline([](const Pilot& p) { return summary::judgement_headline(p.summary, p.judged); })
-      .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
+      .value(everywhere("goal", "goal", "the goal in words"),
              [](const Pilot& p) { return goal::claim_sentence(p.summary.question); })
       .value(with_words(in_data("status", "verdict on the goal"), goal::status_words()),
              [](const Pilot& p) { return goal::text_of(p.judged.verdict.status); })
@@ -159,15 +142,8 @@ document::AnswerDescription<Pilot> pilot_answer(bool leaves_choice = true) {
       .object(in_data("needed", "study that would decide the goal"), goal::needs_description(),
               [](const Pilot& p) { return goal::practicable(p.judged.needs); })
       .value(in_data("probability", "probability with which it decides", "1"),
-             [](const Pilot&) { return goal::probability_of_needs; });
-  if (leaves_choice) {
-    document::Item studies = in_data("studies", "studies that decide it; of goals on machines");
-    studies.optional = true;
-    answer.items.table(std::move(studies), data_columns(), &Pilot::studies)
-        .table({.heading = "studies that decide it", .shown = Shown::to_people}, study_columns(),
-               &Pilot::studies)
-        .sentence([](const Pilot& p) { return cheapest_sentence(p.studies); });
-  }
+             [](const Pilot&) { return goal::probability_of_needs; })
+      .table(std::move(studies), study_columns(), &Pilot::studies);
   return answer;
 }
 
@@ -201,7 +177,7 @@ document::Answer plan_of_pilot(const std::string& path) {
                                static_cast<std::size_t>(chosen.chosen_from)),
         study);
   }
-  return pilot_answer(!pilot.studies.empty()).of(pilot);
+  return pilot_answer().of(pilot);
 }
 
 }  // namespace

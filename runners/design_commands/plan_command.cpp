@@ -1,14 +1,11 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
-#include "runners/design_commands/claim_plan.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/equivalence_plan.hpp"
-#include "runners/design_commands/goal_plan.hpp"
+#include "runners/design_commands/plans.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -40,37 +37,13 @@ constexpr const char* plan_help =
     "         zerocount plan --success 0.97 --rigs-share 0.9\n"
     "         zerocount plan --margin success_rate=0.02 --margin settling_time=5% --power 0.9 gains.yaml\n";
 
-/// Refuses options of other questions beside --margin.
-void require_equivalence_options(const command_line::Arguments& arguments) {
-  for (const char* const option :
-       {"success", "failures", "true-success", "halfwidth", "rigs-share", "rig-sd"}) {
-    if (arguments.has(option))
-      arguments.refuse(fmt::format("option '--{}' does not go with '--margin'", option));
-  }
-  if (arguments.operands().empty()) arguments.refuse("option '--margin' needs a MANIFEST");
-}
-
-/// Refuses options of other questions beside the goal.
-void require_goal_options(const command_line::Arguments& arguments) {
-  for (const char* const option : {"power", "confidence", "failures", "true-success", "rig-sd"}) {
-    if (arguments.has(option))
-      arguments.refuse(
-          fmt::format("option '--{}' has no effect on the plan of a goal: the goal has its own "
-                      "confidence, and sizes are for a probability of 90 %",
-                      option));
-  }
-}
-
 document::Answer plan_answer(const command_line::Arguments& arguments) {
+  const bool has_operand = !arguments.operands().empty();
   if (arguments.has("margin")) {
-    require_equivalence_options(arguments);
+    if (!has_operand) arguments.refuse("option '--margin' needs a MANIFEST");
     return equivalence_plan(arguments);
   }
-  const bool asked = arguments.has("success") || arguments.has("halfwidth") || arguments.has("rigs-share");
-  if (!asked && !arguments.operands().empty()) {
-    require_goal_options(arguments);
-    return goal_plan(arguments);
-  }
+  if (!arguments.has("success") && !arguments.has("halfwidth") && has_operand) return goal_plan(arguments);
   if (arguments.has("set")) arguments.refuse("option '--set' needs a MANIFEST");
   return claim_plan(arguments);
 }
@@ -89,17 +62,26 @@ std::vector<document::AnswerType> plan_types() {
 }  // namespace
 
 commands::Command plan_command() {
+  using command_line::excluding;
+  using command_line::needing;
   return {
       {"plan",
        "[PILOT|MANIFEST]",
-       {{"success", "P", "minimum proportion of successful axes to be shown"},
-        {"confidence", "LEVEL", "of the claim, or of the bounds (default 0.95)"},
-        {"failures", "K", "list plans for 0 to K failures (default 3)"},
-        {"true-success", "P", "assumed true proportion: adds the probability of each plan"},
-        {"power", "P", "find the plan with this probability"},
-        {"halfwidth", "H", "half-width of the two-sided bounds of a rate"},
-        {"rigs-share", "P", "minimum proportion of rigs to be shown to succeed in --success of their trials"},
-        {"rig-sd", "SD", "standard deviation of the success probability between rigs"},
+       {excluding({"margin"}, {"success", "P", "minimum proportion of successful axes to be shown"}),
+        needing({"success", "halfwidth", "margin"},
+                {"confidence", "LEVEL", "of the claim, or of the bounds (default 0.95)"}),
+        needing({"success"}, {"failures", "K", "list plans for 0 to K failures (default 3)"}),
+        excluding({"rigs-share"}, needing({"success", "halfwidth"},
+                                          {"true-success", "P",
+                                           "assumed true proportion: adds the probability of each plan"})),
+        excluding({"rigs-share"},
+                  needing({"true-success", "margin"}, {"power", "P", "find the plan with this probability"})),
+        excluding({"margin"}, {"halfwidth", "H", "half-width of the two-sided bounds of a rate"}),
+        needing({"success"},
+                {"rigs-share", "P",
+                 "minimum proportion of rigs to be shown to succeed in --success of their trials"}),
+        needing({"halfwidth"},
+                {"rig-sd", "SD", "standard deviation of the success probability between rigs"}),
         {"margin", "MEASURE=M", "largest accepted difference of two equal studies; may be repeated", true},
         {"set", "KEY=VALUE", "with a MANIFEST: override a manifest key; may be repeated", true},
         answers::format_option()},

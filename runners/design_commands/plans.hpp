@@ -5,6 +5,7 @@
 #include "analysis/document/answer.hpp"
 #include "runners/command_line/command_line.hpp"
 
+/// The questions of `plan`, but that of --margin (equivalence_plan.hpp).
 namespace zerocount::design_commands {
 
 /// `plan --success …`, `plan --rigs-share …` and `plan --halfwidth …`: the trials and rigs that show a claim,
@@ -13,5 +14,13 @@ namespace zerocount::design_commands {
 document::Answer claim_plan(const command_line::Arguments& arguments);
 
 std::vector<document::AnswerType> claim_plan_types();
+
+/// `plan MANIFEST` and `plan PILOT` without another question: the trials and rigs that decide the goal of the
+/// manifest. Of a manifest the smallest studies that can meet it, of a results file the study that
+/// decides it with a probability of 90 %.
+/// @throws Failure (bad_input) if there is no goal
+document::Answer goal_plan(const command_line::Arguments& arguments);
+
+std::vector<document::AnswerType> goal_plan_types();
 
 }  // namespace zerocount::design_commands

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/document/answer.hpp"
+#include "analysis/document/figure.hpp"
 #include "runners/rare/rare_run.hpp"
 
 namespace zerocount::rare {

@@ -131,15 +131,6 @@ std::int64_t least_trials_of_other_search(const study::Study& study,
       std::ceil(static_cast<double>(min_search_trials(study, free)) / (1.0 - judgement_part)));
 }
 
-std::int64_t least_trials_of_retuning(const study::Study& study, std::span<const study::FreeParameter> free) {
-  const double search =
-      static_cast<double>(least_trials_of_other_search(study, free)) / search_part_of_retuning;
-  // The two sets of values share what remains after a search that uses its whole part.
-  const double rest = 1.0 - search_part_of_retuning * (1.0 - judgement_part);
-  const double runs = 2.0 * static_cast<double>(min_units_of_judgement * trials_of_machine(study)) / rest;
-  return whole_trials(std::ceil(std::max(search, runs)));
-}
-
 RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t trials_of_maps,
                    std::int64_t searches, const trials::Effort& effort, double speed) {
   constexpr std::int64_t most = 1024;

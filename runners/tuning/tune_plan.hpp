@@ -57,14 +57,6 @@ SearchPlan plan_other_search(const study::Study& study, std::span<const study::F
 std::int64_t least_trials_of_other_search(const study::Study& study,
                                           std::span<const study::FreeParameter> free);
 
-/// The proportion of the effort for an interval of life that its search gets; the rest runs two sets of
-/// values at each age.
-inline constexpr double search_part_of_retuning = 0.75;
-
-/// Trials that are enough for the smallest search in an interval of life, and for the runs beside it.
-/// @param study study_in() the interval
-std::int64_t least_trials_of_retuning(const study::Study& study, std::span<const study::FreeParameter> free);
-
 /// How what follows the proof shares the effort that is left.
 struct RestPlan {
   std::int64_t units{0};           ///< on which a point is simulated
@@ -73,7 +65,7 @@ struct RestPlan {
 
 /// Chooses the number of units per point so that the effort is enough for all points, for the searches, and
 /// for the maps if they fit beside these.
-/// @param searches trials of the smallest searches of other controls and intervals together
+/// @param searches trials of the smallest searches of other controls together
 RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t trials_of_maps,
                    std::int64_t searches, const trials::Effort& effort, double speed);
 

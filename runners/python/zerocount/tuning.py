@@ -46,7 +46,6 @@ def tune(
     margins: Mapping[str, Any] | str | None = None,
     budget: float | str | None = None,
     extras: str | None = None,
-    retune_every: float | None = None,
     threads: int | None = None,
     report: str | os.PathLike[str] | None = None,
     watch: str | os.PathLike[str] | None = None,
@@ -77,9 +76,7 @@ def tune(
         Of the search, the proof and the extras: a number of trials, or a time such as ``"60s"``.
     extras : str, optional
         What follows the proof: ``"none"``, ``"all"`` (default) or some of
-        ``"margins,ages,room,robustness,retuning,controls,limits,maps"`` (ages of a study with ages, maps on a page).
-    retune_every : float, optional
-        Tune again at these intervals of life, in the unit of the study's ages, and tell what that buys.
+        ``"margins,ages,room,robustness,controls,limits,maps"`` (ages of a study with ages, maps on a page).
     threads : int, optional
         Default: all cores.
     report : path, optional
@@ -123,7 +120,6 @@ def tune(
             output=target,
             budget=budget,
             extras=extras,
-            retune_every=retune_every,
             threads=threads,
             report=None if report is None else pathlib.Path(report),
             watch=None if watch is None else pathlib.Path(watch),

@@ -51,7 +51,8 @@ TEST_F(TuneBudget, GivesTheProvenAnswerBeforeTheExtrasAndKeepsIt) {
   // The extras stand behind the answer, in their order.
   std::size_t last = proven;
   for (const char* const extra :
-       {"of controller.delay", "room of each parameter", "other controls", "what limits it", "searched:"}) {
+       {"of controller.delay", "room of each parameter", "at the tuned values, with other premises",
+        "other controls", "what limits it", "searched:"}) {
     const std::size_t at = resumed.out.find(extra, last);
     ASSERT_NE(at, std::string::npos) << extra << resumed.out;
     last = at;

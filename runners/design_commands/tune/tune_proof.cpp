@@ -12,7 +12,7 @@
 #include "analysis/summary/claims_of_point.hpp"
 #include "analysis/text/text.hpp"
 #include "runners/design_commands/limits_command.hpp"
-#include "runners/design_commands/tune_parts.hpp"
+#include "runners/design_commands/tune/tune_parts.hpp"
 #include "runners/design_commands/worst_command.hpp"
 
 namespace zerocount::design_commands {
@@ -48,37 +48,12 @@ tuning::ClaimPlace worst_claim(const goal::Verdict& verdict) {
   return {verdict.goal, verdict.condition};
 }
 
-/// "met: all 2 goals are met by controller.ki = 5000 under each of 2 conditions, 'small' under condition
-/// loaded by the least".
+/// "met: all goals are met by controller.ki = 5000, least 'small' under condition loaded".
 std::string met_headline(Of tuning) {
-  const study::Study& study = tuning.study;
-  std::string text = study.goals.size() > 1 ? fmt::format("met: all {} goals are met by {}",
-                                                          study.goals.size(), tuned_text(tuning))
-                                            : fmt::format("met: the goal is met by {}", tuned_text(tuning));
-  if (study.goals.size() * static_cast<std::size_t>(study::condition_count(study)) < 2) return text;
-  const tuning::ClaimPlace worst = worst_claim(tuning.answer.proof->verdict);
-  if (study.conditions.size() > 1)
-    text += study.ages.at.empty() ? fmt::format(" under each of {} conditions", study.conditions.size())
-                                  : fmt::format(" at each of {} {}ages", study.conditions.size(),
-                                                study.condition_names.empty() ? "" : "conditions and ");
-  text += study.goals.size() > 1 ? fmt::format(", '{}'", *tuning::goal_name(study, worst)) : ", that";
-  return text + study::condition_text(study, static_cast<std::int64_t>(worst.condition)) + " by the least";
-}
-
-/// "; the converter clips in 98 % of the moves". An integral that stays within the range clips nothing, but a
-/// torque at its end is as little as the axis can have.
-std::string saturation_text(const std::vector<summary::MoveBehaviour>& moves) {
-  constexpr double some = 0.01;
-  constexpr double end_of_range = 0.999;
-  double saturated = 0.0;
-  double peak = 0.0;
-  for (const summary::MoveBehaviour& row : moves) {
-    saturated = std::max(saturated, row.saturated);
-    if (row.peak_of_range.p95 > peak) peak = row.peak_of_range.p95;
-  }
-  if (saturated > some)
-    return fmt::format("; the converter clips in {:.3g} % of the moves", 100.0 * saturated);
-  return peak > end_of_range ? "; the torque goes to the end of its range" : "";
+  const goal::Verdict& verdict = tuning.answer.proof->verdict;
+  const std::string least = claim_text(tuning.study, tuning::claim_at(tuning.study, worst_claim(verdict)));
+  return fmt::format("met: {} met by {}{}", tuning.study.goals.size() > 1 ? "all goals are" : "the goal is",
+                     tuned_text(tuning), least.empty() ? "" : ", least" + least);
 }
 
 /// "at the best values found, controller.ki = 5000, 28.2 % of the moves meet the goal, and at least 47.4 %
@@ -86,11 +61,10 @@ std::string saturation_text(const std::vector<summary::MoveBehaviour>& moves) {
 std::string missed_by(Of tuning) {
   const std::optional<double> machines = worst_goal(tuning).machines;
   const goal::Verdict& verdict = tuning.answer.proof->verdict;
-  return fmt::format("at the best values found, {}, {:.4g} % of the {}, and at least {:g} % are wanted{}",
+  return fmt::format("at the best values found, {}, {:.4g} % of the {}, and at least {:g} % are wanted",
                      tuned_text(tuning), 100.0 * (machines ? verdict.machines.value : verdict.moves.value),
                      rated_words(tuning.study, tuning::claim_at(tuning.study, worst_claim(verdict))),
-                     100.0 * machines.value_or(worst_goal(tuning).moves),
-                     saturation_text(tuning.answer.behaviour));
+                     100.0 * machines.value_or(worst_goal(tuning).moves));
 }
 
 /// Why a search whose best values miss the goal does not show that it is out of reach.
@@ -138,47 +112,29 @@ std::string obstacles_sentence(Of tuning) {
   return lines;
 }
 
-std::string worlds_line(const goal::Verdict& verdict) {
-  return fmt::format(
-      "by world: met in {}, missed in {}, undecided in {} ('zerocount summary' of the proof says what the "
-      "bad ones have in common)\n",
-      goal::worlds_that(goal::Status::met, verdict).size(),
-      goal::worlds_that(goal::Status::missed, verdict).size(),
-      goal::worlds_that(goal::Status::undecided, verdict).size());
-}
-
 std::string proof_sentence(Of tuning) {
   if (!tuning.answer.proof) return "";
   const Proof& proof = *tuning.answer.proof;
-  const study::Study& study = tuning.study;
-  std::string lines = fmt::format(
-      "proof: {} moves{} that the search never saw, of which {}{:.5g} % meet the goal, at least {:.5g} %\n",
-      proof.study.trials * study.moves,
-      study.rigs > 0 ? fmt::format(" on {} machines", proof.study.rigs) : std::string(),
-      study.worlds > 0 ? fmt::format("in the worst of {} new worlds ", study.worlds) : std::string(),
-      100.0 * proof.verdict.moves.value, 100.0 * proof.verdict.moves.low);
-  if (tuning::has_named_claims(study)) {
-    lines = fmt::format(
-        "proof: {} moves{} that the search never saw; the worst{}: {}{:.5g} % of its moves meet it, at least "
-        "{:.5g} %\n",
-        proof.study.trials * study.moves,
-        study.rigs > 0 ? fmt::format(" on {} machines", proof.study.rigs) : std::string(),
-        tuning::text_of_claim(study, worst_claim(proof.verdict)),
-        study.worlds > 0 ? fmt::format("in the worst of {} new worlds ", study.worlds) : std::string(),
-        100.0 * proof.verdict.moves.value, 100.0 * proof.verdict.moves.low);
-  }
+  const study::Study& study = proof.study;
+  std::string lines =
+      fmt::format("proof: {} moves{}{} that the search never saw{}\n", study.trials * study.moves,
+                  study.rigs > 0 ? fmt::format(" on {} machines", study.rigs) : "",
+                  study.worlds > 0 ? fmt::format(" in {} worlds", study.worlds) : "",
+                  proof.attempts > 1 ? fmt::format("; attempt {}", proof.attempts) : "");
   const study::Goal& goal = worst_goal(tuning);
   if (goal.machines) {
     lines += fmt::format("at least {:.5g} % of machines meet it in {:g} % of their moves\n",
                          100.0 * proof.verdict.machines.low, 100.0 * goal.moves);
-    const std::int64_t trials = study::draw_count(proof.study) / proof.study.rigs;
-    const measures::CountedGoal asked = measures::asked_of_moves(study)[proof.verdict.goal];
+    const std::int64_t trials = study::draw_count(study) / study.rigs;
+    const measures::CountedGoal asked = measures::asked_of_moves(tuning.study)[proof.verdict.goal];
     lines += goal::one_machine_text(
-        goal, {proof.study.rigs, trials, trials * measures::asked_moves(asked, study.moves)}, proof.verdict);
+        goal, {study.rigs, trials, trials * measures::asked_moves(asked, study.moves)}, proof.verdict);
   }
-  if (!proof.verdict.worlds.empty()) lines += worlds_line(proof.verdict);
-  if (proof.attempts > 1)
-    lines += fmt::format("it is attempt {}: the bounds allow for all of them\n", proof.attempts);
+  if (!proof.verdict.worlds.empty())
+    lines += fmt::format("by world: met in {}, missed in {} of {}\n",
+                         goal::worlds_that(goal::Status::met, proof.verdict).size(),
+                         goal::worlds_that(goal::Status::missed, proof.verdict).size(),
+                         proof.verdict.worlds.size());
   if (proof.needs) lines += goal::needs_sentence(goal, *proof.needs, study.rigs > 0) + '\n';
   return lines;
 }
@@ -189,38 +145,28 @@ const std::vector<summary::ClaimOfPoint>& proven_claims(Of tuning) {
   return tuning.answer.proof ? tuning.answer.proof->claims : none;
 }
 
-std::string criterion_text(double value) {
-  return std::isfinite(value) ? short_number(value) : "not within the hold";
-}
-
 /// "band_settling_time.p95 by the proof: 0.0385 s".
 std::string criterion_sentence(Of tuning) {
   if (!tuning.answer.proof) return "";
   const study::Study& study = tuning.study;
-  const bool is_proportion = tuning::is_proportion_of_allowed(study);
-  const std::string unit = is_proportion ? "of the time that its goal allows"
-                                         : tuning::criteria_of(study).front().measure->field.column.unit;
-  const bool has_unit = std::isfinite(tuning.answer.criterion) && unit != "1" && !unit.empty();
-  return fmt::format("{} by the proof{}{}: {}{}", tuning::criterion_name(study),
-                     study.worlds > 0 ? ", of all worlds together" : "",
+  const double value = tuning.answer.criterion;
+  const std::string unit = tuning::is_proportion_of_allowed(study)
+                               ? "of the time that its goal allows"
+                               : tuning::criteria_of(study).front().measure->field.column.unit;
+  return fmt::format("{} by the proof{}: {}", tuning::criterion_name(study),
                      tuning::has_named_claims(study) ? ", the largest of all goals and conditions" : "",
-                     criterion_text(tuning.answer.criterion), has_unit ? " " + unit : "");
+                     !std::isfinite(value)         ? "not within the hold"
+                     : unit == "1" || unit.empty() ? short_number(value)
+                                                   : short_number(value) + " " + unit);
 }
 
-/// The time after which the wanted proportion of moves are within the band for good.
+/// The time after which the wanted proportion of moves are within the band for good, where it is too late.
 std::string late_sentence(Of tuning) {
-  if (!tuning.answer.proof || tuning.answer.status == goal::Status::met ||
-      !tuning::is_of_settling(tuning.study))
-    return "";
-  const char* const where = worst_goal(tuning).tolerance ? "tolerance" : "band";
-  const std::string moves =
-      fmt::format("{:g} % of the moves{}{}", 100.0 * worst_goal(tuning).moves,
-                  tuning::text_of_claim(tuning.study, worst_claim(tuning.answer.proof->verdict)),
-                  tuning.study.worlds > 0 ? " of all worlds together" : "");
-  if (!std::isfinite(tuning.answer.late_limit))
-    return fmt::format("  fewer than {} are within the {} for good at the end of the hold", moves, where);
-  return fmt::format("  {} are within the {} for good after {} s", moves, where,
-                     short_number(tuning.answer.late_limit));
+  if (!tuning.answer.proof || tuning.answer.is_met() || !tuning::is_of_settling(tuning.study)) return "";
+  const double limit = tuning.answer.late_limit;
+  return fmt::format("time until {:g} % of the moves stay within the {}: {}",
+                     100.0 * worst_goal(tuning).moves, worst_goal(tuning).tolerance ? "tolerance" : "band",
+                     std::isfinite(limit) ? short_number(limit) + " s" : "not within the hold");
 }
 
 std::string edges_sentence(Of tuning) {
@@ -236,7 +182,7 @@ std::string worst_machine_sentence(Of tuning) {
 
 Description<goal::Verdict> worlds_of_proof() {
   Description<goal::Verdict> worlds;
-  for (const goal::Status status : all_statuses) {
+  for (const goal::Status status : {goal::Status::met, goal::Status::missed, goal::Status::undecided}) {
     const std::string word(goal::text_of(status));
     worlds.value(
         {.key = word, .meaning = "worlds in which the goal is " + word},
@@ -291,11 +237,10 @@ std::string tune_headline(Of tuning) {
 }
 
 std::string page_headline(Of tuning) {
-  if (tuning.answer.status != goal::Status::met) return tune_headline(tuning);
+  if (!tuning.answer.is_met()) return tune_headline(tuning);
   const study::Study& proof = tuning.answer.proof->study;
   return fmt::format(
-      "met by the tuned values, proven {}on {} that the search never saw",
-      tuning.study.goals.size() > 1 ? "for all goals " : "",
+      "met by the tuned values, proven on {} that the search never saw",
       proof.rigs > 0 ? fmt::format("{} machines", proof.rigs) : fmt::format("{} trials", proof.trials));
 }
 

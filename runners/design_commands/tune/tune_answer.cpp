@@ -1,5 +1,6 @@
-#include "runners/design_commands/tune_answer.hpp"
+#include "runners/design_commands/tune/tune_answer.hpp"
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -9,12 +10,14 @@
 #include <fmt/ranges.h>
 
 #include "analysis/goal/goal_text.hpp"
+#include "analysis/report/figures/figure.hpp"
+#include "analysis/statistics/spread_over.hpp"
 #include "analysis/text/text.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/text/shell_word.hpp"
 #include "core/theory/gains.hpp"
-#include "runners/design_commands/tune_figures.hpp"
-#include "runners/design_commands/tune_parts.hpp"
+#include "runners/design_commands/tune/extras.hpp"
+#include "runners/design_commands/tune/tune_parts.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -24,18 +27,11 @@ using document::in_data;
 using document::Shown;
 using document::with_words;
 using text::short_number;
-using tuning::Extra;
+using tuning::TriedPoint;
 using tuning::TuneAnswer;
-using tuning::TuneBudget;
 
 std::string_view tune_status(goal::Status status) {
   return status == goal::Status::missed ? "unreachable" : goal::text_of(status);
-}
-
-std::vector<std::string> tune_statuses() {
-  std::vector<std::string> words;
-  for (const goal::Status status : all_statuses) words.emplace_back(tune_status(status));
-  return words;
 }
 
 struct GainRow {
@@ -89,7 +85,7 @@ void add_proven(Description<Tuning>& items) {
       .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
              [](Of t) { return goal::claim_sentence(goal::question_of(t.study)); })
       .value(with_words(in_data("status", "whether the goal is met; unreachable: not in the ranges"),
-                        tune_statuses()),
+                        {"met", "unreachable", "undecided"}),
              [](Of t) { return tune_status(t.answer.status); })
       .value(in_data("gains", "tuned values by parameter; none where no values keep the margins"),
              [](Of t) { return named(t.answer.free, t.answer.gains); })
@@ -103,31 +99,9 @@ void add_proven(Description<Tuning>& items) {
   items.sentence(file_sentence);
 }
 
-void add_extra(Description<Tuning>& items, Extra extra) {
-  switch (extra) {
-    case Extra::margins:
-      return add_delay(items);
-    case Extra::ages:
-      return add_lost_ages(items);
-    case Extra::room:
-      return add_room(items);
-    case Extra::robustness:
-      return add_robustness(items);
-    case Extra::retuning:
-      return add_retuning(items);
-    case Extra::controls:
-      return add_controls(items);
-    case Extra::limits:
-      return add_limits(items);
-    case Extra::maps:
-      items.figures(map_figures);
-      return;
-  }
-}
-
 /// "19986 of 20000 trials in 21 s", "14688 trials in 4 of 4 s".
 std::string spent_text(const TuneAnswer& answer) {
-  const TuneBudget& budget = answer.budget;
+  const tuning::TuneBudget& budget = answer.budget;
   return fmt::format("{}{} trials in {:.3g}{} s", answer.spent_trials,
                      budget.trials ? fmt::format(" of {}", *budget.trials) : "", answer.seconds,
                      budget.seconds ? fmt::format(" of {:g}", *budget.seconds) : "") +
@@ -145,12 +119,8 @@ std::string left_out_sentence(Of tuning) {
                   fmt::join(answer.left_out, ", "));
   if (answer.left_extras.empty() || !answer.proof) return line;
   if (answer.interrupted && !tuning.is_of_file) return line + "; the same command goes on with them";
-  std::vector<std::string_view> names;
-  for (const Extra extra : answer.left_extras) names.push_back(tuning::name_of(extra));
-  const std::string interval =
-      answer.retuning ? fmt::format(" --retune-every {}", answer.retuning->every) : std::string();
-  return line + fmt::format("; zerocount tune {} --extras {}{} makes them", text::shell_path(tuning.output),
-                            fmt::join(names, ","), interval);
+  return line + fmt::format("; zerocount tune {} --extras {} makes them", text::shell_path(tuning.output),
+                            fmt::join(answer.left_extras, ","));
 }
 
 std::string effort_sentence(Of tuning) {
@@ -175,9 +145,96 @@ Description<TuneAnswer> search_description() {
       .value(in_data("converged", "whether the last generation improved no more"), &TuneAnswer::converged);
 }
 
+struct FrontierRow {
+  const TriedPoint& point;
+  const std::vector<study::FreeParameter>& free;
+};
+
+std::vector<FrontierRow> frontier_rows(Of tuning) {
+  std::vector<FrontierRow> rows;
+  for (const TriedPoint& one : tuning.answer.frontier) rows.push_back({one, tuning.answer.free});
+  return rows;
+}
+
+/// A few points of the frontier, evenly spread over it.
+std::vector<FrontierRow> some_frontier_rows(Of tuning) {
+  constexpr std::int64_t most = 6;
+  const std::vector<FrontierRow> all = frontier_rows(tuning);
+  std::vector<FrontierRow> some;
+  if (all.size() < 2) return some;
+  for (const std::int64_t i : statistics::spread_over(std::ssize(all), most))
+    some.push_back(all[static_cast<std::size_t>(i)]);
+  return some;
+}
+
+Description<FrontierRow> frontier_columns() {
+  using Row = const FrontierRow&;
+  return Description<FrontierRow>()
+      .value({.key = "gains", .heading = "values", .meaning = "values by parameter"},
+             [](Row row) { return named(row.free, row.point.values); })
+      .value({.key = "rate",
+              .heading = "rate of the goal",
+              .meaning = "rate of the goal by the search, which is a little too good",
+              .unit = "1",
+              .notation = document::Notation::percent},
+             [](Row row) { return row.point.estimate.rate; })
+      .value(criterion_item(), [](Row row) { return row.point.estimate.criterion; });
+}
+
+document::FigureData points_data(std::string name, const TuneAnswer& answer,
+                                 const std::vector<TriedPoint>& points) {
+  using nlohmann::ordered_json;
+  using report::datum;
+  return report::data_of<TriedPoint>(
+      std::move(name), points,
+      {{{"criterion", "criterion", ""}, [](const TriedPoint& one) { return datum(one.estimate.criterion); }},
+       {{"rate", "rate of the goal", "1"}, [](const TriedPoint& one) { return datum(one.estimate.rate); }},
+       {{"values", "values", ""},
+        [&](const TriedPoint& one) { return ordered_json(values_text(named(answer.free, one.values))); }},
+       {{"units", "machines or trials", "1"},
+        [](const TriedPoint& one) { return ordered_json(one.estimate.units); }}});
+}
+
+/// "band_settling_time.p95 (s)".
+std::string criterion_title(const study::Study& study) {
+  const std::string name = tuning::criterion_name(study);
+  if (tuning::is_proportion_of_allowed(study)) return name + ", of the time that its goal allows";
+  const std::string& unit = tuning::criteria_of(study).front().measure->field.column.unit;
+  return unit == "1" || unit.empty() ? name : fmt::format("{} ({})", name, unit);
+}
+
+std::vector<document::Figure> frontier_figures(Of tuning) {
+  const TuneAnswer& answer = tuning.answer;
+  if (!is_drawn(tuning) || answer.tried.empty()) return {};
+  std::vector<TriedPoint> tried = answer.tried;
+  std::erase_if(tried, [](const TriedPoint& one) { return !std::isfinite(one.estimate.criterion); });
+  const goal::Verdict& verdict = answer.proof->verdict;
+  const study::Goal& goal = worst_goal(tuning);
+  TriedPoint tuned{answer.gains, {}};
+  tuned.estimate.criterion = answer.criterion;
+  tuned.estimate.rate = goal.machines ? verdict.machines.value : verdict.moves.value;
+  document::Figure figure = report::figure_of(
+      "tuning-frontier", "tuning-frontier", "What does more speed cost?",
+      "The points that the search tried, with a finite criterion; what the goal asks for is dashed. The line "
+      "joins those that no other point with as many machines beats in both; their rates are those of the "
+      "search, and so a little too good. The star is the tuned point by its proof.",
+      {points_data("frontier", answer, answer.frontier),
+       points_data("tried", answer, tried),
+       points_data("tuned", answer, {tuned}),
+       {"asked",
+        {{"rate", "asked for", "1"}},
+        {nlohmann::ordered_json::array({goal.machines.value_or(goal.moves)})}}});
+  figure.specification["layer"][0]["encoding"]["x"]["title"] = criterion_title(tuning.study);
+  return {std::move(figure)};
+}
+
 void add_closing(Description<Tuning>& items) {
-  add_frontier(items);
   items
+      .table(in_data("frontier", "points of the search that no other point beats in both rate and criterion"),
+             frontier_columns(), frontier_rows)
+      .table({.heading = "success and speed, by the search (its rates are a little too good)",
+              .shown = Shown::to_people},
+             frontier_columns(), some_frontier_rows)
       .object(in_data("searched", "size of the search"), search_description(),
               [](Of t) -> const TuneAnswer& { return t.answer; })
       .value(in_data("spent_trials", "trials of all"), [](Of t) { return t.answer.spent_trials; })
@@ -210,12 +267,27 @@ const study::Goal& worst_goal(Of tuning) {
   return tuning.study.goals[proof ? proof->verdict.goal : 0];
 }
 
+std::string claim_text(const study::Study& study, std::size_t claim) {
+  const tuning::ClaimPlace place = tuning::place_of_claim(study, claim);
+  return (study.goals.size() > 1 ? fmt::format(" '{}'", study.goals[place.goal].name) : std::string()) +
+         study::condition_text(study, static_cast<std::int64_t>(place.condition));
+}
+
+document::Item criterion_item() {
+  return document::everywhere("criterion", "criterion (–: never)",
+                              "quantity that is minimised; unknown for never");
+}
+
+bool is_drawn(Of tuning) {
+  return tuning.drawn && tuning.answer.proof;
+}
+
 document::AnswerDescription<Tuning> proven_answer() {
   return described(add_proven);
 }
 
-document::AnswerDescription<Tuning> extra_answer(Extra extra) {
-  return described([extra](Description<Tuning>& items) { add_extra(items, extra); });
+document::AnswerDescription<Tuning> extra_answer(const tuning::Extra& extra) {
+  return described(extra.describe);
 }
 
 document::AnswerDescription<Tuning> closing_answer() {
@@ -225,7 +297,7 @@ document::AnswerDescription<Tuning> closing_answer() {
 document::AnswerDescription<Tuning> tune_answer() {
   return described([](Description<Tuning>& items) {
     add_proven(items);
-    for (const Extra extra : tuning::all_extras) add_extra(items, extra);
+    for (const tuning::Extra& extra : all_extras()) extra.describe(items);
     add_closing(items);
   });
 }

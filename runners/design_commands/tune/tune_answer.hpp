@@ -1,27 +1,19 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "analysis/document/answer.hpp"
-#include "runners/tuning/tuner.hpp"
+#include "runners/tuning/extras.hpp"
 
 namespace zerocount::design_commands {
 
-/// What `tune` found so far.
-struct Tuning {
-  const tuning::TuneAnswer& answer;
-  const study::Study& study;     ///< that was tuned
-  std::filesystem::path output;  ///< the results file of the proof
-  bool drawn{false};             ///< with figures
-  bool is_of_file{false};        ///< nothing was searched: the proof was made before
-};
+using tuning::Tuning;
 
 /// Adds the verdict, the proof and the behaviour of the moves, which are printed before the extras are made.
 document::AnswerDescription<Tuning> proven_answer();
 
 /// One extra, by simulation.
-document::AnswerDescription<Tuning> extra_answer(tuning::Extra extra);
+document::AnswerDescription<Tuning> extra_answer(const tuning::Extra& extra);
 
 /// The effort, and what was left out.
 document::AnswerDescription<Tuning> closing_answer();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/report/embedded_files.hpp"
@@ -27,8 +28,9 @@
 #include "runners/commands/timeline_option.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/examined_point.hpp"
-#include "runners/design_commands/tune_answer.hpp"
-#include "runners/design_commands/tune_page.hpp"
+#include "runners/design_commands/tune/extras.hpp"
+#include "runners/design_commands/tune/tune_answer.hpp"
+#include "runners/design_commands/tune/tune_page.hpp"
 #include "runners/forecast/engine_use.hpp"
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/standard_output/standard_output.hpp"
@@ -62,8 +64,6 @@ constexpr const char* tune_help =
     "room (of each parameter), controls (others, each at its own best values), limits (what stands in\n"
     "the way), maps (on a page). --extras chooses them: none, all, or names such as room,limits.\n"
     "`tune FILE --extras …` makes them for a FILE that is there.\n"
-    "--retune-every 1e5 tunes anew for each interval of that length in a life with ages, and tells\n"
-    "beside the one set of values what that buys.\n"
     "\n"
     "--budget bounds all together: the search, which takes half, the proof, and the extras. It is a\n"
     "number of trials, with which the answer depends on the seed alone, or a time such as 60s or\n"
@@ -103,68 +103,41 @@ std::string tuned_manifest(const study::Study& study, const tuning::TuneAnswer& 
 
 /// "margins,ages,room,…".
 std::string names_of_extras() {
-  std::string names;
-  for (const tuning::Extra extra : tuning::all_extras)
-    names += fmt::format("{}{}", names.empty() ? "" : ",", tuning::name_of(extra));
-  return names;
+  std::vector<std::string_view> names;
+  for (const tuning::Extra& extra : all_extras()) names.push_back(extra.name);
+  return fmt::format("{}", fmt::join(names, ","));
 }
 
 command_line::OptionSpec extras_spec() {
   std::vector<std::string> words{"none", "all"};
-  for (const tuning::Extra extra : tuning::all_extras) words.emplace_back(tuning::name_of(extra));
+  for (const tuning::Extra& extra : all_extras()) words.emplace_back(extra.name);
   return command_line::list_of(std::move(words),
                                {"extras", "E", "none, all (default), or some of " + names_of_extras()});
 }
 
-/// An extra of `--extras`, which the study and the other options allow.
-/// @param with_page a page is made, which has maps
-tuning::Extra allowed_extra(const command_line::Arguments& arguments, const std::string& name,
-                            const study::Study& study, bool with_page) {
-  const std::optional<tuning::Extra> extra = tuning::extra_named(name);
-  if (!extra)
-    arguments.refuse(fmt::format("option '--extras': '{}' is not an extra; expected none, all, or some of {}",
-                                 name, names_of_extras()));
-  if (extra == tuning::Extra::maps && !with_page)
-    arguments.refuse(
-        "option '--extras': maps are drawn on a page; expected --report PAGE or --watch PAGE with them");
-  if (extra == tuning::Extra::ages && study.ages.at.empty())
-    arguments.refuse("option '--extras': the study has no ages; expected other extras");
-  if (extra == tuning::Extra::retuning && !arguments.has("retune-every"))
-    arguments.refuse("option '--extras': retuning needs its interval; expected --retune-every AGE with it");
-  return *extra;
-}
-
 /// `--extras`. @param with_page a page is made, which has maps
-std::vector<tuning::Extra> extras_option(const command_line::Arguments& arguments, const study::Study& study,
-                                         bool with_page) {
-  std::vector<tuning::Extra> wanted;
+std::vector<const tuning::Extra*> extras_option(const command_line::Arguments& arguments,
+                                                const study::Study& study, bool with_page) {
+  std::vector<const tuning::Extra*> wanted;
   const std::string text = arguments.value("extras").value_or("all");
-  const bool retunes = arguments.has("retune-every");
-  if (text == "all") {
-    wanted.assign(tuning::all_extras.begin(), tuning::all_extras.end());
-    if (!with_page) std::erase(wanted, tuning::Extra::maps);
-    if (study.ages.at.empty()) std::erase(wanted, tuning::Extra::ages);
-    if (!retunes) std::erase(wanted, tuning::Extra::retuning);
-  } else if (text != "none") {
-    std::istringstream names(text);
-    for (std::string name; std::getline(names, name, ',');)
-      wanted.push_back(allowed_extra(arguments, name, study, with_page));
-    if (wanted.empty()) arguments.refuse("option '--extras': expected none, all, or names");
+  if (text == "none") return wanted;
+  std::vector<std::string> names;
+  std::istringstream words(text);
+  for (std::string name; text != "all" && std::getline(words, name, ',');) names.push_back(name);
+  if (text != "all" && names.empty()) arguments.refuse("option '--extras': expected none, all, or names");
+  for (const std::string& name : names) {
+    if (std::ranges::find(all_extras(), name, &tuning::Extra::name) == all_extras().end())
+      arguments.refuse(
+          fmt::format("option '--extras': '{}' is not an extra; expected none, all, or some of {}", name,
+                      names_of_extras()));
   }
-  if (retunes && std::ranges::find(wanted, tuning::Extra::retuning) == wanted.end())
-    arguments.refuse("option '--retune-every': --extras leaves it out; expected retuning among its names");
+  for (const tuning::Extra& extra : all_extras()) {
+    const bool is_named = std::ranges::find(names, extra.name) != names.end();
+    const std::string refusal = extra.refusal == nullptr ? "" : extra.refusal(study, with_page);
+    if (is_named && !refusal.empty()) arguments.refuse("option '--extras': " + refusal);
+    if (is_named || (text == "all" && refusal.empty())) wanted.push_back(&extra);
+  }
   return wanted;
-}
-
-/// `--retune-every`, in the unit of the study's ages.
-std::optional<double> retuning_option(const command_line::Arguments& arguments, const study::Study& study) {
-  const std::optional<double> every = command_line::number_option(arguments, "retune-every", 0.0);
-  if (!every) return every;
-  if (study.ages.at.empty())
-    arguments.refuse("option '--retune-every': the study has no ages; expected the key ages in its manifest");
-  if (*every == 0.0) arguments.refuse("option '--retune-every': expected an age above 0");
-  tuning::intervals_of_life(study.ages, *every);  // refuses too many and too few
-  return every;
 }
 
 tuning::TuneSettings tune_settings(const command_line::Arguments& arguments) {
@@ -191,7 +164,7 @@ class TunePrinter {
     printed_ = true;
   }
 
-  void print_extra(tuning::Extra extra, const Tuning& tuning) {
+  void print_extra(const tuning::Extra& extra, const Tuning& tuning) {
     if (!in_parts_) return;
     const document::Answer answer =
         extra_answer(extra).of(tuning, ExitCode::success, document::Audience::people);
@@ -245,7 +218,6 @@ ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
   const bool in_html = arguments.choice("format") == "html";
   task.settings.page = !task.pages.empty() || task.watched || in_html;
   task.settings.extras = extras_option(arguments, task.study, task.settings.page);
-  task.settings.retune_every = retuning_option(arguments, task.study);
   if (task.settings.page) report::require_drawing_libraries();
   const parallel::ThreadLimit limit(trials::threads_to_use(task.settings.threads));
   commands::print_warnings(task.study);
@@ -274,7 +246,7 @@ ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
     printer.print_proven(tuning_of(proven));
     if (task.watched) live.show(tuning_sections(tuning_of(proven)));
   };
-  task.settings.ready = [&](tuning::Extra extra, const tuning::TuneAnswer& answer) {
+  task.settings.ready = [&](const tuning::Extra& extra, const tuning::TuneAnswer& answer) {
     printer.print_extra(extra, tuning_of(answer));
     if (task.watched) live.show(tuning_sections(tuning_of(answer)));
   };
@@ -342,7 +314,6 @@ commands::Command tune_command() {
             {"budget", "B", "of all: a number of trials, or a time such as 60s or 5min"},
             command_line::written_file({"manifest,m", "TUNED", "write the manifest with the tuned values"}),
             extras_spec(),
-            {"retune-every", "AGE", "tune again at these intervals of life, and tell what that buys"},
             command_line::renewed_file(
                 {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"}),
             commands::watch_option(),

@@ -1,4 +1,4 @@
-#include "runners/design_commands/tune_page.hpp"
+#include "runners/design_commands/tune/tune_page.hpp"
 
 #include <cmath>
 #include <utility>
@@ -13,12 +13,12 @@
 #include "results/layout/header.hpp"
 #include "runners/commands/verified_report.hpp"
 #include "runners/design_commands/limits_command.hpp"
-#include "runners/design_commands/tune_parts.hpp"
+#include "runners/design_commands/tune/extras.hpp"
+#include "runners/design_commands/tune/tune_parts.hpp"
+#include "runners/tuning/tuner.hpp"
 
 namespace zerocount::design_commands {
 namespace {
-
-using tuning::Extra;
 
 /// The rate of the worst goal as far as the units of the search show it.
 document::Bounded bounded_rate(const SearchMoment& moment) {
@@ -50,28 +50,6 @@ document::AnswerDescription<SearchMoment> search_answer() {
   return answer;
 }
 
-const char* question_of(Extra extra) {
-  switch (extra) {
-    case Extra::margins:
-      return "How much more delay does it bear?";
-    case Extra::ages:
-      return "How long does it hold?";
-    case Extra::room:
-      return "How much may each value change?";
-    case Extra::robustness:
-      return "Does it hold under other premises?";
-    case Extra::retuning:
-      return "What does tuning again buy?";
-    case Extra::controls:
-      return "Would another control do?";
-    case Extra::limits:
-      return "What limits it?";
-    case Extra::maps:
-      break;
-  }
-  return "Where else is the goal met?";
-}
-
 void add(std::vector<report::PageSection>& sections, std::string name, std::string title,
          const document::AnswerDescription<Tuning>& description, const Tuning& tuning) {
   report::PageSection section =
@@ -85,8 +63,8 @@ std::vector<report::PageSection> sections_of(const Tuning& tuning,
                                              const document::AnswerDescription<Tuning>& first) {
   std::vector<report::PageSection> sections;
   add(sections, "tuning", "Tuning", first, tuning);
-  for (const Extra extra : tuning::all_extras)
-    add(sections, "tuning-" + std::string(tuning::name_of(extra)), question_of(extra), extra_answer(extra),
+  for (const tuning::Extra& extra : all_extras())
+    add(sections, fmt::format("tuning-{}", extra.name), std::string(extra.question), extra_answer(extra),
         tuning);
   return sections;
 }

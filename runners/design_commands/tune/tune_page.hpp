@@ -5,7 +5,8 @@
 
 #include "analysis/report/page.hpp"
 #include "results/reading/all_trials_file.hpp"
-#include "runners/design_commands/tune_answer.hpp"
+#include "runners/design_commands/tune/tune_answer.hpp"
+#include "runners/tuning/race/search.hpp"
 
 namespace zerocount::design_commands {
 

@@ -1,0 +1,200 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/goal/goal_description.hpp"
+#include "analysis/goal/goal_text.hpp"
+#include "runners/design_commands/tune/extras.hpp"
+#include "runners/design_commands/tune/tune_parts.hpp"
+#include "runners/tuning/search/other_controls.hpp"
+#include "runners/tuning/search/proof_runner.hpp"
+
+namespace zerocount::design_commands {
+namespace {
+
+using document::in_data;
+using tuning::OtherControl;
+using tuning::TunedAxis;
+using tuning::TunedValues;
+using tuning::Values;
+
+using Alternatives = std::vector<Alternative>;
+
+constexpr std::int64_t trials_of_control = 125'000;
+
+/// Searches take what there is.
+tuning::ExtraCost cost_of_controls(const TunedAxis& axis) {
+  std::int64_t least = 0;
+  std::int64_t searches = 0;
+  for (const OtherControl& one : tuning::other_controls(axis.study)) {
+    least += tuning::least_trials_of_other_search(axis.study, one.free);
+    ++searches;
+  }
+  const trials::Effort each = axis.one_of_shares(static_cast<double>(searches), trials_of_control);
+  return {.searches = least,
+          .trials = searches * std::min(trials_of_control, tuning::affordable_trials(each, axis.speed)),
+          .usual_part = 0.0};
+}
+
+TunedValues values_by_name(const std::vector<study::FreeParameter>& free, const Values& values) {
+  TunedValues by_name;
+  for (std::size_t i = 0; i < free.size(); ++i) by_name[free[i].name] = values[i];
+  return by_name;
+}
+
+tuning::SearchResult search_control(TunedAxis& axis, const study::Study& study, const OtherControl& control,
+                                    const trials::Effort& effort, std::span<const TunedValues> tuned) {
+  const tuning::SearchPlan plan = tuning::plan_other_search(study, control.free, effort, axis.speed);
+  tuning::StudySearch search(study, control.free, plan.size, axis.journal, axis.elapsed, effort);
+  tuning::SearchSettings settings;
+  settings.seed = study.seed;
+  settings.begins_anew = axis.has_budget();
+  settings.effort = plan.effort;
+  tuning::SearchResult found = search.run(settings, tuning::starts_from(tuned, control.free));
+  axis.answer.points += found.points;
+  axis.answer.trials += found.trials;
+  if (found.finalists.empty() && found.cut) throw trials::Spent{};
+  return found;
+}
+
+/// Runs it on fresh machines.
+void judge_control(const TunedAxis& axis, const study::Study& study, const OtherControl& control,
+                   const Values& values, const trials::Effort& effort, Alternative& alternative) {
+  alternative.gains = named(control.free, values);
+  const trials::Replicates units{tuning::units_of_judgement(study, effort, axis.speed),
+                                 tuning::trials_of_machine(study)};
+  std::vector<std::string> fresh = tuning::overrides_of(control.free, values);
+  fresh.push_back(fmt::format("seed={}", trials::fresh_seed(study.seed, "tuning, alternative")));
+  for (const std::string& one : trials::overrides_for(study, units)) fresh.push_back(one);
+  const tuning::Candidate candidate{
+      {}, values, tuning::results_of(trials::variant_of(study, fresh), units, units.count, nullptr, effort)};
+  alternative.verdict = goal::judge_goals(study.goals, counts_of(study, units, candidate.units), 1);
+  alternative.criterion = estimate_of(tuning::aim_of(study), candidate, units.count).criterion;
+  const tuning::ClaimPlace worst{alternative.verdict->goal, alternative.verdict->condition};
+  if (tuning::has_named_claims(study)) alternative.worst_goal = tuning::goal_name(study, worst);
+  alternative.worst_condition = tuning::condition_name(study, worst);
+}
+
+/// @param tuned controls that are tuned already; gets this one
+Alternative find_control(TunedAxis& axis, const OtherControl& control, const trials::Effort& effort,
+                         std::vector<TunedValues>& tuned) {
+  const study::Study study = trials::variant_of(axis.study, control.overrides);
+  const tuning::SearchResult found = search_control(axis, study, control, effort, tuned);
+  Alternative alternative;
+  alternative.name = control.name;
+  for (const std::string& name : control.zero) alternative.fixed.emplace_back(name, 0.0);
+  if (found.finalists.empty()) return alternative;
+  const Values& best = found.finalists.front().values;
+  judge_control(axis, study, control, best, effort, alternative);
+  tuned.push_back(values_by_name(control.free, best));
+  for (const std::string& name : control.zero) tuned.back()[name] = 0.0;
+  return alternative;
+}
+
+std::any find_controls(TunedAxis& axis) {
+  const std::vector<OtherControl> controls = tuning::other_controls(axis.study);
+  std::vector<TunedValues> tuned{values_by_name(axis.answer.free, axis.answer.gains)};
+  Alternatives found;
+  for (std::size_t i = 0; i < controls.size(); ++i) {
+    const trials::Effort share =
+        axis.one_of_shares(static_cast<double>(controls.size() - i), trials_of_control);
+    if (!axis.ended([&] { found.push_back(find_control(axis, controls[i], share, tuned)); }))
+      tuning::leave_out(axis.answer, "controls", fmt::format("controls ({})", controls[i].name));
+  }
+  return found;
+}
+
+const Alternatives& alternatives_of(Of tuning) {
+  static const Alternatives none;
+  const auto* const found = tuning.answer.extra<Alternatives>();
+  return found == nullptr ? none : *found;
+}
+
+document::Description<Alternative> alternative_columns() {
+  using document::Shown;
+  using Row = const Alternative&;
+  return document::Description<Alternative>()
+      .value(document::to_people("control"), &Alternative::name)
+      .value(in_data("fixed", "parameters that are not tuned, with their values"), &Alternative::fixed)
+      .value(in_data("gains", "its best values by parameter; none if none keeps the margins"),
+             &Alternative::gains)
+      .value(document::to_people("best values"),
+             [](Row row) { return row.verdict ? values_text(row.gains) : "none keeps the margins"; })
+      .value({.key = "status",
+              .heading = "goal",
+              .meaning = "verdict on the goal",
+              .words = goal::status_words()},
+             [](Row row) {
+               return row.verdict ? std::optional(goal::text_of(row.verdict->status)) : std::nullopt;
+             })
+      .value({.key = "rate",
+              .heading = "moves that meet it",
+              .meaning = "proportion of moves that meet the goal, with one-sided bounds",
+              .unit = "1",
+              .notation = document::Notation::percent},
+             [](Row row) {
+               return row.verdict ? std::optional(goal::bounded(row.verdict->moves)) : std::nullopt;
+             })
+      .value({.key = "goal_name",
+              .heading = "worst goal",
+              .meaning = "name of the worst goal, of several",
+              .optional = true},
+             &Alternative::worst_goal)
+      .value({.key = "condition",
+              .heading = "worst condition or age",
+              .meaning = "name of the worst condition, with conditions",
+              .optional = true},
+             &Alternative::worst_condition)
+      .value(criterion_item(),
+             [](Row row) { return row.verdict ? std::optional(row.criterion) : std::nullopt; });
+}
+
+/// Whether the control does clearly better than the proven values, which could be the same: its other
+/// parameters are 0 in their ranges.
+bool is_better_within_ranges(const Alternative& one, Of tuning) {
+  constexpr double clearly = 0.95;
+  if (one.fixed.empty() || !one.verdict || !tuning.answer.proof) return false;
+  const goal::Verdict& proven = tuning.answer.proof->verdict;
+  if (one.verdict->status == goal::Status::met && proven.status == goal::Status::met)
+    return one.criterion < clearly * tuning.answer.criterion;
+  if (one.verdict->status == goal::Status::met) return true;
+  return worst_goal(tuning).machines ? one.verdict->machines.low > proven.machines.high
+                                     : one.verdict->moves.low > proven.moves.high;
+}
+
+std::string better_control_sentence(Of tuning) {
+  std::string lines;
+  for (const Alternative& one : alternatives_of(tuning)) {
+    if (!is_better_within_ranges(one, tuning)) continue;
+    lines += one.name + " seems to do better, and lies in the ranges too; begin there:";
+    for (const auto* const values : {&one.fixed, &one.gains}) {
+      for (const auto& [name, value] : *values) lines += fmt::format(" --set {}={}", name, value);
+    }
+    lines += '\n';
+  }
+  return lines;
+}
+
+void describe_controls(Items& items) {
+  items
+      .table({.key = "alternatives",
+              .heading = "other controls, each at its own best values, on other machines than its search",
+              .meaning = "simpler and other controls at their own best values"},
+             alternative_columns(), alternatives_of)
+      .sentence(better_control_sentence);
+}
+
+}  // namespace
+
+tuning::Extra controls_extra() {
+  return {.name = "controls",
+          .question = "Would another control do?",
+          .cost = cost_of_controls,
+          .run = find_controls,
+          .describe = describe_controls};
+}
+
+}  // namespace zerocount::design_commands

@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "analysis/measures/goal_counts.hpp"
+#include "core/numerics/bisection.hpp"
+#include "runners/design_commands/tune/extras.hpp"
+#include "runners/design_commands/tune/tune_parts.hpp"
+#include "runners/tuning/effects/limits.hpp"
+
+namespace zerocount::design_commands {
+namespace {
+
+constexpr std::int64_t points_of_delay = 13;
+constexpr double max_more_delay = 5.0;  // samples
+
+tuning::ExtraCost cost_of_delay(const tuning::TunedAxis& axis) {
+  if (!axis.answer.is_met()) return {.trials = axis.units().trials()};
+  return {.points = points_of_delay, .trials = points_of_delay * axis.trials_of_point()};
+}
+
+/// controller.delay of the first machine under each condition, samples.
+std::vector<double> delays_of(const study::Study& study) {
+  const study::TrialTurns turns = study::turns_of(study);
+  std::vector<double> delays;
+  for (std::int64_t condition = 0; condition < turns.conditions; ++condition)
+    delays.push_back(study::study_trial(study, 0, turns.trial_of(0, condition)).parameters.controller.delay);
+  return delays;
+}
+
+/// Every machine gets as much more delay under each condition.
+void find_lost_delay(const tuning::TunedAxis& axis, MoreDelay& found) {
+  const auto holds = [&](double more) {
+    const tuning::Change later = [&](trial::TrialParameters& p) { p.controller.delay += more; };
+    const std::optional<std::size_t> lost = axis.lost_claim(axis.tuned, &later);
+    if (lost) found.claim = *lost;
+    return !lost;
+  };
+  constexpr double accuracy = 1.0 / 32.0;
+  double kept = 0.0;
+  double lost = 0.25;
+  while (holds(lost)) {
+    if (lost == max_more_delay) return;
+    kept = lost;
+    lost = std::min(2.0 * lost, max_more_delay);
+  }
+  found.lost = numerics::bisect({kept, lost}, holds, numerics::within(accuracy)).holds;
+}
+
+/// Nothing of a tolerance.
+std::optional<double> rate_in_wider_band(const tuning::TunedAxis& axis, std::size_t goal) {
+  const std::optional<std::size_t> slot = measures::asked_of_moves(axis.tuned).at(goal).slot;
+  if (!slot) return std::nullopt;
+  const tuning::Change wider = [slot](trial::TrialParameters& p) {
+    for (std::size_t b = *slot; b < p.verdict.bands.count; ++b) ++p.verdict.bands.limits[b];
+  };
+  const tuning::Estimate estimate =
+      tuning::estimate_on(axis.tuned, axis.search.units(), axis.units().count, &wider, axis.effort);
+  const std::size_t conditions = tuning::aim_of(axis.tuned).conditions;
+  return std::ranges::min(std::span(estimate.rates).subspan(goal * conditions, conditions));
+}
+
+std::any find_delay(tuning::TunedAxis& axis) {
+  MoreDelay found;
+  if (axis.answer.is_met()) {
+    found.delays = delays_of(axis.tuned);
+    find_lost_delay(axis, found);
+  } else {
+    found.wider_band_rate = rate_in_wider_band(axis, axis.answer.proof->verdict.goal);
+  }
+  return found;
+}
+
+/// The condition under which a goal is lost first by more delay; 0 without conditions.
+std::size_t delayed_condition(const MoreDelay& delay, Of tuning) {
+  return tuning::place_of_claim(tuning.study, delay.claim).condition;
+}
+
+std::string borne_delay_sentence(Of tuning) {
+  const auto* const delay = tuning.answer.extra<MoreDelay>();
+  if (delay == nullptr || delay->delays.empty()) return "";
+  if (!delay->lost)
+    return fmt::format("the goals seem met up to {:g} samples more of controller.delay", max_more_delay);
+  const std::size_t condition = delayed_condition(*delay, tuning);
+  return fmt::format("with {:.3g} samples more of controller.delay, at {:.3g}, the goal{} seems lost",
+                     *delay->lost, delay->delays[condition] + *delay->lost,
+                     claim_text(tuning.study, delay->claim));
+}
+
+void describe_delay(Items& items) {
+  items
+      .value({.key = "wider_band_rate",
+              .heading = "rate of the goal with a band one count wider",
+              .meaning = "rate of the goal with a band one count wider, where it is not met",
+              .unit = "1",
+              .notation = document::Notation::percent},
+             [](Of t) {
+               const auto* const delay = t.answer.extra<MoreDelay>();
+               return delay == nullptr ? std::nullopt : delay->wider_band_rate;
+             })
+      .sentence(borne_delay_sentence)
+      .value(document::in_data("delay_lost",
+                               "controller.delay from which on the goal seems lost; with conditions that of "
+                               "the condition under which it is lost first",
+                               "samples"),
+             [](Of t) -> std::optional<double> {
+               const auto* const delay = t.answer.extra<MoreDelay>();
+               if (delay == nullptr || !delay->lost) return {};
+               return delay->delays[delayed_condition(*delay, t)] + *delay->lost;
+             })
+      .value({.key = "delay_lost_condition",
+              .meaning = "that condition, with conditions",
+              .shown = document::Shown::in_data,
+              .optional = true},
+             [](Of t) -> std::optional<std::string> {
+               const auto* const delay = t.answer.extra<MoreDelay>();
+               if (delay == nullptr || !delay->lost) return {};
+               return tuning::condition_name(t.study, {0, delayed_condition(*delay, t)});
+             });
+}
+
+}  // namespace
+
+tuning::Extra margins_extra() {
+  return {.name = "margins",
+          .question = "How much more delay does it bear?",
+          .part = "margins (what more delay loses)",
+          .cost = cost_of_delay,
+          .run = find_delay,
+          .describe = describe_delay};
+}
+
+}  // namespace zerocount::design_commands

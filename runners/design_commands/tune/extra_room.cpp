@@ -1,0 +1,167 @@
+#include "analysis/report/figures/figure.hpp"
+#include "analysis/text/quantity.hpp"
+#include "core/numerics/bisection.hpp"
+#include "runners/design_commands/tune/extras.hpp"
+#include "runners/design_commands/tune/tune_parts.hpp"
+
+namespace zerocount::design_commands {
+namespace {
+
+using tuning::Values;
+
+/// The extra.
+using Rooms = std::vector<Room>;
+
+constexpr std::int64_t points_of_parameter = 24;  // at most; usually half of them
+
+tuning::ExtraCost cost_of_room(const tuning::TunedAxis& axis) {
+  const std::int64_t points = points_of_parameter * std::ssize(axis.answer.free);
+  return {.applies = axis.answer.is_met(),
+          .points = points,
+          .trials = points * axis.trials_of_point(),
+          .usual_part = 0.5};
+}
+
+Room room_of(std::size_t parameter, const tuning::TunedAxis& axis) {
+  const tuning::TuneAnswer& answer = axis.answer;
+  const tuning::UnitCubePoint place = tuning::place_of(answer.free, answer.gains);
+  const auto values = [&](double share) {
+    tuning::UnitCubePoint moved = place;
+    moved[parameter] = share;
+    Values at = answer.gains;
+    at[parameter] = tuning::values_at(answer.free, moved)[parameter];
+    return at;
+  };
+  std::optional<std::size_t> lost;
+  const auto holds = [&](double share) {
+    const std::optional<study::Study> study = tuning::at_values(axis.tuned, answer.free, values(share));
+    if (!study) return false;
+    const std::optional<std::size_t> claim = axis.lost_claim(*study, nullptr);
+    if (claim) lost = claim;
+    return !claim;
+  };
+  // Outwards in steps, because the goal may be lost and met again farther off.
+  const auto end = [&](double to, std::optional<std::size_t>& lost_beyond) {
+    constexpr int steps = 8;
+    constexpr int halvings = 4;
+    double kept = place[parameter];
+    for (int step = 1; step <= steps; ++step) {
+      const double next = place[parameter] + (to - place[parameter]) * step / steps;
+      if (!holds(next)) {
+        const double last = numerics::bisect({kept, next}, holds, numerics::after_halvings(halvings)).holds;
+        lost_beyond = lost;
+        return last;
+      }
+      kept = next;
+    }
+    return to;
+  };
+  Room room{.name = answer.free[parameter].name};
+  room.low = values(end(0.0, room.lost_below))[parameter];
+  room.high = values(end(1.0, room.lost_above))[parameter];
+  return room;
+}
+
+std::any find_room(tuning::TunedAxis& axis) {
+  Rooms rooms;
+  for (std::size_t i = 0; i < axis.answer.free.size(); ++i) rooms.push_back(room_of(i, axis));
+  return rooms;
+}
+
+const Rooms& rooms_of(Of tuning) {
+  static const Rooms none;
+  const auto* const rooms = tuning.answer.extra<Rooms>();
+  return rooms == nullptr ? none : *rooms;
+}
+
+struct RoomRow {
+  const Room& room;
+  const std::string& unit;
+  const study::Study& study;
+
+  /// " 'small' under condition loaded", of several claims.
+  std::string text_of(const std::optional<std::size_t>& claim) const {
+    return claim ? claim_text(study, *claim) : "";
+  }
+};
+
+std::vector<RoomRow> room_rows(Of tuning) {
+  std::vector<RoomRow> rows;
+  for (std::size_t i = 0; i < rooms_of(tuning).size(); ++i)
+    rows.push_back({rooms_of(tuning)[i], tuning.answer.free[i].unit, tuning.study});
+  return rows;
+}
+
+document::Description<RoomRow> room_columns() {
+  using Row = const RoomRow&;
+  return document::Description<RoomRow>()
+      .value({.heading = "parameter"}, [](Row row) { return row.room.name; })
+      .value({.heading = "goal seems met from"}, [](Row row) { return row.room.low; })
+      .value({.heading = "to"}, [](Row row) { return row.room.high; })
+      .value({.heading = "unit"}, [](Row row) { return row.unit; })
+      .value({.heading = "lost below"}, [](Row row) { return row.text_of(row.room.lost_below); })
+      .value({.heading = "lost above"}, [](Row row) { return row.text_of(row.room.lost_above); });
+}
+
+std::vector<document::Figure> room_figures(Of tuning) {
+  const Rooms& rooms = rooms_of(tuning);
+  if (!is_drawn(tuning) || rooms.empty()) return {};
+  const tuning::TuneAnswer& answer = tuning.answer;
+  Values low, high;
+  for (const Room& one : rooms) {
+    low.push_back(one.low);
+    high.push_back(one.high);
+  }
+  const tuning::UnitCubePoint tuned = tuning::place_of(answer.free, answer.gains);
+  const tuning::UnitCubePoint low_place = tuning::place_of(answer.free, low);
+  const tuning::UnitCubePoint high_place = tuning::place_of(answer.free, high);
+  document::FigureData data{"room",
+                            {{"parameter", "parameter", ""},
+                             {"tuned", "tuned", ""},
+                             {"low", "goal seems met from", ""},
+                             {"high", "to", ""},
+                             {"range", "", ""},
+                             {"place", "", ""},
+                             {"low_place", "", ""},
+                             {"high_place", "", ""}}};
+  using report::datum;
+  for (std::size_t i = 0; i < rooms.size(); ++i) {
+    data.rows.push_back({rooms[i].name, datum(answer.gains[i]), datum(low[i]), datum(high[i]),
+                         text::range_text(low[i], high[i], answer.free[i].unit), datum(tuned[i]),
+                         datum(low_place[i]), datum(high_place[i])});
+  }
+  document::Figure figure =
+      report::figure_of("tuning-room", "tuning-room", "How far may each parameter move?",
+                        "The interval around the tuned value in which the goal seems met, the others as "
+                        "tuned, by simulation on machines of the search, with its ends.",
+                        {std::move(data)});
+  report::set_rows(figure, rooms.size(), 36);
+  return {std::move(figure)};
+}
+
+void describe_room(Items& items) {
+  items
+      .value(document::in_data("room",
+                               "range of each parameter in which the goal seems met, the others as tuned"),
+             [](Of t) {
+               std::vector<std::pair<std::string, std::vector<double>>> ranges;
+               for (const Room& one : rooms_of(t))
+                 ranges.emplace_back(one.name, std::vector{one.low, one.high});
+               return ranges;
+             })
+      .table({.heading = "room of each parameter, the others as tuned", .shown = document::Shown::to_people},
+             room_columns(), room_rows)
+      .figures(room_figures);
+}
+
+}  // namespace
+
+tuning::Extra room_extra() {
+  return {.name = "room",
+          .question = "How much may each value change?",
+          .cost = cost_of_room,
+          .run = find_room,
+          .describe = describe_room};
+}
+
+}  // namespace zerocount::design_commands

@@ -1,0 +1,286 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/text/text.hpp"
+#include "core/text/counted.hpp"
+#include "experiments/parameters/study_units.hpp"
+#include "runners/design_commands/tune/tune_parts.hpp"
+
+namespace zerocount::design_commands {
+namespace {
+
+using document::Description;
+using document::everywhere;
+using document::in_data;
+using document::Shown;
+using text::short_number;
+using tuning::CriticalLoop;
+using tuning::NearestPoint;
+using tuning::SmallestMargins;
+
+using LoopOf = std::optional<CriticalLoop> SmallestMargins::*;
+
+/// A margin that a user can want.
+struct Margin {
+  std::string_view name;
+  std::string_view title;
+  std::string_view unit;
+  std::string_view loop_key;  ///< in JSON
+  double SmallestMargins::*found;
+  LoopOf loop;  ///< that has the smallest
+  std::optional<double> study::LoopMargins::*wanted;
+  bool is_upper{false};  ///< what is wanted is the largest value
+};
+
+constexpr Margin all_margins[] = {
+    {"gain", "gain margin", " dB", "gain_margin_loop", &SmallestMargins::gain, &SmallestMargins::gain_loop,
+     &study::LoopMargins::gain},
+    {"phase", "phase margin", " degrees", "phase_margin_loop", &SmallestMargins::phase,
+     &SmallestMargins::phase_loop, &study::LoopMargins::phase},
+    {"delay", "delay margin", " samples", "delay_margin_loop", &SmallestMargins::delay,
+     &SmallestMargins::delay_loop, &study::LoopMargins::delay},
+    {"sensitivity", "sensitivity", "", "sensitivity_loop", &SmallestMargins::sensitivity,
+     &SmallestMargins::sensitivity_loop, &study::LoopMargins::sensitivity, true}};
+
+/// "7.2 dB (at least 6 wanted)", "10 samples or more (none wanted)", "∞ dB".
+std::string found_text(const Margin& margin, double found, const std::optional<double>& wanted) {
+  constexpr double longest_delay = 10.0;
+  return fmt::format(
+      "{}{}{} ({})", std::isfinite(found) ? short_number(found) : "∞", margin.unit,
+      margin.name == "delay" && found >= longest_delay ? " or more" : "",
+      wanted ? fmt::format("at {} {:g} wanted", margin.is_upper ? "most" : "least", *wanted) : "none wanted");
+}
+
+/// "before sliding at 1560 N m/rad of machine 31 under condition loaded".
+std::string loop_text(const CriticalLoop& loop, const study::Study& study) {
+  return loop.name +
+         (loop.stiffness ? fmt::format(" at {} {}", short_number(*loop.stiffness),
+                                       parameters::unit_on(study.units.axis, "N m/rad"))
+                         : std::string()) +
+         (loop.machine ? fmt::format(" of machine {}", *loop.machine) : std::string()) +
+         study::condition_text(study, loop.condition);
+}
+
+/// A margin of the tuned loops.
+struct MarginRow {
+  const Margin& margin;
+  const SmallestMargins& margins;
+  const study::Study& study;
+};
+
+std::vector<MarginRow> margin_rows(Of tuning) {
+  std::vector<MarginRow> rows;
+  if (!tuning.answer.margins) return rows;
+  for (const Margin& one : all_margins) rows.push_back({one, *tuning.answer.margins, tuning.study});
+  return rows;
+}
+
+Description<MarginRow> margin_columns() {
+  using Row = const MarginRow&;
+  return Description<MarginRow>()
+      .value({.heading = "margin"}, [](Row row) { return row.margin.title; })
+      .value({.heading = "smallest"},
+             [](Row row) {
+               return found_text(row.margin, row.margins.*row.margin.found,
+                                 row.study.tuning->margins.*row.margin.wanted);
+             })
+      .value({.heading = "in the loop"}, [](Row row) {
+        const std::optional<CriticalLoop>& loop = row.margins.*row.margin.loop;
+        return loop ? loop_text(*loop, row.study) : "";
+      });
+}
+
+/// "of 100 machines of the search while they slide, at ±10 % of inertia": a search examines its own machines,
+/// and what is told of a finished proof those of the proof, so that the numbers of the machines are those of
+/// the file.
+std::string examined_sentence(Of tuning) {
+  if (tuning.answer.blind)
+    return "margins: none, because the controller is a plugin, whose transfer function is not known";
+  if (!tuning.answer.margins) return "";
+  const SmallestMargins& margins = *tuning.answer.margins;
+  std::vector<std::string> phases;
+  if (margins.before_sliding) phases.emplace_back("before they slide");
+  if (margins.sliding) phases.emplace_back("while they slide");
+  std::string text = fmt::format("of {} of the {} {}", text::counted(margins.machines, "machine"),
+                                 tuning.is_of_file ? "proof" : "search", fmt::join(phases, " and "));
+  const study::LoopSpread& spread = margins.spread;
+  for (const auto& [name, part] : {std::pair("inertia", spread.inertia), std::pair("damping", spread.damping),
+                                   std::pair("torque constant", spread.torque_constant)}) {
+    if (part) text += fmt::format(", at ±{:g} % of {}", 100.0 * *part, name);
+  }
+  return text + (margins.stable ? "" : "\nthe linear loop of a machine is unstable");
+}
+
+/// A warning where the loops reach for a mode that the study lacks.
+std::string mode_sentence(Of tuning) {
+  const tuning::TuneAnswer& answer = tuning.answer;
+  if (!answer.lowest_mode || !answer.margins || !(answer.margins->crossover > 0.0)) return "";
+  constexpr double crossover_of_mode = 1.0 / 3.0;
+  const double crossover = answer.margins->crossover;
+  return fmt::format(
+      "a mode of half of the inertia, which the study lacks, is borne from {} Hz on; the loops cross over at "
+      "{} Hz{}",
+      short_number(*answer.lowest_mode), short_number(crossover),
+      crossover > crossover_of_mode * *answer.lowest_mode
+          ? ", more than a third of it: make sure that the axis has no mode that low"
+          : "");
+}
+
+struct LoopReading {
+  const CriticalLoop& loop;
+  const study::Study& study;
+};
+
+Description<LoopReading> loop_description() {
+  using Reading = const LoopReading&;
+  return Description<LoopReading>()
+      .value(in_data("loop", "the loop in words"), [](Reading r) { return r.loop.name; })
+      .value(
+          in_data("stiffness",
+                  "of the contact before it slides, N m/rad (N/m on a linear axis); unknown while sliding"),
+          [](Reading r) { return r.loop.stiffness; })
+      .value(in_data("machine", "number of the machine; unknown where the stiffness says all of it"),
+             [](Reading r) { return r.loop.machine; })
+      .value({.key = "condition",
+              .meaning = "the condition that it bears, with conditions",
+              .shown = Shown::in_data,
+              .optional = true},
+             [](Reading r) {
+               return tuning::condition_name(r.study, {0, static_cast<std::size_t>(r.loop.condition)});
+             });
+}
+
+Description<SmallestMargins> margins_description() {
+  return Description<SmallestMargins>()
+      .value(everywhere("gain", "gain (dB)", "gain margin; unknown where no loop has a limit", "dB"),
+             &SmallestMargins::gain)
+      .value(everywhere("phase", "phase (degrees)", "phase margin; unknown where no loop has a limit",
+                        "degrees"),
+             &SmallestMargins::phase)
+      .value(everywhere("delay", "delay (samples)",
+                        "samples of delay until a loop is unstable; 10 means 10 or more", "samples"),
+             &SmallestMargins::delay)
+      .value(everywhere("sensitivity", "sensitivity", "largest |S|, S = 1/(1 + L)", "1"),
+             &SmallestMargins::sensitivity)
+      .value(in_data("crossover", "highest frequency at which |L| = 1; 0 without one", "Hz"),
+             &SmallestMargins::crossover)
+      .value(everywhere("stable", "stable", "whether no loop is unstable"), &SmallestMargins::stable)
+      .value(in_data("machines", "machines that were examined"), &SmallestMargins::machines);
+}
+
+struct ConditionMargins {
+  std::string condition;
+  const SmallestMargins& margins;
+};
+
+std::vector<ConditionMargins> margins_of_conditions(Of tuning) {
+  std::vector<ConditionMargins> rows;
+  if (!tuning.answer.margins) return rows;
+  for (std::size_t i = 0; i < tuning.answer.margins->conditions.size(); ++i)
+    rows.push_back({tuning.study.conditions[i], tuning.answer.margins->conditions[i]});
+  return rows;
+}
+
+/// The margins that the nearest point lacks, and by how much.
+NamedValues lacking_of(const NearestPoint& nearest, const study::LoopMargins& wanted) {
+  NamedValues lacking;
+  for (const Margin& one : all_margins) {
+    const std::optional<double>& limit = wanted.*one.wanted;
+    if (!nearest.margins.stable || !limit) continue;
+    const double found = nearest.margins.*one.found;
+    const double lack = one.is_upper ? found - *limit : *limit - found;
+    if (lack > 0.0) lacking.emplace_back(one.name, lack);
+  }
+  return lacking;
+}
+
+std::string nearest_sentence(Of tuning) {
+  if (!tuning.answer.nearest) return "";
+  const NearestPoint& nearest = *tuning.answer.nearest;
+  const std::string at = values_text(named(tuning.answer.free, nearest.values));
+  if (!nearest.margins.stable)
+    return fmt::format(
+        "the loop of a machine is unstable at all of them; nearest, at {}, by {} of gain", at,
+        std::isfinite(nearest.margins.gain) ? short_number(nearest.margins.gain) + " dB" : "any factor");
+  const NamedValues lacking = lacking_of(nearest, tuning.study.tuning->margins);
+  std::string lines = fmt::format("nearest: {}\n", at);
+  for (const Margin& one : all_margins) {
+    const auto lack = std::ranges::find(lacking, one.name, &NamedValues::value_type::first);
+    lines +=
+        fmt::format("  its {} is {}{}\n", one.title,
+                    found_text(one, nearest.margins.*one.found, tuning.study.tuning->margins.*one.wanted),
+                    lack == lacking.end() ? ""
+                                          : fmt::format(", {}{} too {}", short_number(lack->second), one.unit,
+                                                        one.is_upper ? "large" : "small"));
+  }
+  return lines;
+}
+
+struct NearestReading {
+  const NearestPoint& nearest;
+  Of tuning;
+};
+
+Description<NearestReading> nearest_description() {
+  using Reading = const NearestReading&;
+  return Description<NearestReading>()
+      .value(in_data("gains", "its values, by parameter"),
+             [](Reading r) { return named(r.tuning.answer.free, r.nearest.values); })
+      .object(in_data("margins", "its smallest margins"), margins_description(),
+              [](Reading r) { return r.nearest.margins; })
+      .value(
+          in_data("lacking",
+                  "by how much margins are too small, or the sensitivity too large: dB, degrees, samples, 1"),
+          [](Reading r) { return lacking_of(r.nearest, r.tuning.study.tuning->margins); });
+}
+
+}  // namespace
+
+void add_margin_table(Items& items) {
+  items.table({.heading = "smallest margins", .shown = Shown::to_people}, margin_columns(), margin_rows)
+      .sentence(examined_sentence)
+      .sentence(mode_sentence);
+}
+
+void add_margins(Items& items) {
+  add_margin_table(items);
+  items.object(in_data("margins", "smallest margins of the tuned loops"), margins_description(),
+               [](Of t) { return t.answer.margins; });
+  items.value(
+      in_data("lowest_mode",
+              "frequency from which on the loops bear a mode of half of the inertia, which the study lacks",
+              "Hz"),
+      [](Of t) { return t.answer.lowest_mode; });
+  for (const Margin& one : all_margins) {
+    items.object(in_data(std::string(one.loop_key), fmt::format("the loop that has the worst {}", one.name)),
+                 loop_description(), [loop = one.loop](Of t) -> std::optional<LoopReading> {
+                   if (!t.answer.margins || !((*t.answer.margins).*loop)) return {};
+                   return LoopReading{*((*t.answer.margins).*loop), t.study};
+                 });
+  }
+  items.table({.key = "margins_by_condition",
+               .heading = "smallest margins under each condition",
+               .meaning = "smallest margins under each condition, with conditions",
+               .optional = true},
+              Description<ConditionMargins>()
+                  .value(everywhere("condition", "condition", "its name"), &ConditionMargins::condition)
+                  .include(margins_description(),
+                           [](const ConditionMargins& row) -> const SmallestMargins& { return row.margins; }),
+              margins_of_conditions);
+}
+
+void add_nearest(Items& items) {
+  items.sentence(nearest_sentence)
+      .object(in_data("nearest", "the point that comes nearest to the margins, where none keeps them"),
+              nearest_description(), [](Of t) -> std::optional<NearestReading> {
+                if (!t.answer.nearest) return {};
+                return NearestReading{*t.answer.nearest, t};
+              });
+}
+
+}  // namespace zerocount::design_commands

@@ -181,10 +181,7 @@ void explain_missing(Work& work, const StudySearch& search, const SearchPlan& pl
   answer.status = goal::Status::missed;
   const study::LoopMargins& wanted = work.study.tuning->margins;
   work.find_part(answer, "the nearest point", [&] {
-    answer.nearest = nearest_point(
-        search.examined(), search.examiner(), wanted,
-        [&](const Values& values) { return search.examined_if_allowed(values); }, search.some_slid(),
-        work.effort.stop());
+    answer.nearest = search.nearest();
     if (answer.nearest && keeps(answer.nearest->margins, wanted)) answer.status = goal::Status::undecided;
     if (!answer.nearest) answer.refusal = search.refusal_of_all();
   });

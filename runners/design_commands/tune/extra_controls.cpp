@@ -107,12 +107,6 @@ std::any find_controls(TunedAxis& axis) {
   return found;
 }
 
-const Alternatives& alternatives_of(Of tuning) {
-  static const Alternatives none;
-  const auto* const found = tuning.answer.extra<Alternatives>();
-  return found == nullptr ? none : *found;
-}
-
 document::Description<Alternative> alternative_columns() {
   using document::Shown;
   using Row = const Alternative&;
@@ -167,7 +161,7 @@ bool is_better_within_ranges(const Alternative& one, Of tuning) {
 
 std::string better_control_sentence(Of tuning) {
   std::string lines;
-  for (const Alternative& one : alternatives_of(tuning)) {
+  for (const Alternative& one : found_by_extra<Alternatives>(tuning)) {
     if (!is_better_within_ranges(one, tuning)) continue;
     lines += one.name + " seems to do better, and lies in the ranges too; begin there:";
     for (const auto* const values : {&one.fixed, &one.gains}) {
@@ -183,7 +177,7 @@ void describe_controls(Items& items) {
       .table({.key = "alternatives",
               .heading = "other controls, each at its own best values, on other machines than its search",
               .meaning = "simpler and other controls at their own best values"},
-             alternative_columns(), alternatives_of)
+             alternative_columns(), found_by_extra<Alternatives>)
       .sentence(better_control_sentence);
 }
 

@@ -8,8 +8,6 @@
 namespace zerocount::design_commands {
 namespace {
 
-using TunedLimits = std::vector<tuning::Limit>;
-
 tuning::ExtraCost cost_of_limits(const tuning::TunedAxis& axis) {
   const std::int64_t points = std::llround(tuning::runs_of_limits(axis.tuned, 0, axis.search.units().count));
   return {.points = points, .trials = points * axis.units().trials()};
@@ -22,11 +20,7 @@ std::any find_limits(tuning::TunedAxis& axis) {
 
 void describe_limits(Items& items) {
   items.include(limits_description("what limits it, each by simulation on the machines of the search"),
-                [](Of t) -> const TunedLimits& {
-                  static const TunedLimits none;
-                  const auto* const found = t.answer.extra<TunedLimits>();
-                  return found == nullptr ? none : *found;
-                });
+                found_by_extra<std::vector<tuning::Limit>>);
 }
 
 }  // namespace

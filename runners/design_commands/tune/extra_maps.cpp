@@ -164,9 +164,9 @@ Figure map_figure(const TuneAnswer& answer, const TuningMap& map) {
 void describe_maps(Items& items) {
   items.figures([](Of tuning) {
     std::vector<Figure> figures;
-    const auto* const maps = tuning.answer.extra<Maps>();
-    if (!is_drawn(tuning) || maps == nullptr) return figures;
-    for (const TuningMap& map : *maps) figures.push_back(map_figure(tuning.answer, map));
+    if (!is_drawn(tuning)) return figures;
+    for (const TuningMap& map : found_by_extra<Maps>(tuning))
+      figures.push_back(map_figure(tuning.answer, map));
     return figures;
   });
 }

@@ -78,14 +78,13 @@ std::size_t delayed_condition(const MoreDelay& delay, Of tuning) {
 }
 
 std::string borne_delay_sentence(Of tuning) {
-  const auto* const delay = tuning.answer.extra<MoreDelay>();
-  if (delay == nullptr || delay->delays.empty()) return "";
-  if (!delay->lost)
+  const MoreDelay& delay = found_by_extra<MoreDelay>(tuning);
+  if (delay.delays.empty()) return "";
+  if (!delay.lost)
     return fmt::format("the goals seem met up to {:g} samples more of controller.delay", max_more_delay);
-  const std::size_t condition = delayed_condition(*delay, tuning);
   return fmt::format("with {:.3g} samples more of controller.delay, at {:.3g}, the goal{} seems lost",
-                     *delay->lost, delay->delays[condition] + *delay->lost,
-                     claim_text(tuning.study, delay->claim));
+                     *delay.lost, delay.delays[delayed_condition(delay, tuning)] + *delay.lost,
+                     claim_text(tuning.study, delay.claim));
 }
 
 void describe_delay(Items& items) {
@@ -95,28 +94,25 @@ void describe_delay(Items& items) {
               .meaning = "rate of the goal with a band one count wider, where it is not met",
               .unit = "1",
               .notation = document::Notation::percent},
-             [](Of t) {
-               const auto* const delay = t.answer.extra<MoreDelay>();
-               return delay == nullptr ? std::nullopt : delay->wider_band_rate;
-             })
+             [](Of t) { return found_by_extra<MoreDelay>(t).wider_band_rate; })
       .sentence(borne_delay_sentence)
       .value(document::in_data("delay_lost",
                                "controller.delay from which on the goal seems lost; with conditions that of "
                                "the condition under which it is lost first",
                                "samples"),
              [](Of t) -> std::optional<double> {
-               const auto* const delay = t.answer.extra<MoreDelay>();
-               if (delay == nullptr || !delay->lost) return {};
-               return delay->delays[delayed_condition(*delay, t)] + *delay->lost;
+               const MoreDelay& delay = found_by_extra<MoreDelay>(t);
+               if (!delay.lost) return {};
+               return delay.delays[delayed_condition(delay, t)] + *delay.lost;
              })
       .value({.key = "delay_lost_condition",
               .meaning = "that condition, with conditions",
               .shown = document::Shown::in_data,
               .optional = true},
              [](Of t) -> std::optional<std::string> {
-               const auto* const delay = t.answer.extra<MoreDelay>();
-               if (delay == nullptr || !delay->lost) return {};
-               return tuning::condition_name(t.study, {0, delayed_condition(*delay, t)});
+               const MoreDelay& delay = found_by_extra<MoreDelay>(t);
+               if (!delay.lost) return {};
+               return tuning::condition_name(t.study, {0, delayed_condition(delay, t)});
              });
 }
 

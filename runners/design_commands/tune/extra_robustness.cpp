@@ -48,11 +48,7 @@ void describe_robustness(Items& items) {
                .meaning = "what stayed, or why there is no rate",
                .optional = true},
               [](Row one) { return one.limit.note.empty() ? std::nullopt : std::optional(one.limit.note); }),
-      [](Of t) -> const std::vector<Variation>& {
-        static const std::vector<Variation> none;
-        const auto* const found = t.answer.extra<std::vector<Variation>>();
-        return found == nullptr ? none : *found;
-      });
+      found_by_extra<std::vector<Variation>>);
 }
 
 }  // namespace

@@ -68,12 +68,6 @@ std::any find_room(tuning::TunedAxis& axis) {
   return rooms;
 }
 
-const Rooms& rooms_of(Of tuning) {
-  static const Rooms none;
-  const auto* const rooms = tuning.answer.extra<Rooms>();
-  return rooms == nullptr ? none : *rooms;
-}
-
 struct RoomRow {
   const Room& room;
   const std::string& unit;
@@ -86,9 +80,10 @@ struct RoomRow {
 };
 
 std::vector<RoomRow> room_rows(Of tuning) {
+  const Rooms& rooms = found_by_extra<Rooms>(tuning);
   std::vector<RoomRow> rows;
-  for (std::size_t i = 0; i < rooms_of(tuning).size(); ++i)
-    rows.push_back({rooms_of(tuning)[i], tuning.answer.free[i].unit, tuning.study});
+  for (std::size_t i = 0; i < rooms.size(); ++i)
+    rows.push_back({rooms[i], tuning.answer.free[i].unit, tuning.study});
   return rows;
 }
 
@@ -104,7 +99,7 @@ document::Description<RoomRow> room_columns() {
 }
 
 std::vector<document::Figure> room_figures(Of tuning) {
-  const Rooms& rooms = rooms_of(tuning);
+  const Rooms& rooms = found_by_extra<Rooms>(tuning);
   if (!is_drawn(tuning) || rooms.empty()) return {};
   const tuning::TuneAnswer& answer = tuning.answer;
   Values low, high;
@@ -145,7 +140,7 @@ void describe_room(Items& items) {
                                "range of each parameter in which the goal seems met, the others as tuned"),
              [](Of t) {
                std::vector<std::pair<std::string, std::vector<double>>> ranges;
-               for (const Room& one : rooms_of(t))
+               for (const Room& one : found_by_extra<Rooms>(t))
                  ranges.emplace_back(one.name, std::vector{one.low, one.high});
                return ranges;
              })

@@ -195,14 +195,6 @@ document::FigureData points_data(std::string name, const TuneAnswer& answer,
         [](const TriedPoint& one) { return ordered_json(one.estimate.units); }}});
 }
 
-/// "band_settling_time.p95 (s)".
-std::string criterion_title(const study::Study& study) {
-  const std::string name = tuning::criterion_name(study);
-  if (tuning::is_proportion_of_allowed(study)) return name + ", of the time that its goal allows";
-  const std::string& unit = tuning::criteria_of(study).front().measure->field.column.unit;
-  return unit == "1" || unit.empty() ? name : fmt::format("{} ({})", name, unit);
-}
-
 std::vector<document::Figure> frontier_figures(Of tuning) {
   const TuneAnswer& answer = tuning.answer;
   if (!is_drawn(tuning) || answer.tried.empty()) return {};
@@ -276,6 +268,13 @@ std::string claim_text(const study::Study& study, std::size_t claim) {
 document::Item criterion_item() {
   return document::everywhere("criterion", "criterion (–: never)",
                               "quantity that is minimised; unknown for never");
+}
+
+std::string criterion_title(const study::Study& study) {
+  const std::string name = tuning::criterion_name(study);
+  if (tuning::is_proportion_of_allowed(study)) return name + ", of the time that its goal allows";
+  const std::string& unit = tuning::criteria_of(study).front().measure->field.column.unit;
+  return unit == "1" || unit.empty() ? name : fmt::format("{} ({})", name, unit);
 }
 
 bool is_drawn(Of tuning) {

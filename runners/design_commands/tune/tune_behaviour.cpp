@@ -96,50 +96,40 @@ Description<MoveBehaviour> behaviour_columns() {
   return columns;
 }
 
-/// "an engineer would refuse this: …; add limits: {overshoot: 50}".
-std::string refusal_text(const Refusal& refusal) {
-  return fmt::format("{}; to exclude it add {}", refusal.text, refusal.remedy);
-}
-
-std::string refusals_sentence(Of tuning) {
-  std::string lines;
-  for (const Refusal& one : tuning.answer.refusals)
-    lines += fmt::format("a drive engineer would refuse this: {}\n", refusal_text(one));
-  return lines;
-}
-
-Description<Refusal> refusal_columns() {
-  return Description<Refusal>()
-      .value({.key = "finding",
-              .meaning = "what an engineer would refuse",
-              .words = {"overshoot", "saturation", "torque noise", "phase margin"}},
-             &Refusal::finding)
-      .value(in_data("text", "the finding in a sentence"), &Refusal::text)
-      .value(in_data("value",
-                     "proportion of the step, of the moves, of the converter's largest torque; degrees"),
-             &Refusal::value)
-      .value(in_data("passes", "the value that passes"), &Refusal::largest)
-      .value(in_data("remedy", "what excludes it, as it stands in a manifest"), &Refusal::remedy);
-}
-
 }  // namespace
 
 std::string sanity_line(Of tuning) {
   const tuning::TuneAnswer& answer = tuning.answer;
   if (answer.behaviour.empty() && answer.refusals.empty()) return "";
   std::vector<std::string> texts;
-  for (const Refusal& one : answer.refusals) texts.push_back(refusal_text(one));
+  for (const Refusal& one : answer.refusals)
+    texts.push_back(fmt::format("{}; to exclude it add {}", one.text, one.remedy));
   return fmt::format("before the proof: a drive engineer would refuse {} of {}{}{}",
                      texts.empty() ? "nothing" : "this", values_text(named(answer.free, answer.gains)),
                      texts.empty() ? "" : ": ", fmt::join(texts, "; "));
 }
 
-void add_refusals(Description<Tuning>& items) {
-  items.sentence(refusals_sentence)
-      .table(in_data("refusals",
-                     "what a drive engineer would refuse of the tuned values, although they may meet "
-                     "the goal"),
-             refusal_columns(), [](Of t) -> const std::vector<Refusal>& { return t.answer.refusals; });
+void add_refusals(Items& items) {
+  items.table({.key = "refusals",
+               .heading = "a drive engineer would refuse this",
+               .meaning = "what a drive engineer would refuse of the tuned values, although they may meet "
+                          "the goal"},
+              Description<Refusal>()
+                  .value({.key = "finding",
+                          .meaning = "what an engineer would refuse",
+                          .shown = Shown::in_data,
+                          .words = {"overshoot", "saturation", "torque noise", "phase margin"}},
+                         &Refusal::finding)
+                  .value(document::everywhere("text", "finding", "the finding in a sentence"), &Refusal::text)
+                  .value(in_data("value",
+                                 "proportion of the step, of the moves, of the converter's largest "
+                                 "torque; degrees"),
+                         &Refusal::value)
+                  .value(in_data("passes", "the value that passes"), &Refusal::largest)
+                  .value(document::everywhere("remedy", "to exclude it add",
+                                              "what excludes it, as it stands in a manifest"),
+                         &Refusal::remedy),
+              [](Of t) -> const std::vector<Refusal>& { return t.answer.refusals; });
 }
 
 void add_behaviour(Description<Tuning>& items) {

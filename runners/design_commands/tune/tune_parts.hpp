@@ -27,6 +27,17 @@ std::string claim_text(const study::Study& study, std::size_t claim);
 /// The criterion of tried points.
 document::Item criterion_item();
 
+/// "band_settling_time.p95 (s)": the quantity that is minimised.
+std::string criterion_title(const study::Study& study);
+
+/// What the extra of this type has found; an empty value if it was not made.
+template <class Found>
+const Found& found_by_extra(Of tuning) {
+  static const Found none{};
+  const Found* const found = tuning.answer.extra<Found>();
+  return found == nullptr ? none : *found;
+}
+
 /// Whether figures are drawn: of a page, with a proof.
 bool is_drawn(Of tuning);
 

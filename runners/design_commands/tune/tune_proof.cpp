@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
@@ -80,35 +81,10 @@ std::string why_undecided(const tuning::MissedSearch& missed) {
                             : "not all values that may meet the goal were tried on fresh machines";
 }
 
-std::string headline_of(Of tuning) {
-  if (!tuning.answer.proof) return unproven_headline(tuning.answer);
-  switch (tuning.answer.status) {
-    case goal::Status::met:
-      return met_headline(tuning);
-    case goal::Status::missed:
-      return "unreachable in these ranges: " + missed_by(tuning);
-    case goal::Status::undecided:
-      break;
-  }
-  if (tuning.answer.proof->verdict.status == goal::Status::missed)
-    return fmt::format("undecided: {}; {}; a larger --budget may find better ones",
-                       why_undecided(tuning.answer.missed), missed_by(tuning));
-  return fmt::format(
-      "undecided: the trials of the proof do not decide whether the best values found, {}, meet the goal",
-      tuned_text(tuning));
-}
-
 /// What theory says of a goal that is not met, such as a torque range that is too small for the move.
 std::string obstacles_sentence(Of tuning) {
   std::string lines;
-  for (std::string obstacle : tuning.answer.obstacles) {
-    const std::string only_point = "point 0 (" + tuning.answer.proof->study.points.labels.front() + ")";
-    if (obstacle.starts_with(only_point)) {
-      obstacle.erase(0, only_point.size());
-      obstacle.erase(0, obstacle.find_first_not_of(": "));
-    }
-    lines += "in the way: " + obstacle + "\n";
-  }
+  for (const std::string& obstacle : tuning.answer.obstacles) lines += "in the way: " + obstacle + "\n";
   return lines;
 }
 
@@ -145,19 +121,14 @@ const std::vector<summary::ClaimOfPoint>& proven_claims(Of tuning) {
   return tuning.answer.proof ? tuning.answer.proof->claims : none;
 }
 
-/// "band_settling_time.p95 by the proof: 0.0385 s".
+/// "band_settling_time.p95 (s) by the proof: 0.0385".
 std::string criterion_sentence(Of tuning) {
   if (!tuning.answer.proof) return "";
-  const study::Study& study = tuning.study;
   const double value = tuning.answer.criterion;
-  const std::string unit = tuning::is_proportion_of_allowed(study)
-                               ? "of the time that its goal allows"
-                               : tuning::criteria_of(study).front().measure->field.column.unit;
-  return fmt::format("{} by the proof{}: {}", tuning::criterion_name(study),
-                     tuning::has_named_claims(study) ? ", the largest of all goals and conditions" : "",
-                     !std::isfinite(value)         ? "not within the hold"
-                     : unit == "1" || unit.empty() ? short_number(value)
-                                                   : short_number(value) + " " + unit);
+  return fmt::format(
+      "{} by the proof{}: {}", criterion_title(tuning.study),
+      tuning::has_named_claims(tuning.study) ? ", the largest of all goals and conditions" : "",
+      std::isfinite(value) ? short_number(value) : "not within the hold");
 }
 
 /// The time after which the wanted proportion of moves are within the band for good, where it is too late.
@@ -167,17 +138,6 @@ std::string late_sentence(Of tuning) {
   return fmt::format("time until {:g} % of the moves stay within the {}: {}",
                      100.0 * worst_goal(tuning).moves, worst_goal(tuning).tolerance ? "tolerance" : "band",
                      std::isfinite(limit) ? short_number(limit) + " s" : "not within the hold");
-}
-
-std::string edges_sentence(Of tuning) {
-  std::string lines;
-  for (const std::string& edge : tuning.answer.at_edges) lines += edge + ": values beyond may be better\n";
-  return lines;
-}
-
-std::string worst_machine_sentence(Of tuning) {
-  if (!tuning.answer.worst) return "";
-  return "worst machine: " + worst_machine_text(*tuning.answer.worst, tuning.study);
 }
 
 Description<goal::Verdict> worlds_of_proof() {
@@ -233,7 +193,21 @@ Description<Tuning> proof_description() {
 }  // namespace
 
 std::string tune_headline(Of tuning) {
-  return headline_of(tuning);
+  if (!tuning.answer.proof) return unproven_headline(tuning.answer);
+  switch (tuning.answer.status) {
+    case goal::Status::met:
+      return met_headline(tuning);
+    case goal::Status::missed:
+      return "unreachable in these ranges: " + missed_by(tuning);
+    case goal::Status::undecided:
+      break;
+  }
+  if (tuning.answer.proof->verdict.status == goal::Status::missed)
+    return fmt::format("undecided: {}; {}; a larger --budget may find better ones",
+                       why_undecided(tuning.answer.missed), missed_by(tuning));
+  return fmt::format(
+      "undecided: the trials of the proof do not decide whether the best values found, {}, meet the goal",
+      tuned_text(tuning));
 }
 
 std::string page_headline(Of tuning) {
@@ -244,36 +218,35 @@ std::string page_headline(Of tuning) {
       proof.rigs > 0 ? fmt::format("{} machines", proof.rigs) : fmt::format("{} trials", proof.trials));
 }
 
-void add_proof(Description<Tuning>& items) {
+void add_proof_sentences(Items& items) {
   items.sentence(obstacles_sentence)
-      .value(in_data("obstacles", "what theory says of a goal that is not met"),
-             [](Of t) { return t.answer.obstacles; })
       .sentence(proof_sentence)
+      .sentence(criterion_sentence)
+      .sentence(late_sentence)
+      .sentence([](Of t) { return fmt::format("{}", fmt::join(t.answer.at_edges, "\n")); })
+      .sentence([](Of t) {
+        return t.answer.worst ? "worst machine: " + worst_machine_text(*t.answer.worst, t.study)
+                              : std::string();
+      });
+}
+
+void add_proof(Items& items) {
+  add_proof_sentences(items);
+  items
       .table({.key = "claims",
               .heading = "each goal under each condition and at each age, by the proof",
               .meaning = "each goal under each condition, by the proof; the bounds allow for its attempts"},
              summary::claim_description(), proven_claims)
+      .value(in_data("obstacles", "what theory says of a goal that is not met"),
+             [](Of t) { return t.answer.obstacles; })
       .object(in_data("proof", "trials of the tuned values on machines that the search never saw"),
               proof_description(), [](Of t) { return t.answer.proof ? &t : nullptr; })
       .object(in_data("needed", "study that would decide the goal"), goal::needs_description(),
               [](Of t) { return t.answer.proof ? goal::practicable(t.answer.proof->needs) : nullptr; })
-      .sentence(criterion_sentence)
-      .sentence(late_sentence)
       .value(in_data("at_edges", "free parameters at an end of their range"),
              [](Of t) { return t.answer.at_edges; })
-      .sentence(edges_sentence)
       .object(in_data("worst", "the worst machine of the proof"), worst_description(),
-              [](Of t) { return t.answer.worst; })
-      .sentence(worst_machine_sentence);
-}
-
-void add_proof_sentences(Description<Tuning>& items) {
-  items.sentence(obstacles_sentence)
-      .sentence(proof_sentence)
-      .sentence(criterion_sentence)
-      .sentence(late_sentence)
-      .sentence(edges_sentence)
-      .sentence(worst_machine_sentence);
+              [](Of t) { return t.answer.worst; });
 }
 
 }  // namespace zerocount::design_commands

@@ -21,16 +21,9 @@ constexpr double decade = 10.0;
 constexpr int max_decades = 6;  // beyond the last age of the study
 constexpr int max_steps = 6;    // between two ages
 
-/// To three digits, as answers show it.
-double short_age(double age) {
-  if (age == 0.0) return age;
-  const double unit = std::pow(decade, std::floor(std::log10(age)) - 2.0);
-  return unit < 1.0 ? std::round(age / unit) / std::round(1.0 / unit) : std::round(age / unit) * unit;
-}
-
 /// An age between two; above age 0 a tenth of the older.
 double age_between(double younger, double older) {
-  return short_age(younger == 0.0 ? older / decade : numerics::geometric_mean(younger, older));
+  return to_three_digits(younger == 0.0 ? older / decade : numerics::geometric_mean(younger, older));
 }
 
 double asked_of(const study::Goal& goal) {
@@ -88,7 +81,7 @@ class LifeOfClaims {
     double age = last > 0.0 ? last : 1.0;
     for (int i = 0; i < max_decades && !all_are_missed(); ++i) {
       const double younger = age;
-      age = short_age(decade * age);
+      age = to_three_digits(decade * age);
       refusal_ = runs_.refusal_at(age);
       if (!refusal_.empty()) {
         run(oldest_allowed(younger, age));
@@ -105,7 +98,7 @@ class LifeOfClaims {
     return numerics::bisect(
                {allowed, refused}, is_allowed,
                [](const numerics::Bracket& ages) { return ages.fails <= narrow * ages.holds; },
-               [](double a, double b) { return short_age(numerics::geometric_mean(a, b)); })
+               [](double a, double b) { return to_three_digits(numerics::geometric_mean(a, b)); })
         .holds;
   }
 

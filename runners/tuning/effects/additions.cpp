@@ -61,13 +61,6 @@ std::string refusal_of_load(study::PointEdit at, double frequency) {
   return rules::refusal_of(at);
 }
 
-/// To three digits: what is simulated is what the row says.
-double rounded(double frequency) {
-  const double unit = std::pow(10.0, std::floor(std::log10(frequency)) - 2.0);
-  return unit < 1.0 ? std::round(frequency / unit) / std::round(1.0 / unit)
-                    : std::round(frequency / unit) * unit;
-}
-
 /// The search of the lowest mode that is borne.
 class ModeSearch {
  public:
@@ -88,14 +81,14 @@ class ModeSearch {
     if (!is_borne(at_highest, few_units_) && !is_borne(run(highest, units_), units_))
       return beyond_rate(highest);
     double borne = highest;
-    double missed = rounded(0.5 * borne);
+    double missed = to_three_digits(0.5 * borne);
     while (borne >= lowest_frequency && is_borne(run(missed, few_units_), few_units_)) {
       borne = missed;
-      missed = rounded(0.5 * borne);
+      missed = to_three_digits(0.5 * borne);
     }
     const bool any_is_missed = borne >= lowest_frequency;
     while (any_is_missed && borne > precision * missed) {
-      const double middle = rounded(std::sqrt(borne * missed));
+      const double middle = to_three_digits(std::sqrt(borne * missed));
       (is_borne(run(middle, few_units_), few_units_) ? borne : missed) = middle;
     }
     ChangedPoint found = run(borne, units_);
@@ -104,13 +97,13 @@ class ModeSearch {
         ChangedPoint lower = run(missed, units_);
         if (!is_borne(lower, units_)) break;
         found = std::move(lower);
-        missed = rounded(missed / precision);
+        missed = to_three_digits(missed / precision);
       }
     } else {
       for (; !is_borne(found, units_); found = run(borne, units_)) {
         if (borne >= highest) return beyond_rate(highest);
         missed = borne;
-        borne = std::min(rounded(precision * borne), highest);
+        borne = std::min(to_three_digits(precision * borne), highest);
       }
     }
     return row(found, any_is_missed ? fmt::format("{:.6g} Hz costs more than 1 %", missed)

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "runners/tuning/effects/effect.hpp"
+#include "runners/tuning/effects/effect_runs.hpp"
 
 namespace zerocount::tuning {
 

@@ -11,8 +11,6 @@
 
 #include "core/random/number_source.hpp"
 #include "experiments/designs/random_key.hpp"
-#include "runners/tuning/race/dropping.hpp"
-#include "runners/tuning/race/walk.hpp"
 
 namespace zerocount::tuning {
 namespace {

@@ -9,8 +9,8 @@
 #include "experiments/study/tuning.hpp"
 #include "runners/trials/effort.hpp"
 #include "runners/tuning/race/candidate.hpp"
-#include "runners/tuning/race/frontier.hpp"
 #include "runners/tuning/race/search_size.hpp"
+#include "runners/tuning/race/tried_points.hpp"
 
 /// Iterated racing (López-Ibáñez et al., "The irace package", Operations Research Perspectives 3, 2016): a
 /// generation of candidates is drawn around the best of those before it, and races over units that are the

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "analysis/parallel/parallel.hpp"
+#include "analysis/statistics/spread_over.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study_table.hpp"
@@ -16,6 +18,7 @@ namespace {
 
 constexpr std::int64_t max_search_trials_of_machine = 20;
 constexpr std::int64_t examined_machines = 2048;
+constexpr std::int64_t max_tried_points = 1024;  // of which the nearest is sought
 
 bool lie_in_ranges(const Values& values, std::span<const study::FreeParameter> free) {
   for (std::size_t i = 0; i < free.size(); ++i) {
@@ -78,7 +81,7 @@ SearchResult StudySearch::run(const SearchSettings& settings, std::vector<Values
     evaluate(candidates, to);
   };
   problem.admissible = [this](std::span<const Candidate> candidates) { return admissible(candidates); };
-  problem.shortfall = [this](std::span<const Values> values) { return shortfall(values); };
+  problem.shortfall = [this](std::span<const Values> values) { return shortfalls_of(values, false, stop_); };
   problem.verified = [this](const Candidate& candidate) { return verified(candidate); };
   return search(problem, settings);
 }
@@ -131,6 +134,17 @@ std::string StudySearch::refusal_of_all() const {
   return trials::refusal_of_values(examined_base_, names_of(free_), examined_.front());
 }
 
+std::optional<NearestPoint> StudySearch::nearest() const {
+  std::vector<Values> points;
+  for (const std::int64_t i : statistics::spread_over(std::ssize(examined_), max_tried_points))
+    points.push_back(examined_[static_cast<std::size_t>(i)]);
+  const std::vector<double> shortfalls = shortfalls_of(points, some_slid_, effort_.stop());
+  const auto least = std::ranges::min_element(shortfalls);
+  if (least == shortfalls.end() || std::isinf(*least)) return std::nullopt;
+  const Values& values = points[static_cast<std::size_t>(least - shortfalls.begin())];
+  return NearestPoint{values, examiner_.margins_of(examined_candidate(values), some_slid_, effort_.stop())};
+}
+
 bool StudySearch::may_keep(const Values& values, bool slides) const {
   const std::optional<study::Study> study = examined_if_allowed(values);
   return study && examiner_.may_keep(*study, study_.tuning->margins, slides);
@@ -158,17 +172,18 @@ std::vector<bool> StudySearch::admissible(std::span<const Candidate> candidates)
   return {kept.begin(), kept.end()};
 }
 
-std::vector<double> StudySearch::shortfall(std::span<const Values> values) const {
+std::vector<double> StudySearch::shortfalls_of(std::span<const Values> values, bool slides,
+                                               const std::stop_token& stop) const {
   std::vector<double> found(values.size(), std::numeric_limits<double>::infinity());
   parallel::for_each_index(
       values.size(),
       [&](std::size_t i) {
-        if (stop_.stop_requested()) return;
+        if (stop.stop_requested()) return;
         if (const std::optional<study::Study> study = examined_if_allowed(values[i]))
-          found[i] = examiner_.shortfall(*study, study_.tuning->margins, false);
+          found[i] = examiner_.shortfall(*study, study_.tuning->margins, slides);
       },
       "shortfall");
-  if (stop_.stop_requested()) throw trial::Interrupted{};
+  if (stop.stop_requested()) throw trial::Interrupted{};
   return found;
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <span>
 #include <stop_token>
 #include <utility>
 #include <vector>
@@ -24,6 +25,12 @@ std::int64_t trials_of_machine(const study::Study& study);
 
 /// Those of the search, which takes fewer.
 std::int64_t search_trials_of_machine(const study::Study& study);
+
+/// The point that comes nearest to the wanted margins, where none keeps them.
+struct NearestPoint {
+  Values values;
+  SmallestMargins margins;  ///< of all examined machines
+};
 
 /// The search for the best values of `free`, with the other values of the study.
 class StudySearch {
@@ -48,6 +55,10 @@ class StudySearch {
   }
   /// Why the first examined point was not allowed, where none of them was; empty otherwise.
   std::string refusal_of_all() const;
+  /// The examined point with the least LoopExaminer::shortfall, of many about a thousand; nothing without
+  /// points that are allowed.
+  /// @throws trial::Interrupted
+  std::optional<NearestPoint> nearest() const;
   /// Whether values keep the margins on the machines that are critical so far. @param slides whether some
   /// slide
   bool may_keep(const Values& values, bool slides) const;
@@ -55,7 +66,6 @@ class StudySearch {
   LoopExaminer& examiner() { return examiner_; }
   const trials::Replicates& units() const { return units_; }
   const std::vector<Values>& examined() const { return examined_; }  ///< points whose margins were examined
-  bool some_slid() const { return some_slid_; }                      ///< a candidate that was simulated slid
   /// Trials that were simulated, and the time that they took, s; without those of an earlier run.
   std::int64_t simulated() const { return simulated_; }
   double simulation_seconds() const { return simulation_seconds_; }
@@ -63,8 +73,9 @@ class StudySearch {
  private:
   void evaluate(std::span<Candidate* const> candidates, std::int64_t to);
   std::vector<bool> admissible(std::span<const Candidate> candidates);
-  /// That of values whose units are not run yet.
-  std::vector<double> shortfall(std::span<const Values> values) const;
+  /// @param slides whether machines slide
+  std::vector<double> shortfalls_of(std::span<const Values> values, bool slides,
+                                    const std::stop_token& stop) const;
   bool verified(const Candidate& candidate);
 
   /// What the margins of a candidate depend on: its values, and whether it slid.

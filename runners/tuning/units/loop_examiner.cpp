@@ -29,18 +29,6 @@ constexpr double longest_delay = 10.0;
 constexpr double lowest_mode_tried = 1.0;  // of a mode, Hz
 constexpr double frequency_ratio = 1.05;   // of one mode that is tried and the next
 
-/// What is examined of a machine.
-struct MachineLoops {
-  double softest;   ///< contact before it slides, N m/rad; only of a spring of k1 and k2
-  double stiffest;  ///< N m/rad
-  bool slides;
-};
-
-template <class Machine>
-MachineLoops loops_with(const Machine& machine, bool slides) {
-  return {machine.softest, machine.stiffest, slides};
-}
-
 struct Loops {
   std::vector<theory::TrialLoop> loops;
   double hold{0.0};  ///< s
@@ -57,7 +45,7 @@ std::vector<loop::ControllerParameters> controls_before_sliding(const trial::Tri
   return controls;
 }
 
-void add_stiffnesses(const trial::TrialParameters& p, const MachineLoops& machine,
+void add_stiffnesses(const trial::TrialParameters& p, const ExaminedMachine& machine,
                      std::vector<theory::TrialLoop>& loops) {
   std::string name = "before sliding";
   for (const loop::ControllerParameters& control : controls_before_sliding(p)) {
@@ -74,15 +62,16 @@ void add_stiffnesses(const trial::TrialParameters& p, const MachineLoops& machin
 }
 
 /// The loops in which a machine moves, with this much more delay.
-Loops loops_of(trial::TrialParameters p, const MachineLoops& machine, double more_delay) {
+Loops loops_of(const Examination& of, double more_delay = 0.0) {
+  trial::TrialParameters p = of.p;
   p.controller.delay += more_delay;
   const bool has_spring = friction::has_spring(p.friction.model);
   const std::vector<theory::TrialLoop> of_trial = theory::trial_loops(p);
   Loops found;
   found.hold = p.command.hold;
   found.before_sliding = !std::ranges::all_of(of_trial, &theory::TrialLoop::slides);
-  found.sliding = machine.slides || !found.before_sliding;
-  if (has_spring) add_stiffnesses(p, machine, found.loops);
+  found.sliding = of.slides || !found.before_sliding;
+  if (has_spring) add_stiffnesses(p, of.machine, found.loops);
   for (const theory::TrialLoop& one : of_trial) {
     if (one.slides ? found.sliding : !has_spring) found.loops.push_back(one);
   }
@@ -119,12 +108,11 @@ bool keeps_margins(const theory::FrozenLoop& loop, const study::LoopMargins& mar
   return !margins.sensitivity || theory::peak_sensitivity(loop).value <= *margins.sensitivity;
 }
 
-bool keeps_margins(const trial::TrialParameters& p, const MachineLoops& machine,
-                   const study::LoopMargins& margins) {
-  const Loops of = loops_of(p, machine, 0.0);
+bool keeps_margins(const Examination& machine, const study::LoopMargins& margins) {
+  const Loops of = loops_of(machine);
   if (!none_unstable(of)) return false;
   for (const double share : {0.5, 1.0}) {
-    if (margins.delay && !none_unstable(loops_of(p, machine, share * *margins.delay))) return false;
+    if (margins.delay && !none_unstable(loops_of(machine, share * *margins.delay))) return false;
   }
   return parallel::holds_for_all(
       of.loops.size(), [&](std::size_t i) { return keeps_margins(of.loops[i].loop, margins); },
@@ -146,14 +134,13 @@ double instability(const Loops& of) {
   return fastest;
 }
 
-double shortfall_of(const trial::TrialParameters& p, const MachineLoops& machine,
-                    const study::LoopMargins& margins) {
-  const Loops of = loops_of(p, machine, 0.0);
+double shortfall_of(const Examination& machine, const study::LoopMargins& margins) {
+  const Loops of = loops_of(machine);
   if (const double fastest = instability(of); fastest > 0.0) return 1.0 + fastest;
   double missing = 0.0;
   for (const double share : {0.5, 1.0}) {
     if (!margins.delay) break;
-    const double fastest = instability(loops_of(p, machine, share * *margins.delay));
+    const double fastest = instability(loops_of(machine, share * *margins.delay));
     missing = std::max(missing, fastest / (1.0 + fastest));
   }
   for (const theory::TrialLoop& one : of.loops) {
@@ -169,11 +156,10 @@ double shortfall_of(const trial::TrialParameters& p, const MachineLoops& machine
 
 /// The delay (samples) by which the loop may grow until it is unstable, to 0.01, and the first loop that is;
 /// longest_delay where none is.
-std::pair<double, std::optional<theory::TrialLoop>> delay_margin(const trial::TrialParameters& p,
-                                                                 const MachineLoops& machine) {
+std::pair<double, std::optional<theory::TrialLoop>> delay_margin(const Examination& machine) {
   std::optional<theory::TrialLoop> first_lost;
   const auto bears = [&](double more) {
-    const Loops of = loops_of(p, machine, more);
+    const Loops of = loops_of(machine, more);
     const auto lost = std::ranges::find_if(
         of.loops, [&](const theory::TrialLoop& one) { return is_unstable(one, of.hold); });
     if (lost != of.loops.end()) first_lost = *lost;
@@ -236,18 +222,17 @@ void include_sensitivity(SmallestMargins& all, double one, const std::optional<C
   all.sensitivity_loop = of;
 }
 
-/// @param draw of the machine, or nothing
-SmallestMargins margins_of_machine(const trial::TrialParameters& p, const MachineLoops& machine,
-                                   std::optional<std::int64_t> draw, std::int64_t condition) {
+SmallestMargins margins_of_machine(const Examination& machine) {
   const auto critical = [&](const theory::TrialLoop& one) {
     const bool has_spring = !one.slides && one.stiffness > 0.0;
-    return CriticalLoop{one.name, has_spring ? std::optional(one.stiffness) : std::nullopt, draw, condition};
+    return CriticalLoop{one.name, has_spring ? std::optional(one.stiffness) : std::nullopt,
+                        machine.machine.draw, machine.machine.condition};
   };
-  const Loops of = loops_of(p, machine, 0.0);
+  const Loops of = loops_of(machine);
   SmallestMargins smallest = no_limit();
   smallest.before_sliding = of.before_sliding;
   smallest.sliding = of.sliding;
-  const auto [delay, lost] = delay_margin(p, machine);
+  const auto [delay, lost] = delay_margin(machine);
   if (lost) include(smallest.delay, smallest.delay_loop, delay, critical(*lost));
   for (const theory::TrialLoop& each : of.loops) {
     smallest.stable = smallest.stable && !is_unstable(each, of.hold);
@@ -274,6 +259,13 @@ void include(SmallestMargins& all, const SmallestMargins& one) {
 
 }  // namespace
 
+bool keeps(const SmallestMargins& margins, const study::LoopMargins& wanted) {
+  return margins.stable && margins.gain >= wanted.gain.value_or(margins.gain) &&
+         margins.phase >= wanted.phase.value_or(margins.phase) &&
+         margins.delay >= wanted.delay.value_or(margins.delay) &&
+         margins.sensitivity <= wanted.sensitivity.value_or(margins.sensitivity);
+}
+
 LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
     : conditions_(std::ssize(study.conditions)) {
   const trial::TrialParameters first = study::study_trial(study, 0, 0).parameters;
@@ -283,7 +275,7 @@ LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
   for (std::int64_t condition = 0; condition < turns.conditions; ++condition)
     alike.push_back(differ_in_stiffness_alone(study, condition, first.friction.model) ? 1 : 0);
   examined_ = std::ranges::count(alike, 0) == 0 ? machines : std::min(machines, max_unlike_machines);
-  std::vector<Machine> all(static_cast<std::size_t>(examined_ * turns.conditions));
+  std::vector<ExaminedMachine> all(static_cast<std::size_t>(examined_ * turns.conditions));
   parallel::for_each_index(all.size(), [&](std::size_t i) {
     const std::int64_t condition = static_cast<std::int64_t>(i) % turns.conditions;
     const std::int64_t trial = turns.trial_of(static_cast<std::int64_t>(i) / turns.conditions, condition);
@@ -292,8 +284,8 @@ LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
     const std::int64_t draw = static_cast<std::int64_t>(i) / turns.conditions;
     all[i] = {trial, condition, draw, spread_of_undrawn(study, condition), softest, stiffest};
   });
-  for (const Machine& one : all) {
-    const auto like_it = std::ranges::find(machines_, one.condition, &Machine::condition);
+  for (const ExaminedMachine& one : all) {
+    const auto like_it = std::ranges::find(machines_, one.condition, &ExaminedMachine::condition);
     const bool is_alike = alike[static_cast<std::size_t>(one.condition)] != 0;
     if (!is_alike || like_it == machines_.end()) {
       machines_.push_back(one);
@@ -303,21 +295,22 @@ LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
       like_it->stiffest = std::max(like_it->stiffest, one.stiffest);
     }
   }
+  // The softest and the stiffest under each condition.
   for (std::int64_t condition = 0; condition < turns.conditions; ++condition) {
-    add_critical(condition, [](const Machine& a, const Machine& b) { return a.softest < b.softest; });
-    add_critical(condition, [](const Machine& a, const Machine& b) { return a.stiffest > b.stiffest; });
+    std::optional<std::size_t> softest, stiffest;
+    for (std::size_t i = 0; i < machines_.size(); ++i) {
+      if (machines_[i].condition != condition) continue;
+      if (!softest || machines_[i].softest < machines_[*softest].softest) softest = i;
+      if (!stiffest || machines_[i].stiffest > machines_[*stiffest].stiffest) stiffest = i;
+    }
+    add_critical(*softest);
+    add_critical(*stiffest);
   }
 }
 
-template <class Less>
-void LoopExaminer::add_critical(std::int64_t condition, const Less& less) {
-  std::optional<std::size_t> first;
-  for (std::size_t i = 0; i < machines_.size(); ++i) {
-    if (machines_[i].condition != condition) continue;
-    if (!first || less(machines_[i], machines_[*first])) first = i;
-  }
-  for (const std::size_t corner : likely_worst_corners(machines_[*first].spread)) {
-    const Corner one{*first, corner};
+void LoopExaminer::add_critical(std::size_t machine) {
+  for (const std::size_t corner : likely_worst_corners(machines_[machine].spread)) {
+    const Corner one{machine, corner};
     if (std::ranges::find(critical_, one) == critical_.end()) critical_.push_back(one);
   }
 }
@@ -336,10 +329,10 @@ std::vector<LoopExaminer::Corner> LoopExaminer::examined_corners() const {
   return corners;
 }
 
-trial::TrialParameters LoopExaminer::at(const Corner& corner, const study::Study& candidate) const {
-  const Machine& machine = machines_[corner.machine];
-  return corners_of(study::study_trial(candidate, 0, machine.trial).parameters,
-                    machine.spread)[corner.corner];
+Examination LoopExaminer::at(const Corner& corner, const study::Study& candidate, bool slides) const {
+  const ExaminedMachine& machine = machines_[corner.machine];
+  const trial::TrialParameters p = study::study_trial(candidate, 0, machine.trial).parameters;
+  return {corners_of(p, machine.spread)[corner.corner], machine, slides};
 }
 
 bool LoopExaminer::may_keep(const study::Study& candidate, const study::LoopMargins& margins,
@@ -347,10 +340,7 @@ bool LoopExaminer::may_keep(const study::Study& candidate, const study::LoopMarg
   if (!is_wanted(margins)) return true;
   return parallel::holds_for_all(
       critical_.size(),
-      [&](std::size_t i) {
-        const Corner& one = critical_[i];
-        return keeps_margins(at(one, candidate), loops_with(machines_[one.machine], slides), margins);
-      },
+      [&](std::size_t i) { return keeps_margins(at(critical_[i], candidate, slides), margins); },
       "margins of a machine");
 }
 
@@ -360,10 +350,7 @@ double LoopExaminer::shortfall(const study::Study& candidate, const study::LoopM
   std::vector<double> found(critical_.size());
   parallel::for_each_index(
       critical_.size(),
-      [&](std::size_t i) {
-        const Corner& one = critical_[i];
-        found[i] = shortfall_of(at(one, candidate), loops_with(machines_[one.machine], slides), margins);
-      },
+      [&](std::size_t i) { found[i] = shortfall_of(at(critical_[i], candidate, slides), margins); },
       "shortfall of a machine");
   return std::accumulate(found.begin(), found.end(), 0.0, [](double a, double b) { return std::max(a, b); });
 }
@@ -377,10 +364,7 @@ bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins
       corners.size(),
       [&](std::size_t i) {
         if (stop.stop_requested()) throw trial::Interrupted{};
-        kept[i] = keeps_margins(at(corners[i], candidate), loops_with(machines_[corners[i].machine], slides),
-                                margins)
-                      ? 1
-                      : 0;
+        kept[i] = keeps_margins(at(corners[i], candidate, slides), margins) ? 1 : 0;
       },
       "margins of machines");
   const auto broken = std::ranges::find(kept, 0);
@@ -398,9 +382,7 @@ SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool sli
       corners.size(),
       [&](std::size_t i) {
         if (stop.stop_requested()) throw trial::Interrupted{};
-        const Machine& machine = machines_[corners[i].machine];
-        found[i] = margins_of_machine(at(corners[i], candidate), loops_with(machine, slides), machine.draw,
-                                      machine.condition);
+        found[i] = margins_of_machine(at(corners[i], candidate, slides));
       },
       "margins of machines");
   SmallestMargins all = no_limit();
@@ -420,10 +402,10 @@ std::optional<double> LoopExaminer::lowest_mode(const study::Study& candidate, b
   const auto bears = [&](double frequency) {
     if (stop.stop_requested()) throw trial::Interrupted{};
     return std::ranges::all_of(critical_, [&](const Corner& corner) {
-      const Machine& one = machines_[corner.machine];
+      const ExaminedMachine& one = machines_[corner.machine];
       trial::TrialParameters p = study::study_trial(candidate, 0, one.trial).parameters;
       p.plant = theory::with_load_mode(p.plant, frequency);
-      return none_unstable(loops_of(p, {one.softest, one.stiffest, slides}, 0.0));
+      return none_unstable(loops_of({p, one, slides}));
     });
   };
   if (is_blind()) return std::nullopt;

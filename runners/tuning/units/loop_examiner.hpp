@@ -37,6 +37,27 @@ struct SmallestMargins {
   std::vector<SmallestMargins> conditions{};  ///< [condition] those under each; empty without conditions
 };
 
+/// Whether these are at least as large as wanted.
+bool keeps(const SmallestMargins& margins, const study::LoopMargins& wanted);
+
+/// A trial of a machine under a condition, and the range of stiffness there.
+struct ExaminedMachine {
+  std::int64_t trial;
+  std::int64_t condition;
+  /// Of its trial; nothing for one that stands for all that differ in stiffness.
+  std::optional<std::int64_t> draw;
+  study::LoopSpread spread;
+  double softest;   ///< contact before it slides, N m/rad; only of a spring of k1 and k2
+  double stiffest;  ///< N m/rad
+};
+
+/// What is examined of a machine: a trial of it, with the gains of a candidate.
+struct Examination {
+  trial::TrialParameters p;
+  const ExaminedMachine& machine;
+  bool slides;
+};
+
 /// Examines whether the linear loops of the machines keep margins under every condition: at every stiffness
 /// of the contact before it slides, from k1 to k1 + k2 over the friction profile of the machine, or that of
 /// its bristles; and while the machines slide, if they do or friction has no stiffness. Each machine stands
@@ -75,17 +96,6 @@ class LoopExaminer {
                                     const std::stop_token& stop = {}) const;
 
  private:
-  /// A trial of a machine under a condition, and the range of stiffness there.
-  struct Machine {
-    std::int64_t trial;
-    std::int64_t condition;
-    /// Of its trial; nothing for one that stands for all that differ in stiffness.
-    std::optional<std::int64_t> draw;
-    study::LoopSpread spread;
-    double softest;   ///< N m/rad
-    double stiffest;  ///< N m/rad
-  };
-
   /// A machine at one of the corners of its spread (corners_of).
   struct Corner {
     std::size_t machine;
@@ -95,14 +105,12 @@ class LoopExaminer {
 
   /// All corners of a machine that stands for all; of others, which differ in more, the likely worst.
   std::vector<Corner> examined_corners() const;
-  trial::TrialParameters at(const Corner& corner, const study::Study& candidate) const;
+  Examination at(const Corner& corner, const study::Study& candidate, bool slides) const;
 
-  /// Adds the likely worst corners of the first machine under the condition in this order, if they are not
-  /// there.
-  template <class Less>
-  void add_critical(std::int64_t condition, const Less& less);
+  /// Adds the likely worst corners of the machine, if they are not there.
+  void add_critical(std::size_t machine);
 
-  std::vector<Machine> machines_;
+  std::vector<ExaminedMachine> machines_;
   std::int64_t examined_{0};    ///< machines for which they stand, under each condition
   std::int64_t conditions_{0};  ///< 0: none
   std::vector<Corner> critical_;

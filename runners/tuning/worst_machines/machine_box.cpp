@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,13 +11,25 @@
 #include "analysis/statistics/distributions.hpp"
 #include "core/failure/failure.hpp"
 #include "core/numerics/normal_distribution.hpp"
+#include "experiments/manifest_text/point_manifest.hpp"
+#include "experiments/study/condition_study.hpp"
 #include "experiments/study/measured_machines.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/point_limits.hpp"
+#include "runners/tuning/worst_machines/worst_machines.hpp"
 
 namespace zerocount::tuning {
 namespace {
 
 constexpr double tail = 0.0005;  // beyond each end of the box
+
+/// Whether an input belongs to those that are drawn with a correlation.
+bool are_correlated(const std::vector<study::MachineInput>& inputs, const study::StudyPlan& plan) {
+  return std::ranges::any_of(inputs, [&](const study::MachineInput& input) {
+    return plan.copula &&
+           std::ranges::find(plan.copula->slots, input.slots.front()) != plan.copula->slots.end();
+  });
+}
 
 /// The study with independent draws, as many as are wanted. Its profiles stay.
 study::Study searched_study(const study::Study& study, const std::vector<study::MachineInput>& inputs) {
@@ -31,6 +44,69 @@ study::Study searched_study(const study::Study& study, const std::vector<study::
   return searched;
 }
 
+using NamedValues = std::vector<std::pair<std::string, double>>;
+
+std::string not_one_number(std::string_view name) {
+  return fmt::format(
+      "{} changes with age, and is drawn per study or contact: the manifest of a machine cannot hold its "
+      "aged value",
+      name);
+}
+
+/// By which the machine with these values multiplies a value at its age.
+double age_factor(const MachineBox& box, const study::Value& value, const NamedValues& values) {
+  if (!value.aging) return 1.0;
+  const study::StudyPlan& plan = *box.study().plan;
+  const auto point = static_cast<std::size_t>(box.point());
+  const study::Aging& aging = plan.agings[*value.aging];
+  const auto drawn =
+      std::ranges::find(values, plan.table.rows[aging.rate].name, &NamedValues::value_type::first);
+  return study::factor_at_age(
+      aging, drawn != values.end() ? drawn->second : study::limits_of_slot(plan, aging.rate, point).typical,
+      study::age_at(plan, point));
+}
+
+/// Puts the values as they act at the age of the machine in place of those at age 0: its manifest has no
+/// ages.
+void let_act_at_age(manifest_text::PointChanges& changes, const MachineBox& box) {
+  const study::StudyPlan& plan = *box.study().plan;
+  if (plan.ages.empty()) return;
+  const NamedValues drawn = changes.values;
+  std::erase_if(changes.values, [](const auto& one) { return one.first.ends_with(study::suffix_of_rate); });
+  changes.removed.emplace_back("ages");
+  for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
+    const study::Value& value = *study::value_at_point(plan, slot, static_cast<std::size_t>(box.point()));
+    if (!value.aging) continue;
+    const std::string name(plan.table.rows[slot].name);
+    const double factor = age_factor(box, value, drawn);
+    const auto known = std::ranges::find(changes.values, name, &NamedValues::value_type::first);
+    if (known != changes.values.end()) {
+      known->second *= factor;
+    } else if (value.kind == study::Value::Kind::number) {
+      changes.values.emplace_back(name, factor * value.number);
+    } else if (value.kind == study::Value::Kind::profile) {
+      changes.removed.push_back(name + ".aging");
+      if (const study::Rotors& rotors = *plan.profiles[value.index]; !rotors.drawn_mean())
+        changes.values.emplace_back(name + ".profile.mean", factor * rotors.mean(0));
+    } else {
+      throw Failure(ExitCode::bad_input, not_one_number(name));
+    }
+  }
+}
+
+/// Puts the drawn means of the profiles in place of their distributions.
+void hold_means_of_profiles(manifest_text::PointChanges& changes, const MachineBox& box,
+                            const BoxPoint& point, const NamedValues& values) {
+  const study::StudyPlan& plan = *box.study().plan;
+  for (const auto& [slot, value] : box.profiles()) {
+    const study::Rotors& rotors = *plan.profiles[value->index];
+    if (rotors.drawn_mean())
+      changes.values.emplace_back(fmt::format("{}.profile.mean", plan.table.rows[slot].name),
+                                  age_factor(box, *value, values) *
+                                      rotors.mean(value->level == study::DrawLevel::rig ? point.rig : 0));
+  }
+}
+
 }  // namespace
 
 double quantile_at(double place) {
@@ -39,13 +115,6 @@ double quantile_at(double place) {
 
 double place_at(double quantile) {
   return std::clamp((quantile - tail) / (1.0 - 2.0 * tail), 0.0, 1.0);
-}
-
-bool are_correlated(const std::vector<study::MachineInput>& inputs, const study::StudyPlan& plan) {
-  return std::ranges::any_of(inputs, [&](const study::MachineInput& input) {
-    return plan.copula &&
-           std::ranges::find(plan.copula->slots, input.slots.front()) != plan.copula->slots.end();
-  });
 }
 
 MachineBox::MachineBox(study::Study study, std::int64_t point)
@@ -124,6 +193,52 @@ study::GivenDraws MachineBox::draws_of(const BoxPoint& point, std::int64_t numbe
 
 trial::TrialParameters MachineBox::trial_of(const BoxPoint& point, std::int64_t number) const {
   return study::study_trial(searched_, point_, point.rig, draws_of(point, number)).parameters;
+}
+
+std::int64_t rigs_of_manifest(const MachineBox& box, const BoxPoint& point) {
+  return box.has_profile_per_rig() ? std::max<std::int64_t>(point.rig + 1, 2) : 1;
+}
+
+std::string manifest_of(const MachineBox& box, const BoxPoint& point, const NamedValues& values,
+                        const MachineManifest& manifest) {
+  const study::Study& study = box.study();
+  manifest_text::PointChanges changes{
+      .condition = manifest.condition, .values = values, .folder = manifest.folder.value_or("")};
+  changes.removed = {"design", "worlds", "retain"};
+  let_act_at_age(changes, box);
+  if (are_correlated(box.inputs(), *study.plan)) changes.removed.emplace_back("correlation");
+  hold_means_of_profiles(changes, box, point, values);
+  for (const study::MachineInput& input : box.inputs()) {
+    const std::vector<std::uint32_t>& rows = study.plan->sampled_slots;
+    if (std::ranges::find(rows, input.slots.front()) != rows.end()) changes.removed.emplace_back("samples");
+  }
+  const std::int64_t rigs = rigs_of_manifest(box, point);
+  changes.keys.emplace_back("trials", fmt::format("{}", manifest.trials * rigs));
+  if (box.has_profile_per_rig()) {
+    changes.keys.emplace_back("rigs", fmt::format("{}", rigs));
+  } else {
+    changes.removed.emplace_back("rigs");
+    for (const study::Goal& goal : study.goals)
+      changes.removed.push_back(goal.name.empty() ? "goal.machines" : "goals." + goal.name + ".machines");
+  }
+  // A profile is drawn with the seed.
+  if (box.profiles().empty()) changes.keys.emplace_back("seed", fmt::format("{}", study.seed + 1));
+  return manifest_text::manifest_of_point(study, box.point(), changes);
+}
+
+std::string refusal_of_manifests(const study::Study& study, std::int64_t point) {
+  const study::StudyPlan& plan = *study.plan;
+  for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
+    for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
+      const study::Value& value =
+          *study::value_at_point(plan, slot, study::plan_point(plan, point, condition));
+      const bool is_shared =
+          value.level == study::DrawLevel::contact || value.level == study::DrawLevel::study;
+      if (value.aging && value.kind == study::Value::Kind::distribution && is_shared)
+        return not_one_number(plan.table.rows[slot].name);
+    }
+  }
+  return "";
 }
 
 }  // namespace zerocount::tuning

@@ -2,6 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -29,9 +32,6 @@ enum class MachineRegion { box, likely };
 double quantile_at(double place);
 /// Its inverse; 0 or 1 for a quantile outside the box.
 double place_at(double quantile);
-
-/// Whether an input belongs to those that are drawn with a correlation.
-bool are_correlated(const std::vector<study::MachineInput>& inputs, const study::StudyPlan& plan);
 
 /// The machines of a point of a study: those within the central 99.9 % of each input.
 class MachineBox {
@@ -69,5 +69,25 @@ class MachineBox {
   std::vector<std::pair<std::size_t, const study::Value*>> profiles_;
   bool has_profile_per_rig_{false};
 };
+
+/// How the manifest of a machine is written.
+struct MachineManifest {
+  std::string condition{};                        ///< its name; empty: there is none
+  std::optional<std::filesystem::path> folder{};  ///< from which the study's manifest names its files
+  std::int64_t trials{0};                         ///< of the machine
+};
+
+/// The rigs of the machine's manifest: more than one only where a profile belongs to a rig. The machine is
+/// the last rig, and its trials are every rigs_of_manifest()-th from there on.
+std::int64_t rigs_of_manifest(const MachineBox& box, const BoxPoint& point);
+
+/// The manifest of a machine: values in place of their distributions, as they act at its age, and all else
+/// as in the study.
+/// @param values of the inputs of the machine, by their names
+/// @throws Failure (bad_input) for a value with aging that is drawn anew for each contact, or once for all
+/// machines
+std::string manifest_of(const MachineBox& box, const BoxPoint& point,
+                        const std::vector<std::pair<std::string, double>>& values,
+                        const MachineManifest& manifest);
 
 }  // namespace zerocount::tuning

@@ -4,9 +4,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "analysis/measures/goal_counts.hpp"
+#include "core/failure/failure.hpp"
 #include "core/random/number_source.hpp"
 #include "experiments/designs/random_key.hpp"
+#include "experiments/manifest/load_study.hpp"
 #include "experiments/study/condition_study.hpp"
+#include "experiments/study/plan.hpp"
+#include "runners/trials/trial_set.hpp"
 #include "runners/tuning/race/search_space.hpp"
 #include "runners/tuning/worst_machines/machine_race.hpp"
 
@@ -14,11 +19,116 @@ namespace zerocount::tuning {
 namespace {
 
 constexpr std::int64_t trials_of_verdict = 256;
+constexpr std::int64_t judged_at_once = 64;
 constexpr std::size_t worst_rigs = 4;
 constexpr std::size_t max_corners = 64;
 constexpr std::size_t filling_points = 128;
 constexpr int generations = 8;
 constexpr std::size_t children = 32;
+
+/// Names the goal and the condition of the machine's claim.
+void name_claim(const study::Study& study, WorstMachine& machine) {
+  if (has_named_claims(study)) machine.goal = goal_name(study, machine.claim);
+  machine.condition = condition_name(study, machine.claim);
+}
+
+/// Values of what differs between the machines of the study, by their names.
+std::vector<std::pair<std::string, double>> inputs_of_machine(const study::Study& study, std::int64_t point,
+                                                              const WorstMachine& machine) {
+  std::vector<std::pair<std::string, double>> named;
+  const bool of_rig =
+      study.rigs > 0 && (!study.columns.rigs.empty() || (study.worlds > 0 && !study.columns.worlds.empty()));
+  const bool has_conditions = !study.conditions.empty();  // what they override is an input of trials
+  const std::vector<study::InputColumn>& columns =
+      of_rig && !has_conditions ? study.columns.rigs : study.columns.inputs;
+  const std::vector<double> inputs = of_rig && !has_conditions
+                                         ? study::rig_inputs(study, machine.rig)
+                                         : study::study_trial(study, point, machine.trial).inputs;
+  const auto is_of_machine = [&](const study::InputColumn& column) {
+    return !of_rig || !has_conditions || column.level < study::DrawLevel::trial;
+  };
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (is_of_machine(columns[i])) named.emplace_back(columns[i].name, inputs[i]);
+  }
+  if (of_rig && !has_conditions && study.worlds > 0) {
+    const std::vector<double> of_world = study::world_inputs(study, study::world_of(study, machine.rig));
+    for (std::size_t i = 0; i < of_world.size(); ++i)
+      named.emplace_back(study.columns.worlds[i].name, of_world[i]);
+  }
+  return named;
+}
+
+/// The trials of the machine's manifest.
+/// @throws Failure where no manifest describes it
+std::vector<trial::TrialParameters> trials_of_manifest(const JudgedMachine& machine, const MachineBox& box,
+                                                       std::int64_t first, std::int64_t step,
+                                                       std::int64_t count) {
+  const study::Study alone =
+      manifest::parse_study(machine.manifest, box.study().name, {}, sections::companions_of(box.study()));
+  std::vector<trial::TrialParameters> trials;
+  for (std::int64_t i = 0; i < count; ++i)
+    trials.push_back(study::study_trial(alone, 0, first + i * step).parameters);
+  return trials;
+}
+
+/// Of several goals the one that the moves meet the least often.
+std::optional<std::string> worst_goal(const study::Study& study,
+                                      std::span<const trial::TrialOutcome> outcomes) {
+  std::vector<double> met;  // [goal]
+  for (const measures::CountedGoal& goal : measures::asked_of_moves(study)) {
+    ClaimResult count;
+    for (const trial::TrialOutcome& outcome : outcomes) {
+      for (const trial::MoveOutcome& move : outcome.moves) {
+        if (!measures::asks(goal, move)) continue;
+        ++count.moves;
+        count.met += measures::meets(goal, move) ? 1 : 0;
+      }
+    }
+    met.push_back(met_proportion(count));
+  }
+  if (met.size() < 2) return std::nullopt;
+  return goal_name(study, {static_cast<std::size_t>(std::ranges::min_element(met) - met.begin()), 0});
+}
+
+/// Judges a machine by the trials of its manifest.
+/// @throws trial::Interrupted, trials::Spent
+JudgedMachine judged(const BoxPoint& point, const MachineBox& box, const MachineFailures& failures,
+                     const MachineManifest& manifest, const trials::Effort& effort) {
+  const study::Study& study = box.study();
+  JudgedMachine machine;
+  machine.rig = point.rig;
+  machine.quantiles = point.quantiles;
+  for (std::size_t i = 0; i < box.inputs().size(); ++i) {
+    for (const auto& one : study::values_at_quantile(study, box.point(), box.inputs()[i], point.quantiles[i]))
+      machine.inputs.push_back(one);
+  }
+  const std::int64_t step = rigs_of_manifest(box, point);
+  std::vector<trial::TrialParameters> trials;
+  std::int64_t first = 0;
+  try {
+    machine.manifest = manifest_of(box, point, machine.inputs, manifest);
+    first = box.has_profile_per_rig() ? point.rig : 0;
+    trials = trials_of_manifest(machine, box, first, step, manifest.trials);
+  } catch (const Failure& failure) {
+    if (failure.code() != ExitCode::bad_input && failure.code() != ExitCode::bad_data) throw;
+    machine.manifest.clear();
+    machine.no_manifest = failure.what();
+    for (std::int64_t i = 0; i < manifest.trials; ++i)
+      trials.push_back(box.trial_of(point, study.trials + stage_trials.back() + i));
+  }
+  const std::vector<trial::TrialOutcome> outcomes = trials::results_of(
+      manifest.trials, judged_at_once, [&](std::int64_t i) { return trials[static_cast<std::size_t>(i)]; },
+      effort, [](const trial::TrialOutcome& outcome) { return outcome; });
+  ClaimResult result;
+  failures.add_to(result, outcomes);
+  machine.moves = result.moves;
+  machine.met = met_proportion(result);
+  machine.goal = worst_goal(study, outcomes);
+  const auto last = std::ranges::max_element(result.values) - result.values.begin();
+  const std::int64_t asked = result.moves / manifest.trials;
+  machine.trial = first + last / asked * step;
+  return machine;
+}
 
 /// The search under one condition.
 class MachineSearch {
@@ -76,8 +186,6 @@ class MachineSearch {
     });
     return order;
   }
-
-  static const ClaimResult& worst_result(const UnitResult& unit) { return unit.claims[worst_claim(unit)]; }
 
   BoxPoint worst_in(MachineRegion region, const std::vector<std::int64_t>& order) {
     std::vector<BoxPoint> population = first_points(region, order);
@@ -142,6 +250,25 @@ class MachineSearch {
 };
 
 }  // namespace
+
+WorstMachine worst_machine(const study::Study& study, std::int64_t point,
+                           std::span<const UnitResult> results) {
+  const std::size_t unit = worst_unit(results);
+  const std::size_t claim = worst_claim(results[unit]);
+  const ClaimResult& result = results[unit].claims[claim];
+  WorstMachine machine{
+      static_cast<std::int64_t>(unit), 0, met_proportion(result), {}, place_of_claim(study, claim)};
+  const std::int64_t asked =
+      measures::asked_moves(measures::asked_of_moves(study)[machine.claim.goal], study.moves);
+  const std::int64_t trial_under_condition =
+      (std::ranges::max_element(result.values) - result.values.begin()) / asked;
+  machine.trial = trials::trial_of_replicate(study, {.count = std::ssize(results)}, machine.rig,
+                                             trial_under_condition * study::condition_count(study) +
+                                                 static_cast<std::int64_t>(machine.claim.condition));
+  machine.inputs = inputs_of_machine(study, point, machine);
+  name_claim(study, machine);
+  return machine;
+}
 
 std::int64_t trials_of_worst_machines(const study::Study& study, const trials::Replicates& units) {
   // A race takes 4 trials of each machine, 12 more of a quarter, and 48 more of a quarter of these.

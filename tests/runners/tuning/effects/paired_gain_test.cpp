@@ -1,5 +1,5 @@
 // A cause is shown where more machines gain by it than chance explains.
-#include "runners/tuning/effects/paired_gain.hpp"
+#include "runners/tuning/effects/limits.hpp"
 
 #include <cmath>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "runners/tuning/race/landscape.hpp"
+#include "runners/tuning/race/tried_points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +26,22 @@ bool is_telling(const Aim& aim, const Estimate& estimate) {
 }
 
 }  // namespace
+
+std::vector<TriedPoint> frontier_of(std::span<const TriedPoint> tried, std::int64_t units) {
+  std::vector<TriedPoint> points;
+  std::ranges::copy_if(tried, std::back_inserter(points),
+                       [units](const TriedPoint& one) { return one.estimate.units >= units; });
+  std::ranges::stable_sort(points, [](const TriedPoint& a, const TriedPoint& b) {
+    if (a.estimate.criterion != b.estimate.criterion) return a.estimate.criterion < b.estimate.criterion;
+    return a.estimate.rate > b.estimate.rate;
+  });
+  std::vector<TriedPoint> frontier;
+  for (TriedPoint& one : points) {
+    if (frontier.empty() || one.estimate.rate > frontier.back().estimate.rate)
+      frontier.push_back(std::move(one));
+  }
+  return frontier;
+}
 
 bool Landscape::leads() const {
   return varies && telling >= fewest && telling * one_in >= points;

@@ -1,7 +1,10 @@
-// Rates that led a search show that a goal is out of reach; a rate of 0 nearly everywhere does not.
-#include "runners/tuning/race/landscape.hpp"
+// The frontier between success and speed. Rates that led a search show that a goal is out of reach; a rate of
+// 0 nearly everywhere does not.
+#include "runners/tuning/race/tried_points.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -59,6 +62,34 @@ TEST(Landscape, DecidesAMissedGoalOnlyTogetherWithTheSearch) {
   EXPECT_FALSE((MissedSearch{.all_tried = false, .landscape = leads}.shows_unreachable()));
   EXPECT_FALSE(
       (MissedSearch{.landscape = {.points = 100, .telling = 0, .varies = true}}.shows_unreachable()));
+}
+
+TEST(Frontier, HasThePointsThatNoOtherBeatsInBoth) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> number(0, 30);
+  for (int round = 0; round < 50; ++round) {
+    std::vector<TriedPoint> tried;
+    for (int i = 0; i < 60; ++i) {
+      TriedPoint point{{double(i)}, {}};
+      point.estimate = {number(random) / 30.0, 0.0, number(random) * 0.01, number(random) < 25 ? 512 : 64};
+      tried.push_back(point);
+    }
+    const std::vector<TriedPoint> frontier = frontier_of(tried, 512);
+    const auto is_on_frontier = [&](const TriedPoint& one) {
+      return std::ranges::any_of(frontier, [&](const TriedPoint& other) {
+        return other.estimate.rate == one.estimate.rate && other.estimate.criterion == one.estimate.criterion;
+      });
+    };
+    for (const TriedPoint& one : tried) {
+      if (one.estimate.units < 512) continue;
+      const bool beaten = std::ranges::any_of(tried, [&](const TriedPoint& other) {
+        return other.estimate.units >= 512 && other.estimate.rate >= one.estimate.rate &&
+               other.estimate.criterion <= one.estimate.criterion &&
+               (other.estimate.rate > one.estimate.rate || other.estimate.criterion < one.estimate.criterion);
+      });
+      EXPECT_EQ(is_on_frontier(one), !beaten);
+    }
+  }
 }
 
 }  // namespace

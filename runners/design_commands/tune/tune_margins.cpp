@@ -257,7 +257,7 @@ void add_margins(Items& items) {
               "Hz"),
       [](Of t) { return t.answer.lowest_mode; });
   for (const Margin& one : all_margins) {
-    items.object(in_data(std::string(one.loop_key), fmt::format("the loop that has the worst {}", one.name)),
+    items.object(in_data(std::string(one.loop_key), fmt::format("the loop that has the worst {}", one.title)),
                  loop_description(), [loop = one.loop](Of t) -> std::optional<LoopReading> {
                    if (!t.answer.margins || !((*t.answer.margins).*loop)) return {};
                    return LoopReading{*((*t.answer.margins).*loop), t.study};

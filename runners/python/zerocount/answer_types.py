@@ -1413,7 +1413,7 @@ class Worst(Record):
 
 
 class GainMarginLoop(Record):
-    """The loop that has the worst gain_margin.
+    """The loop that has the worst gain margin.
 
     Attributes
     ----------
@@ -1434,7 +1434,7 @@ class GainMarginLoop(Record):
 
 
 class PhaseMarginLoop(Record):
-    """The loop that has the worst phase_margin.
+    """The loop that has the worst phase margin.
 
     Attributes
     ----------
@@ -1455,7 +1455,7 @@ class PhaseMarginLoop(Record):
 
 
 class DelayMarginLoop(Record):
-    """The loop that has the worst delay_margin.
+    """The loop that has the worst delay margin.
 
     Attributes
     ----------
@@ -1543,8 +1543,6 @@ class TuneAnswer(Answer):
 
     nearest : Nearest or None
         The point that comes nearest to the margins, where none keeps them.
-    obstacles : list[str]
-        What theory says of a goal that is not met.
     claims : pandas.DataFrame
         Each goal under each condition, by the proof; the bounds allow for its attempts.
 
@@ -1563,6 +1561,8 @@ class TuneAnswer(Answer):
         - ``within``: settling time that the goal allows, s
         - ``status``: verdict on the goal under the condition
 
+    obstacles : list[str]
+        What theory says of a goal that is not met.
     proof : Proof or None
         Trials of the tuned values on machines that the search never saw.
     needed : Needed or None
@@ -1601,11 +1601,11 @@ class TuneAnswer(Answer):
     lowest_mode : float or None
         Frequency from which on the loops bear a mode of half of the inertia, which the study lacks, Hz.
     gain_margin_loop : GainMarginLoop or None
-        The loop that has the worst gain_margin.
+        The loop that has the worst gain margin.
     phase_margin_loop : PhaseMarginLoop or None
-        The loop that has the worst phase_margin.
+        The loop that has the worst phase margin.
     delay_margin_loop : DelayMarginLoop or None
-        The loop that has the worst delay_margin.
+        The loop that has the worst delay margin.
     sensitivity_loop : SensitivityLoop or None
         The loop that has the worst sensitivity.
     margins_by_condition : pandas.DataFrame or None
@@ -1649,36 +1649,6 @@ class TuneAnswer(Answer):
         - ``holds``: whether every goal is met under every condition
         - ``rate``: proportion of moves, or of machines, that meet the worst goal; of seeds the lowest
         - ``note``: what stayed, or why there is no rate
-
-    retune_every : float or None
-        Interval of life at which it was tuned again, in the unit of ages.
-    retuning : pandas.DataFrame
-        Values for each interval of life, with --retune-every.
-
-        - ``from``: beginning of the interval, in the unit of ages
-        - ``to``: its end
-        - ``gains``: values for the interval by parameter; none if none keep the margins
-        - ``criterion_name``: quantity that is minimised, with its unit
-        - ``criterion_one_set``: the criterion, the largest of the interval, with the values for the whole life; unknown
-          for never
-        - ``criterion``: the same with the values of the interval
-        - ``machines``: fresh machines, or draws, that it was simulated on
-
-    retuned_ages : pandas.DataFrame
-        Rates of each goal under each condition at the ages of each interval, on fresh machines that are the same for
-        both sets of values.
-
-        - ``from``: beginning of the interval, in the unit of ages
-        - ``age``: age of the interval, up to its end
-        - ``goal``: name of the goal, of several
-        - ``condition``: name of the condition, with conditions
-        - ``one_set``: proportion of moves, or of machines, that meet the goal with the values for the whole life, with
-          one-sided bounds
-        - ``one_set_low``: lower bound
-        - ``one_set_high``: upper bound
-        - ``retuned``: the same with the values of the interval; null: none keep the margins
-        - ``retuned_low``: lower bound
-        - ``retuned_high``: upper bound
 
     alternatives : pandas.DataFrame
         Simpler and other controls at their own best values.
@@ -1731,8 +1701,8 @@ class TuneAnswer(Answer):
     gains: dict[str, float | None]
     refusals: pandas.DataFrame
     nearest: Nearest | None
-    obstacles: list[str]
     claims: pandas.DataFrame
+    obstacles: list[str]
     proof: Proof | None
     needed: Needed | None
     at_edges: list[str]
@@ -1752,9 +1722,6 @@ class TuneAnswer(Answer):
     ages_tried_to: float | None
     room: dict[str, list[float | None]]
     robustness: pandas.DataFrame
-    retune_every: float | None
-    retuning: pandas.DataFrame
-    retuned_ages: pandas.DataFrame
     alternatives: pandas.DataFrame
     limits: pandas.DataFrame
     frontier: pandas.DataFrame

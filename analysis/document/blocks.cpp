@@ -100,7 +100,7 @@ struct ValueText {
 
 /// The unit as it is shown beside numbers in this notation.
 std::string shown_unit(const Item& item) {
-  const bool is_text = item.kind_for_people == Kind::text;
+  const bool is_text = item.kind_for_people == Kind::text && !item.numeric;
   return item.unit == "1" || is_percent(item.notation) || is_text ? "" : item.unit;
 }
 
@@ -185,13 +185,11 @@ ItemWithRows own_table(const Item& outer, const Rows& rows, const std::string& t
     has_rows = has_rows || member.kind == Kind::table;
     member.own_table.clear();
     if (!member.note.empty()) own.item.note += (own.item.note.empty() ? "" : "\n") + member.note;
-    const std::vector<Item> columns =
-        member.kind == Kind::table || member.kind == Kind::object ? member.members : std::vector{member};
-    if (member.kind == Kind::object) {
-      member.heading.clear();  // beside the others
-      own.item.members.push_back(std::move(member));
+    if (member.kind == Kind::table) {
+      own.item.members.insert(own.item.members.end(), member.members.begin(), member.members.end());
     } else {
-      own.item.members.insert(own.item.members.end(), columns.begin(), columns.end());
+      if (member.kind == Kind::object) member.heading.clear();  // its members stand beside the others
+      own.item.members.push_back(std::move(member));
     }
   }
   for (const Members& row : rows.rows) {
@@ -229,16 +227,15 @@ std::vector<std::string> sentences_of(const std::vector<Item>& items, const Memb
   return sentences;
 }
 
-/// The sentences of the rows of such a table, behind the names of the rows, and its note.
-std::string text_below(const ItemWithRows& own, bool is_named) {
+/// The sentences of the rows of such a table, a line each behind the name of its row.
+std::string sentences_below(const ItemWithRows& own, bool is_named) {
   std::string text;
   for (const Members& row : own.rows.rows) {
     const std::string name =
         is_named ? shown_value(own.item.members.front(), shown_content(row.contents.front())) + ": " : "";
     for (const std::string& one : sentences_of(own.item.members, row)) text += name + one + "\n";
   }
-  if (own.item.note.empty() && !text.empty()) text.pop_back();
-  return text + own.item.note;
+  return text;
 }
 
 class BlockList {
@@ -310,9 +307,16 @@ class BlockList {
       if (own.rows.rows.empty()) continue;
       const bool is_named = rows.rows.size() > 1;
       TableBlock table = table_block(own.item, own.rows);
-      if (table.columns.size() > (is_named ? 1U : 0U)) blocks_.emplace_back(std::move(table));
-      if (std::string text = text_below(own, is_named); !text.empty())
-        blocks_.emplace_back(SentenceBlock{std::move(text)});
+      std::string text = sentences_below(own, is_named);
+      if (table.columns.size() > (is_named ? 1U : 0U)) {
+        blocks_.emplace_back(std::move(table));
+      } else if (!text.empty()) {
+        blocks_.emplace_back(SectionBlock{title});
+      } else {
+        continue;
+      }
+      text += own.item.note;
+      if (!text.empty()) blocks_.emplace_back(SentenceBlock{std::move(text)});
       add_own_tables(own.item, own.rows);
     }
   }

@@ -78,26 +78,26 @@ summary_answer::PointDescription time_columns(const summary::StudySummary& summa
 
 /// What the report says of zero counts beyond the summary.
 document::Description<SummaryReading> zero_count_description(const summary::StudySummary& summary) {
-  document::Description<SummaryReading> tables = summary_answer::zero_count_tables(summary);
+  const std::string of_rigs = summary.features.rigs
+                                  ? " Sd between rigs: standard deviation of the success probability. Worst "
+                                    "5 % of rigs: mean observed success rate of the rigs with the lowest "
+                                    "rates."
+                                  : "";
+  document::Description<SummaryReading> tables;
   if (summary.features.open_loop) return tables;
   return tables
-      .table({.heading = "trials by their worst move"}, outcome_columns(summary), &SummaryReading::points)
-      .sentence([](const SummaryReading& s) {
-        return std::string(
-                   "Undecided: a move ended off target (stalled or still moving); it is neither stable "
-                   "nor shown unstable.") +
-               (s.summary.features.rigs ? " Sd between rigs: standard deviation of the success probability. "
-                                          "Worst 5 % of rigs: mean observed success rate of the rigs with "
-                                          "the lowest rates."
-                                        : "");
-      })
-      .table({.heading = "times with their bounds"}, time_columns(summary), &SummaryReading::points)
-      .sentence([](const SummaryReading&) {
-        return std::string(
-            "Arrival: the error is first 0 for the whole dwell. Settled ±b: the error stays within b counts "
-            "from then to the end of the move. Quantiles are those of all moves, with order-statistic "
-            "bounds; moves that never arrived, or end outside, are later than all others.");
-      });
+      .table(
+          {.heading = "trials by their worst move",
+           .note = "Undecided: a move ended off target (stalled or still moving); it is neither stable nor "
+                   "shown unstable." +
+                   of_rigs},
+          outcome_columns(summary), &SummaryReading::points)
+      .table({.heading = "times with their bounds",
+              .note = "Arrival: the error is first 0 for the whole dwell. Settled ±b: the error stays within "
+                      "b counts from then to the end of the move. Quantiles are those of all moves, with "
+                      "order-statistic bounds; moves that never arrived, or end outside, are later than all "
+                      "others."},
+             time_columns(summary), &SummaryReading::points);
 }
 
 /// The points that fit into the table.
@@ -125,7 +125,7 @@ std::string points_html(const ReportedStudy& reported) {
   document::Description<SummaryReading> tables;
   const auto same = [](const SummaryReading& s) -> const SummaryReading& { return s; };
   tables.sentence([](const SummaryReading& s) { return summary_answer::design_line(s.summary); })
-      .include(summary_answer::question_tables(summary), same);
+      .include(summary_answer::point_tables(summary), same);
   if (!summary.question.claim()) tables.include(zero_count_description(summary), same);
   std::string html = html_of(reported, std::move(tables));
   const std::size_t shown = first_points(reported).size();

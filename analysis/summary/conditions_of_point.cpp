@@ -10,7 +10,6 @@
 #include "analysis/goal/question.hpp"
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/text/percent.hpp"
 
 namespace zerocount::summary {
 namespace {
@@ -115,31 +114,6 @@ document::Description<ConditionOfPoint> condition_description(const goal::Questi
          .optional = true},
         [](Of c) { return c.status ? std::optional(std::string(goal::text_of(*c.status))) : std::nullopt; });
   return description;
-}
-
-std::string conditions_sentence(const StudySummary& summary,
-                                const std::vector<ConditionOfPoint>& conditions) {
-  if (conditions.empty()) return {};
-  const ConditionOfPoint& worst = conditions[worst_condition(conditions)];
-  std::string lowest =
-      fmt::format("lowest{}: {} of {}", under_text(summary.question, worst_condition(conditions)),
-                  text::percent_near(worst.rate.value), goal::judged_meeting(summary.question));
-  if (!summary.question.claim()) return lowest;
-  const bool one_kind = !has_several(summary.question);
-  const bool ages = !summary.question.ages.at.empty();  // whose names have commas
-  const std::string_view under = ages ? "at" : "under";
-  const std::string_view between = ages ? "; " : ", ";
-  std::string text;
-  for (const goal::Status status : {goal::Status::missed, goal::Status::undecided, goal::Status::met}) {
-    std::vector<std::string> names;
-    for (const ConditionOfPoint& one : conditions) {
-      if (one.status == status) names.push_back(one.name);
-    }
-    if (names.empty()) continue;
-    text += fmt::format("{}{} {} {}", text.empty() ? "the goal is " : ", ", goal::text_of(status), under,
-                        fmt::join(names, between));
-  }
-  return one_kind ? text + "; " + lowest : text;  // rates of several goals are not alike
 }
 
 std::string averaged_over(const StudySummary& summary) {

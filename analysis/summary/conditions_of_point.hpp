@@ -35,9 +35,6 @@ std::size_t worst_condition(const std::vector<ConditionOfPoint>& conditions);
 
 document::Description<ConditionOfPoint> condition_description(const goal::Question& question);
 
-/// "the goal is missed under condition loaded (82.1 %), met under empty"; without a goal the lowest rate.
-std::string conditions_sentence(const StudySummary& summary, const std::vector<ConditionOfPoint>& conditions);
-
 /// "on average over the worlds and conditions: ", for what is of all trials; empty where they are all alike.
 std::string averaged_over(const StudySummary& summary);
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/document/description.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/worlds/world_statistics.hpp"
 
@@ -29,5 +30,16 @@ inline const std::vector<worlds::WorldInput>& world_inputs_of(const StudySummary
 std::string bad_worlds_sentence(const worlds::PointWorlds& point,
                                 const std::vector<worlds::WorldInput>& inputs,
                                 const goal::Question& question);
+
+/// The worlds at a design point, and what differs between them.
+struct WorldsReading {
+  const worlds::PointWorlds& point;
+  const std::vector<worlds::WorldInput>& inputs;
+  const goal::Question& question;
+};
+
+/// Rates and verdicts by world, the bad worlds and the rule that tells them apart; people are shown the rates
+/// that the study is judged by.
+document::Description<WorldsReading> worlds_description(const goal::Question& question);
 
 }  // namespace zerocount::summary

@@ -67,7 +67,6 @@ void add_people_columns(document::Description<LevelReading>& level, const summar
     return document::Item{.heading = parameters::text_on(axis, heading),
                           .meaning = parameters::text_on(axis, meaning),
                           .unit = std::move(unit),
-                          .shown = Shown::to_people,
                           .numeric = true};
   };
   level
@@ -101,21 +100,27 @@ document::Description<LevelReading> level_description(const summary::StudySummar
   level
       .value({.key = "point", .meaning = "number of the design point", .shown = Shown::in_csv},
              [](Level l) { return l.point.point; })
-      .value({.key = "label", .meaning = "label of the design point", .shown = Shown::in_csv},
-             [](Level l) { return l.point.label(); })
-      .value({.heading = "point", .shown = Shown::to_people}, [](Level l) { return l.point.label(); });
-  add_axes(level, summary, [](Level l) -> const PointReading& { return l.point; });
+      .value({.key = "label",
+              .heading = "point",
+              .meaning = "label of the design point",
+              .shown = Shown::not_in_json},
+             [](Level l) { return l.point.label(); });
+  for (const study::SweepAxis& swept : summary.axes)
+    level.value({.key = swept.name, .meaning = swept.meaning, .unit = swept.unit, .shown = Shown::in_csv},
+                [&swept](Level l) { return value_at(swept, l.point); });
   level.value({.key = "level", .heading = "level", .meaning = "number of the torque level"},
               &LevelReading::level);
   measures::add_fields(level, measures::level_fields(summary.table()), axis,
                        [](Level l) -> const measures::LevelStatistics& { return l.statistics(); });
   add_people_columns(level, summary);
   return level
-      .value({.key = "observed", .meaning = "what was observed on the real rig", .shown = Shown::in_csv},
+      .value({.key = "observed",
+              .heading = "observed",
+              .meaning = "what was observed on the real rig",
+              .shown = Shown::not_in_json},
              [](Level l) { return summary::observed_at(l.point.summary, l.point.point); })
-      .value({.heading = "observed", .shown = Shown::to_people}, [](Level l) {
-        return l.level == 0 ? summary::observed_at(l.point.summary, l.point.point) : "";
-      });
+      .shown_as(
+          [](Level l) { return l.level == 0 ? summary::observed_at(l.point.summary, l.point.point) : ""; });
 }
 
 }  // namespace zerocount::summary_answer

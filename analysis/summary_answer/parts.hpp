@@ -22,14 +22,10 @@ using SummaryDescription = document::Description<SummaryReading>;
 using AxisValue = std::variant<double, std::string>;
 AxisValue value_at(const study::SweepAxis& axis, const PointReading& point);
 
-/// The columns of the swept parameters in CSV. @param point_of gives the point of a row, by reference
-template <class Row, class Get>
-void add_axes(document::Description<Row>& description, const summary::StudySummary& summary, Get point_of) {
-  for (const study::SweepAxis& axis : summary.axes)
-    description.value(
-        {.key = axis.name, .meaning = axis.meaning, .unit = axis.unit, .shown = document::Shown::in_csv},
-        [&axis, point_of](const Row& row) { return value_at(axis, point_of(row)); });
-}
+/// What tells points apart: number, label, and the swept parameters, with a column for each where these are
+/// few. In a grid, whose labels only repeat the swept values, people are shown the number of the point in
+/// place of the label. A star marks the chosen point among several.
+void add_axes(PointDescription& point, const summary::StudySummary& summary);
 
 /// "95 % bounds", with the confidence of the summary.
 std::string bounds_head(const summary::StudySummary& summary);
@@ -37,30 +33,18 @@ std::string bounds_head(const summary::StudySummary& summary);
 /// The number of trials of every point; nothing where points differ in it.
 std::optional<std::int64_t> trials_of_each(const summary::StudySummary& summary);
 
-/// The columns that tell points apart: their labels, and a column for each swept parameter with its unit in
-/// the head, where these are few. In a grid, whose labels only repeat the swept values, the number of the
-/// point takes the place of the label. A star marks the chosen point among several.
-void add_swept_columns(PointDescription& point, const summary::StudySummary& summary);
-
-/// The columns for people of a study with targets, the most important first: what the study is judged by.
+/// The columns for people of a study with targets, the most important first: what the study is judged by,
+/// then zero counts, arrival, jerks, stability and the paper's criteria, in a table of their own where the
+/// study has a goal.
 void add_question_columns(PointDescription& point, const summary::StudySummary& summary);
 
-/// Likewise zero counts, arrival, jerks, stability and the paper's criteria, which a study without a goal is
-/// judged by.
-void add_zero_count_columns(PointDescription& point, const summary::StudySummary& summary);
+/// The title of that table; empty where a study is judged by zero counts.
+inline const char* zero_count_table(const summary::StudySummary& summary) {
+  return summary.question.claim() ? "zero counts" : "";
+}
 
 /// The short labels of the points.
 std::function<std::string(const PointReading&)> short_label(const summary::StudySummary& summary);
-
-/// The points that are so, in their order.
-template <class Is>
-std::vector<std::reference_wrapper<const PointReading>> points_that(const SummaryReading& summary, Is is) {
-  std::vector<std::reference_wrapper<const PointReading>> points;
-  for (const PointReading& point : summary.points) {
-    if (is(point)) points.emplace_back(point);
-  }
-  return points;
-}
 
 /// The description of the table of a part, with the column "point".
 PointDescription labelled_points(const summary::StudySummary& summary);
@@ -68,29 +52,17 @@ PointDescription labelled_points(const summary::StudySummary& summary);
 void add_goal(PointDescription& point, const summary::StudySummary& summary);
 document::Description<goal::Verdict> verdict_description(const goal::Question& question, bool on_rigs);
 
-/// Whether the counts on the real rig are consistent with the simulated trials.
-void add_observed(PointDescription& point, const summary::StudySummary& summary);
-void add_observed(SummaryDescription& answer, const summary::StudySummary& summary);
-
 /// Moves that are off target: their numbers, and the hold that would decide them.
 void add_undecided(PointDescription& point, const summary::StudySummary& summary);
-void add_undecided(SummaryDescription& answer, const summary::StudySummary& summary);
 
-/// The rates of the worlds, and what the bad ones have in common.
-void add_worlds(PointDescription& point, const summary::StudySummary& summary);
-void add_worlds(SummaryDescription& answer, const summary::StudySummary& summary);
+/// Whether the counts on the real rig are consistent with the simulated trials.
+void add_observed(PointDescription& point, const summary::StudySummary& summary);
 
-/// Each goal under each condition, of a study with several claims.
-void add_claims(PointDescription& point, const summary::StudySummary& summary);
+/// The rates of the worlds, and what the bad ones have in common; the point under each condition, at each
+/// age; and of a study with several claims each goal under each condition.
+void add_cells(PointDescription& point, const summary::StudySummary& summary);
+/// The claims on the chosen point, for people.
 void add_claims(SummaryDescription& answer, const summary::StudySummary& summary);
-
-/// What the trials show under each condition, and which is the worst.
-void add_conditions(PointDescription& point, const summary::StudySummary& summary);
-void add_conditions(SummaryDescription& answer, const summary::StudySummary& summary);
-
-/// What the trials and machines show at each age, and up to which the goal is met.
-void add_ages(PointDescription& point, const summary::StudySummary& summary);
-void add_ages(SummaryDescription& answer, const summary::StudySummary& summary);
 
 /// The bounds of the success rate that hold although the study looked after every block and decided itself
 /// how many trials it took (`stop`).
@@ -100,11 +72,9 @@ void add_ages(SummaryDescription& answer, const summary::StudySummary& summary);
 /// probabilities pᵢ is no larger on average than that of trials which all have their mean (the geometric mean
 /// is not above the arithmetic). How far other rigs differ, more trials on these do not tell.
 void add_stopping(PointDescription& point, const summary::StudySummary& summary);
-void add_stopping(SummaryDescription& answer, const summary::StudySummary& summary);
 
 /// What the trials of a point show of all axes that the manifest describes, as tolerance statements.
 void add_assurance(PointDescription& point, const summary::StudySummary& summary);
-void add_assurance(SummaryDescription& answer, const summary::StudySummary& summary);
 
 /// The values of ISO 230-2 of a study with a sequence.
 void add_repeatability(PointDescription& point, const summary::StudySummary& summary);

@@ -18,7 +18,6 @@ namespace {
 
 using document::Bounded;
 using document::Notation;
-using document::Shown;
 using Point = const PointReading&;
 using Statistics = const measures::PointSummary&;
 using summary::StudySummary;
@@ -70,10 +69,12 @@ bool has_several_trials_of_rigs(const StudySummary& summary) {
   return any_point(summary, [](Statistics point) { return point.rigs.n > 0 && point.trials > point.rigs.n; });
 }
 
-/// A column of text that is made of the statistics of a point.
+/// A column of text that is made of the statistics of a point. @param table its title; empty: that of the
+/// points
 template <typename Cell>
-void add_cells(PointDescription& point, const std::string& heading, const std::string& meaning, Cell cell) {
-  point.value({.heading = heading, .meaning = meaning, .shown = Shown::to_people, .numeric = true},
+void add_cells(PointDescription& point, const std::string& table, const std::string& heading,
+               const std::string& meaning, Cell cell) {
+  point.value({.heading = heading, .meaning = meaning, .numeric = true, .own_table = table},
               [cell](Point p) { return cell(p.statistics()); });
 }
 
@@ -85,7 +86,7 @@ void add_success(PointDescription& point, const StudySummary& summary) {
                   std::string(summary.features.rigs ? "Korn and Graubard" : "Clopper and Pearson") + ", in %",
        .unit = "1",
        .notation = Notation::percent,
-       .shown = Shown::to_people},
+       .own_table = zero_count_table(summary)},
       [](Point p) {
         const measures::RateWithBounds& rate = p.statistics().success_rate();
         return Bounded{rate.value, rate.clopper_pearson.low, rate.clopper_pearson.high};
@@ -93,39 +94,41 @@ void add_success(PointDescription& point, const StudySummary& summary) {
 }
 
 /// Rigs without a failure by the question.
-void add_rigs(PointDescription& point, const StudySummary& summary, const goal::Question& question) {
+void add_rigs(PointDescription& point, const std::string& table, const StudySummary& summary,
+              const goal::Question& question) {
   if (!has_several_trials_of_rigs(summary)) return;
   const goal::QuestionWords& words = goal::words_of(question);
-  add_cells(point, std::string(words.rig_head), fmt::format("{}: {}", words.rig_head, words.rig_meaning),
-            [question](Statistics p) {
+  add_cells(point, table, std::string(words.rig_head),
+            fmt::format("{}: {}", words.rig_head, words.rig_meaning), [question](Statistics p) {
               const goal::RigsWithoutFailure rigs = goal::rigs_without_failure(question, p);
               return text::percentage(rigs.rigs, rigs.of);
             });
 }
 
 void add_outcomes(PointDescription& point, const StudySummary& summary) {
+  const std::string table = zero_count_table(summary);
   add_cells(
-      point, "stable", "stable: proportion of trials whose moves all arrived and stayed within one count",
+      point, table, "stable",
+      "stable: proportion of trials whose moves all arrived and stayed within one count",
       [](Statistics p) { return text::percentage(p.of(&trial::MoveOutcome::stable).trials, p.judged); });
   if (any_undecided(summary)) {
-    add_cells(point, "undecided",
+    add_cells(point, table, "undecided",
               "undecided: proportion of trials whose worst move ended off target, stalled or still on its "
               "way: neither stable nor shown unstable",
               [](Statistics p) { return text::percentage(p.outcomes.off_target, p.judged); });
   }
   for (const NotStable& reason : not_stable) {
     if (!is_shown(summary, reason)) continue;
-    add_cells(point, reason.head, reason.legend,
+    add_cells(point, table, reason.head, reason.legend,
               [trials = reason.trials](Statistics p) { return text::percentage(trials(p), p.judged); });
   }
-  add_rigs(point, summary, goal::success(summary.question));
+  add_rigs(point, table, summary, goal::success(summary.question));
 }
 
 /// Only where points differ in it.
 void add_trials(PointDescription& point, const StudySummary& summary) {
   if (trials_of_each(summary)) return;
-  point.value({.heading = "trials", .shown = Shown::to_people},
-              [](Point p) { return p.statistics().trials; });
+  point.value({.heading = "trials"}, [](Point p) { return p.statistics().trials; });
 }
 
 /// The measures of the table that have columns in this summary.
@@ -172,44 +175,18 @@ std::string legend_line(parameters::AxisKind axis, const layout::Measure& measur
   return legend;
 }
 
-void add_measure(PointDescription& point, const StudySummary& summary, const layout::Measure& measure) {
+void add_measure(PointDescription& point, const std::string& table, const StudySummary& summary,
+                 const layout::Measure& measure) {
   const parameters::AxisKind axis = summary.features.axis;
   std::string legend = legend_line(axis, measure);
   for (const layout::SummaryColumn& column : measure.summary.columns) {
-    add_cells(point, parameters::text_on(axis, column.head), std::exchange(legend, ""),
+    add_cells(point, table, parameters::text_on(axis, column.head), std::exchange(legend, ""),
               [&measure, column](Statistics p) {
                 const measures::MeasureStatistics& of = p.of(measure);
                 return cell_text(column.text, p, measures::value_of(column.statistic, of)) +
                        bounds_text(column, of);
               });
   }
-}
-
-/// Whether the criteria (6) and (7) apply to any trial.
-bool has_predictions(const StudySummary& summary) {
-  return std::any_of(summary.predictions.begin(), summary.predictions.end(),
-                     [](const theory::PointPrediction& one) { return theory::predicted_trials(one) > 0; });
-}
-
-void add_predictions(PointDescription& point, const StudySummary& summary) {
-  if (!has_predictions(summary)) return;
-  const auto add = [&](std::string heading, std::string meaning,
-                       std::int64_t theory::PointPrediction::*trials) {
-    point.value({.heading = std::move(heading),
-                 .meaning = std::move(meaning),
-                 .shown = Shown::to_people,
-                 .numeric = true},
-                [trials](Point p) {
-                  const theory::PointPrediction& prediction = p.summary.predictions[p.index()];
-                  return text::percentage(prediction.*trials, theory::predicted_trials(prediction));
-                });
-  };
-  add("(6) holds",
-      "(6), (7): proportion of trials in which the paper's criterion (6) holds, which promises stability "
-      "before sliding, and in which its criterion (7) is exceeded, which rules it out; by the friction where "
-      "the trial starts",
-      &theory::PointPrediction::stable);
-  add("(7) exceeded", "", &theory::PointPrediction::unstable);
 }
 
 /// Whether the settling times of the goal are those of a measure of all moves.
@@ -225,31 +202,30 @@ std::string settling_text(Statistics point, double time) {
   return std::isnan(point.hold) ? "> hold" : fmt::format("> {} s", text::short_number(point.hold));
 }
 
-void add_zero_count_columns(PointDescription& point, const StudySummary& summary) {
-  add_success(point, summary);
-  add_trials(point, summary);
-  for (const layout::Measure* measure : shown_measures(summary)) add_measure(point, summary, *measure);
-  add_outcomes(point, summary);
-  add_predictions(point, summary);
-}
-
 void add_question_columns(PointDescription& point, const StudySummary& summary) {
-  if (!summary.question.claim()) return add_zero_count_columns(point, summary);
-  add_trials(point, summary);
-  if (asks_all_moves_alike(summary.question)) {
-    for (const layout::Measure* measure : shown_measures(summary)) {
-      if (measure->field.column.name == goal::settling_measure(summary.question))
-        add_measure(point, summary, *measure);
+  const std::string zero_counts = zero_count_table(summary);
+  if (summary.question.claim()) {
+    add_trials(point, summary);
+    if (asks_all_moves_alike(summary.question)) {
+      for (const layout::Measure* measure : shown_measures(summary)) {
+        if (measure->field.column.name == goal::settling_measure(summary.question))
+          add_measure(point, "", summary, *measure);
+      }
+    } else {
+      add_cells(point, "", "95 % within",
+                "95 % within: 95 % quantile of the settling time of the moves that a goal asks, s, of the "
+                "goal and condition that leave the least of the time allowed",
+                [question = summary.question](Statistics p) {
+                  return settling_text(p, settling_of(question, p).p95.value);
+                });
     }
-  } else {
-    add_cells(point, "95 % within",
-              "95 % within: 95 % quantile of the settling time of the moves that a goal asks, s, of the goal "
-              "and condition that leave the least of the time allowed",
-              [question = summary.question](Statistics p) {
-                return settling_text(p, settling_of(question, p).p95.value);
-              });
+    add_rigs(point, "", summary, summary.question);
   }
-  add_rigs(point, summary, summary.question);
+  add_success(point, summary);
+  if (!summary.question.claim()) add_trials(point, summary);
+  for (const layout::Measure* measure : shown_measures(summary))
+    add_measure(point, zero_counts, summary, *measure);
+  add_outcomes(point, summary);
 }
 
 }  // namespace zerocount::summary_answer

@@ -2,8 +2,12 @@
 
 #include <cstddef>
 #include <iterator>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "analysis/measures/field_description.hpp"
 #include "analysis/measures/point_columns.hpp"
@@ -15,12 +19,6 @@ namespace {
 
 using document::Shown;
 using Point = const PointReading&;
-
-std::vector<std::pair<std::string, AxisValue>> values_of_axes(Point p) {
-  std::vector<std::pair<std::string, AxisValue>> values;
-  for (const study::SweepAxis& axis : p.summary.axes) values.emplace_back(axis.name, value_at(axis, p));
-  return values;
-}
 
 const measures::PointSummary& statistics_of(Point p) {
   return p.statistics();
@@ -89,30 +87,42 @@ auto proportion_of(std::int64_t theory::PointPrediction::*trials) {
   };
 }
 
+/// Columns for people where the criteria apply to some trial.
 void add_prediction(PointDescription& point, const summary::StudySummary& summary) {
   using P = theory::PointPrediction;
-  if (!summary.predictions.empty()) {
-    document::Description<P> object;
-    object.value({.key = "trials", .meaning = "trials of the point"}, &P::trials)
-        .value({.key = "stable", .meaning = "trials in which criterion (6) holds"}, &P::stable)
-        .value({.key = "unstable", .meaning = "trials in which criterion (7) is exceeded"}, &P::unstable)
-        .value({.key = "stable_share", .meaning = "stable as a proportion of trials", .unit = "1"},
-               proportion_of(&P::stable))
-        .value({.key = "unstable_share", .meaning = "unstable as a proportion of trials", .unit = "1"},
-               proportion_of(&P::unstable))
-        .value({.key = "verdict", .meaning = "what the criteria predict"},
-               [](const P& prediction) { return theory::verdict(prediction); });
-    point.object({.key = "prediction", .meaning = "by the paper's criteria", .shown = Shown::in_json}, object,
-                 prediction_at);
-  }
-  for (const measures::PredictionField& field : measures::prediction_fields())
-    point.value({.key = std::string(field.name),
-                 .meaning = std::string(field.long_name),
-                 .unit = "1",
-                 .shown = Shown::in_csv},
-                [trials = field.trials](Point p) { return proportion_of(trials)(prediction_at(p)); });
-  point.value({.key = "predicted", .meaning = "what the criteria predict", .shown = Shown::in_csv},
-              [](Point p) { return theory::verdict(prediction_at(p)); });
+  const auto proportion = [](const char* heading, std::string_view column, const char* key,
+                             const char* meaning) {
+    return document::Item{.key = key,
+                          .heading = heading,
+                          .meaning = meaning,
+                          .unit = "1",
+                          .notation = document::Notation::percent,
+                          .column = std::string(column)};
+  };
+  const std::span<const measures::PredictionField> fields = measures::prediction_fields();
+  document::Description<P> object;
+  object.value({.key = "trials", .meaning = "trials of the point", .shown = Shown::in_json}, &P::trials)
+      .value({.key = "stable", .meaning = "trials in which criterion (6) holds", .shown = Shown::in_json},
+             &P::stable)
+      .value({.key = "unstable",
+              .meaning = "trials in which criterion (7) is exceeded",
+              .shown = Shown::in_json},
+             &P::unstable)
+      .value(proportion("(6) holds", fields[0].name, "stable_share",
+                        "proportion of trials in which the paper's criterion (6) holds, which promises "
+                        "stability before sliding; by the friction where the trial starts"),
+             proportion_of(&P::stable))
+      .value(proportion("(7) exceeded", fields[1].name, "unstable_share",
+                        "proportion of trials in which its criterion (7) is exceeded, which rules it out"),
+             proportion_of(&P::unstable))
+      .value({.key = "verdict", .meaning = "what the criteria predict", .column = "predicted"},
+             [](const P& prediction) { return theory::verdict(prediction); });
+  point.object({.key = "prediction",
+                .meaning = "by the paper's criteria",
+                .shown = summary.predictions.empty() ? Shown::in_csv : Shown::everywhere,
+                .optional = true,
+                .own_table = zero_count_table(summary)},
+               object, prediction_at);
 }
 
 std::optional<std::string> observed_on_rig(Point p) {
@@ -120,54 +130,45 @@ std::optional<std::string> observed_on_rig(Point p) {
   return seen.empty() ? std::nullopt : std::optional(seen);
 }
 
+/// Columns for people that explain themselves, with their meaning; those of a group stand in the group.
+void add_legend(std::string& legend, const std::vector<document::Item>& columns) {
+  for (const document::Item& column : columns) {
+    if (!document::is_shown(column.shown, document::Audience::people)) continue;
+    if (column.kind == document::Kind::object) {
+      add_legend(legend, column.members);
+    } else if (column.kind != document::Kind::table && !column.heading.empty() && !column.meaning.empty() &&
+               !column.names_row) {
+      legend += column.shown == Shown::to_people ? column.meaning + '\n'
+                                                 : fmt::format("{}: {}\n", column.heading, column.meaning);
+    }
+  }
+}
+
 }  // namespace
 
-document::Description<PointReading> point_description(const summary::StudySummary& summary) {
+PointDescription point_description(const summary::StudySummary& summary) {
   PointDescription point;
-  point
-      .value({.key = "point", .meaning = "number of the design point", .shown = Shown::in_data},
-             &PointReading::point)
-      .value({.key = "label", .meaning = "label of the design point", .shown = Shown::in_data},
-             &PointReading::label);
-  point.value({.key = "axes",
-               .meaning = "values of the swept parameters; null where one has a distribution",
-               .shown = Shown::in_json},
-              values_of_axes);
-  add_axes(point, summary, [](Point p) -> const PointReading& { return p; });
-  if (!summary.features.open_loop) add_swept_columns(point, summary);
+  add_axes(point, summary);
   add_goal(point, summary);
   add_statistics(point, summary);
   add_moves(point, summary);
   add_levels(point, summary);
   if (!summary.features.open_loop) add_question_columns(point, summary);
   add_prediction(point, summary);
-  point.value({.key = "observed",
-               .heading = "observed",
-               .meaning = "what was observed on the real rig",
-               .shown = summary.features.open_loop ? Shown::in_data : Shown::everywhere},
+  point.value({.key = "observed", .heading = "observed", .meaning = "what was observed on the real rig"},
               observed_on_rig);
   add_undecided(point, summary);
   add_observed(point, summary);
   add_repeatability(point, summary);
   add_stopping(point, summary);
-  add_worlds(point, summary);
-  add_claims(point, summary);
-  add_conditions(point, summary);
-  add_ages(point, summary);
+  add_cells(point, summary);
   add_assurance(point, summary);
   return point;
 }
 
-AxisValue value_at(const study::SweepAxis& axis, Point p) {
-  if (axis.kind == study::SweepAxis::Kind::text) return axis.texts[p.index()];
-  return axis.numbers[p.index()];
-}
-
 std::string legend_of(const std::vector<document::Item>& columns) {
   std::string legend;
-  for (const document::Item& column : columns) {
-    if (column.shown == Shown::to_people && !column.meaning.empty()) legend += column.meaning + '\n';
-  }
+  add_legend(legend, columns);
   return legend;
 }
 

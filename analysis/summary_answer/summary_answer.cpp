@@ -319,41 +319,22 @@ std::string unfinished_sentence(const StudySummary& summary) {
       without > 0 ? fmt::format("; {} of {} points have none yet", without, summary.unfinished->points) : "");
 }
 
-SummaryDescription question_tables(const StudySummary& summary) {
+SummaryDescription point_tables(const StudySummary& summary) {
   const bool levels = summary.features.open_loop;
   const PointDescription point = point_description(summary);
   const document::Description<LevelReading> level = level_description(summary);
   const std::string legend = legend_of(levels ? level.items() : point.items());
   SummaryDescription tables;
+  add_claims(tables, summary);
   tables.table(
       {.key = "points", .meaning = "the design points", .shown = levels ? Shown::in_json : Shown::everywhere},
       point, &SummaryReading::points);
   if (levels)
-    tables.table({.heading = "", .shown = Shown::to_people}, level, &SummaryReading::levels)
-        .table({.key = "levels", .meaning = "the torque levels of the points", .shown = Shown::in_csv}, level,
-               &SummaryReading::levels);
+    tables.table({.key = "levels", .meaning = "the torque levels of the points", .shown = Shown::not_in_json},
+                 level, &SummaryReading::levels);
   tables.sentence(
       [legend](Summary s) { return nonfinite_lines(s) + points_shown(s) + (s.legend ? legend : ""); });
   add_repeatability(tables, summary);
-  add_worlds(tables, summary);
-  add_claims(tables, summary);
-  add_conditions(tables, summary);
-  add_ages(tables, summary);
-  return tables;
-}
-
-SummaryDescription zero_count_tables(const StudySummary& summary) {
-  SummaryDescription tables;
-  if (summary.question.claim()) {
-    PointDescription point = labelled_points(summary);
-    add_zero_count_columns(point, summary);
-    tables.table({.heading = "zero counts", .shown = Shown::to_people}, point, &SummaryReading::points)
-        .sentence([legend = legend_of(point.items())](Summary s) { return s.legend ? legend : ""; });
-  }
-  add_undecided(tables, summary);
-  add_observed(tables, summary);
-  add_stopping(tables, summary);
-  add_assurance(tables, summary);
   return tables;
 }
 
@@ -384,11 +365,9 @@ document::AnswerDescription<SummaryReading> summary_description(const StudySumma
                          .meaning = "the point that the headline is of, and its competitors",
                          .shown = Shown::in_data},
                         chosen_description(), same_summary);
-  answer.items.include(question_tables(summary), same_summary)
-      .include(zero_count_tables(summary), same_summary)
-      .sentence([](Summary s) -> std::string {
-        return s.legend ? "" : "(zerocount summary --legend explains the columns)";
-      });
+  answer.items.include(point_tables(summary), same_summary).sentence([](Summary s) -> std::string {
+    return s.legend ? "" : "(zerocount summary --legend explains the columns)";
+  });
   answer.items
       .object({.key = "confirmation",
                .meaning = "new trials of the chosen point (--confirm)",

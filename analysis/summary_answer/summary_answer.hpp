@@ -12,11 +12,8 @@ namespace zerocount::summary_answer {
 /// @param summary of the study; stays as long as the description
 document::AnswerDescription<SummaryReading> summary_description(const summary::StudySummary& summary);
 
-/// The tables of the points by what the study is judged by, with what their columns mean.
-document::Description<SummaryReading> question_tables(const summary::StudySummary& summary);
-
-/// The tables about zero counts: beside the goal of a study that has one.
-document::Description<SummaryReading> zero_count_tables(const summary::StudySummary& summary);
+/// The table of the points with what their columns mean, and the tables of what the study has of them.
+document::Description<SummaryReading> point_tables(const summary::StudySummary& summary);
 
 /// The type of the answers of all studies: what only some have is optional.
 document::AnswerType summary_type();

@@ -14,37 +14,25 @@
 namespace zerocount::summary_answer {
 namespace {
 
-using document::Shown;
 using Point = const PointReading&;
 
 /// More swept parameters than this make the table too wide: the labels alone tell the points apart.
 constexpr std::size_t max_swept_columns = 4;
 
-std::string number_cell(const study::SweepAxis& axis, double value) {
+std::string shown_value(const study::SweepAxis& axis, Point p) {
+  if (axis.kind == study::SweepAxis::Kind::text) return text::printable(axis.texts[p.index()]);
+  const double value = axis.numbers[p.index()];
   if (std::isnan(value)) return "random";
   const auto row = parameters::find_parameter(axis.name);
   if (row && parameters::parameter_table()[*row].none == value) return "none";
   return fmt::format("{:.6g}", value);
 }
 
-void add_swept_column(PointDescription& point, const summary::StudySummary& summary, std::size_t axis) {
-  const study::SweepAxis& swept = summary.axes[axis];
-  const bool numeric = swept.kind == study::SweepAxis::Kind::number;
-  point.value({.heading = summary::short_name(summary.axes, swept),
-               .unit = numeric ? swept.unit : "",
-               .shown = Shown::to_people,
-               .numeric = numeric},
-              [axis, numeric](Point p) {
-                const study::SweepAxis& of = p.summary.axes[axis];
-                return numeric ? number_cell(of, of.numbers[p.index()]) : of.texts[p.index()];
-              });
-}
-
 /// Whether the labels are those of a grid, which name its values: "fast, controller.kp=0.0003".
 bool labels_name_values(const summary::StudySummary& summary,
                         const std::vector<const study::SweepAxis*>& swept) {
-  return std::any_of(swept.begin(), swept.end(), [&](const study::SweepAxis* axis) {
-    return std::all_of(summary.labels.begin(), summary.labels.end(), [axis](const std::string& label) {
+  return std::ranges::any_of(swept, [&](const study::SweepAxis* axis) {
+    return std::ranges::all_of(summary.labels, [axis](const std::string& label) {
       return label.find(axis->name + "=") != std::string::npos;
     });
   });
@@ -61,25 +49,48 @@ PointDescription labelled_points(const summary::StudySummary& summary) {
   return PointDescription().value({.heading = "point"}, short_label(summary));
 }
 
-void add_swept_columns(PointDescription& point, const summary::StudySummary& summary) {
-  std::vector<const study::SweepAxis*> swept = summary::varying_parameters(summary.axes);
-  if (swept.size() > max_swept_columns) swept.clear();
-  const bool by_number = labels_name_values(summary, swept);
-  point.value(
-      {.heading = "point",
-       .meaning = summary.points.size() > 1 ? "*: the chosen point, of which the headline speaks" : "",
-       .shown = Shown::to_people},
-      [by_number, label = short_label(summary)](Point p) {
+void add_axes(PointDescription& point, const summary::StudySummary& summary) {
+  std::vector<const study::SweepAxis*> shown = summary::varying_parameters(summary.axes);
+  if (shown.size() > max_swept_columns) shown.clear();
+  const bool by_number = labels_name_values(summary, shown);
+  const auto label = short_label(summary);
+  point
+      .value({.key = "point",
+              .heading = "point",
+              .meaning = "number of the design point, for people its label; *: the headline speaks of it"},
+             &PointReading::point)
+      .shown_as([by_number, label](Point p) {
         return (by_number ? fmt::format("{}", p.point) : label(p)) + (p.marked ? " *" : "");
-      });
-  const auto cases = std::ranges::find(summary.axes, "case", &study::SweepAxis::name);
-  if (by_number && cases != summary.axes.end())
-    point.value({.heading = "case", .shown = Shown::to_people},
-                [axis = static_cast<std::size_t>(cases - summary.axes.begin())](Point p) {
-                  return text::printable(p.summary.axes[axis].texts[p.index()]);
-                });
-  for (const study::SweepAxis* axis : swept)
-    add_swept_column(point, summary, static_cast<std::size_t>(axis - summary.axes.data()));
+      })
+      .value({.key = "label", .heading = "point", .meaning = "label of the design point", .names_row = true},
+             &PointReading::label)
+      .shown_as(label)
+      .value({.key = "axes",
+              .meaning = "values of the swept parameters; null where one has a distribution",
+              .shown = document::Shown::in_json},
+             [](Point p) {
+               std::vector<std::pair<std::string, AxisValue>> values;
+               for (const study::SweepAxis& axis : p.summary.axes)
+                 values.emplace_back(axis.name, value_at(axis, p));
+               return values;
+             });
+  for (const study::SweepAxis& axis : summary.axes) {
+    const bool is_shown = axis.name == "case" ? by_number : std::ranges::find(shown, &axis) != shown.end();
+    point
+        .value({.key = axis.name,
+                .heading = is_shown ? summary::short_name(summary.axes, axis) : "",
+                .meaning = axis.meaning,
+                .unit = axis.unit,
+                .shown = is_shown ? document::Shown::not_in_json : document::Shown::in_csv,
+                .numeric = axis.kind == study::SweepAxis::Kind::number},
+               [&axis](Point p) { return value_at(axis, p); })
+        .shown_as([&axis](Point p) { return shown_value(axis, p); });
+  }
+}
+
+AxisValue value_at(const study::SweepAxis& axis, Point p) {
+  if (axis.kind == study::SweepAxis::Kind::text) return axis.texts[p.index()];
+  return axis.numbers[p.index()];
 }
 
 }  // namespace zerocount::summary_answer

@@ -8,10 +8,8 @@
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/summary/ages_of_point.hpp"
 #include "analysis/summary/claims_of_point.hpp"
-#include "analysis/summary/conditions_of_point.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "analysis/summary/missed_moves.hpp"
-#include "analysis/summary/worlds_description.hpp"
 #include "analysis/summary/worlds_of_point.hpp"
 #include "results/shards/pieces.hpp"
 #include "runners/answers/answer_format.hpp"
@@ -42,10 +40,9 @@ struct Judgement {
   const summary::StudySummary& summary;
   summary::JudgedPoint judged;
   std::optional<worlds::PointWorlds> worlds;
-  std::vector<summary::ClaimOfPoint> claims;          ///< each goal under each condition
-  std::vector<summary::ConditionOfPoint> conditions;  ///< [condition]; empty without conditions
-  std::vector<summary::AgeOfPoint> ages;              ///< [age]; empty without ages
-  std::optional<summary::SaturatedMoves> saturated;   ///< of the worst goal and condition, unless it is met
+  std::vector<summary::ClaimOfPoint> claims;         ///< each goal under each condition
+  std::vector<summary::AgeOfPoint> ages;             ///< [age]; empty without ages
+  std::optional<summary::SaturatedMoves> saturated;  ///< of the worst goal and condition, unless it is met
 
   const std::string& label() const { return summary.labels[static_cast<std::size_t>(judged.chosen.point)]; }
   const goal::JudgedPart& worst_goal() const { return summary.question.parts[judged.verdict.goal]; }
@@ -69,7 +66,8 @@ struct Judgement {
   }
   std::optional<summary::WorldsReading> worlds_reading() const {
     if (!worlds) return {};
-    return summary::WorldsReading{*worlds, summary::world_inputs_of(summary, judged.chosen.point)};
+    return summary::WorldsReading{*worlds, summary::world_inputs_of(summary, judged.chosen.point),
+                                  summary.question};
   }
 };
 
@@ -86,76 +84,63 @@ document::AnswerDescription<Judgement> judge_answer(const goal::Question& questi
   document::AnswerDescription<Judgement> answer{
       {.name = "judge", .meaning = "whether a study meets its goal", .csv_table = "claims"}, {}};
   answer.items.headline([](Of j) { return summary::judgement_headline(j.summary, j.judged); })
-      .value({.key = "point", .meaning = "number of the design point", .shown = Shown::in_data},
+      .value({.key = "point", .meaning = "number of the design point"},
              [](Of j) { return j.judged.chosen.point; })
-      .value({.key = "label", .meaning = "label of the design point", .shown = Shown::in_data},
-             &Judgement::label)
+      .value({.key = "label", .meaning = "label of the design point"}, &Judgement::label)
       .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
              [](Of j) { return goal::claim_sentence(j.summary.question); })
       .value({.key = "worst_goal",
               .meaning = "name of the goal that the numbers are of, the worst of several",
-              .shown = Shown::in_data,
               .optional = true},
              &Judgement::name)
       .value({.key = "worst_condition",
               .meaning = "the condition that they are under, the worst of several",
-              .shown = Shown::in_data,
               .optional = true},
              &Judgement::condition)
-      .value({.key = "status",
-              .meaning = "verdict on the goal",
-              .shown = Shown::in_data,
-              .words = goal::status_words()},
+      .value({.key = "status", .meaning = "verdict on the goal", .words = goal::status_words()},
              [](Of j) { return goal::text_of(j.judged.verdict.status); })
       .value({.key = "rate",
               .meaning = "proportion of moves that meet the goal, with one-sided bounds",
-              .unit = "1",
-              .shown = Shown::in_data},
+              .unit = "1"},
              [](Of j) { return goal::bounded(j.judged.verdict.moves); })
       .value(
           {.key = "machines_low",
            .meaning = "lower bound of the proportion of machines that meet the goal, if it is about machines",
-           .unit = "1",
-           .shown = Shown::in_data},
+           .unit = "1"},
           [](Of j) { return j.of_machines(j.judged.verdict.machines.low); })
-      .value({.key = "machines_high", .meaning = "its upper bound", .unit = "1", .shown = Shown::in_data},
+      .value({.key = "machines_high", .meaning = "its upper bound", .unit = "1"},
              [](Of j) { return j.of_machines(j.judged.verdict.machines.high); })
       .sentence([](Of j) { return summary::judgement_details(j.summary, j.judged); })
       .value(
           {.key = "missed_saturated",
            .meaning = "proportion of the moves that miss the goal in which the converter clipped; null: the "
                       "goal is met, or the file does not keep every trial",
-           .unit = "1",
-           .shown = Shown::in_data},
+           .unit = "1"},
           &Judgement::missed_saturated)
       .sentence([](Of j) { return j.saturated ? summary::saturation_sentence(*j.saturated) : ""; })
-      .value({.key = "chosen_from",
-              .meaning = "design points that the point is the best of; 1 if it was named",
-              .shown = Shown::in_data},
-             [](Of j) { return j.judged.chosen.chosen_from; })
-      .object({.key = "needed", .meaning = "study that would decide the goal", .shown = Shown::in_data},
-              goal::needs_description(), [](Of j) { return goal::practicable(j.judged.needs); })
+      .value(
+          {.key = "chosen_from", .meaning = "design points that the point is the best of; 1 if it was named"},
+          [](Of j) { return j.judged.chosen.chosen_from; })
+      .object({.key = "needed", .meaning = "study that would decide the goal"}, goal::needs_description(),
+              [](Of j) { return goal::practicable(j.judged.needs); })
       .object({.key = "worlds", .meaning = "the worlds at the point", .shown = Shown::in_data},
-              summary::worlds_description(), &Judgement::worlds_reading)
+              summary::worlds_description(question), &Judgement::worlds_reading)
       .table({.key = "claims", .meaning = "each goal under each condition", .shown = Shown::in_json},
              summary::claim_description(), &Judgement::claims)
-      .table({.heading = "by claim", .shown = Shown::to_people}, summary::claim_description(),
-             &Judgement::several_claims)
-      .sentence([](Of j) { return summary::conditions_sentence(j.summary, j.conditions); })
+      .table({.heading = "by claim"}, summary::claim_description(), &Judgement::several_claims)
       .value({.key = "met_until",
               .meaning = "last age up to and including which the goal is met; null if not at the first",
-              .shown = Shown::in_data,
               .optional = true},
              [](Of j) { return summary::met_until(j.ages); })
       .value({.key = "missed_from",
               .meaning = "first age at which the goal is shown to be missed",
-              .shown = Shown::in_data,
               .optional = true},
              [](Of j) { return summary::missed_from(j.ages); })
-      .table({.key = "ages", .meaning = "the point at each age", .shown = Shown::in_json},
+      .table({.key = "ages",
+              .heading = "by age",
+              .meaning = "the point at each age",
+              .shown = Shown::not_in_csv},
              summary::age_description(question), &Judgement::ages)
-      .table({.heading = "by age", .shown = Shown::to_people}, summary::age_description(question),
-             &Judgement::ages)
       .sentence([](Of j) { return summary::ages_sentence(j.summary.question, j.ages); });
   return answer;
 }
@@ -197,7 +182,6 @@ ExitCode judge(const command_line::Arguments& arguments) {
       judged,
       summary::worlds_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
       summary::claims_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
-      summary::conditions_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
       summary::ages_of_point(summary, chosen.point, static_cast<std::size_t>(chosen.chosen_from)),
       saturated_in(arguments, study, judged)};
   return answers::print(

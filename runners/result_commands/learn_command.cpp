@@ -1,6 +1,8 @@
 #include "runners/result_commands/learn_command.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -112,54 +114,20 @@ struct Outcome {
   }
 };
 
-std::string_view word_of(Next next) {
-  switch (next) {
-    case Next::nothing:
-      return "nothing";
-    case Next::change_axis:
-      return "change_axis";
-    case Next::more_trials:
-      return "more_trials";
-    case Next::measure:
-      return "measure";
-    case Next::no_single:
-      break;
-  }
-  return "no_single_measurement";
-}
+/// The words of Next, in its order.
+constexpr std::array<const char*, 5> next_words{"nothing", "change_axis", "more_trials", "measure",
+                                                "no_single_measurement"};
 
-std::vector<std::string> next_words() {
-  std::vector<std::string> words;
-  for (const Next next :
-       {Next::nothing, Next::change_axis, Next::more_trials, Next::measure, Next::no_single})
-    words.emplace_back(word_of(next));
-  return words;
-}
-
-/// Where some worlds are undecided, the table takes them by their observed rates.
-std::string undecided_worlds_sentence(const Outcome& outcome) {
-  const std::size_t undecided = outcome.worlds_that(goal::Status::undecided);
-  if (outcome.learned.empty() || undecided == 0) return "";
-  return fmt::format(
-      "{} of {} worlds are undecided, and count by their observed rates here; more trials decide them",
-      undecided, outcome.worlds.bad.size());
-}
-
-/// What to call all worlds good, or all bad, would get.
-std::string unmeasured_sentence(const Outcome& outcome) {
-  if (outcome.learned.empty()) return "";
+/// What the table takes for granted, and what its derived quantities are, a line each.
+std::string text_below_table(const Outcome& outcome) {
+  if (outcome.learned.empty()) return {};
   const std::size_t all = outcome.worlds.bad.size();
-  return fmt::format(
-      "without a measurement: to call all worlds good is right in {} of {}, finds none of the {} bad ones "
-      "and "
-      "rejects no good one; to call all bad is right in {}, and rejects the {} good ones",
-      all - outcome.bad(), all, outcome.bad(), outcome.bad(), all - outcome.bad());
-}
-
-/// What the derived quantities of the table are, a line each.
-std::string meanings_text(const Outcome& outcome) {
-  std::string text;
-  if (outcome.learned.empty()) return text;
+  std::string text = fmt::format("without a measurement: to call all worlds good is right in {} of {}\n",
+                                 all - outcome.bad(), all);
+  if (const std::size_t undecided = outcome.worlds_that(goal::Status::undecided); undecided > 0)
+    text += fmt::format(
+        "{} of {} worlds are undecided, and count by their observed rates here; more trials decide them\n",
+        undecided, all);
   for (const worlds::WorldInput& input : outcome.inputs()) {
     if (input.is_derived()) text += fmt::format("{} ({}): {}\n", input.name, input.unit, input.meaning);
   }
@@ -224,13 +192,12 @@ document::Description<Measurement> measurement_description() {
       .value(in_data("unit", "unit of the unknown"), [](Of m) { return m.input.unit; })
       .value(in_data("derived", "what the derived quantity is"),
              [](Of m) { return m.input.is_derived() ? std::optional(m.input.meaning) : std::nullopt; })
-      .value({.key = "decided_proportion",
+      .value({.key = "decided",
               .heading = "decided",
-              .notation = document::Notation::percent,
-              .shown = document::Shown::to_people},
-             &Measurement::decided_proportion)
-      .value(in_data("decided", "worlds that the measurement decides rightly"),
+              .meaning = "worlds that the measurement decides rightly",
+              .notation = document::Notation::percent},
              [](Of m) { return m.learned.decided(); })
+      .shown_as(&Measurement::decided_proportion)
       .value({"decided_good", "good found", "worlds that meet the goal and are found to"},
              [](Of m) { return m.learned.decided_good; })
       .value({"decided_bad", "bad found", "worlds that fall short and are found to"},
@@ -271,8 +238,8 @@ document::AnswerDescription<Outcome> learn_answer() {
              [](Of o) { return o.worlds_that(goal::Status::undecided); })
       .object(in_data("needed", "study that would decide the goal"), goal::needs_description(),
               [](Of o) { return o.judged ? goal::practicable(o.judged->needs) : nullptr; })
-      .value(with_words(in_data("next", "what to do next"), next_words()),
-             [](Of o) { return word_of(o.next()); })
+      .value(with_words(in_data("next", "what to do next"), {next_words.begin(), next_words.end()}),
+             [](Of o) { return next_words.at(static_cast<std::size_t>(o.next())); })
       .value(in_data("measure", "the unknown to measure; null: none"), &Outcome::unknown_to_measure)
       .value(in_data("precision", "relative error of the measurement", "1"), &Outcome::precision)
       .sentence([](Of o) {
@@ -281,42 +248,25 @@ document::AnswerDescription<Outcome> learn_answer() {
       })
       .table({.key = "unknowns", .meaning = "what a measurement of each unknown decides"},
              measurement_description(), &Outcome::measurements)
-      .sentence(unmeasured_sentence)
-      .sentence(meanings_text)
-      .sentence(undecided_worlds_sentence)
-      .sentence([](Of o) {
-        return fmt::format("nothing was simulated: this follows from the trials of {} worlds in the file",
-                           o.worlds.bad.size());
-      });
+      .sentence(text_below_table);
   return answer;
 }
 
-[[noreturn]] void refuse_equal_worlds(const std::string& path) {
-  throw Failure(
-      ExitCode::bad_input,
-      fmt::format("{}: nothing differs between worlds in this study; expected worlds: 30, and a value "
-                  "such as friction.alpha: {{interval: [0.1, 2.0]}}",
-                  path));
-}
-
-[[noreturn]] void refuse_open_loop(const std::string& path) {
-  throw Failure(
-      ExitCode::bad_input,
-      fmt::format("{}: no move of an open-loop study is judged; expected a study with targets", path));
-}
-
-/// Refuses what the description of the file tells, before its trials are read.
-void require_worlds(const command_line::Arguments& arguments) {
-  const std::string& path = arguments.operands()[0];
-  const study::Study study = commands::described_study(path);
-  command_line::point_option(arguments, study.points.labels);
-  if (study.worlds == 0) refuse_equal_worlds(path);
-  if (study.open_loop) refuse_open_loop(path);
+/// @throws Failure (bad_input) where no move is judged, or nothing differs between worlds. @param name of the
+/// study
+void require_worlds(const std::string& name, bool differ, bool open_loop) {
+  const auto refuse = [&](const char* what, const char* expected) {
+    throw Failure(ExitCode::bad_input, fmt::format("{}: {}; expected {}", name, what, expected));
+  };
+  if (!differ)
+    refuse("nothing differs between worlds in this study",
+           "worlds: 30, and a value such as friction.alpha: {interval: [0.1, 2.0]}");
+  if (open_loop) refuse("no move of an open-loop study is judged", "a study with targets");
 }
 
 Outcome outcome_of(const std::string& path, const summary::StudySummary& summary,
                    const summary::ChosenPoint& chosen, double precision) {
-  if (summary::world_inputs_of(summary, chosen.point).empty()) refuse_equal_worlds(path);
+  require_worlds(path, !summary::world_inputs_of(summary, chosen.point).empty(), false);
   Outcome outcome{.summary = summary,
                   .chosen = chosen,
                   .judged = {},
@@ -333,23 +283,16 @@ Outcome outcome_of(const std::string& path, const summary::StudySummary& summary
 /// Inconclusive where the goal is undecided and no unknown is named.
 ExitCode exit_code_after(const Outcome& outcome) {
   const bool undecided = outcome.judged && outcome.judged->verdict.status == goal::Status::undecided;
-  switch (outcome.next()) {
-    case Next::nothing:
-    case Next::change_axis:
-    case Next::measure:
-      break;
-    case Next::more_trials:
-      return ExitCode::inconclusive;
-    case Next::no_single:
-      if (undecided) return ExitCode::inconclusive;
-      break;
-  }
-  return ExitCode::success;
+  const Next next = outcome.next();
+  return next == Next::more_trials || (next == Next::no_single && undecided) ? ExitCode::inconclusive
+                                                                             : ExitCode::success;
 }
 
 ExitCode learn(const command_line::Arguments& arguments) {
-  require_worlds(arguments);
   const std::string& path = arguments.operands()[0];
+  const study::Study study = commands::described_study(path);  // is refused before its trials are read
+  command_line::point_option(arguments, study.points.labels);
+  require_worlds(path, study.worlds > 0, study.open_loop);
   const summary::StudySummary summary = summary::summarise_file(path);
   const auto asked = command_line::point_option(arguments, summary.labels);
   const Outcome outcome =
@@ -362,8 +305,7 @@ ExitCode learn(const command_line::Arguments& arguments) {
 
 document::Answer learned_of(const std::string& name, const summary::StudySummary& summary,
                             const summary::ChosenPoint& chosen) {
-  if (summary.world_inputs.empty()) refuse_equal_worlds(name);
-  if (summary.features.open_loop) refuse_open_loop(name);
+  require_worlds(name, !summary.world_inputs.empty(), summary.features.open_loop);
   return learn_answer().of(outcome_of(name, summary, chosen, usual_precision));
 }
 

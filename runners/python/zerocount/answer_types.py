@@ -331,7 +331,7 @@ class SummaryAnswer(Answer):
     points : pandas.DataFrame
         The design points.
 
-        - ``point``: number of the design point
+        - ``point``: number of the design point, for people its label; *: the headline speaks of it
         - ``label``: label of the design point
         - ``axes``: values of the swept parameters; null where one has a distribution
         - ``goal``.* (name, condition, status, rate, rate_low, rate_high, machines, machines_low, machines_high,

@@ -37,7 +37,7 @@ AnswerDescription<Gains> gains_answer(std::vector<std::string>& computed) {
                     return std::vector<std::pair<std::string, Value>>{{"ki", gain.value}, {"case", "a"}};
                   }))
       .value({.key = "ki", .shown = Shown::in_csv}, told("ki", [](const Gain& gain) { return gain.value; }))
-      .value({.key = "settling", .heading = "settled (s)", .unit = "s", .numeric = true},
+      .value({.key = "settling", .heading = "settled", .unit = "s", .numeric = true},
              told("settling", [](const Gain& gain) { return gain.settling; }))
       .shown_as(told("settled", [](const Gain& gain) { return gain.settling < 0.3 ? "0.25" : "> 0.3 s"; }));
   AnswerDescription<Gains> answer{{.name = "gains", .meaning = "gains", .csv_table = "gains"}, {}};

@@ -99,7 +99,7 @@ TEST(Undecided, AreToldOfThePointsThatHaveSome) {
   ASSERT_NE(end, std::string::npos) << text;
   const std::string part = text.substr(begin, end - begin);
   EXPECT_EQ(part.find("fast"), std::string::npos) << part;
-  EXPECT_NE(part.find("slow   2736 of 3000"), std::string::npos) << part;
+  EXPECT_NE(part.find("slow: 2736 of 3000"), std::string::npos) << part;
   const nlohmann::ordered_json json = testing::summary_json(study)["points"][1]["undecided"];
   EXPECT_EQ(json["hold_at_least"], 2.1);
   EXPECT_EQ(json["still_falling"], 2700);

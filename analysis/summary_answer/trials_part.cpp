@@ -1,0 +1,313 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "analysis/measures/undecided_moves.hpp"
+#include "analysis/statistics/clusters/tolerance.hpp"
+#include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/summary_answer/parts.hpp"
+#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
+
+/// What the trials of a point show beside their statistics: each part is an object of the point in data, and
+/// for people a table below that of the points.
+namespace zerocount::summary_answer {
+namespace {
+
+using document::Shown;
+using Point = const PointReading&;
+
+const PointReading& same_point(Point p) {
+  return p;
+}
+
+/// A converter that clips keeps moves from their targets, too.
+std::string undecided_text(Point p) {
+  if (!measures::any_undecided(p.statistics().undecided)) return {};
+  const std::int64_t clipped = p.statistics().of(&trial::MoveOutcome::saturated).trials;
+  return measures::undecided_sentence(p.statistics().undecided) +
+         (clipped == 0
+              ? ""
+              : fmt::format("; the converter clipped in {} of {} trials", clipped, p.statistics().trials));
+}
+
+std::string simulated_text(Point p) {
+  const measures::PointSummary& point = p.statistics();
+  if (point.judged == 0) return "–";
+  return fmt::format("{} of {}{}{}", text::percentage(point.outcomes.zero_count, point.judged), point.judged,
+                     point.rigs.n > 0 ? fmt::format(" on {} rigs", point.rigs.n) : "",
+                     point.worlds ? ", on average over the worlds" : "");
+}
+
+std::string observed_statement(Point p) {
+  return summary::statement_on(p.statistics(), *p.observed, p.summary.confidence);
+}
+
+statistics::ConfidenceInterval stopped_bounds(Point p, double confidence) {
+  const measures::PointSummary& point = p.statistics();
+  return statistics::confidence_sequence_bounds(point.outcomes.zero_count, point.judged, confidence);
+}
+
+/// Half the width of the bounds at the confidence of the rule.
+double halfwidth(Point p) {
+  const statistics::ConfidenceInterval judged = stopped_bounds(p, p.summary.stop->confidence);
+  return 0.5 * (judged.high - judged.low);
+}
+
+bool is_reached(Point p) {
+  return halfwidth(p) <= p.summary.stop->success_rate_halfwidth;
+}
+
+std::string note_on_stopping(const summary::StudySummary& summary) {
+  const std::int64_t rigs = summary.points.empty() ? 0 : summary.points.front().rigs.n;
+  return fmt::format(
+      "outcomes decided the number of trials, after every {} at each point; all other bounds are those of a "
+      "number fixed beforehand{}",
+      summary.stop->block,
+      rigs == 0 ? ""
+                : fmt::format("\nthese bounds are of the mean over the {} rigs of the study, which more "
+                              "trials narrow; those over all rigs are in the table above, and more rigs "
+                              "narrow them",
+                              rigs));
+}
+
+/// With one trial per rig, nothing is known of the moves of a rig.
+bool shows_rigs(const summary::StudySummary& summary) {
+  return summary.features.rigs && !summary.points.empty() &&
+         summary.points.front().trials > summary.points.front().rigs.n;
+}
+
+std::string shown_at_least(double proportion) {
+  return std::isnan(proportion) ? "–" : text::percent_at_least(proportion);
+}
+
+std::string assurance_statement(Point p) {
+  const measures::PointSummary& point = p.statistics();
+  const std::string settling = statistics::settling_sentence(point.settles_within);
+  return (point.worlds ? "on average over the worlds: " : "") + statistics::claim_sentence(point.claim) +
+         (settling.empty() ? "" : "; " + settling);
+}
+
+std::string title_of_assurance(const summary::StudySummary& summary) {
+  return fmt::format("shown with {} confidence of all axes that the manifest describes{}",
+                     text::percent(summary.confidence),
+                     !summary.conditions.empty()   ? ", on average over its conditions: under some it is less"
+                     : summary.question.worlds > 0 ? ", on average over its worlds: in some worlds it is less"
+                                                   : "");
+}
+
+std::string note_on_assurance(const summary::StudySummary& summary) {
+  return fmt::format(
+      "bounds of one side each (Wilks; {}). success: of trials{}; arrive by: all moves of a trial; a "
+      "tolerance limit is later than the quantile of the trials at hand, and – where these are too few, or "
+      "too many never arrive",
+      summary.features.rigs ? "Korn and Graubard" : "Clopper and Pearson",
+      shows_rigs(summary) ? "; of rigs: their moves that end at zero error" : "");
+}
+
+/// "settling_within_95", "settling_within_99_9".
+std::string key_of_limit(double content) {
+  std::string name = fmt::format("settling_within_{:.6g}", 100.0 * content);
+  std::ranges::replace(name, '.', '_');
+  return name;
+}
+
+PointDescription assurance_of_rigs(const summary::StudySummary& summary) {
+  return PointDescription()
+      .value({.key = "content", .meaning = "proportion of rigs", .unit = "1", .shown = Shown::in_json},
+             [](Point p) { return p.statistics().rigs.tolerance.content; })
+      .value({.key = "zero_at_least",
+              .heading = shows_rigs(summary) ? "90 % of rigs ≥" : "",
+              .meaning = "proportion of moves in which at least these rigs hold zero at least",
+              .unit = "1",
+              .numeric = true,
+              .column = "rigs_zero_at_least"},
+             [](Point p) { return p.statistics().rigs.tolerance.zero_at_least; })
+      .shown_as([](Point p) { return shown_at_least(p.statistics().rigs.tolerance.zero_at_least); })
+      .value({.key = "statement", .meaning = "the same in words", .shown = Shown::in_json},
+             [](Point p) { return statistics::tolerance_sentence(p.statistics().rigs.tolerance); });
+}
+
+}  // namespace
+
+void add_undecided(PointDescription& point, const summary::StudySummary& summary) {
+  if (summary.features.open_loop) return;
+  PointDescription object;
+  object.value({.key = "moves", .meaning = "moves of all trials", .shown = Shown::in_json},
+               [](Point p) { return p.statistics().undecided.moves; });
+  for (const measures::UndecidedCount& each : measures::undecided_counts)
+    object.value({.key = each.name, .meaning = each.long_name, .column = each.column},
+                 [count = each.count](Point p) { return p.statistics().undecided.*count; });
+  object
+      .value({.key = "hold_at_least",
+              .meaning = "hold that most of the undecided moves are expected to need",
+              .unit = "s",
+              .column = "hold_at_least"},
+             [](Point p) { return p.statistics().undecided.advised_hold; })
+      .sentence(undecided_text);
+  point.object({.key = "undecided",
+                .meaning = "moves that are neither stable nor shown unstable",
+                .own_table = "undecided moves",
+                .note = std::string(measures::undecided_meaning)},
+               object, same_point);
+}
+
+void add_observed(PointDescription& point, const summary::StudySummary& summary) {
+  if (summary.observed_counts.empty()) return;
+  const std::string method = fmt::format(
+      "{}, each point by itself: it differs where p ≤ {}. Consistent counts do not prove the "
+      "simulation right: they only do not contradict it",
+      summary.features.rigs ? "rank of the real rig among the simulated ones, by as many trials of each"
+                            : "Fisher's exact test",
+      text::percent(1.0 - summary.confidence));
+  PointDescription object;
+  object
+      .value({.key = "successes",
+              .heading = "real rig",
+              .meaning = "trials that succeeded on the real rig",
+              .column = "observed_successes"},
+             [](Point p) { return p.observed->counts.successes; })
+      .shown_as([](Point p) {
+        return fmt::format("{} of {}", p.observed->counts.successes, p.observed->counts.of);
+      })
+      .value({.key = "of", .meaning = "trials on the real rig", .column = "observed_trials"},
+             [](Point p) { return p.observed->counts.of; })
+      .value({.heading = "simulated"}, simulated_text)
+      .value({.key = "p_value",
+              .meaning = "two-sided p-value; null where it cannot be tested",
+              .unit = "1",
+              .column = "observed_p_value"},
+             [](Point p) { return p.observed->test ? p.observed->test->p : statistics::unknown; })
+      .value({.key = "lowest_p_value",
+              .meaning = "lowest p-value that any result can have",
+              .unit = "1",
+              .shown = Shown::in_json},
+             [](Point p) { return p.observed->test ? p.observed->test->lowest_p : statistics::unknown; })
+      .value({.key = "verdict",
+              .meaning = "whether the simulation and the real rig are consistent",
+              .shown = Shown::in_json,
+              .words = {std::begin(summary::observed_verdicts), std::end(summary::observed_verdicts)}},
+             [](Point p) { return summary::verdict_on(*p.observed, p.summary.confidence); })
+      .value({.key = "statement",
+              .heading = "the simulation and the rig",
+              .meaning = "the verdict in words",
+              .shown = Shown::not_in_csv},
+             observed_statement);
+  point.object({.key = "observed_counts",
+                .meaning = "trials on the real rig against those simulated",
+                .own_table = "observed on the real rig",
+                .note = method},
+               object, [](Point p) { return p.observed ? &p : nullptr; });
+}
+
+void add_stopping(PointDescription& point, const summary::StudySummary& summary) {
+  if (!summary.stop) return;
+  const auto item = [](const char* key, const char* meaning) {
+    return document::Item{.key = key, .meaning = meaning, .unit = "1", .shown = Shown::in_json};
+  };
+  const auto bound = [](const std::string& key, const char* side, const std::string& heading) {
+    return document::Item{
+        .key = key,
+        .heading = heading,
+        .meaning = std::string(side) + " bound of the success rate that holds however often one looks",
+        .unit = "1",
+        .column = "stopped_" + key};
+  };
+  document::Item half = item("halfwidth", "half the width of the bounds that the rule is about");
+  half.heading = fmt::format("asked for: ± {:.4g} %, came to", 100.0 * summary.stop->success_rate_halfwidth);
+  half.shown = Shown::not_in_csv;
+  PointDescription object;
+  object
+      .value(bound("success_rate_low", "lower",
+                   bounds_head(summary) + " of zero-count, however often one looks (%)"),
+             [](Point p) { return stopped_bounds(p, p.summary.confidence).low; })
+      .shown_as([](Point p) {
+        const statistics::ConfidenceInterval here = stopped_bounds(p, p.summary.confidence);
+        return fmt::format("[{}]", text::percent_bounds(here.low, here.high, 2));
+      })
+      .value(bound("success_rate_high", "upper", ""),
+             [](Point p) { return stopped_bounds(p, p.summary.confidence).high; })
+      .value(item("confidence", "confidence of these bounds"), [](Point p) { return p.summary.confidence; })
+      .value(std::move(half), halfwidth)
+      .shown_as([](Point p) {
+        return fmt::format("± {} %{}", text::rounded_up(100.0 * halfwidth(p), 2),
+                           is_reached(p) ? "" : ": not reached");
+      })
+      .value(item("halfwidth_asked", "half-width that the rule asks for"),
+             [](Point p) { return p.summary.stop->success_rate_halfwidth; })
+      .value(item("halfwidth_confidence", "confidence of the bounds that the rule is about"),
+             [](Point p) { return p.summary.stop->confidence; })
+      .value({.key = "reached",
+              .meaning = "whether the bounds are as narrow as asked for",
+              .shown = Shown::in_json},
+             is_reached);
+  if (summary.features.rigs)
+    object.value({.key = "of_rigs",
+                  .meaning = "rigs of the study, over whose mean the bounds are",
+                  .shown = Shown::in_json},
+                 [](Point p) { return p.statistics().rigs.n; });
+  point.object({.key = "stopping",
+                .meaning = "what the rule that ended the study asked for, and what was reached",
+                .own_table = "bounds of the stopping rule",
+                .note = note_on_stopping(summary)},
+               object, same_point);
+}
+
+void add_assurance(PointDescription& point, const summary::StudySummary& summary) {
+  if (summary.features.open_loop || summary.features.dependent_trials) return;
+  using Limit = statistics::ToleranceLimit;
+  document::Description<Limit> limit;
+  limit.value({.key = "content", .meaning = "proportion of axes", .unit = "1"}, &Limit::content)
+      .value({.key = "within", .meaning = "time in which at least these settle", .unit = "s"},
+             &Limit::within);
+  PointDescription object;
+  object
+      .value({.key = "success_at_least",
+              .heading = "success ≥",
+              .meaning = "proportion of axes (with rigs: of trials) that succeed at least",
+              .unit = "1",
+              .numeric = true,
+              .column = "success_at_least"},
+             [](Point p) { return p.statistics().claim.success_at_least; })
+      .shown_as([](Point p) { return shown_at_least(p.statistics().claim.success_at_least); })
+      .value({.key = "failure_at_most",
+              .meaning = "proportion of axes (with rigs: of trials) that fail at most",
+              .unit = "1",
+              .column = "failure_at_most"},
+             [](Point p) { return p.statistics().claim.failure_at_most; })
+      .value({.key = "rule_of_three",
+              .meaning = "approximation of failure_at_most without a failure; null where there was one",
+              .unit = "1",
+              .shown = Shown::in_json},
+             [](Point p) { return statistics::rule_of_three(p.statistics().claim); })
+      .table({.key = "settling_time", .meaning = "upper tolerance limits", .shown = Shown::in_json}, limit,
+             [](Point p) { return p.statistics().settles_within; });
+  for (std::size_t i = 0; i < std::size(statistics::tolerance_contents); ++i) {
+    const double content = statistics::tolerance_contents[i];
+    const std::string axes = text::percent(content);
+    object.value({.key = key_of_limit(content),
+                  .heading = axes + " arrive by",
+                  .meaning = fmt::format("time in which at least {} of axes settle", axes),
+                  .unit = "s",
+                  .shown = Shown::not_in_json,
+                  .column = key_of_limit(content)},
+                 [i](Point p) { return p.statistics().settles_within.at(i).within; });
+  }
+  object.value({.key = "statement", .meaning = "the same in words", .shown = Shown::in_json},
+               assurance_statement);
+  if (summary.features.rigs)
+    object.object({.key = "rigs", .meaning = "what is shown of single rigs"}, assurance_of_rigs(summary),
+                  [](Point p) { return p.statistics().rigs.tolerance.min_rigs > 0 ? &p : nullptr; });
+  point.object({.key = "assurance",
+                .meaning = "what the trials show of all axes that the manifest describes",
+                .own_table = title_of_assurance(summary),
+                .note = note_on_assurance(summary)},
+               object, same_point);
+}
+
+}  // namespace zerocount::summary_answer

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -28,7 +29,7 @@
 namespace zerocount::design_commands {
 namespace {
 
-using document::in_data;
+using document::everywhere;
 using document::Notation;
 using document::Shown;
 using tuning::Limit;
@@ -50,74 +51,50 @@ constexpr const char* limits_help =
     "\n"
     "Example: zerocount limits my-axis.yaml\n";
 
-struct LimitRow {
-  const Limit& limit;
-  const Limit& base;  ///< with nothing switched off
-};
-
-std::vector<LimitRow> limit_rows(const std::vector<Limit>& limits) {
-  std::vector<LimitRow> rows;
-  rows.reserve(limits.size());
-  for (const Limit& one : limits) rows.push_back({one, limits.front()});
-  return rows;
-}
-
-/// "14 % fewer": the failures of the row, compared with those of the base.
-std::string failures_cell(const LimitRow& row) {
-  const double base = row.base.rate.value();
-  const bool is_comparable = row.limit.estimate.worst == row.base.estimate.worst &&
-                             row.limit.estimate.units == row.base.estimate.units;
-  if (&row.limit == &row.base || !row.limit.rate || base == 1.0 || !is_comparable) return "";
-  const double avoided = (*row.limit.rate - base) / (1.0 - base);
-  return fmt::format("{:.0f} % {}", std::abs(100.0 * avoided), avoided >= 0.0 ? "fewer" : "more");
-}
-
 template <class Member>
-auto gain_of(const LimitRow& row, Member member) {
-  const std::optional<tuning::PairedGain>& gain = row.limit.gain;
-  return gain ? std::optional((*gain).*member) : std::nullopt;
+auto gain_of(Member member) {
+  return [member](const Limit& limit) {
+    return limit.gain ? std::optional((*limit.gain).*member) : std::nullopt;
+  };
 }
 
 /// @param effect the column of Limit::effect
-document::Description<LimitRow> limit_columns(const document::Item& effect) {
-  using Row = const LimitRow&;
-  return document::Description<LimitRow>()
-      .value(effect, [](Row row) { return row.limit.effect; })
+document::Description<Limit> limit_columns(const document::Item& effect) {
+  return document::Description<Limit>()
+      .value(effect, &Limit::effect)
       .value({.key = "rate",
               .heading = "rate",
               .meaning = "proportion of moves, or of machines, that meet the question; unknown if it is not "
                          "simulated",
               .unit = "1",
               .notation = Notation::percent},
-             [](Row row) { return row.limit.rate; })
+             &Limit::rate)
       .value({.key = "goal",
               .heading = "of goal",
               .meaning = "the worst of several goals, which the rate is of",
               .optional = true},
-             [](Row row) { return row.limit.goal; })
+             &Limit::goal)
       .value({.key = "condition",
               .heading = "condition or age",
               .meaning = "the worst condition, which the rate is of",
               .optional = true},
-             [](Row row) { return row.limit.condition; })
+             &Limit::condition)
       .value({.key = "rates",
               .meaning = "the rates of all goals under all conditions, where there are several",
               .unit = "1",
               .shown = Shown::in_json,
               .optional = true},
-             [](Row row) { return row.limit.rates; })
-      .value({.key = "failures", .heading = "failures", .shown = Shown::to_people, .numeric = true},
-             failures_cell)
+             &Limit::rates)
       .value({.key = "gained",
               .heading = "gained",
               .meaning = "machines, or trials, that meet the worst goal more often without the cause",
               .optional = true},
-             [](Row row) { return gain_of(row, &tuning::PairedGain::gained); })
+             gain_of(&tuning::PairedGain::gained))
       .value({.key = "lost",
               .heading = "lost",
               .meaning = "machines, or trials, that meet it less often",
               .optional = true},
-             [](Row row) { return gain_of(row, &tuning::PairedGain::lost); })
+             gain_of(&tuning::PairedGain::lost))
       .value(
           {.key = "p_value",
            .heading = "by chance",
@@ -125,63 +102,35 @@ document::Description<LimitRow> limit_columns(const document::Item& effect) {
            .unit = "1",
            .notation = Notation::two_digits,
            .optional = true},
-          [](Row row) { return gain_of(row, &tuning::PairedGain::p_value); })
+          gain_of(&tuning::PairedGain::p_value))
       .value({.key = "shown",
               .meaning = "whether it is shown to raise the rate, allowing for the number of causes",
               .shown = Shown::in_json,
               .optional = true},
-             [](Row row) { return gain_of(row, &tuning::PairedGain::shown); })
-      .value(in_data("note", "what the rate does not show, what is assumed, or why there is none"),
-             [](Row row) { return row.limit.note.empty() ? std::nullopt : std::optional(row.limit.note); })
-      .value({.key = "remark", .heading = "remark", .shown = Shown::to_people},
-             [](Row row) { return row.limit.rate ? row.limit.note : ""; });
+             gain_of(&tuning::PairedGain::shown))
+      .value(document::to_people("shown to raise it"),
+             [](const Limit& limit) { return limit.is_shown_cause() ? "yes" : ""; })
+      .value(
+          everywhere("note", "remark", "what the rate does not show, what is assumed, or why there is none"),
+          [](const Limit& limit) { return limit.note.empty() ? std::nullopt : std::optional(limit.note); });
 }
 
-/// "creep off, no noise are not simulated: nothing is missed": a line for each reason.
-std::string not_simulated(const std::vector<Limit>& limits) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> by_reason;
-  for (const Limit& one : limits) {
-    if (one.rate) continue;
-    auto same = std::ranges::find(by_reason, one.note, &decltype(by_reason)::value_type::first);
-    if (same == by_reason.end()) same = by_reason.insert(same, {one.note, {}});
-    same->second.push_back(one.effect);
-  }
-  std::string lines;
-  for (const auto& [reason, effects] : by_reason)
-    lines += fmt::format("{} {} not simulated: {}\n", fmt::join(effects, ", "),
-                         effects.size() == 1 ? "is" : "are", reason);
-  return lines;
-}
-
-/// Names the causes that are shown, and what was tried and what was not.
+/// Tells what was not tried, and whether there were too few units to show a cause.
 std::string causes_sentence(const std::vector<Limit>& limits) {
-  std::vector<std::string> tried;
-  std::vector<std::string> shown;
+  std::int64_t tried = 0;
   std::int64_t units = 0;
   for (const Limit& one : limits) {
     if (!one.gain) continue;
-    tried.push_back(one.effect);
+    ++tried;
     units = one.gain->units;
-    if (one.is_shown_cause())
-      shown.push_back(fmt::format("{} ({})", one.effect,
-                                  text::percent_near(one.estimate.rates[limits.front().estimate.worst])));
   }
-  if (tried.empty()) return "";
-  const std::int64_t alternatives = std::ssize(tried);
-  const std::int64_t needed = tuning::units_to_show_a_gain(alternatives);
-  std::string text = shown.empty() ? fmt::format("shown to raise the rate: none of these {}", tried.size())
-                                   : fmt::format("shown to raise the rate: {}", fmt::join(shown, ", "));
-  if (units < needed) text += fmt::format("; {} units cannot show it, at least {} can", units, needed);
-  return text + fmt::format(
-                    "\ntried: {}\nnot tried: other values of {} that have no ideal one, other gains, "
-                    "another friction law\n",
-                    fmt::join(tried, ", "), fmt::join(tuning::sections_with_other_values(), ", "));
-}
-
-/// 95 % bounds of the rate of a limit, as if each machine, or trial, met or missed the goal as a whole.
-statistics::ConfidenceInterval bounds_of(const Limit& limit) {
-  return statistics::wilson_interval(*limit.rate, static_cast<double>(limit.estimate.units),
-                                     statistics::two_sided_normal_quantile(statistics::summary_confidence));
+  if (tried == 0) return "";
+  const std::int64_t needed = tuning::units_to_show_a_gain(tried);
+  return (units < needed ? fmt::format("{} units cannot show a cause, at least {} can\n", units, needed)
+                         : "") +
+         fmt::format(
+             "not tried: other values of {} that have no ideal one, other gains, another friction law",
+             fmt::join(tuning::sections_with_other_values(), ", "));
 }
 
 /// The rates with a cause switched off, beside that with none and what is asked for; nothing where no cause
@@ -198,7 +147,10 @@ std::vector<document::Figure> limits_figures(const std::vector<Limit>& limits) {
   double lowest = limits.front().asked;
   for (const Limit& one : limits) {
     if (!one.rate) continue;
-    const statistics::ConfidenceInterval bounds = bounds_of(one);
+    // As if each machine, or trial, met or missed the goal as a whole.
+    const statistics::ConfidenceInterval bounds =
+        statistics::wilson_interval(*one.rate, static_cast<double>(one.estimate.units),
+                                    statistics::two_sided_normal_quantile(statistics::summary_confidence));
     lowest = std::min(lowest, bounds.low);
     data.rows.push_back({data.rows.empty() ? "nothing off" : one.effect, datum(*one.rate), datum(bounds.low),
                          datum(bounds.high)});
@@ -228,27 +180,16 @@ struct PointLimits {
   std::vector<Limit> additions;
 };
 
-std::vector<LimitRow> addition_rows(const PointLimits& found) {
-  std::vector<LimitRow> rows;
-  rows.reserve(found.additions.size());
-  for (const Limit& one : found.additions) rows.push_back({one, found.limits.front()});
-  return rows;
-}
-
 /// Tells what was simulated.
 std::string simulated_sentence(const PointLimits& found) {
-  const bool on_rigs = found.study.rigs > 0;
   const std::int64_t all = trials::replicates_of(found.study, found.units.point).count;
-  return fmt::format(
-      "simulated: the {} {} of the study{}{}, in each row with the same random numbers; pairs of "
-      "causes first on some of them",
-      found.units.count < all ? fmt::format("first {} of {}", found.units.count, all) : std::to_string(all),
-      on_rigs ? "machines" : "trials",
-      on_rigs                          ? fmt::format(" with {} trial{} each", found.units.trials_each,
-                            found.units.trials_each == 1 ? "" : "s")
-      : found.study.conditions.empty() ? std::string()
-                                       : " under each condition",
-      found.units.count < all ? ", as many as the budget is enough for" : "");
+  const char* const units = found.study.rigs > 0 ? "machines" : "trials";
+  return (found.units.count < all
+              ? fmt::format(
+                    "simulated: the first {} of {} {} of the study, as many as the budget is enough for",
+                    found.units.count, all, units)
+              : fmt::format("simulated: the {} {} of the study", all, units)) +
+         ", in each row with the same random numbers; pairs of causes first on some of them";
 }
 
 /// "96.5 % of the moves meet the goal; with no delay 100 %".
@@ -277,8 +218,7 @@ document::AnswerDescription<PointLimits> limits_answer() {
               .heading = "with an effect added that the study may assume away",
               .meaning = "rates with an effect added to those of the study"},
              limit_columns({.key = "effect", .heading = "added", .meaning = "effect that is added"}),
-             addition_rows)
-      .sentence([](const PointLimits& found) { return not_simulated(found.additions); })
+             &PointLimits::additions)
       .sentence(simulated_sentence);
   return answer;
 }
@@ -368,9 +308,8 @@ document::Description<std::vector<Limit>> limits_description(const std::string& 
              limit_columns({.key = "cause",
                             .heading = "switched off",
                             .meaning = "cause of failures that is switched off"}),
-             limit_rows)
+             std::identity())
       .sentence(causes_sentence)
-      .sentence(not_simulated)
       .figures(limits_figures);
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -24,6 +25,7 @@
 namespace zerocount::design_commands {
 namespace {
 
+using document::everywhere;
 using document::in_data;
 using document::Shown;
 using tuning::JudgedMachine;
@@ -46,35 +48,17 @@ struct Search {
   const study::Study& study;
   WorstMachines found;
   std::optional<std::filesystem::path> manifest{};  ///< that is written
-
-  /// "75.4 % of 256 moves meet the goals, the fewest 'large', under condition loaded".
-  std::string judged(const JudgedMachine& machine) const {
-    const std::string fewest =
-        machine.goal && machine.met < 1.0 ? fmt::format(", the fewest '{}',", *machine.goal) : "";
-    return fmt::format("{:.4g} % of {} moves {}{}{}{}", 100.0 * machine.met, machine.moves,
-                       goal::words_of(goal::question_of(study)).meet, study.goals.size() > 1 ? "s" : "",
-                       fewest, study::condition_text(study, machine.condition));
-  }
 };
 
-std::string box_sentence(const Search& search) {
+std::string headline(const Search& search) {
   const WorstMachines& found = search.found;
-  return "worst in the box of the central 99.9 % of each input: " +
-         (found.in_box_is_of_study ? fmt::format("none is worse than {} of the study",
-                                                 machine_name(found.of_study, search.study.rigs > 0))
-                                   : search.judged(found.in_box));
-}
-
-std::string likely_sentence(const Search& search) {
-  return "worst of the likely machines: " +
-         (search.found.likely_is_in_box ? "the same machine" : search.judged(search.found.likely));
-}
-
-std::string profiles_sentence(const Search& search) {
-  const WorstMachines& found = search.found;
-  if (!found.with_profiles) return "";
-  return fmt::format("with the profiles of rig {}{}", found.in_box.rig,
-                     found.likely_is_in_box ? "" : fmt::format(", likely: of rig {}", found.likely.rig));
+  const std::string place = "worst in the box of the central 99.9 % of each input: ";
+  if (found.in_box_is_of_study)
+    return place + fmt::format("none is worse than {} of the study",
+                               machine_name(found.of_study, search.study.rigs > 0));
+  return place + fmt::format("{:.4g} % of {} moves {}{}", 100.0 * found.in_box.met, found.in_box.moves,
+                             goal::words_of(goal::question_of(search.study)).meet,
+                             study::condition_text(search.study, found.in_box.condition));
 }
 
 /// How the machine of the manifest is run again.
@@ -88,45 +72,22 @@ std::string replay_sentence(const Search& search) {
                      text::shell_path(*search.manifest), machine.trial);
 }
 
-/// An input of the machines in the box and of the likely ones.
-struct InputRow {
-  std::string name;
-  double in_box;
-  std::optional<double> likely;  ///< where it is another machine
-};
-
-std::vector<InputRow> input_rows(const Search& search) {
-  const WorstMachines& found = search.found;
-  std::vector<InputRow> rows;
-  for (std::size_t i = 0; i < found.in_box.inputs.size(); ++i) {
-    const auto& [name, value] = found.in_box.inputs[i];
-    rows.push_back({name, value, std::nullopt});
-    if (!found.likely_is_in_box) rows.back().likely = found.likely.inputs[i].second;
-  }
-  return rows;
-}
-
-document::Description<InputRow> input_columns() {
-  return document::Description<InputRow>()
-      .value({.key = "input", .heading = "input"}, &InputRow::name)
-      .value({.key = "in_box", .heading = "in the box"}, &InputRow::in_box)
-      .value({.key = "likely", .heading = "likely"}, &InputRow::likely);
-}
-
 document::Description<JudgedMachine> judged_description() {
+  document::Item condition =
+      everywhere("condition", "condition", "the condition that it bears, with conditions");
+  document::Item goal = everywhere("goal", "goal that its moves meet the least often",
+                                   "the goal that its moves meet the least often, of several");
+  condition.optional = goal.optional = true;
   return document::Description<JudgedMachine>()
-      .value({.key = "condition",
-              .meaning = "the condition that it bears, with conditions",
-              .shown = Shown::in_data,
-              .optional = true},
-             &JudgedMachine::condition_name)
-      .value({.key = "goal",
-              .meaning = "the goal that its moves meet the least often, of several",
-              .shown = Shown::in_data,
-              .optional = true},
-             &JudgedMachine::goal)
-      .value(in_data("moves", "moves by which the machine is judged"), &JudgedMachine::moves)
-      .value(in_data("met", "proportion of these moves that meet the goal", "1"), &JudgedMachine::met);
+      .value(std::move(condition), &JudgedMachine::condition_name)
+      .value(std::move(goal), &JudgedMachine::goal)
+      .value(everywhere("moves", "moves", "moves by which the machine is judged"), &JudgedMachine::moves)
+      .value({.key = "met",
+              .heading = "moves that meet the goal",
+              .meaning = "proportion of these moves that meet the goal",
+              .unit = "1",
+              .notation = document::Notation::percent},
+             &JudgedMachine::met);
 }
 
 /// A machine that was sought, and whether it is another one of the answer.
@@ -136,7 +97,7 @@ struct FoundMachine {
 };
 
 document::Description<FoundMachine> found_description(const std::string& other_key,
-                                                      const std::string& other_meaning) {
+                                                      const std::string& other_machine) {
   using Found = const FoundMachine&;
   return document::Description<FoundMachine>()
       .value(in_data("rig", "rig of the study with its profiles; 0 without rigs"),
@@ -144,44 +105,36 @@ document::Description<FoundMachine> found_description(const std::string& other_k
       .value(in_data("trial", "its worst trial, of its manifest"),
              [](Found found) { return found.machine.trial; })
       .include(judged_description(), [](Found found) -> const JudgedMachine& { return found.machine; })
-      .value(in_data("inputs", "the quantities that differ between machines, by parameter"),
+      .value(everywhere("inputs", "inputs", "the quantities that differ between machines, by parameter"),
              [](Found found) -> const NamedValues& { return found.machine.inputs; })
       .value(in_data("quantiles", "their quantiles", "1"),
              [](Found found) -> const std::vector<double>& { return found.machine.quantiles; })
-      .value({.key = other_key, .meaning = other_meaning}, &FoundMachine::is_other);
+      .value(everywhere(other_key, "is " + other_machine, "whether it is " + other_machine),
+             &FoundMachine::is_other);
 }
 
 document::AnswerDescription<Search> worst_answer() {
   document::AnswerDescription<Search> answer{
       {.name = "worst", .meaning = "the machine that a gain suits worst"}, {}};
-  answer.items.headline(box_sentence)
-      .sentence(likely_sentence)
+  answer.items.headline(headline)
       .include(worst_description(), [](const Search& s) { return s.found.of_study; })
       .sentence([](const Search& s) {
         return "worst of the study: " + worst_machine_text(s.found.of_study, s.study);
       })
-      .object(in_data("again", "the worst machine of the study, judged by new trials"), judged_description(),
-              [](const Search& s) { return s.found.again; })
-      .sentence([](const Search& s) { return "  in new trials " + s.judged(s.found.again); })
-      .object(in_data("box", "the worst machine in the box of the central 99.9 % of each input"),
-              found_description("of_study", "whether it is the worst machine of the study"),
+      .object(everywhere("again", "the same machine, by new trials",
+                         "the worst machine of the study, judged by new trials"),
+              judged_description(), [](const Search& s) { return s.found.again; })
+      .object(everywhere("box", "worst in the box",
+                         "the worst machine in the box of the central 99.9 % of each input"),
+              found_description("of_study", "the worst machine of the study"),
               [](const Search& s) {
                 return FoundMachine{s.found.in_box, s.found.in_box_is_of_study};
               })
-      .object(in_data("likely", "the worst of the likely machines"),
-              found_description("in_box", "whether it is the machine of the box"),
+      .object(everywhere("likely", "worst of the likely machines", "the worst of the likely machines"),
+              found_description("in_box", "the machine of the box"),
               [](const Search& s) {
                 return FoundMachine{s.found.likely, s.found.likely_is_in_box};
               })
-      .table({.key = "machine_inputs", .heading = "these machines", .shown = Shown::to_people},
-             input_columns(), input_rows)
-      .sentence(profiles_sentence)
-      .sentence([](const Search& s) {
-        return fmt::format(
-            "simulated: the trials of the study, then machines that are sought, by up to 64 "
-            "trials each on the same random numbers; the machines of this answer by {} new moves each",
-            s.found.in_box.moves);
-      })
       .sentence(replay_sentence);
   return answer;
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "core/loop/dac.hpp"
-#include "runners/controller_code/heading.hpp"
 #include "runners/controller_code/program_text.hpp"
 #include "runners/controller_code/written_controller.hpp"
 
@@ -19,12 +18,14 @@ Notation c_notation(Precision precision) {
           .state = "s->",
           .no = "0",
           .yes = "1",
-          .operators = {.both = " && ", .either = " || ", .negation = "!"},
-          .calls = {.count_difference = "(float)({0} - {1})",
-                    .magnitude = "magnitude({0})",
-                    .limited = "limited({0}, {1}, {2})",
-                    .is_even = "((int64_t)({0}) % 2 == 0)",
-                    .choice = "({0} ? {1} : {2})"},
+          .forms = {{Operation::both, "{0} && {1}"},
+                    {Operation::either, "{0} || {1}"},
+                    {Operation::negation, "!{0}"},
+                    {Operation::count_difference, "(float)({0} - {1})"},
+                    {Operation::magnitude, "magnitude({0})"},
+                    {Operation::limited, "limited({0}, {1}, {2})"},
+                    {Operation::is_even, "((int64_t)({0}) % 2 == 0)"},
+                    {Operation::choice, "({0} ? {1} : {2})"}},
           .lines = {.assignment = "{} = {};",
                     .if_begins = "if ({}) {{",
                     .otherwise = "}} else {{",
@@ -87,10 +88,10 @@ std::string chain_code(const ControllerToWrite& chain, const Program& program) {
   const Notation notation = c_notation(program.precision);
   const std::string_view type = number_type(program.precision);
   const std::string statements = statements_text(program, notation, program.step, 2);
-  std::vector<std::string> heading = heading_lines(chain, program.precision);
-  for (std::string& line : heading) line = in_comment(line);
-  std::string code = "/*\n" + lines_after(" * ", heading) + " */\n#include <stdint.h>\n\n";
-  boost::algorithm::replace_all(code, " * \n", " *\n");
+  std::string code = "/*\n";
+  for (const std::string& line : heading_lines(chain, program.precision))
+    code += (line.empty() ? " *" : " * " + in_comment(line)) + "\n";
+  code += " */\n#include <stdint.h>\n\n";
   for (const Constant& constant : program.constants)
     code += fmt::format("static const {} {} = {}; /* {} */\n", type, constant.name,
                         decimal(constant.value, notation), constant.meaning);

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "core/plugin/controller_plugin.hpp"
+
 namespace zerocount::controller_code {
 
-/// A controller as statements, of which every language is written, and which can be run (program_run.hpp).
+/// A controller as statements, of which every language is written, and which can be run.
 ///
 ///     at each sample: the statements of `step`, which read inputs and states; then `wanted` has the torque
 
@@ -50,6 +52,23 @@ class Term {
   std::size_t index() const { return node_->index; }  ///< of a constant or variable in the program
   double value() const { return node_->value; }       ///< of a literal
 
+  friend Term operator-(const Term& a) { return {Operation::negative, {a}}; }
+  friend Term operator+(const Term& a, const Term& b) { return {Operation::sum, {a, b}}; }
+  friend Term operator-(const Term& a, const Term& b) { return {Operation::difference, {a, b}}; }
+  friend Term operator*(const Term& a, const Term& b) { return {Operation::product, {a, b}}; }
+  friend Term operator/(const Term& a, const Term& b) { return {Operation::quotient, {a, b}}; }
+  friend Term operator<=(const Term& a, const Term& b) { return {Operation::at_most, {a, b}}; }
+  friend Term operator>=(const Term& a, const Term& b) { return {Operation::at_least, {a, b}}; }
+  friend Term operator<(const Term& a, const Term& b) { return {Operation::below, {a, b}}; }
+  friend Term operator>(const Term& a, const Term& b) { return {Operation::above, {a, b}}; }
+  friend Term operator!(const Term& a) { return {Operation::negation, {a}}; }
+  friend Term both(const Term& a, const Term& b) { return {Operation::both, {a, b}}; }
+  friend Term either(const Term& a, const Term& b) { return {Operation::either, {a, b}}; }
+  friend Term magnitude(const Term& x) { return {Operation::magnitude, {x}}; }
+  friend Term choice(const Term& condition, const Term& where_it_holds, const Term& otherwise) {
+    return {Operation::choice, {condition, where_it_holds, otherwise}};
+  }
+
  private:
   struct Node {
     Operation operation;
@@ -59,49 +78,6 @@ class Term {
   };
   std::shared_ptr<const Node> node_;
 };
-
-inline Term operator-(const Term& a) {
-  return {Operation::negative, {a}};
-}
-inline Term operator+(const Term& a, const Term& b) {
-  return {Operation::sum, {a, b}};
-}
-inline Term operator-(const Term& a, const Term& b) {
-  return {Operation::difference, {a, b}};
-}
-inline Term operator*(const Term& a, const Term& b) {
-  return {Operation::product, {a, b}};
-}
-inline Term operator/(const Term& a, const Term& b) {
-  return {Operation::quotient, {a, b}};
-}
-inline Term operator<=(const Term& a, const Term& b) {
-  return {Operation::at_most, {a, b}};
-}
-inline Term operator>=(const Term& a, const Term& b) {
-  return {Operation::at_least, {a, b}};
-}
-inline Term operator<(const Term& a, const Term& b) {
-  return {Operation::below, {a, b}};
-}
-inline Term operator>(const Term& a, const Term& b) {
-  return {Operation::above, {a, b}};
-}
-inline Term operator!(const Term& a) {
-  return {Operation::negation, {a}};
-}
-inline Term both(const Term& a, const Term& b) {
-  return {Operation::both, {a, b}};
-}
-inline Term either(const Term& a, const Term& b) {
-  return {Operation::either, {a, b}};
-}
-inline Term magnitude(const Term& x) {
-  return {Operation::magnitude, {x}};
-}
-inline Term choice(const Term& condition, const Term& where_it_holds, const Term& otherwise) {
-  return {Operation::choice, {condition, where_it_holds, otherwise}};
-}
 
 /// A number with a name.
 struct Constant {
@@ -175,5 +151,8 @@ class ProgramWriter {
   Program program_;
   Statements* at_;
 };
+
+/// The program as a control law of this process, statement by statement in its precision.
+std::shared_ptr<const plugin::ControllerPlugin> law_of(const Program& program);
 
 }  // namespace zerocount::controller_code

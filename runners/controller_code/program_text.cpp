@@ -1,8 +1,11 @@
 #include "runners/controller_code/program_text.hpp"
 
+#include <array>
 #include <string>
 
 #include <fmt/format.h>
+
+#include "core/loop/dac.hpp"
 
 namespace zerocount::controller_code {
 namespace {
@@ -10,88 +13,71 @@ namespace {
 /// The weakest binding first; both languages agree on the order.
 enum class Binding { either, both, comparison, sum, product, sign, whole };
 
-struct Text {
-  std::string text;
-  Binding binding;
+/// How an operation is written, and how strongly it and its operands bind. Operators of equal strength act
+/// from the left. In a disjunction a conjunction gets parentheses too.
+struct Shape {
+  std::string_view form;  ///< empty: Notation::forms
+  Binding binding, left, right;
 };
 
-class TermWriter {
- public:
-  TermWriter(const Program& program, const Notation& notation) : program_(program), notation_(notation) {}
-
-  Text write(const Term& term) const {
-    switch (term.operation()) {
-      case Operation::literal:
-        return {decimal(term.value(), notation_), term.value() < 0.0 ? Binding::sign : Binding::whole};
-      case Operation::constant:
-        return {program_.constants[term.index()].name, Binding::whole};
-      case Operation::variable:
-        return {variable_text(program_.variables[term.index()], notation_), Binding::whole};
-      case Operation::negative:
-        return {"-" + within(term.operands()[0], Binding::whole), Binding::sign};
-      case Operation::negation:
-        return {fmt::format("{}{}", notation_.operators.negation, within(term.operands()[0], Binding::whole)),
-                Binding::sign};
-      case Operation::sum:
-        return infix(term, " + ", Binding::sum);
-      case Operation::difference:
-        return infix(term, " - ", Binding::sum);
-      case Operation::product:
-        return infix(term, " * ", Binding::product);
-      case Operation::quotient:
-        return infix(term, " / ", Binding::product);
-      case Operation::at_most:
-        return infix(term, " <= ", Binding::comparison);
-      case Operation::at_least:
-        return infix(term, " >= ", Binding::comparison);
-      case Operation::below:
-        return infix(term, " < ", Binding::comparison);
-      case Operation::above:
-        return infix(term, " > ", Binding::comparison);
-      case Operation::both:
-        return infix(term, notation_.operators.both, Binding::both);
-      case Operation::either:
-        return infix(term, notation_.operators.either, Binding::either);
-      case Operation::count_difference:
-        return call(term, notation_.calls.count_difference);
-      case Operation::magnitude:
-        return call(term, notation_.calls.magnitude);
-      case Operation::limited:
-        return call(term, notation_.calls.limited);
-      case Operation::is_even:
-        return call(term, notation_.calls.is_even);
-      case Operation::choice:
-        return call(term, notation_.calls.choice);
-    }
-    return {};
+Shape shape_of(Operation operation) {
+  using enum Binding;
+  switch (operation) {
+    case Operation::negative:
+      return {"-{0}", sign, whole, whole};
+    case Operation::negation:
+      return {"", sign, whole, whole};
+    case Operation::sum:
+      return {"{0} + {1}", sum, sum, product};
+    case Operation::difference:
+      return {"{0} - {1}", sum, sum, product};
+    case Operation::product:
+      return {"{0} * {1}", product, product, sign};
+    case Operation::quotient:
+      return {"{0} / {1}", product, product, sign};
+    case Operation::at_most:
+      return {"{0} <= {1}", comparison, comparison, sum};
+    case Operation::at_least:
+      return {"{0} >= {1}", comparison, comparison, sum};
+    case Operation::below:
+      return {"{0} < {1}", comparison, comparison, sum};
+    case Operation::above:
+      return {"{0} > {1}", comparison, comparison, sum};
+    case Operation::both:
+      return {"", both, both, comparison};
+    case Operation::either:
+      return {"", either, comparison, comparison};
+    case Operation::literal:
+    case Operation::constant:
+    case Operation::variable:
+    case Operation::count_difference:
+    case Operation::magnitude:
+    case Operation::limited:
+    case Operation::is_even:
+    case Operation::choice:
+      break;
   }
+  return {"", whole, either, either};
+}
 
- private:
-  /// The text, in parentheses where it does not bind as strongly.
-  std::string within(const Term& term, Binding least) const {
-    const Text text = write(term);
-    return text.binding < least ? "(" + text.text + ")" : text.text;
-  }
-
-  /// Operators of equal strength act from the left. In a disjunction a conjunction gets parentheses too.
-  Text infix(const Term& term, std::string_view sign, Binding binding) const {
-    const auto next = static_cast<Binding>(static_cast<int>(binding) + 1);
-    const Binding left = binding == Binding::either ? Binding::comparison : binding;
-    const Binding right = binding == Binding::either ? Binding::comparison : next;
-    return {fmt::format("{}{}{}", within(term.operands()[0], left), sign, within(term.operands()[1], right)),
-            binding};
-  }
-
-  Text call(const Term& term, std::string_view form) const {
-    std::vector<std::string> texts;
-    for (const Term& operand : term.operands()) texts.push_back(write(operand).text);
-    texts.resize(3);
-    return {fmt::format(fmt::runtime(form), texts[0], texts[1], texts[2]), Binding::whole};
-  }
-
-  const Program& program_;
-  const Notation& notation_;
-};
+/// The text of a term, in parentheses where it does not bind as strongly.
+std::string term_text(const Program& program, const Notation& notation, const Term& term,
+                      Binding least = Binding::either) {
+  const auto text = [&](const std::string& written, Binding binding) {
+    return binding < least ? "(" + written + ")" : written;
+  };
+  if (term.operation() == Operation::literal)
+    return text(decimal(term.value(), notation), term.value() < 0.0 ? Binding::sign : Binding::whole);
+  if (term.operation() == Operation::constant) return program.constants[term.index()].name;
+  if (term.operation() == Operation::variable)
+    return variable_text(program.variables[term.index()], notation);
+  const Shape shape = shape_of(term.operation());
+  std::array<std::string, 3> operands;
+  for (std::size_t i = 0; i < term.operands().size(); ++i)
+    operands[i] = term_text(program, notation, term.operands()[i], i == 0 ? shape.left : shape.right);
+  const std::string_view form = shape.form.empty() ? notation.forms.at(term.operation()) : shape.form;
+  return text(fmt::format(fmt::runtime(form), operands[0], operands[1], operands[2]), shape.binding);
+}
 
 }  // namespace
 
@@ -124,10 +110,6 @@ std::string initial_text(const Variable& variable, const Notation& notation) {
       break;
   }
   return decimal(variable.initial, notation);
-}
-
-std::string term_text(const Program& program, const Notation& notation, const Term& term) {
-  return TermWriter(program, notation).write(term).text;
 }
 
 std::string statements_text(const Program& program, const Notation& notation, const Statements& statements,
@@ -163,10 +145,30 @@ std::string statements_text(const Program& program, const Notation& notation, co
   return text;
 }
 
-std::string lines_after(std::string_view before, const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += fmt::format("{}{}\n", before, line);
-  return text;
+std::vector<std::string> heading_lines(const ControllerToWrite& chain, Precision precision) {
+  const std::string torque = parameters::unit_on(chain.axis, "N m");
+  const std::string force = parameters::text_on(chain.axis, "$torque");
+  std::vector<std::string> lines{
+      fmt::format("The controller of the study {}, as zerocount simulates it.", chain.name), "",
+      fmt::format("One step at each sample, {} Hz. Counts are those of an encoder of {} {} a count.",
+                  chain.controller.sample_rate, chain.resolution, parameters::unit_on(chain.axis, "rad")),
+      fmt::format(
+          "The wanted {} is in {}. The converter behind it rounds it to steps of {} {} and limits it to",
+          force, torque, chain.dac.resolution, torque),
+      fmt::format(
+          "{:.6g} ... {:.6g} {}; what it gave at the sample before is the input `torque` of the next.",
+          loop::lowest_torque(chain.dac), loop::highest_torque(chain.dac), torque)};
+  lines.insert(lines.end(), chain.remarks.begin(), chain.remarks.end());
+  lines.emplace_back("");
+  if (precision == Precision::double_precision) {
+    lines.emplace_back("The constants are exact, and the operations in the order of the simulation: without");
+    lines.emplace_back(
+        "contracted or reordered operations (-ffp-contract=off, no -ffast-math) it computes the same");
+    lines.emplace_back("bits.");
+  } else {
+    lines.emplace_back("In single precision: the constants are rounded to it, and counts are whole numbers.");
+  }
+  return lines;
 }
 
 }  // namespace zerocount::controller_code

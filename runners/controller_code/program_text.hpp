@@ -1,20 +1,16 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "runners/controller_code/program.hpp"
+#include "runners/controller_code/chain_program.hpp"
 
 namespace zerocount::controller_code {
 
 /// How a language writes programs. `{0}`, `{1}` … stand for the operands.
 struct Notation {
-  struct Operators {
-    std::string_view both{}, either{}, negation{};
-  };
-  struct Calls {
-    std::string_view count_difference{}, magnitude{}, limited{}, is_even{}, choice{};
-  };
   struct Lines {
     std::string_view assignment{}, if_begins{}, otherwise{}, if_ends{}, remark{};
   };
@@ -22,8 +18,8 @@ struct Notation {
   std::string_view number_suffix{};   ///< of a decimal constant
   std::string_view input{}, state{};  ///< what stands before the names of these variables
   std::string_view no{}, yes{};       ///< a flag that is 0, and 1
-  Operators operators{};
-  Calls calls{};
+  /// The operations that languages write in different ways.
+  std::map<Operation, std::string_view> forms{};
   Lines lines{};
 };
 
@@ -31,7 +27,6 @@ struct Notation {
 std::string decimal(double value, const Notation& notation);
 
 std::string variable_text(const Variable& variable, const Notation& notation);
-std::string term_text(const Program& program, const Notation& notation, const Term& term);
 /// The value of a variable: a flag as such, otherwise a decimal number.
 std::string initial_text(const Variable& variable, const Notation& notation);
 
@@ -39,7 +34,7 @@ std::string initial_text(const Variable& variable, const Notation& notation);
 std::string statements_text(const Program& program, const Notation& notation, const Statements& statements,
                             std::size_t indent);
 
-/// The lines, each after `before`.
-std::string lines_after(std::string_view before, const std::vector<std::string>& lines);
+/// What stands above the code. Without comment signs.
+std::vector<std::string> heading_lines(const ControllerToWrite& chain, Precision precision);
 
 }  // namespace zerocount::controller_code

@@ -1,7 +1,6 @@
 #include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 
-#include "runners/controller_code/heading.hpp"
 #include "runners/controller_code/program_text.hpp"
 #include "runners/controller_code/written_controller.hpp"
 
@@ -13,14 +12,16 @@ Notation st_notation(Precision precision) {
       .precision = precision,
       .no = "FALSE",
       .yes = "TRUE",
-      .operators = {.both = " AND ", .either = " OR ", .negation = "NOT "},
-      // The conversion to a whole number rounds to the nearest.
-      .calls = {.count_difference = "LINT_TO_REAL({0} - {1})",
-                .magnitude = "ABS({0})",
-                .limited = "LIMIT({1}, {0}, {2})",
-                .is_even = "((LREAL_TO_LINT({0}) - BOOL_TO_LINT(LINT_TO_LREAL(LREAL_TO_LINT({0})) > {0})) "
-                           "MOD 2 = 0)",
-                .choice = "SEL({0}, {2}, {1})"},
+      .forms = {{Operation::both, "{0} AND {1}"},
+                {Operation::either, "{0} OR {1}"},
+                {Operation::negation, "NOT {0}"},
+                {Operation::count_difference, "LINT_TO_REAL({0} - {1})"},
+                {Operation::magnitude, "ABS({0})"},
+                {Operation::limited, "LIMIT({1}, {0}, {2})"},
+                // The conversion to a whole number rounds to the nearest.
+                {Operation::is_even,
+                 "((LREAL_TO_LINT({0}) - BOOL_TO_LINT(LINT_TO_LREAL(LREAL_TO_LINT({0})) > {0})) MOD 2 = 0)"},
+                {Operation::choice, "SEL({0}, {2}, {1})"}},
       .lines = {.assignment = "{} := {};",
                 .if_begins = "IF {} THEN",
                 .otherwise = "ELSE",

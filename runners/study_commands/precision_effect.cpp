@@ -8,7 +8,7 @@
 
 #include "analysis/goal/question.hpp"
 #include "analysis/statistics/quantile.hpp"
-#include "runners/controller_code/program_run.hpp"
+#include "runners/controller_code/program.hpp"
 #include "runners/trials/effort.hpp"
 #include "runners/trials/study_runner.hpp"
 #include "runners/trials/trial_set.hpp"

@@ -15,7 +15,7 @@
 
 #include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
-#include "runners/controller_code/program_run.hpp"
+#include "runners/controller_code/program.hpp"
 #include "runners/controller_code/program_text.hpp"
 #include "runners/plugins/plugin_library.hpp"
 #include "tests/core/loop/random_blocks.hpp"

@@ -22,6 +22,7 @@ namespace zerocount::rare {
 namespace {
 
 using document::Description;
+using document::everywhere;
 using document::in_data;
 using document::Notation;
 using document::Shown;
@@ -29,8 +30,6 @@ using document::with_words;
 
 using Of = const RareAnswer&;
 
-constexpr double min_shift = 0.3;  // of an input that people are shown
-constexpr std::size_t max_inputs = 8;
 constexpr std::size_t max_replays = 3;
 
 bool is_estimated(Of answer) {
@@ -113,30 +112,9 @@ std::string plain_need_sentence(Of answer) {
 }
 
 std::string plain_sentence(Of answer) {
-  const EstimatorState& state = answer.state;
-  std::string text;
-  if (answer.estimate.plain_high < 1.0)
-    text = fmt::format("of {} plain trials {} failed: that alone shows at most {:.2g}\n", state.plain_trials,
-                       state.plain_failures, answer.estimate.plain_high);
-  if (state.learned && state.proposal.is_natural())
-    text +=
-        "plain trials went on: failures are frequent, or depend too much on chance for a learned "
-        "distribution, or none was found to learn from\n";
-  return text;
-}
-
-std::string machines_sentence(Of answer) {
-  if (!answer.machines) return "";
-  const CarryingMachines& machines = *answer.machines;
-  std::string text =
-      fmt::format("of {} machines that failed, with {} new moves each, the median fails in {:.3g} % of them",
-                  machines.examined, machines.moves_each, 100.0 * machines.median_rate);
-  if (machines.mostly_failing > 0.0)
-    text += fmt::format(
-        "; {:.3g} % of the failures are on machines that fail in most of their moves, about one machine in "
-        "{:.2g}",
-        100.0 * machines.mostly_failing, 1.0 / machines.probability_of_one);
-  return text;
+  if (!answer.state.learned || !answer.state.proposal.is_natural()) return "";
+  return "plain trials went on: failures are frequent, or depend too much on chance for a learned "
+         "distribution, or none was found to learn from";
 }
 
 std::string replays_sentence(Of answer) {
@@ -172,14 +150,13 @@ std::vector<PartOf<Part>> parts_of(const std::vector<Part>& parts, const Questio
 Description<PartOf<ScoreSearch>> search_columns() {
   using Row = const PartOf<ScoreSearch>&;
   return Description<PartOf<ScoreSearch>>()
-      .value({.key = "score", .heading = "score", .meaning = "quantity that leads towards failures"},
+      .value(everywhere("score", "score", "quantity that leads towards failures"),
              [](Row row) {
                return measures::name_of(measures::move_scores[row.part.score], row.question.event);
              })
-      .value({.key = "reached", .heading = "leads to failures", .meaning = "whether failures were reached"},
+      .value(everywhere("reached", "leads to failures", "whether failures were reached"),
              [](Row row) { return row.part.reached; })
-      .value({.key = "levels", .heading = "levels", .meaning = "levels of the search"},
-             [](Row row) { return row.part.levels; })
+      .value(everywhere("levels", "levels", "levels of the search"), [](Row row) { return row.part.levels; })
       .value({.key = "probability",
               .heading = "probability",
               .meaning = "probability of the last level, without bounds",
@@ -202,9 +179,9 @@ Description<PartOf<PinnedValue>> value_columns() {
     return row.question.space.discrete[row.part.draw];
   };
   return Description<PartOf<PinnedValue>>()
-      .value({.key = "parameter", .heading = "parameter", .meaning = "parameter with single values"},
+      .value(everywhere("parameter", "parameter", "parameter with single values"),
              [draw_of](Row row) { return draw_of(row).name; })
-      .value({.key = "value", .heading = "value", .meaning = "value at which failures are frequent"},
+      .value(everywhere("value", "value", "value at which failures are frequent"),
              [draw_of](Row row) { return randomness::value_text(draw_of(row), row.part.value); })
       .value({.key = "probability",
               .heading = "its probability",
@@ -212,18 +189,10 @@ Description<PartOf<PinnedValue>> value_columns() {
               .unit = "1",
               .notation = Notation::three_digits},
              [](Row row) { return row.part.probability; })
-      .value({.key = "failures", .heading = "failures", .meaning = "trials at the value that failed"},
+      .value(everywhere("failures", "failures", "trials at the value that failed"),
              [](Row row) { return row.part.failures; })
-      .value({.key = "trials", .heading = "of trials", .meaning = "trials at the value"},
+      .value(everywhere("trials", "of trials", "trials at the value"),
              [](Row row) { return row.part.trials; });
-}
-
-/// The inputs that failure shifts most, for people.
-std::vector<FailureInput> shifted_inputs(Of answer) {
-  std::vector<FailureInput> inputs = answer.inputs;
-  std::erase_if(inputs, [](const FailureInput& input) { return std::abs(input.shift) < min_shift; });
-  if (inputs.size() > max_inputs) inputs.erase(inputs.begin() + max_inputs, inputs.end());
-  return inputs;
 }
 
 std::string range_text(const InputRange& range) {
@@ -231,50 +200,56 @@ std::string range_text(const InputRange& range) {
 }
 
 Description<FailureInput> input_columns() {
-  using Input = const FailureInput&;
   const auto range =
       Description<InputRange>()
           .value(in_data("low", "5 % quantile, in the unit of the parameter"), &InputRange::low)
           .value(in_data("median", "median"), &InputRange::median)
           .value(in_data("high", "95 % quantile"), &InputRange::high);
   return Description<FailureInput>()
-      .value({.key = "parameter", .heading = "parameter", .meaning = "dotted path of the parameter"},
-             &FailureInput::name)
-      .value({.key = "unit", .heading = "unit", .meaning = "its unit"}, &FailureInput::unit)
-      .value({.heading = "failures (5 to 95 %)", .shown = Shown::to_people},
-             [](Input input) { return range_text(input.failures); })
-      .value({.heading = "all trials", .shown = Shown::to_people},
-             [](Input input) { return range_text(input.usual); })
+      .value(everywhere("parameter", "parameter", "dotted path of the parameter"), &FailureInput::name)
+      .value(everywhere("unit", "unit", "its unit"), &FailureInput::unit)
       .value({.key = "shift",
               .heading = "shift",
               .meaning = "standard deviations by which failures lie above the median of all trials",
               .unit = "1",
               .notation = Notation::change},
              &FailureInput::shift)
-      .object(in_data("failures", "quantiles in failures"), range, &FailureInput::failures)
-      .object(in_data("usual", "quantiles in all trials"), range, &FailureInput::usual);
+      .object(everywhere("failures", "failures (5 to 95 %)", "quantiles in failures"), range,
+              &FailureInput::failures)
+      .shown_as([](const FailureInput& input) { return range_text(input.failures); })
+      .object(everywhere("usual", "all trials", "quantiles in all trials"), range, &FailureInput::usual)
+      .shown_as([](const FailureInput& input) { return range_text(input.usual); });
 }
 
 Description<RareAnswer> plain_description() {
   return Description<RareAnswer>()
-      .value(in_data("trials", "trials drawn from their own distribution"),
+      .value(everywhere("trials", "trials", "trials drawn from their own distribution"),
              [](Of a) { return a.state.plain_trials; })
-      .value(in_data("failures", "those with a move that failed"),
+      .value(everywhere("failures", "failures", "those with a move that failed"),
              [](Of a) { return a.state.plain_failures; })
-      .value(in_data("high", "upper bound by these alone", "1"), [](Of a) { return a.estimate.plain_high; });
+      .value(everywhere("high", "that alone shows at most", "upper bound by these alone", "1"),
+             [](Of a) { return a.estimate.plain_high; })
+      .sentence(plain_sentence);
 }
 
 Description<CarryingMachines> machines_description() {
   using Machines = CarryingMachines;
+  const auto proportion = [](std::string key, std::string heading, std::string meaning) {
+    document::Item item = everywhere(std::move(key), std::move(heading), std::move(meaning), "1");
+    item.notation = Notation::percent;
+    return item;
+  };
   return Description<Machines>()
-      .value(in_data("examined", "machines, drawn from the failures"), &Machines::examined)
-      .value(in_data("moves_each", "new moves of each"), &Machines::moves_each)
-      .value(in_data("median_rate", "median of their proportions of failing moves", "1"),
-             &Machines::median_rate)
-      .value(in_data("mostly_failing",
-                     "proportion of the failures on machines that fail in most of their moves", "1"),
+      .value(everywhere("examined", "machines", "machines, drawn from the failures"), &Machines::examined)
+      .value(everywhere("moves_each", "new moves of each", "new moves of each"), &Machines::moves_each)
+      .value(
+          proportion("median_rate", "failing moves, median", "median of their proportions of failing moves"),
+          &Machines::median_rate)
+      .value(proportion("mostly_failing", "failures on machines that fail in most moves",
+                        "proportion of the failures on machines that fail in most of their moves"),
              &Machines::mostly_failing)
-      .value(in_data("probability_of_one", "probability of such a machine", "1"),
+      .value(everywhere("probability_of_one", "probability of such a machine",
+                        "probability of such a machine", "1"),
              &Machines::probability_of_one);
 }
 
@@ -336,9 +311,8 @@ void add_question(Description<RareAnswer>& items) {
 
 void add_failures(Description<RareAnswer>& items) {
   items
-      .object(in_data("plain", "what the plain trials show"), plain_description(),
+      .object(everywhere("plain", "plain trials", "what the plain trials show"), plain_description(),
               [](Of a) -> const RareAnswer& { return a; })
-      .sentence(plain_sentence)
       .table(
           {.key = "scores",
            .heading =
@@ -349,14 +323,11 @@ void add_failures(Description<RareAnswer>& items) {
               .heading = "single values at which failures are frequent",
               .meaning = "single values at which failures are frequent"},
              value_columns(), value_rows)
-      .table(in_data("inputs", "inputs that differ between trials, the most shifted first"), input_columns(),
-             &RareAnswer::inputs)
-      .table({.heading = "what failures have in common (shift in standard deviations of all trials)",
-              .shown = Shown::to_people},
-             input_columns(), shifted_inputs)
-      .object(in_data("machines", "machines that carry the probability"), machines_description(),
-              &RareAnswer::machines)
-      .sentence(machines_sentence)
+      .table(everywhere("inputs", "what failures have in common (shift in standard deviations of all trials)",
+                        "inputs that differ between trials, the most shifted first"),
+             input_columns(), &RareAnswer::inputs)
+      .object(everywhere("machines", "machines that failed", "machines that carry the probability"),
+              machines_description(), &RareAnswer::machines)
       .value(in_data("drawn", "weighted trials in the file"), [](Of a) { return a.state.drawn.size(); })
       .value(in_data("failures_drawn", "those that failed"), [](Of a) { return a.state.failures(); })
       .sentence(replays_sentence)

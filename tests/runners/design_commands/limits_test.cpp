@@ -298,28 +298,6 @@ TEST_F(Limits, NoteThatTheGainsAreNotTunedAgain) {
 
 class LimitsOfAxis : public Tune {};
 
-TEST_F(LimitsOfAxis, SwitchCausesOffOneByOne) {
-  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
-  const ProgramResult result = program({"limits", "axis.yaml", "--format", "json"});
-  ASSERT_EQ(result.code, 0) << result.err;
-  const Json limits = Json::parse(result.out)["limits"];
-  std::vector<std::string> causes;
-  for (const Json& one : limits) causes.push_back(one["cause"]);
-  EXPECT_EQ(causes.front(), "none");
-  EXPECT_EQ(std::count(causes.begin(), causes.end(), "no delay"), 1);
-  EXPECT_EQ(std::count(causes.begin(), causes.end(), "no encoder noise"), 0) << "there is none";
-  // Without the cause of an idealisation the rate is that of the study with the cause switched off.
-  const ProgramResult judged =
-      program({"run", "axis.yaml", "-o", "no-delay.h5", "--set", "controller.delay=0"});
-  ASSERT_EQ(judged.code, 0);
-  const Json judgement = Json::parse(program({"judge", "no-delay.h5", "--format", "json"}).out);
-  for (const Json& one : limits) {
-    if (one["cause"] == "no delay") {
-      EXPECT_EQ(one["rate"], judgement["rate"]);
-    }
-  }
-}
-
 TEST_F(LimitsOfAxis, AreOfThePointThatIsAskedFor) {
   write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\nsweep: {grid: {controller.delay: [0, 1]}}\n");
   EXPECT_NE(program({"limits", "axis.yaml"}).err.find("expected one with --point"), std::string::npos);

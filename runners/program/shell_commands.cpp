@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,12 +15,15 @@
 #include "results/reading/results_file.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/program/commands.hpp"
 #include "runners/program/manual_page.hpp"
 #include "runners/program/shell_completion.hpp"
 #include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::program {
 namespace {
+
+constexpr std::size_t max_words = 10000;  // of a line that is completed
 
 /// The study of a manifest or a results file.
 study::Study named_study(const command_line::Arguments& arguments, const std::string& file) {
@@ -56,19 +61,22 @@ constexpr std::array<StudyList, 4> study_lists{{
 }};
 
 ExitCode print_completion(const command_line::Arguments& arguments) {
-  const std::string& shell = arguments.operands()[0];
-  const auto listing = std::ranges::find(study_lists, shell, &StudyList::word);
-  const bool lists = listing != study_lists.end();
-  if (lists != (arguments.operands().size() == 2))
-    arguments.refuse(lists ? shell + " need a manifest or a results file" : "unexpected second operand");
-  if (lists) {
-    for (const std::string& name : listing->names(named_study(arguments, arguments.operands()[1])))
-      standard_output::write(name + "\n");
+  const std::span<const std::string> operands = arguments.operands();
+  const std::string& what = operands.front();
+  if (what == "candidates") {
+    print_candidates(commands(), operands.subspan(1));
     return ExitCode::success;
   }
-  standard_output::write(shell == "bash"  ? bash_completion(commands())
-                         : shell == "zsh" ? zsh_completion(commands())
-                                          : fish_completion(commands()));
+  const auto listing = std::ranges::find(study_lists, what, &StudyList::word);
+  const bool lists = listing != study_lists.end();
+  if (operands.size() != (lists ? 2 : 1))
+    arguments.refuse(lists ? what + " need a manifest or a results file" : "unexpected second operand");
+  if (!lists) {
+    standard_output::write(completion_script(what));
+    return ExitCode::success;
+  }
+  for (const std::string& name : listing->names(named_study(arguments, operands[1])))
+    standard_output::write(name + "\n");
   return ExitCode::success;
 }
 
@@ -81,17 +89,18 @@ ExitCode print_manual(const command_line::Arguments&) {
 
 commands::Command completion_command() {
   return {{"completion",
-           "bash|zsh|fish | points|conditions|ages|goals FILE",
+           "bash|zsh|fish | points|conditions|ages|goals FILE | candidates -- WORD...",
            {command_line::of_operands(
                {"points", "conditions", "ages", "goals"},
                {"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true})},
            1,
-           2,
-           {"bash", "zsh", "fish", "points", "conditions", "ages", "goals"}},
+           max_words,
+           {"bash", "zsh", "fish", "points", "conditions", "ages", "goals", "candidates"}},
           "print the completion of commands and options for a shell",
           "Prints a script that completes commands, options, keys of --set, names in a study, figures\n"
           "and files. 'points FILE' prints the labels of the design points of a manifest or results\n"
-          "file, which the script asks for; so 'conditions', 'ages' and 'goals' print theirs.\n"
+          "file; so 'conditions', 'ages' and 'goals' print theirs. The script asks the program by\n"
+          "'candidates' what may stand in place of the last word of a line.\n"
           "\n"
           "Examples:\n"
           "  source <(zerocount completion bash)\n"

@@ -26,7 +26,7 @@ def require(holds, what):
 
 def completions(script, line, cwd=None):
     """What bash offers for the last word of a command line."""
-    lines = (f"source {script}; COMP_LINE='{line}'; COMP_POINT=${{#COMP_LINE}}; _zerocount; "
+    lines = (f"PATH={script.parents[3]}/bin:$PATH; source {script}; COMP_LINE='{line}'; COMP_POINT=${{#COMP_LINE}}; _zerocount; "
              "printf '%s\\n' \"${COMPREPLY[@]}\"")
     return run("bash", "-c", lines, cwd=cwd).splitlines()
 

@@ -19,6 +19,7 @@ constexpr std::int64_t block_elements = 1 << 20;
 /// A comparison of two files.
 struct Comparison {
   double tolerance{0.0};                               ///< relative, of real numbers
+  bool units{false};                                   ///< are compared too
   std::function<bool(const DatasetDifference&)> tell;  ///< false: the comparison ends
 };
 
@@ -99,11 +100,18 @@ bool compare_groups(const hdf5::Group& one, const hdf5::Group& other, const Comp
 bool compare_member(const hdf5::Group& one, const hdf5::Group& other, const std::string& name,
                     const Comparison& comparison) {
   const std::string path = path_in(one, name);
-  if (!other.contains(name)) return comparison.tell({path, "missing in one of the files", true});
+  if (!other.contains(name))
+    return comparison.tell({path, "missing in one of the files", DatasetDifference::Kind::in_one_file_only});
   if (one.is_group(name) != other.is_group(name))
     return comparison.tell({path, "a group in one of the files only"});
   if (one.is_group(name)) return compare_groups(one.open_group(name), other.open_group(name), comparison);
-  const How how = dataset_difference(one.open_dataset(name), other.open_dataset(name), comparison.tolerance);
+  const hdf5::Dataset here = one.open_dataset(name), there = other.open_dataset(name);
+  if (comparison.units && here.has_attribute("units") && there.has_attribute("units") &&
+      here.text("units") != there.text("units") &&
+      !comparison.tell(
+          {path, fmt::format("its unit '{}' differs", here.text("units")), DatasetDifference::Kind::unit}))
+    return false;
+  const How how = dataset_difference(here, there, comparison.tolerance);
   return !how || comparison.tell({path, *how});
 }
 
@@ -115,7 +123,8 @@ bool compare_groups(const hdf5::Group& one, const hdf5::Group& other, const Comp
     if (!compare_member(one, other, name, comparison)) return false;
   }
   for (const std::string& name : other.children()) {
-    if (!one.contains(name) && !comparison.tell({path_in(one, name), "missing in one of the files", true}))
+    if (!one.contains(name) && !comparison.tell({path_in(one, name), "missing in one of the files",
+                                                 DatasetDifference::Kind::in_one_file_only}))
       return false;
   }
   return true;
@@ -129,7 +138,7 @@ std::string text_of(const DatasetDifference& difference) {
 
 std::optional<std::string> first_difference(const hdf5::Group& one, const hdf5::Group& other) {
   std::optional<std::string> first;
-  compare_groups(one, other, {0.0, [&](const DatasetDifference& difference) {
+  compare_groups(one, other, {0.0, false, [&](const DatasetDifference& difference) {
                                 first = text_of(difference);
                                 return false;
                               }});
@@ -139,7 +148,7 @@ std::optional<std::string> first_difference(const hdf5::Group& one, const hdf5::
 std::vector<DatasetDifference> differences(const hdf5::Group& one, const hdf5::Group& other,
                                            double tolerance) {
   std::vector<DatasetDifference> all;
-  compare_groups(one, other, {tolerance, [&](const DatasetDifference& difference) {
+  compare_groups(one, other, {tolerance, true, [&](const DatasetDifference& difference) {
                                 all.push_back(difference);
                                 return true;
                               }});

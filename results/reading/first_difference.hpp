@@ -10,9 +10,10 @@ namespace zerocount::reading {
 
 /// A dataset that differs between two files.
 struct DatasetDifference {
+  enum class Kind { contents, in_one_file_only, unit };
   std::string path;
   std::string how;  ///< "differs from row 17 on"
-  bool in_one_file_only{false};
+  Kind kind{Kind::contents};
 };
 
 /// "/outcome/settling_time: differs from row 17 on"
@@ -25,7 +26,7 @@ std::string text_of(const DatasetDifference& difference);
 /// @throws Failure (bad_data) where a dataset cannot be read
 std::optional<std::string> first_difference(const hdf5::Group& one, const hdf5::Group& other);
 
-/// All datasets that differ, in the same order.
+/// All datasets that differ, in the same order; also in their attribute `units`, where both have one.
 /// @param tolerance relative, of real numbers; any two NaN are then equal. 0: bits are compared
 /// @throws Failure (bad_data) where a dataset cannot be read
 std::vector<DatasetDifference> differences(const hdf5::Group& one, const hdf5::Group& other,

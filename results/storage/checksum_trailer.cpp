@@ -25,9 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view trailer_start = "zerocount-seal sha256 ";
-constexpr std::string_view cure =
-    "'zerocount verify --reseal' checks its data, and then makes the checksum again";
-
 std::string trailer_of(const hash::Sha256& checksum) {
   return fmt::format("{}{}\n", trailer_start, hash::hexadecimal(checksum));
 }
@@ -58,14 +55,17 @@ bool has_newer_format(const fs::path& path) {
   if (has_newer_format(path)) {
     throw Failure(ExitCode::bad_data,
                   fmt::format("{}: another program has rewritten it in the format of HDF5 1.10, as "
-                              "'h5repack --latest' does, and without the checksum at its end; {}",
-                              path.string(), cure));
+                              "'h5repack --latest' does, and without the checksum at its end; "
+                              "run its manifest again",
+                              path.string()));
   }
   throw Failure(
       ExitCode::bad_data,
-      fmt::format("{}: the checksum at its end is missing: it was changed since it was written, or "
-                  "damaged, or is not a results file of zerocount; if another program opened it to write, {}",
-                  path.string(), cure));
+      fmt::format(
+          "{}: the checksum at its end is missing: it was changed since it was written, or "
+          "damaged, or is not a results file of zerocount (a program that only opens it to write cuts the "
+          "checksum off); run its manifest again",
+          path.string()));
 }
 
 }  // namespace
@@ -100,16 +100,9 @@ void require_valid_checksum(const fs::path& path) {
       throw Failure(
           ExitCode::bad_data,
           fmt::format("{}: changed since it was written, or damaged: the checksum at its end is not that "
-                      "of its contents; if another program opened it to write, {}",
-                      path.string(), cure));
+                      "of its contents; run its manifest again",
+                      path.string()));
   }
-}
-
-void publish_with_checksum(const fs::path& path) {
-  const fs::path part = part_of(path);
-  append_checksum(part);
-  if (check_checksum(part) != ChecksumState::valid) fail_read_back(part, "the checksum at its end differs");
-  publish(path);
 }
 
 hash::Sha256 checksum_of_contents(const fs::path& path, timeline::Timeline* timeline) {
@@ -152,17 +145,6 @@ void publish_compared(const fs::path& path, const hash::Sha256& checksum) {
     if (read_trailer(part, file) != text) fail_read_back(part, "the checksum at its end differs");
   }
   publish(path);
-}
-
-void renew_checksum(const fs::path& path) {
-  const ChecksumState state = check_checksum(path);
-  const UnfinishedFile part(path);
-  std::error_code error;
-  fs::copy_file(path, part.path(), error);
-  if (!error && state != ChecksumState::missing)
-    fs::resize_file(part.path(), fs::file_size(path) - checksum_trailer_length, error);
-  if (error) fail_with(part.path(), "write", error.value());
-  publish_with_checksum(path);
 }
 
 std::string recorded_checksum(const fs::path& path) {

@@ -37,13 +37,10 @@ ChecksumState check_checksum(const std::filesystem::path& path);
 /// be read.
 void require_valid_checksum(const std::filesystem::path& path);
 
-/// Appends the checksum trailer to the closed file part_of(path), checks what then comes from the disk, and
-/// renames it to `path`.
+/// Appends the checksum trailer to the closed file part_of(path), which was brought to the disk and whose
+/// contents came from there and were as they should be, so that only the trailer is read again; renames it to
+/// `path`.
 /// @throws Failure (machine_failed) with the path and the reason
-void publish_with_checksum(const std::filesystem::path& path);
-
-/// The same of a file that was brought to the disk, and whose contents came from there and were as they
-/// should be: the bytes that the trailer is for, so only the trailer is read again.
 void publish_compared(const std::filesystem::path& path);
 /// @param checksum of these contents
 void publish_compared(const std::filesystem::path& path, const hash::Sha256& checksum);
@@ -55,10 +52,6 @@ hash::Sha256 checksum_of_contents(const std::filesystem::path& path, timeline::T
 /// The same, while another thread compares the contents. @throws what `compare` throws, else as above
 hash::Sha256 checksum_of_contents(const std::filesystem::path& path, const std::function<void()>& compare,
                                   timeline::Timeline* timeline);
-
-/// Gives the file the checksum trailer of its present contents, in a copy that replaces it.
-/// @throws Failure (machine_failed) with the path and the reason
-void renew_checksum(const std::filesystem::path& path);
 
 /// The SHA-256 that the trailer of a valid file records, 64 hexadecimal digits: it identifies the contents.
 /// @throws Failure as require_valid_checksum, without reading more than the trailer.

@@ -22,21 +22,16 @@ constexpr const char* verify_help =
     "Checks the integrity of results files. FILE is a results file, a part of a study or a\n"
     "shard; of a folder, all its files *.h5 are checked. One line per check, ok or FAILED:\n"
     "checksum: no byte has changed since the file was written;\n"
-    "header: the file was finished, and its attributes and the hash of the study agree with its\n"
-    "manifest;\n"
-    "datasets: all exist, with the right types, sizes, units and numbers of rows;\n"
-    "values: inputs, measures and jerks are in their ranges, and no time is longer than its move;\n"
-    "statistics: design points, profiles, rigs and statistics, recomputed from the manifest and\n"
-    "the trials, equal those of the file (not for a shard); this needs room for a copy of the file\n"
-    "in the folder for temporary files;\n"
+    "statistics: the attributes are those of the manifest; inputs, measures and jerks are in their\n"
+    "ranges; and the file, made again from its manifest and its trials, has the same datasets, units\n"
+    "and values: row numbers, design points, profiles, rigs and statistics. This needs room for a\n"
+    "copy of the file in the folder for temporary files;\n"
     "trials run again: a random sample of the trials gives the recorded inputs, measures, jerks and\n"
     "sample records, bitwise if this program on this kind of processor wrote the file; for a file\n"
     "that keeps failures, also as many of these;\n"
     "shards: the shards of a folder belong to one study, and none of them share a trial;\n"
     "all trials: how many trials no shard of the folder has (not a failure).\n"
     "A file that another program opened to write, such as h5py with mode 'a', has lost its checksum.\n"
-    "With --reseal everything else is checked, and all trials are run again unless --trials says\n"
-    "how many; if all of it holds, the file gets a new checksum.\n"
     "The exit code is 4 if a check fails, and 5 if a file cannot be read.\n"
     "\n"
     "Examples:\n"
@@ -118,11 +113,7 @@ document::AnswerDescription<Reports> verify_answer() {
 
 ExitCode verify(const command_line::Arguments& arguments) {
   verification::VerifySettings settings;
-  settings.reseal = arguments.has("reseal");
-  if (settings.reseal && arguments.has("trials"))
-    arguments.refuse("option '--reseal' runs all trials again; expected no '--trials' beside it");
-  settings.trials =
-      arguments.whole_number("trials", 0, max_trials).value_or(settings.reseal ? max_trials : default_trials);
+  settings.trials = arguments.whole_number("trials", 0, max_trials).value_or(default_trials);
   settings.seed = static_cast<std::uint64_t>(
       arguments.whole_number("seed", 0, std::int64_t{1} << 53).value_or(default_seed));
   if (settings.trials == 0 && arguments.has("seed"))
@@ -140,11 +131,9 @@ ExitCode verify(const command_line::Arguments& arguments) {
 commands::Command verify_command() {
   return {{"verify",
            "FILE|FOLDER...",
-           {{"trials", "N",
-             "trials to run again, per file or per folder of shards (default 20; all with --reseal)"},
+           {{"trials", "N", "trials to run again, per file or per folder of shards (default 20)"},
             {"seed", "S", "seed of the choice of these trials (default 1)"},
             command_line::read_file({"plugin", "LIBRARY", "the controller plugin of the study"}),
-            {"reseal", "", "make a checksum again that does not hold, if everything else does"},
             answers::format_option()},
            1,
            100000},

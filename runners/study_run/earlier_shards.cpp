@@ -30,14 +30,22 @@ void require_same_plugin(const fs::path& shard, const study::Study& study) {
   layout::require_same_plugin(shard, *header, study.plugin.get());
 }
 
-/// Checks the values of the trials and the sums.
-void check_contents(const reading::ResultsFile& shard, const study::Study& study) {
-  shards::check_values(shard, study);
-  for (std::int64_t i = 0; layout::has_sums(study.retention) && i < shard.points(); ++i)
-    summary::restored_point(shard, study, shard.first_point() + i);
-}
-
 }  // namespace
+
+void check_contents(const reading::ResultsFile& file, const study::Study& study) {
+  shards::check_values(file, study);
+  if (!layout::has_sums(study.retention)) return;
+  for (std::int64_t i = 0; i < file.points(); ++i) {
+    const std::int64_t point = file.first_point() + i;
+    const std::int64_t expected = summary::restored_point(file, study, point).failures();
+    const std::int64_t count =
+        file.trials() ? file.trials()->positions_of(file.rows_of(point)).count : expected;
+    if (count == expected) continue;
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: design point {}: {} failures; expected the {} of its sums",
+                              file.path().string(), point, count, expected));
+  }
+}
 
 EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout::RowRange wanted) {
   EarlierShards shards;

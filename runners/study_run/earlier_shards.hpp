@@ -5,6 +5,7 @@
 
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
+#include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
 
 namespace zerocount::study_run {
@@ -17,6 +18,11 @@ struct EarlierShards {
   std::vector<shards::ShardInfo> usable;   ///< in order of rows, without overlaps
   std::vector<std::filesystem::path> all;  ///< all valid shards of the study
 };
+
+/// Checks that inputs, measures and jerks of the trials are possible, and that the sums can be those of the
+/// trials and count the failures that the file keeps.
+/// @throws Failure (bad_data)
+void check_contents(const reading::ResultsFile& file, const study::Study& study);
 
 /// Selects shards within `wanted` that do not overlap. Shards of runs with other parts may extend beyond it
 /// or overlap; trials of unused shards are run again.

@@ -1,21 +1,18 @@
 #pragma once
 
-#include <filesystem>
+#include <memory>
 #include <optional>
 
+#include "core/plugin/controller_plugin.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/results_file.hpp"
 #include "runners/verification/check.hpp"
 
 namespace zerocount::verification {
 
 /// Checks that the bytes are those that were written: the checksum trailer.
 /// @return the check holds, and the file may be opened
-bool check_bytes(CheckReport& report);
-/// Opens a file whose checksum need not hold.
-/// @param[out] holds whether it does
-bool check_bytes_to_reseal(CheckReport& report, bool& holds);
+bool check_checksum(CheckReport& report);
 
 /// A header, and the study that it describes.
 struct Described {
@@ -23,15 +20,15 @@ struct Described {
   study::Study study;
 };
 
-/// Checks that the file was finished, and that its attributes are those of the study of its manifest.
+/// Checks everything that can be told without running a trial: the file was finished, and its attributes are
+/// those of its manifest; inputs, measures, jerks and sums are possible; and the file, made again from its
+/// manifest and its trials as a merge makes it, has the same datasets with the same values and units. Design
+/// points, profiles, rigs, numbers of rows and statistics follow from the trials and the manifest.
+///
+/// Needs as much room in the folder for temporary files as the file takes.
 /// @param plugin as recorded_study
-/// @return nothing if the study cannot be made
-std::optional<Described> check_header(CheckReport& report,
-                                      const std::shared_ptr<const plugin::ControllerPlugin>& plugin);
-
-/// Checks that all datasets of trials and sums are there, with their types, sizes and units, and that all
-/// rows have their numbers.
-/// @return the opened file, unless it cannot be read
-std::optional<reading::ResultsFile> check_tables(CheckReport& report, const study::Study& study);
+/// @return nothing if its trials cannot be read, so that none can be run again
+std::optional<Described> check_statistics(CheckReport& report,
+                                          const std::shared_ptr<const plugin::ControllerPlugin>& plugin);
 
 }  // namespace zerocount::verification

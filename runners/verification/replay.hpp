@@ -1,12 +1,16 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
+#include "results/layout/row_range.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
+#include "runners/verification/check.hpp"
 
 namespace zerocount::verification {
 
@@ -22,13 +26,13 @@ Equality equality_of(const layout::FileHeader& header);
 /// Differences between a replayed trial and its record, one line each: inputs, measures of all moves, jerks.
 /// Whole numbers must be equal.
 /// @param inputs the study's input columns
-/// @param measures the recorded measures of the moves @param version layout version of their file
+/// @param measures the recorded measures of the moves
 /// @param equality of real numbers
 std::vector<std::string> differences(
     const std::vector<study::InputColumn>& inputs, const shards::TrialResult& recorded,
     const shards::TrialResult& replayed,
     const std::vector<layout::RecordField<trial::MoveOutcome>>& measures = layout::outcome_fields(),
-    std::int64_t version = layout::format_version, Equality equality = Equality::rounded);
+    Equality equality = Equality::rounded);
 
 /// Differences between a replayed trial of a results file and its record, including the sample records if the
 /// record has them.
@@ -42,5 +46,24 @@ std::vector<std::string> differences_from_record(const reading::ResultsFile& fil
 /// trials.
 std::vector<std::string> differences_from_record(const reading::ResultsFile& file,
                                                  const shards::TrialResult& replayed, Equality equality);
+
+/// `count` different numbers from 0 to size − 1, drawn evenly, in rising order; all if there are not more.
+std::vector<std::int64_t> sample_below(std::int64_t size, std::int64_t count, std::uint64_t seed);
+
+/// The rising `rows` as ranges, each short enough for one task.
+std::vector<layout::RowRange> ranges_of(std::span<const std::int64_t> rows);
+
+/// Trials to run again.
+struct ChosenTrials {
+  std::vector<std::int64_t> rows;
+  std::uint64_t seed{1};  ///< of the choice of failures
+};
+
+/// Runs trials of the file again with its engine, and compares everything that is stored of each: inputs,
+/// measures, jerks and sample records. If the file keeps failures only, runs as many of them, drawn evenly,
+/// besides the chosen rows: a trial that fails must be among the failures as it is run, and the others must
+/// succeed. A file without trials gives nothing to compare.
+void check_trials(CheckReport& report, const reading::ResultsFile& file, const study::Study& study,
+                  const ChosenTrials& chosen, Equality equality);
 
 }  // namespace zerocount::verification

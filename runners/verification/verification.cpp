@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -11,13 +14,8 @@
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
-#include "results/storage/checksum_trailer.hpp"
-#include "results/storage/output_lock.hpp"
 #include "runners/verification/file_checks.hpp"
-#include "runners/verification/rebuilt_file.hpp"
-#include "runners/verification/rerun.hpp"
-#include "runners/verification/shard_set.hpp"
-#include "runners/verification/value_checks.hpp"
+#include "runners/verification/replay.hpp"
 
 namespace zerocount::verification {
 namespace {
@@ -28,8 +26,79 @@ namespace fs = std::filesystem;
 struct OpenedFile {
   CheckReport report;
   std::optional<Described> described;  ///< nothing if the file cannot be read
-  bool sealed{true};                   ///< its checksum holds
 };
+
+/// A shard whose header was read.
+struct ShardHeader {
+  fs::path path;
+  layout::FileHeader header;
+};
+
+/// The study hash of most shards; of several that are as frequent, the first of the folder.
+std::string common_study(std::span<const ShardHeader> shards) {
+  std::map<std::string, std::int64_t> counts;
+  for (const ShardHeader& shard : shards) ++counts[shard.header.study_sha256];
+  const auto fewer = [&](const ShardHeader& one, const ShardHeader& other) {
+    return counts[one.header.study_sha256] < counts[other.header.study_sha256];
+  };
+  return std::max_element(shards.begin(), shards.end(), fewer)->header.study_sha256;
+}
+
+/// The first reason why the shard cannot be of one run with `first`; empty if it can.
+std::string stranger(const layout::FileHeader& shard, const layout::FileHeader& first) {
+  if (shard.study_sha256 != first.study_sha256)
+    return fmt::format("of another study ('{}') than most", shard.name);
+  if (!layout::same_build(shard.provenance, first.provenance))
+    return fmt::format("of another build ({}, commit {})", shard.provenance.zerocount_version,
+                       shard.provenance.git_commit);
+  if (shard.engine != first.engine) return fmt::format("of the {} engine", layout::name_of(shard.engine));
+  return {};
+}
+
+void check_overlaps(std::span<const shards::ShardInfo> sorted, ProblemList& problems) {
+  const shards::ShardInfo* furthest = nullptr;
+  for (const shards::ShardInfo& shard : sorted) {
+    if (furthest != nullptr && shard.rows.first < furthest->rows.end()) {
+      problems.add(fmt::format("{} holds trials {} to {}, which overlap those of {}",
+                               shard.path.filename().string(), shard.rows.first, shard.rows.end() - 1,
+                               furthest->path.filename().string()));
+    }
+    if (furthest == nullptr || shard.rows.end() > furthest->rows.end()) furthest = &shard;
+  }
+}
+
+/// A run that goes on, or was interrupted, has not run all trials yet.
+Check unfinished(std::span<const layout::RowRange> gaps) {
+  return {.name = "all trials",
+          .detail = fmt::format("{} are in none of the shards yet, from trial {} on",
+                                layout::total_rows(gaps), gaps.front().first),
+          .skipped = true};
+}
+
+/// Checks that the shards of a folder are of one study, build and engine, and that they hold each of its
+/// trials once. The study is that of most shards.
+/// @param stops the study has a stopping rule: it may hold fewer trials than its manifest allows
+void check_shard_set(CheckReport& report, std::span<const ShardHeader> shards, bool stops) {
+  std::vector<layout::RowRange> gaps;
+  add_check(report, "shards", [&](Check& check, ProblemList& problems) {
+    const std::string study = common_study(shards);
+    const layout::FileHeader& first =
+        std::find_if(shards.begin(), shards.end(), [&](const ShardHeader& shard) {
+          return shard.header.study_sha256 == study;
+        })->header;
+    std::vector<shards::ShardInfo> own;
+    for (const ShardHeader& shard : shards) {
+      const std::string strange = stranger(shard.header, first);
+      if (strange.empty()) own.push_back({shard.path, shard.header.rows});
+      if (!strange.empty()) problems.add(fmt::format("{} is {}", shard.path.filename().string(), strange));
+    }
+    shards::sort_by_rows(own);
+    check_overlaps(own, problems);
+    check.detail = fmt::format("{} of one study{}", own.size(), stops ? "" : ", with each trial once");
+    if (!stops) gaps = shards::missing_ranges(own, {0, first.trials * first.points});
+  });
+  if (!gaps.empty()) report.checks.push_back(unfinished(gaps));
+}
 
 void require_plugin(const fs::path& path, const study::Study& study, const VerifySettings& settings) {
   if (!study.plugin || study.plugin->functions != nullptr || settings.trials == 0 ||
@@ -46,15 +115,9 @@ void require_plugin(const fs::path& path, const study::Study& study, const Verif
 OpenedFile check_stored(const fs::path& path, const VerifySettings& settings) {
   OpenedFile opened{{.path = path, .stop = settings.stop}, {}};
   CheckReport& report = opened.report;
-  if (!(settings.reseal ? check_bytes_to_reseal(report, opened.sealed) : check_bytes(report))) return opened;
-  std::optional<Described> described = check_header(report, settings.plugin);
-  if (!described) return opened;
-  require_plugin(path, described->study, settings);
-  const std::optional<reading::ResultsFile> file = check_tables(report, described->study);
-  if (!file || !report.checks.back().problems.empty()) return opened;
-  check_values(report, *file, described->study);
-  check_rebuilt(report, *file, described->study, equality_of(described->header));
-  opened.described = std::move(described);
+  if (!check_checksum(report)) return opened;
+  opened.described = check_statistics(report, settings.plugin);
+  if (opened.described) require_plugin(path, opened.described->study, settings);
   return opened;
 }
 
@@ -125,26 +188,11 @@ void verify_folder(const fs::path& folder, const VerifySettings& settings,
   check_shard_set(reports.back(), shards, stops);
 }
 
-/// Makes the checksum of the file again, if that was wrong and everything else holds.
-void reseal(OpenedFile& file) {
-  if (file.sealed) return;
-  if (!holds(file.report)) {
-    file.report.checks.push_back({"checksum made again", "not before everything else holds", {}, true});
-    return;
-  }
-  add_check(file.report, "checksum made again", [&](Check& check, ProblemList&) {
-    const storage::OutputLock lock(file.report.path);
-    storage::renew_checksum(file.report.path);
-    check.detail = "SHA-256 " + storage::recorded_checksum(file.report.path);
-  });
-}
-
 void verify_file(const fs::path& path, const VerifySettings& settings, std::vector<CheckReport>& reports) {
   OpenedFile file = check_stored(path, settings);
   if (file.described)
     run_again(file, sample_below(file.described->header.rows.count, settings.trials, settings.seed),
               settings.seed);
-  reseal(file);
   reports.push_back(std::move(file.report));
 }
 
@@ -156,11 +204,7 @@ std::vector<CheckReport> verify(std::span<const fs::path> operands, const Verify
     std::error_code ignored;
     if (!fs::exists(operand, ignored))
       throw Failure(ExitCode::bad_input, fmt::format("{}: no such file", operand.string()));
-    const bool folder = fs::is_directory(operand, ignored);
-    if (folder && settings.reseal)
-      throw Failure(ExitCode::bad_input,
-                    fmt::format("{}: a directory; --reseal expects results files", operand.string()));
-    if (folder) {
+    if (fs::is_directory(operand, ignored)) {
       verify_folder(operand, settings, reports);
     } else if (fs::is_regular_file(operand, ignored)) {
       verify_file(operand, settings, reports);

@@ -17,7 +17,6 @@ struct VerifySettings {
   std::int64_t trials{20};  ///< to run again: of each file, or of all shards of a folder together
   std::uint64_t seed{1};    ///< of their choice
   std::shared_ptr<const plugin::ControllerPlugin> plugin{};  ///< the user's controller; null: none is given
-  bool reseal{false};  ///< files whose checksum does not hold get another if everything else does
   std::stop_token stop{};
 };
 

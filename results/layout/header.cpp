@@ -119,16 +119,13 @@ study::Retention read_retention(const hdf5::File& file) {
 
 std::int64_t read_version(const hdf5::File& file) {
   const std::int64_t version = file.integer("format_version");
-  if (version > format_version) {
-    throw ForeignFile(
-        file.file_name(),
-        fmt::format("its format version is {}, newer than the {} that this program knows; read it with the "
-                    "zerocount that wrote it or a later one",
-                    version, format_version));
-  }
-  if (version < 1)
-    file.fail(fmt::format("its format version is {}; expected 1 to {}", version, format_version));
-  return version;
+  if (version == format_version) return version;
+  const char* const advice =
+      version > format_version ? "newer than the {} that this program knows; read it with the zerocount that "
+                                 "wrote it or a later one"
+                               : "and this program reads version {}; run its manifest again";
+  throw ForeignFile(file.file_name(), fmt::format("its format version is {}, {}", version,
+                                                  fmt::format(fmt::runtime(advice), format_version)));
 }
 
 /// Files from before there were two have no such attribute.

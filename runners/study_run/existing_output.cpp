@@ -54,8 +54,7 @@ void require_extensible(const fs::path& output, const layout::FileHeader& header
     refuse_more(fmt::format("the trials of design: {} are laid out for their number, and all change with it",
                             keys::design_labels[static_cast<std::size_t>(study.design)]));
   }
-  if (!layout::same_build(header.provenance, layout::current_provenance()) ||
-      header.version != layout::format_version) {
+  if (!layout::same_build(header.provenance, layout::current_provenance())) {
     refuse_more(
         fmt::format("its trials were run by another build ({}, commit {}), and trials of different "
                     "builds are not mixed",
@@ -87,10 +86,6 @@ ExistingUse use_of_existing(const fs::path& output, const study::Study& study, l
   if (!study.stop && !(header.rows == wanted)) {
     refuse(output, fmt::format("holds trials {} to {} of this study, and this run is for {} to {}",
                                header.rows.first, header.rows.end() - 1, wanted.first, wanted.end() - 1));
-  }
-  if (header.version != layout::format_version) {
-    refuse(output, fmt::format("holds this study as an earlier zerocount ran it (format version {}, now {})",
-                               header.version, layout::format_version));
   }
   return ExistingUse::complete;
 }

@@ -20,7 +20,6 @@
 #include "tests/analysis/summary_forms.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tests/support/version_1_file.hpp"
 
 namespace zerocount::summary {
 namespace {
@@ -197,26 +196,6 @@ TEST(Summarise, TakesWhatTheCriteriaSayFromTheFile) {
   EXPECT_EQ(summary.predictions[0].stable, 7);
   EXPECT_EQ(summary.predictions[0].unstable, 2);
   EXPECT_EQ(summary.predictions[1].unstable, 30);
-}
-
-TEST(Summarise, ReadsAFileOfFormatVersion1) {
-  const testing::TemporaryFolder folder;
-  const StudySummary summary = summarise(reading::AllTrialsFile(testing::version_1_file(folder.path())));
-  EXPECT_EQ(summary.labels, (std::vector<std::string>{"low", "high"}));
-  EXPECT_EQ(summary.points[0].success_rate().value, 1.0);
-  EXPECT_EQ(summary.points[1].success_rate().value, 0.0);
-  for (const measures::PointSummary& point : summary.points) {
-    EXPECT_EQ(point.judged, 3);
-    EXPECT_EQ(point.of(&trial::MoveOutcome::final_error).n, 0);
-    EXPECT_TRUE(std::isnan(point.of(&trial::MoveOutcome::final_error).mean));
-    EXPECT_EQ(point.of(&trial::MoveOutcome::true_error).n, 0);
-    EXPECT_TRUE(std::isnan(point.of(&trial::MoveOutcome::true_error).mean) &&
-                std::isnan(point.of(&trial::MoveOutcome::true_error).rms));
-    EXPECT_EQ(point.of(&trial::MoveOutcome::travel_time).mean, 0.0);
-  }
-  const nlohmann::ordered_json json = testing::summary_json(summary);
-  EXPECT_TRUE(json["points"][0]["final_error"]["median"].is_null());
-  EXPECT_TRUE(json["points"][0]["true_error"]["max"].is_null());
 }
 
 TEST(Summarise, RefusesAFileWhoseManifestHasAnotherNumberOfMoves) {

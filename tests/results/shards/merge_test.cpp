@@ -51,7 +51,7 @@ TEST(Merge, KeepsEverythingOfEveryTrial) {
   EXPECT_TRUE(file.header().complete);
   EXPECT_EQ(file.header().seed, study.seed);
   EXPECT_EQ(file.moves(), 3);
-  EXPECT_EQ(file.measures().size(), layout::outcome_fields(layout::format_version, study.features).size());
+  EXPECT_EQ(file.measures().size(), layout::outcome_fields(study.features).size());
   std::int64_t jerk = 0;
   std::int64_t record = 0;
   for (std::int64_t row = 0; row < study::trial_count(study); ++row) {
@@ -112,7 +112,7 @@ TEST(Merge, HasNoColumnForWhatTheStudyDoesNotUse) {
   study.features.stopping = false;
   const reading::AllTrialsFile file(write_sample_file(directory.path(), study));
   EXPECT_FALSE(file.root().open_group("outcome").contains("stopped"));
-  EXPECT_EQ(file.measures().size(), layout::outcome_fields(layout::format_version, study.features).size());
+  EXPECT_EQ(file.measures().size(), layout::outcome_fields(study.features).size());
   for (const trial::MoveOutcome& move : file.outcomes(file.rows())) EXPECT_FALSE(move.stopped);
   const auto moves = static_cast<std::size_t>(file.rows().count * file.moves());
   EXPECT_EQ(file.measure("stopped", file.rows()), std::vector<double>(moves, 0.0));
@@ -342,21 +342,14 @@ TEST(Merge, RefusesShardsOfAnotherStudyOrFormat) {
   expect_failure(ExitCode::bad_data, "of another study", [&] { shards::merge_inputs(inputs, other); });
   replace_attribute(inputs[0], "format_version", layout::format_version + 1);
   expect_failure(ExitCode::bad_data, "newer than the 4", [&] { shards::merge_inputs(inputs, study); });
+  replace_attribute(inputs[0], "format_version", 3);
+  expect_failure(ExitCode::bad_data, "reads version 4", [&] { shards::merge_inputs(inputs, study); });
   const std::vector<fs::path> nothing{directory / "nothing.h5"};
   expect_failure(ExitCode::bad_input, "nothing.h5: no such file",
                  [&] { shards::merge_inputs(nothing, study); });
   fs::create_directory(directory / "empty");
   const std::vector<fs::path> empty{directory / "empty"};
   expect_failure(ExitCode::bad_input, "no shards", [&] { shards::merge_inputs(empty, study); });
-}
-
-TEST(Merge, RefusesShardsOfAnEarlierFormat) {
-  const TemporaryFolder directory;
-  const study::Study study = sample_study();
-  const std::vector<fs::path> inputs{write_sample_shard(directory.path(), study, {0, 120}).path};
-  replace_attribute(inputs[0], "format_version", 1);
-  expect_failure(ExitCode::bad_data, "its format version is 1: such files are read, but not joined",
-                 [&] { shards::merge_inputs(inputs, study); });
 }
 
 TEST(Merge, RefusesTrialsOfAnotherBuild) {

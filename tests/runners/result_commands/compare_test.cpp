@@ -7,7 +7,6 @@
 
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/version_1_file.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -175,18 +174,6 @@ TEST_F(Compare, WhereEveryChangeFailsAnImprovementHasTheExitCodeOfARegression) {
   EXPECT_NE(result.out.find("changed: "), std::string::npos) << result.out;
   folder_.write("gate.yaml", "fail_on: changed\n");
   EXPECT_EQ(program({"compare", "a.h5", "b.h5", "--margins", "gate.yaml"}).code, 1);
-}
-
-// Both manifests leave β out, and between the programs that ran them its default changed.
-TEST_F(Compare, TellsTheDefaultsThatChangedSinceAnEarlierFormatVersion) {
-  const std::filesystem::path earlier = version_1_file(folder_.path());
-  study("now", reading::AllTrialsFile(earlier).header().manifest);
-  const auto json =
-      nlohmann::json::parse(program({"compare", "version-1.h5", "now.h5", "--format", "json"}).out);
-  ASSERT_EQ(json["manifest_differences"].size(), 1u);
-  EXPECT_EQ(json["manifest_differences"][0]["key"], "friction.beta");
-  EXPECT_EQ(json["manifest_differences"][0]["baseline"], "200000");
-  EXPECT_EQ(json["manifest_differences"][0]["current"], "100000");
 }
 
 TEST_F(Compare, TooFewTrialsAreInconclusiveAndSayHowManyWouldDo) {

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
-#include "tests/support/version_1_file.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -64,10 +63,6 @@ TEST_F(FileOperand, IsNotChangedNorOverwritten) {
 }
 
 TEST_F(FileOperand, IsRefusedWhereItDoesNotTellTheStudy) {
-  const std::string earlier = version_1_file(folder_.path()).string();
-  out({"check", earlier});
-  EXPECT_NE(refusal({"run", earlier, "-o", "again.h5"}).find("other defaults"), std::string::npos);
-
   out({"controller", "axis.yaml", "-o", "law.c"});
   const std::string folder = folder_.path().string();
   ASSERT_EQ(std::system(("cc -shared -fPIC -DZEROCOUNT_PLUGIN -I " ZEROCOUNT_PLUGIN_HEADERS " " + folder +

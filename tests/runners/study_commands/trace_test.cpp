@@ -13,7 +13,6 @@
 #include "runners/study_run/assembly.hpp"
 #include "runners/trials/trial_runner.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/version_1_file.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -99,25 +98,6 @@ TEST_F(Trace, ReplaysFromTheFileAloneAndEqualsTheRetainedRecord) {
   ASSERT_EQ(kept.size(), 600u);  // trial 2 of both points
   EXPECT_EQ(kept[300].trial, 7);
   EXPECT_EQ(kept[300].k, 0);
-}
-
-// Its manifest leaves β out, and the default of β has changed since.
-TEST_F(Trace, ReplaysAFileOfFormatVersion1WithTheDefaultsOfItsTime) {
-  const std::filesystem::path path = version_1_file(folder_.path());
-  for (const char* point : {"0", "1"}) {
-    for (const char* trial : {"0", "1", "2"}) {
-      const ProgramResult replay = program({"trace", "version-1.h5", "--point", point, "--trial", trial});
-      EXPECT_EQ(replay.code, 0) << replay.err;
-    }
-  }
-  const std::vector<layout::TraceRecord> kept = reading::AllTrialsFile(path).trace_at(0, 200);
-  const auto json =
-      nlohmann::json::parse(program({"trace", "version-1.h5", "--trial", "1", "--format", "json"}).out);
-  ASSERT_EQ(json["samples"].size(), kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    EXPECT_EQ(json["samples"][i]["count"].get<std::int64_t>(), kept[i].count);
-    EXPECT_NEAR(json["samples"][i]["theta"].get<double>(), kept[i].theta, 1e-14);
-  }
 }
 
 TEST_F(Trace, ReportsAReplayThatIsNotTheRecordedTrial) {

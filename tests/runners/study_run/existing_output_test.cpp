@@ -12,7 +12,6 @@
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
-#include "tests/support/version_1_file.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -185,10 +184,11 @@ TEST_F(ExistingOutput, ThatIsNoResultsFileIsRefused) {
 }
 
 TEST_F(ExistingOutput, OfAnEarlierFormatIsRefused) {
-  const fs::path earlier = version_1_file(folder_.path());
-  fs::copy(earlier, at("out.h5"), fs::copy_options::overwrite_existing);
-  folder_.write("study.yaml", reading::AllTrialsFile(at("out.h5")).header().manifest);
-  expect_refused({}, {"out.h5"});
+  folder_.write("study.yaml", small_manifest(4));
+  complete("study.yaml", "out.h5", {});
+  replace_attribute(at("out.h5"), "format_version", 3);
+  expect_refused({},
+                 {"out.h5", "its format version is 3, and this program reads version 4; run its manifest"});
 }
 
 }  // namespace

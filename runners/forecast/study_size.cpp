@@ -19,11 +19,10 @@
 #include "runners/forecast/file_size.hpp"
 #include "runners/forecast/stored_column.hpp"
 #include "runners/trials/effort.hpp"
-#include "runners/trials/kept_block.hpp"
 #include "runners/trials/shard_collector.hpp"
 #include "runners/trials/study_runner.hpp"
 #include "runners/trials/trial_runner.hpp"
-#include "runners/trials/turn_clock.hpp"
+#include "runners/trials/turns.hpp"
 
 namespace zerocount::forecast {
 namespace {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/parallel/parallel.hpp"
@@ -107,46 +106,19 @@ std::string plan_headline(const Plan& plan) {
                      status::duration_text(plan.cost.seconds()));
 }
 
-/// "0 cycles, 100000 cycles, 1000000 cycles".
-std::string ages_text(const study::Ages& ages) {
+std::vector<std::string> ages_of(const Plan& plan) {
   std::vector<std::string> texts;
-  for (const double age : ages.at) texts.push_back(study::age_text(ages, age));
-  return fmt::format("{}", fmt::join(texts, ", "));
+  for (const double age : plan.study.ages.at) texts.push_back(study::age_text(plan.study.ages, age));
+  return texts;
 }
 
-/// How the trials of a point belong to rigs and worlds, and what may end them, a line each.
-std::string trials_text(const Plan& plan) {
-  const study::Study& study = plan.study;
-  std::string text;
-  if (study.rigs > 0)
-    text += fmt::format("at each point {} × {} of each\n", text::counted(study.rigs, "rig"),
-                        text::counted(study.trials / study.rigs, "trial"));
-  if (!study.condition_names.empty()) {
-    text += fmt::format("under {}, {} trials under each: {}\n",
-                        text::counted(std::ssize(study.condition_names), "condition"),
-                        study::draw_count(study) * std::max<std::int64_t>(std::ssize(study.ages.at), 1),
-                        fmt::join(study.condition_names, ", "));
-  }
-  if (!study.ages.at.empty()) {
-    text += fmt::format("at {}, {} trials at each: {}\n", text::counted(std::ssize(study.ages.at), "age"),
-                        study.trials / std::ssize(study.ages.at), ages_text(study.ages));
-  }
-  if (study.worlds > 0) {
-    text += fmt::format("in {} worlds, {} in each\n", study.worlds,
-                        study.rigs > 0 ? text::counted(study.rigs / study.worlds, "rig")
-                                       : fmt::format("about {} trials", study.trials / study.worlds));
-  }
-  if (!study.stop) return text;
-  text += fmt::format(
-      "or fewer: after every {} at each point it ends if all success rates are known to ± {:.4g}; its "
-      "bounds hold at whatever number of trials it ends, which takes more than a fixed number\n",
-      study.stop->block, study.stop->success_rate_halfwidth);
-  if (study.rigs > 0) {
-    text += fmt::format(
-        "(of these {} rigs; more trials do not show how other rigs differ; see 'zerocount plan --rig-sd')\n",
-        study.rigs);
-  }
-  return text;
+std::string stop_text(const Plan& plan) {
+  const std::optional<study::StoppingRule>& stop = plan.study.stop;
+  if (!stop) return {};
+  return fmt::format(
+      "or fewer: after every {} at each point it ends if all success rates are known to ± {:.4g}; its bounds "
+      "hold at whatever number of trials it ends, which takes more than a fixed number",
+      stop->block, stop->success_rate_halfwidth);
 }
 
 std::string cost_text(const Plan& plan) {
@@ -162,21 +134,14 @@ std::string cost_text(const Plan& plan) {
 
 /// Over what the theory is.
 std::string theory_text(const Plan& plan) {
-  const std::string which = plan.points_left_out() == 0
-                                ? "each point"
-                                : fmt::format("each of the first {} of {} points (--all-points shows all)",
-                                              plan.points_shown(), plan.all_points());
-  const std::string_view under = plan.study.conditions.empty() ? "" : " under each condition";
-  std::string text =
-      fmt::format("The theory is of the first {} trials of {}{}, each with the friction it starts on",
-                  std::min(study::draw_count(plan.study), theory::max_trials_examined), which, under);
-  if (study::draw_count(plan.study) > theory::max_trials_examined_closely) {
-    text += fmt::format(
-        "; the sampled loop, time constants and margins over the first {}, and the trials with the lowest "
-        "and the highest k1",
-        theory::max_trials_examined_closely);
-  }
-  return text;
+  return fmt::format(
+      "The theory is of {} of {} (--all-points shows all): of the first {} trials of each, each with the "
+      "friction it starts on; the sampled loop, time constants and margins of the first {}, and of the "
+      "trials "
+      "with the lowest and the highest k1",
+      plan.points_shown(), text::counted(plan.all_points(), "design point"),
+      std::min(study::draw_count(plan.study), theory::max_trials_examined),
+      std::min(study::draw_count(plan.study), theory::max_trials_examined_closely));
 }
 
 /// Trials that the rule takes against a number fixed beforehand, at three success rates.
@@ -257,16 +222,14 @@ document::Description<Plan> plan_description() {
       .value(in_data("trials", "trials of each point, or the most of them"),
              [](Of p) { return p.study.trials; })
       .value(in_data("moves", "moves of a trial"), [](Of p) { return p.study.moves; })
-      .value(in_data("rigs", "rigs at each point; 0: none"), [](Of p) { return p.study.rigs; })
-      .value(in_data("worlds", "worlds; 0: none"), [](Of p) { return p.study.worlds; })
-      .value(in_data("conditions", "names of the conditions that every rig bears; empty: none"),
-             [](Of p) { return p.study.conditions; })
-      .sentence(trials_text)
-      .value(in_data("judged_by", "what the moves are judged by; null without targets"), judged_by)
-      .sentence([](Of p) {
-        const auto question = judged_by(p);
-        return question ? "judged by " + *question : std::string();
-      })
+      .value({"rigs", "rigs at each point", "rigs at each point; 0: none"}, [](Of p) { return p.study.rigs; })
+      .value({"worlds", "worlds", "worlds; 0: none"}, [](Of p) { return p.study.worlds; })
+      .value(
+          {"conditions", "under the conditions", "names of the conditions that every rig bears; empty: none"},
+          [](Of p) { return p.study.conditions; })
+      .value({.heading = "at the ages", .shown = document::Shown::to_people}, ages_of)
+      .sentence(stop_text)
+      .value({"judged_by", "judged by", "what the moves are judged by; null without targets"}, judged_by)
       .table({"stopping", "Trials that the stopping rule takes", "trials that the stopping rule takes"},
              stopping_description(), stopping_costs)
       .sentence(cost_text)

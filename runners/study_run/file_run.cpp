@@ -1,12 +1,18 @@
 #include "runners/study_run/file_run.hpp"
 
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
+#include "results/layout/row_range.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
@@ -14,11 +20,42 @@
 #include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_run/assembly.hpp"
-#include "runners/study_run/extension.hpp"
+#include "runners/study_run/recorded_trials.hpp"
 #include "runners/trials/study_runner.hpp"
 
 namespace zerocount::study_run {
 namespace {
+
+constexpr std::int64_t max_moves_at_once = 1 << 16;
+
+/// Copies trials of a finished file to shards of a study that differs only in having more trials: those in
+/// the ranges `missing` (rows of the study). Memory is bounded.
+/// @returns the written shards, in order of rows
+std::vector<shards::ShardInfo> copy_trials(const reading::AllTrialsFile& file, const study::Study& study,
+                                           const std::filesystem::path& directory,
+                                           std::span<const layout::RowRange> missing) {
+  const RecordPlaces records = places_of_records(*file.trials());
+  const std::int64_t trials = file.header().trials;
+  const std::int64_t at_once = std::max<std::int64_t>(max_moves_at_once / study.moves, 1);
+  std::vector<shards::ShardInfo> written;
+  for (const layout::RowRange& range : missing) {
+    for (std::int64_t row = range.first; row < range.end();) {
+      const std::int64_t point = row / study.trials;
+      const std::int64_t index = row % study.trials;
+      const std::int64_t count = std::min({trials - index, range.end() - row, at_once});
+      if (count <= 0) {  // beyond the file's trials of this point
+        row = (point + 1) * study.trials;
+        continue;
+      }
+      written.push_back({shards::shard_path(directory, {row, count}), {row, count}});
+      shards::write_shard(written.back().path, study, {row, count},
+                          read_trials(*file.trials(), {point * trials + index, count}, row, records), {},
+                          {file.header().provenance});
+      row += count;
+    }
+  }
+  return written;
+}
 
 /// Makes the folder of the shards. @returns the usable shards that exist before the first trial is run
 EarlierShards prepare_shards(const FileRun& request, const std::filesystem::path& directory,

@@ -6,7 +6,6 @@
 
 #include "experiments/study/study.hpp"
 #include "results/layout/row_range.hpp"
-#include "runners/trials/turn_clock.hpp"
 #include "runners/trials/turns.hpp"
 
 namespace zerocount::trials {

@@ -150,7 +150,7 @@ class Description {
   }
 
   /// How people see the item that was added last: as the value that `get` returns. A text stands without the
-  /// unit of the item.
+  /// unit of the item, unless it is Item::numeric.
   template <class Get>
   Description& shown_as(Get get) {
     using Value = ValueType<std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>>;

@@ -12,7 +12,6 @@
 #include "analysis/document/markup.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/summary_answer/parts.hpp"
-#include "analysis/summary_answer/settling_text.hpp"
 #include "analysis/summary_answer/summary_answer.hpp"
 #include "analysis/text/text.hpp"
 

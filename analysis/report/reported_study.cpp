@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "analysis/goal/success_bounds.hpp"
-#include "analysis/summary/best_point.hpp"
-#include "analysis/summary/conditions_of_point.hpp"
+#include "analysis/summary/cells_of_point.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/point_names.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/text/percent.hpp"
@@ -48,7 +48,7 @@ void add_conditions(ReportedStudy& reported) {
   const std::int64_t chosen = reported.chosen.point;
   reported.worst_condition =
       question.claim() ? verdict_on(question, point_of(reported, chosen)).condition
-                       : summary::worst_condition(summary::conditions_of_point(reported.summary, chosen));
+                       : summary::worst_cell(summary::conditions_of_point(reported.summary, chosen));
 }
 
 }  // namespace

@@ -11,6 +11,13 @@
 /// The design point that all outputs of a study speak of.
 namespace zerocount::summary {
 
+/// The points that have trials, the best first: by goal::merits_of(); among equals the one with fewer swept
+/// parameters other than 0 or none; then the first. Points of an open-loop study keep their order.
+std::vector<std::int64_t> points_by_merit(const StudySummary& summary);
+
+/// The first of them.
+std::int64_t best_point(const StudySummary& summary);
+
 /// A swept number at the end of its range: beyond it better values may lie.
 struct EndOfRange {
   std::size_t axis{0};  ///< of StudySummary::axes
@@ -29,7 +36,7 @@ struct ChosenPoint {
   std::vector<EndOfRange> ends{};  ///< where the point is the best; 0 is no end, as gains have no less
 };
 
-/// Chooses the best point (best_point.hpp), or takes `point`.
+/// Chooses the best point, or takes `point`.
 ///
 /// Another point is shown to be worse if the one-sided 95 % bound of the difference of their rates is above
 /// zero: the rate of success, or of the goal. With rigs it is Student's bound for the differences of the

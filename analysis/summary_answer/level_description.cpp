@@ -7,7 +7,6 @@
 #include "analysis/measures/field_description.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/summary_answer/parts.hpp"
-#include "analysis/summary_answer/point_description.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::summary_answer {

@@ -18,6 +18,23 @@ namespace zerocount::summary_answer {
 using PointDescription = document::Description<PointReading>;
 using SummaryDescription = document::Description<SummaryReading>;
 
+/// A design point in data, by names as in datasets.md, and as a row for people: what the study has. A column
+/// for people has its line of the legend as its meaning, or none.
+/// @param summary of the study; its points decide which columns people are shown
+PointDescription point_description(const summary::StudySummary& summary);
+
+/// A level of a point of an open-loop study, likewise.
+document::Description<LevelReading> level_description(const summary::StudySummary& summary);
+
+/// The meanings of the columns for people, a line each.
+std::string legend_of(const std::vector<document::Item>& columns);
+
+/// A quantile of the settling times of all moves of a point, or a bound of it, as text: four significant
+/// digits, "> 1 s" if it is not reached within the hold, "> hold" if trials differ in theirs, "–" if there is
+/// no move with a target.
+/// @param time s; NaN if not reached
+std::string settling_text(const measures::PointSummary& point, double time);
+
 /// A number, or the name of a case.
 using AxisValue = std::variant<double, std::string>;
 AxisValue value_at(const study::SweepAxis& axis, const PointReading& point);

@@ -9,7 +9,6 @@
 #include "analysis/goal/question.hpp"
 #include "analysis/measures/measure_statistics.hpp"
 #include "analysis/summary_answer/parts.hpp"
-#include "analysis/summary_answer/settling_text.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 

@@ -11,9 +11,9 @@
 #include <fmt/ranges.h>
 
 #include "analysis/document/answer.hpp"
-#include "analysis/summary/best_point.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/point_names.hpp"
-#include "analysis/summary_answer/point_description.hpp"
+#include "analysis/summary_answer/parts.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::summary_answer {

@@ -13,7 +13,6 @@
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "analysis/summary_answer/parts.hpp"
-#include "analysis/summary_answer/point_description.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 #include "core/text/counted.hpp"
@@ -147,6 +146,13 @@ struct ConfirmationReading {
   }
   bool has_one_trial_per_rig() const { return confirmed.rigs == confirmed.trials; }
   double rate() const { return statistics::rate(confirmed.successes, confirmed.trials); }
+  std::string size_text() const {
+    return fmt::format("{}{}{}", confirmed.trials,
+                       confirmed.rigs == 0       ? ""
+                       : has_one_trial_per_rig() ? ", each on a rig of its own"
+                                                 : fmt::format(" on {} rigs", confirmed.rigs),
+                       summary.question.worlds > 0 ? ", on average over new worlds" : "");
+  }
   /// Clopper–Pearson bounds, where the trials are independent: unless they share rigs, in a study with a
   /// goal.
   std::optional<statistics::ConfidenceInterval> bounds() const {
@@ -166,43 +172,23 @@ std::optional<ConfirmationReading> confirmation_of(Summary s) {
   return ConfirmationReading{s.summary, *s.confirmation};
 }
 
-std::string confirmation_text(Summary s) {
-  const std::optional<ConfirmationReading> reading = confirmation_of(s);
-  if (!reading) return {};
-  const Confirmation& confirmed = reading->confirmed;
-  std::string text = fmt::format(
-      "run anew with seed {}, everything drawn anew, chosen beforehand so that no bound needs a "
-      "correction:\n",
-      confirmed.seed);
-  if (const std::optional<goal::Verdict> verdict = reading->verdict())
-    text += fmt::format("  goal: {}\n{}", goal::text_of(verdict->status),
-                        goal::goals_text(s.summary.question, reading->point(), *verdict));
-  text += fmt::format("  {} of {} trials{} succeeded{}, {}", confirmed.successes, confirmed.trials,
-                      confirmed.rigs == 0                ? ""
-                      : reading->has_one_trial_per_rig() ? ", each on a rig of its own,"
-                                                         : fmt::format(" on {} rigs", confirmed.rigs),
-                      s.summary.question.worlds > 0 ? " on average over new worlds" : "",
-                      text::percentage(confirmed.successes, confirmed.trials));
-  if (const auto bounds = reading->bounds()) {
-    text += fmt::format(", {} bounds [{}] % (Clopper and Pearson)", text::percent(s.summary.confidence),
-                        text::percent_bounds(bounds->low, bounds->high));
-  }
-  return text;
-}
-
 document::Description<ConfirmationReading> confirmation_description(const StudySummary& summary) {
   document::Description<ConfirmationReading> description;
   description
       .value({.key = "point", .meaning = "number of the design point"},
              [](Confirmed c) { return c.confirmed.point; })
-      .value({.key = "seed", .meaning = "seed of the new trials"},
+      .value({.key = "seed", .heading = "seed", .meaning = "seed of the new trials"},
              [](Confirmed c) { return c.confirmed.seed; })
-      .value({.key = "trials", .meaning = "new trials"}, [](Confirmed c) { return c.confirmed.trials; })
-      .value({.key = "zero_count", .meaning = "new trials that succeeded"},
+      .value({.key = "trials", .heading = "trials", .meaning = "new trials"},
+             [](Confirmed c) { return c.confirmed.trials; })
+      .shown_as([](Confirmed c) { return c.size_text(); })
+      .value({.key = "zero_count", .heading = "succeeded", .meaning = "new trials that succeeded"},
              [](Confirmed c) { return c.confirmed.successes; })
       .value({.key = "success_rate",
-              .meaning = "their proportion, with bounds unless trials share rigs",
-              .unit = "1"},
+              .heading = "success rate [bounds]",
+              .meaning = "their proportion, with bounds of Clopper and Pearson unless trials share rigs",
+              .unit = "1",
+              .notation = document::Notation::percent},
              [](Confirmed c) {
                const statistics::ConfidenceInterval bounds = c.bounds().value_or(
                    statistics::ConfidenceInterval{statistics::unknown, statistics::unknown});
@@ -368,13 +354,12 @@ document::AnswerDescription<SummaryReading> summary_description(const StudySumma
   answer.items.include(point_tables(summary), same_summary).sentence([](Summary s) -> std::string {
     return s.legend ? "" : "(zerocount summary --legend explains the columns)";
   });
-  answer.items
-      .object({.key = "confirmation",
-               .meaning = "new trials of the chosen point (--confirm)",
-               .shown = Shown::in_data,
-               .optional = true},
-              confirmation_description(summary), confirmation_of)
-      .sentence(confirmation_text);
+  answer.items.object(
+      {.key = "confirmation",
+       .heading = "the chosen point run again, everything drawn anew: no bound needs a correction",
+       .meaning = "new trials of the chosen point (--confirm)",
+       .optional = true},
+      confirmation_description(summary), confirmation_of);
   return answer;
 }
 

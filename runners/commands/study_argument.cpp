@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/summary/best_point.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"

@@ -6,8 +6,7 @@
 
 #include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
-#include "analysis/summary/ages_of_point.hpp"
-#include "analysis/summary/claims_of_point.hpp"
+#include "analysis/summary/cells_of_point.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "analysis/summary/missed_moves.hpp"
 #include "analysis/summary/worlds_of_point.hpp"
@@ -40,8 +39,8 @@ struct Judgement {
   const summary::StudySummary& summary;
   summary::JudgedPoint judged;
   std::optional<worlds::PointWorlds> worlds;
-  std::vector<summary::ClaimOfPoint> claims;         ///< each goal under each condition
-  std::vector<summary::AgeOfPoint> ages;             ///< [age]; empty without ages
+  std::vector<summary::CellOfPoint> claims;          ///< each goal under each condition
+  std::vector<summary::CellOfPoint> ages;            ///< [age]; empty without ages
   std::optional<summary::SaturatedMoves> saturated;  ///< of the worst goal and condition, unless it is met
 
   const std::string& label() const { return summary.labels[static_cast<std::size_t>(judged.chosen.point)]; }
@@ -58,8 +57,8 @@ struct Judgement {
   std::optional<double> missed_saturated() const {
     return saturated && saturated->missed > 0 ? std::optional(saturated->of_missed()) : std::nullopt;
   }
-  std::vector<summary::ClaimOfPoint> several_claims() const {
-    return claims.size() > 1 ? claims : std::vector<summary::ClaimOfPoint>();
+  std::vector<summary::CellOfPoint> several_claims() const {
+    return claims.size() > 1 ? claims : std::vector<summary::CellOfPoint>();
   }
   std::optional<double> of_machines(double bound) const {
     return worst_goal().claim->machines ? std::optional(bound) : std::nullopt;
@@ -126,8 +125,9 @@ document::AnswerDescription<Judgement> judge_answer(const goal::Question& questi
       .object({.key = "worlds", .meaning = "the worlds at the point", .shown = Shown::in_data},
               summary::worlds_description(question), &Judgement::worlds_reading)
       .table({.key = "claims", .meaning = "each goal under each condition", .shown = Shown::in_json},
-             summary::claim_description(), &Judgement::claims)
-      .table({.heading = "by claim"}, summary::claim_description(), &Judgement::several_claims)
+             summary::cell_description({}, summary::CellsBy::claim), &Judgement::claims)
+      .table({.heading = "by claim"}, summary::cell_description({}, summary::CellsBy::claim),
+             &Judgement::several_claims)
       .value({.key = "met_until",
               .meaning = "last age up to and including which the goal is met; null if not at the first",
               .optional = true},
@@ -140,7 +140,7 @@ document::AnswerDescription<Judgement> judge_answer(const goal::Question& questi
               .heading = "by age",
               .meaning = "the point at each age",
               .shown = Shown::not_in_csv},
-             summary::age_description(question), &Judgement::ages)
+             summary::cell_description(question, summary::CellsBy::age), &Judgement::ages)
       .sentence([](Of j) { return summary::ages_sentence(j.summary.question, j.ages); });
   return answer;
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/goal/goal_verdict.hpp"
-#include "analysis/summary/claims_of_point.hpp"
+#include "analysis/summary/cells_of_point.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/tuning/behaviour.hpp"
 #include "runners/tuning/race/tried_points.hpp"
@@ -26,7 +26,7 @@ struct Proof {
   std::optional<goal::Needs> needs{};  ///< that would decide an undecided one
   int attempts{1};                     ///< candidates or sizes that were proven, this one included
   /// Each goal under each condition, with bounds that allow for all attempts.
-  std::vector<summary::ClaimOfPoint> claims{};
+  std::vector<summary::CellOfPoint> claims{};
 };
 
 /// The result of tuning.

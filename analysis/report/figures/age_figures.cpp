@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/figures/report_figures.hpp"
-#include "analysis/summary/ages_of_point.hpp"
+#include "analysis/summary/cells_of_point.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -17,11 +17,11 @@ using nlohmann::ordered_json;
 /// A curve over the ages.
 struct AgeSeries {
   std::string name;
-  std::optional<goal::BoundedProportion> (*of)(const summary::AgeOfPoint&);
+  std::optional<goal::BoundedProportion> (*of)(const summary::CellOfPoint&);
   std::optional<double> asked;
 };
 
-FigureData data_of_ages(const ReportedStudy& reported, const std::vector<summary::AgeOfPoint>& ages,
+FigureData data_of_ages(const ReportedStudy& reported, const std::vector<summary::CellOfPoint>& ages,
                         const std::vector<AgeSeries>& series) {
   FigureData data{"ages",
                   {{"series", "of", ""},
@@ -31,7 +31,7 @@ FigureData data_of_ages(const ReportedStudy& reported, const std::vector<summary
                    {"high", "upper bound", "1"},
                    {"asked", "asked", "1"}}};
   for (const AgeSeries& one : series) {
-    for (const summary::AgeOfPoint& age : ages) {
+    for (const summary::CellOfPoint& age : ages) {
       const std::optional<goal::BoundedProportion> rate = one.of(age);
       if (!rate) continue;
       data.rows.push_back(
@@ -47,15 +47,15 @@ std::string bounds_text(const ReportedStudy& reported) {
                      100.0 * goal::confidence_of(question_of(reported), reported.summary.confidence));
 }
 
-Figure rates_figure(const ReportedStudy& reported, const std::vector<summary::AgeOfPoint>& ages) {
+Figure rates_figure(const ReportedStudy& reported, const std::vector<summary::CellOfPoint>& ages) {
   const goal::Question& question = question_of(reported);
   std::vector<AgeSeries> series{{question.claim() ? "moves in the goal" : "trials that succeed",
-                                 [](const summary::AgeOfPoint& age) { return std::optional(age.rate); },
+                                 [](const summary::CellOfPoint& age) { return std::optional(age.rate); },
                                  std::nullopt}};
   const bool one_claim = question.claim() && !has_several(question);
   if (one_claim) series.front().asked = question.claim()->moves;
   if (question.claim())
-    series.push_back({"machines in the goal", [](const summary::AgeOfPoint& age) { return age.machines; },
+    series.push_back({"machines in the goal", [](const summary::CellOfPoint& age) { return age.machines; },
                       one_claim ? question.claim()->machines : std::nullopt});
   Figure figure = figure_of(
       "ages", "ages", "How long does it hold?",
@@ -70,7 +70,7 @@ Figure rates_figure(const ReportedStudy& reported, const std::vector<summary::Ag
   return figure;
 }
 
-Figure lives_figure(const ReportedStudy& reported, const std::vector<summary::AgeOfPoint>& ages) {
+Figure lives_figure(const ReportedStudy& reported, const std::vector<summary::CellOfPoint>& ages) {
   Figure figure = figure_of(
       "ages", "lives", "How long do the machines live?",
       fmt::format(
@@ -79,7 +79,7 @@ Figure lives_figure(const ReportedStudy& reported, const std::vector<summary::Ag
           label_of(reported, reported.chosen.point), bounds_text(reported)),
       {data_of_ages(
           reported, ages,
-          {{"machines", [](const summary::AgeOfPoint& age) { return age.living; }, std::nullopt}})});
+          {{"machines", [](const summary::CellOfPoint& age) { return age.living; }, std::nullopt}})});
   const study::Ages& of_study = question_of(reported).ages;
   scale_ages(figure, of_study.at, of_study.unit);
   ordered_json& layers = figure.specification["layer"];
@@ -92,7 +92,7 @@ Figure lives_figure(const ReportedStudy& reported, const std::vector<summary::Ag
 }  // namespace
 
 std::vector<Figure> age_figures(const ReportedStudy& reported) {
-  const std::vector<summary::AgeOfPoint> ages =
+  const std::vector<summary::CellOfPoint> ages =
       summary::ages_of_point(reported.summary, reported.chosen.point);
   std::vector<Figure> figures;
   if (ages.empty()) return figures;

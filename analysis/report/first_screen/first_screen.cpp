@@ -26,15 +26,15 @@ std::string lines_html(const std::vector<std::string>& lines) {
   return html.empty() ? "" : "<div class=\"notes\">\n" + html + "</div>\n";
 }
 
-std::vector<summary::ClaimOfPoint> claims_of_chosen(const ReportedStudy& reported) {
+std::vector<summary::CellOfPoint> claims_of_chosen(const ReportedStudy& reported) {
   return summary::claims_of_point(reported.summary, reported.chosen.point,
                                   static_cast<std::size_t>(reported.chosen.chosen_from));
 }
 
 /// The class of the headline: "good" where all claims are met, "bad" where one is missed, else none.
-std::string_view style_of(const std::vector<summary::ClaimOfPoint>& claims) {
+std::string_view style_of(const std::vector<summary::CellOfPoint>& claims) {
   const auto has = [&](goal::Status status) {
-    return std::ranges::find(claims, status, &summary::ClaimOfPoint::status) != claims.end();
+    return std::ranges::find(claims, status, &summary::CellOfPoint::status) != claims.end();
   };
   if (has(goal::Status::missed)) return "bad";
   return has(goal::Status::met) && !has(goal::Status::undecided) ? "good" : "";
@@ -46,7 +46,7 @@ PageSection first_screen(const ReportedStudy& reported, const FirstScreenParts& 
   const Conclusions conclusions = conclusions_of(reported);
   const study::Study& study = reported.study;
   const std::int64_t point = reported.chosen.point;
-  const std::vector<summary::ClaimOfPoint> claims =
+  const std::vector<summary::CellOfPoint> claims =
       parts.claims.empty() ? claims_of_chosen(reported) : parts.claims;
   const std::string headline = parts.headline.empty() ? conclusions.headline : parts.headline;
   const std::string margins = parts.margins.empty() ? loops_html(study, point) : parts.margins;

@@ -5,7 +5,7 @@
 
 #include "analysis/report/page.hpp"
 #include "analysis/report/reported_study.hpp"
-#include "analysis/summary/claims_of_point.hpp"
+#include "analysis/summary/cells_of_point.hpp"
 
 namespace zerocount::report {
 
@@ -13,8 +13,8 @@ namespace zerocount::report {
 struct FirstScreenParts {
   std::string warnings{};  ///< HTML, above all
   std::string headline{};
-  std::vector<summary::ClaimOfPoint> claims{};  ///< by goal and condition
-  std::string margins{};                        ///< HTML, in place of the loops of `check`
+  std::vector<summary::CellOfPoint> claims{};  ///< by goal and condition
+  std::string margins{};                       ///< HTML, in place of the loops of `check`
 };
 
 /// The first screen of a page: the verdict, the axis as a diagram, the requirements with their verdicts, the

@@ -18,7 +18,7 @@
 namespace zerocount::report {
 namespace {
 
-using summary::ClaimOfPoint;
+using summary::CellOfPoint;
 using summary::MoveBehaviour;
 
 /// "true overshoot ≤ 1 µm".
@@ -37,7 +37,7 @@ std::string limit_text(const study::GoalLimit& limit, const study::Study& study)
 
 /// A row: a goal under a condition, or moves that no goal asks.
 struct RequirementRow {
-  std::optional<ClaimOfPoint> claim{};
+  std::optional<CellOfPoint> claim{};
   std::optional<MoveBehaviour> moves{};
   std::string condition{};
 };
@@ -130,7 +130,7 @@ std::string row_html(const RequirementRow& row, const std::vector<RequirementCol
 
 /// The rows of the goal with this number; the number of goals for moves that none asks.
 std::vector<RequirementRow> rows_of_goal(std::size_t number, const ReportedStudy& reported,
-                                         const std::vector<ClaimOfPoint>& claims,
+                                         const std::vector<CellOfPoint>& claims,
                                          const std::vector<MoveBehaviour>& behaviour) {
   std::vector<RequirementRow> rows;
   const auto conditions = static_cast<std::size_t>(study::condition_count(reported.study));
@@ -173,7 +173,7 @@ std::string requirement_text(const study::Goal& goal, const study::Study& study)
 }
 
 std::string requirements_html(const ReportedStudy& reported,
-                              const std::vector<summary::ClaimOfPoint>& claims) {
+                              const std::vector<summary::CellOfPoint>& claims) {
   if (reported.study.open_loop) return "";
   const std::int64_t point = reported.chosen.point;
   const std::vector<MoveBehaviour> behaviour = summary::behaviour_in(reported.file, reported.study, point);

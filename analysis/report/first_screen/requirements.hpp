@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "analysis/report/reported_study.hpp"
-#include "analysis/summary/claims_of_point.hpp"
+#include "analysis/summary/cells_of_point.hpp"
 
 namespace zerocount::report {
 
@@ -15,7 +15,6 @@ std::string requirement_text(const study::Goal& goal, const study::Study& study)
 /// Each goal under each condition at the chosen point: the verdict with its bounds, and what the moves do:
 /// overshoot, peak torque, saturation. Without a goal the latter alone.
 /// @param claims by goal and condition
-std::string requirements_html(const ReportedStudy& reported,
-                              const std::vector<summary::ClaimOfPoint>& claims);
+std::string requirements_html(const ReportedStudy& reported, const std::vector<summary::CellOfPoint>& claims);
 
 }  // namespace zerocount::report

@@ -10,7 +10,7 @@
 #include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/measures/goal_counts.hpp"
-#include "analysis/summary/claims_of_point.hpp"
+#include "analysis/summary/cells_of_point.hpp"
 #include "analysis/text/text.hpp"
 #include "runners/design_commands/limits_command.hpp"
 #include "runners/design_commands/tune/tune_parts.hpp"
@@ -116,8 +116,8 @@ std::string proof_sentence(Of tuning) {
 }
 
 /// Under each goal and condition.
-const std::vector<summary::ClaimOfPoint>& proven_claims(Of tuning) {
-  static const std::vector<summary::ClaimOfPoint> none;
+const std::vector<summary::CellOfPoint>& proven_claims(Of tuning) {
+  static const std::vector<summary::CellOfPoint> none;
   return tuning.answer.proof ? tuning.answer.proof->claims : none;
 }
 
@@ -236,7 +236,7 @@ void add_proof(Items& items) {
       .table({.key = "claims",
               .heading = "each goal under each condition and at each age, by the proof",
               .meaning = "each goal under each condition, by the proof; the bounds allow for its attempts"},
-             summary::claim_description(), proven_claims)
+             summary::cell_description({}, summary::CellsBy::claim), proven_claims)
       .value(in_data("obstacles", "what theory says of a goal that is not met"),
              [](Of t) { return t.answer.obstacles; })
       .object(in_data("proof", "trials of the tuned values on machines that the search never saw"),

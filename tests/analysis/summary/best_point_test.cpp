@@ -1,4 +1,4 @@
-#include "analysis/summary/best_point.hpp"
+#include "analysis/summary/chosen_point.hpp"
 
 #include <random>
 #include <vector>

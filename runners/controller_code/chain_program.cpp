@@ -17,26 +17,6 @@
 namespace zerocount::controller_code {
 namespace {
 
-/// A sum without the terms that are 0.
-class Sum {
- public:
-  Sum() = default;
-  explicit Sum(const Term& first) : sum_(first) {}
-
-  void add(const std::optional<Term>& coefficient, const Term& factor) {
-    if (coefficient) add(*coefficient * factor);
-  }
-  void subtract(const std::optional<Term>& coefficient, const Term& factor) {
-    if (coefficient) sum_ = sum_ ? *sum_ - *coefficient * factor : -*coefficient * factor;
-  }
-  void add(const Term& term) { sum_ = sum_ ? *sum_ + term : term; }
-
-  Term term() const { return sum_.value_or(0.0); }
-
- private:
-  std::optional<Term> sum_;
-};
-
 class ChainWriter {
  public:
   ChainWriter(const ControllerToWrite& of, Precision precision)
@@ -71,10 +51,9 @@ class ChainWriter {
   Term local(const std::string& name, Type type = Type::number) {
     return write_.variable({name, Role::local, type});
   }
-  /// The coefficient as a constant; nothing if it is 0.
-  std::optional<Term> coefficient(const std::string& name, double value, const std::string& meaning) {
-    if (value == 0.0) return {};
-    return write_.constant(name, value, meaning);
+  /// The coefficient as a constant; 0 if it is 0.
+  Term coefficient(const std::string& name, double value, const std::string& meaning) {
+    return value == 0.0 ? Term(0.0) : write_.constant(name, value, meaning);
   }
   /// "N m/count".
   std::string torque_per(std::string_view divisor) const {
@@ -184,7 +163,7 @@ class ChainWriter {
   }
 
   /// I ← clamp(ρ·I + increment), under its conditions.
-  Term write_integral(const std::optional<Term>& increment) {
+  Term write_integral(const Term& increment) {
     const loop::TorqueRange range = loop::integral_range(
         of_.controller.anti_windup, loop::lowest_torque(of_.dac), loop::highest_torque(of_.dac));
     const loop::IntegralConstants<double> c = loop::integral_constants(blocks_, sample_rate_, range);
@@ -203,14 +182,11 @@ class ChainWriter {
       const Term is_near = magnitude(error_) <= write_.constant("integrator_zone", c.zone, "counts");
       changes = changes ? both(*changes, is_near) : is_near;
     }
-    Sum sum;
-    if (c.retention == 1.0) {
-      sum.add(integral);
-    } else {
-      sum.add(write_.constant("retention", c.retention, "of the integral, per sample") * integral);
-    }
-    if (increment) sum.add(*increment);
-    Term changed = sum.term();
+    const Term kept =
+        c.retention == 1.0
+            ? integral
+            : write_.constant("retention", c.retention, "of the integral, per sample") * integral;
+    Term changed = kept + increment;
     if (std::isfinite(c.lowest))
       changed =
           Term(Operation::limited,
@@ -226,19 +202,26 @@ class ChainWriter {
     std::string_view unit;
   };
 
-  /// A gain of the PID law, N m/count; nothing if it is always 0.
-  std::optional<Term> gain(const std::string& name, std::string_view meaning, double usual,
-                           double at_standstill, const SiUnit& si) {
+  /// A gain of the PID law, N m/count; 0 if it is always 0.
+  Term gain(const std::string& name, std::string_view meaning, double usual, double at_standstill,
+            const SiUnit& si) {
     const auto constant = [&](const std::string& of, double value) {
       return coefficient(of, value,
                          fmt::format("{}, {} ({:.6g} {} in SI units)", meaning, torque_per("count"),
                                      value * si.factor, parameters::unit_on(of_.axis, si.unit)));
     };
-    std::optional<Term> one = constant(name, usual);
+    const Term one = constant(name, usual);
     if (!stands_now_) return one;
-    const std::optional<Term> still = constant("standstill_" + name, at_standstill);
-    if (!one && !still) return {};
-    return choice(*stands_now_, still.value_or(0.0), one.value_or(0.0));
+    const Term still = constant("standstill_" + name, at_standstill);
+    return is_zero(one) && is_zero(still) ? one : choice(*stands_now_, still, one);
+  }
+
+  /// I, changed by the trapezoidal rule; 0 without integral. `last` becomes the input of the sample before.
+  Term write_trapezoid(const Term& ki, const Term& input, std::optional<Term>& last, const std::string& name,
+                       const std::string& meaning) {
+    if (is_zero(ki)) return of_.initial_integral != 0.0 ? write_integral(0.0) : Term(0.0);
+    last = state(name, meaning);
+    return write_integral(ki * (input + *last));
   }
 
   void write_pid() {
@@ -246,24 +229,15 @@ class ChainWriter {
     const loop::ControllerParameters& c = of_.controller;
     const loop::Standstill& still = blocks_.standstill;
     const double per_radian = 1.0 / of_.resolution;
-    const std::optional<Term> ki = gain("ki", "integral gain of the trapezoidal rule", c.ki, still.ki,
-                                        {2.0 * sample_rate_ * per_radian, "N m/(rad s)"});
-    const std::optional<Term> kp = gain("kp", "proportional gain", c.kp, still.kp, {per_radian, "N m/rad"});
-    const std::optional<Term> kd = gain("kd", "gain of the difference of successive counts", c.kd, still.kd,
-                                        {per_radian / sample_rate_, "N m s/rad"});
+    const Term ki = gain("ki", "integral gain of the trapezoidal rule", c.ki, still.ki,
+                         {2.0 * sample_rate_ * per_radian, "N m/(rad s)"});
+    const Term kp = gain("kp", "proportional gain", c.kp, still.kp, {per_radian, "N m/rad"});
+    const Term kd = gain("kd", "gain of the difference of successive counts", c.kd, still.kd,
+                         {per_radian / sample_rate_, "N m s/rad"});
     if (last_count_) write_difference();
-    Sum sum;
-    if (ki || of_.initial_integral != 0.0) {
-      std::optional<Term> increment;
-      if (ki) {
-        last_error_ = state("last_error", "of the sample before, counts");
-        increment = *ki * (e_ + *last_error_);
-      }
-      sum.add(write_integral(increment));
-    }
-    sum.add(kp, e_);
-    if (difference_) sum.subtract(kd, *difference_);
-    write_.assign(u_, sum.term());
+    const Term integral = write_trapezoid(ki, e_, last_error_, "last_error", "of the sample before, counts");
+    const Term damping = difference_ ? kd * *difference_ : Term(0.0);
+    write_.assign(u_, integral + kp * e_ - damping);
     if (last_error_) write_.assign(*last_error_, e_);
   }
 
@@ -278,25 +252,17 @@ class ChainWriter {
     velocity_ = write_.constant("velocity_per_count", c.velocity,
                                 angle_unit_ + "/s per count of difference between samples");
     const std::string unit = parameters::unit_on(of_.axis, "N m s/rad");
-    const std::optional<Term> kp = coefficient("kp", c.kp, "of the velocity loop, " + unit);
-    const std::optional<Term> ki =
+    const Term kp = coefficient("kp", c.kp, "of the velocity loop, " + unit);
+    const Term ki =
         coefficient("ki", c.ki,
                     fmt::format("of the velocity loop by the trapezoidal rule, {} ({:.6g} {} in SI units)",
                                 unit, blocks_.cascade.ki, parameters::unit_on(of_.axis, "N m/rad")));
     write_difference();
     const Term w = local("velocity_error");
     write_.assign(w, velocity_error());
-    Sum sum;
-    sum.add(kp, w);
-    if (ki || of_.initial_integral != 0.0) {
-      std::optional<Term> increment;
-      if (ki) {
-        last_velocity_error_ = state("last_velocity_error", "of the sample before, " + angle_unit_ + "/s");
-        increment = *ki * (w + *last_velocity_error_);
-      }
-      sum.add(write_integral(increment));
-    }
-    write_.assign(u_, sum.term());
+    const Term integral = write_trapezoid(ki, w, last_velocity_error_, "last_velocity_error",
+                                          "of the sample before, " + angle_unit_ + "/s");
+    write_.assign(u_, kp * w + integral);
     if (last_velocity_error_) write_.assign(*last_velocity_error_, w);
   }
 
@@ -310,27 +276,17 @@ class ChainWriter {
       const auto part = [&](const char* letter, double value) {
         return coefficient(fmt::format("{}_{}", name, letter), value, "of " + name);
       };
-      const std::optional<Term> b0 = part("b0", c.b0);
-      const std::optional<Term> b1 = part("b1", c.b1);
-      const std::optional<Term> b2 = part("b2", c.b2);
-      const std::optional<Term> a1 = part("a1", c.a1);
-      const std::optional<Term> a2 = part("a2", c.a2);
+      const Term b0 = part("b0", c.b0);
+      const Term b1 = part("b1", c.b1);
+      const Term b2 = part("b2", c.b2);
+      const Term a1 = part("a1", c.a1);
+      const Term a2 = part("a2", c.a2);
       const Term first = state(name + "_first", torque_unit_);
       const Term second = state(name + "_second", torque_unit_);
       write_.assign(x, u_);
-      Sum output;
-      output.add(b0, x);
-      output.add(first);
-      write_.assign(u_, output.term());
-      Sum to_first;
-      to_first.add(b1, x);
-      to_first.subtract(a1, u_);
-      to_first.add(second);
-      write_.assign(first, to_first.term());
-      Sum to_second;
-      to_second.add(b2, x);
-      to_second.subtract(a2, u_);
-      write_.assign(second, to_second.term());
+      write_.assign(u_, b0 * x + first);
+      write_.assign(first, b1 * x - a1 * u_ + second);
+      write_.assign(second, b2 * x - a2 * u_);
     }
   }
 
@@ -339,15 +295,17 @@ class ChainWriter {
     const auto part = [&](const char* name, double value, std::string_view unit) {
       return coefficient(fmt::format("feedforward_{}", name), value, parameters::unit_on(of_.axis, unit));
     };
-    Sum sum;
     const Term speed = write_.input(Input::velocity);
-    sum.add(part("velocity", velocity, "N m s/rad"), speed);
-    sum.add(part("acceleration", acceleration, "N m s^2/rad"), write_.input(Input::acceleration));
-    const std::optional<Term> constant = part("friction", friction, "N m");
-    if (constant) sum.add(choice(speed > 0.0, *constant, choice(speed < 0.0, -*constant, 0.0)));
-    if (velocity == 0.0 && acceleration == 0.0 && friction == 0.0) return;
+    const Term of_velocity = part("velocity", velocity, "N m s/rad") * speed;
+    const Term of_acceleration =
+        part("acceleration", acceleration, "N m s^2/rad") * write_.input(Input::acceleration);
+    const Term constant = part("friction", friction, "N m");
+    const Term of_friction =
+        is_zero(constant) ? constant : choice(speed > 0.0, constant, choice(speed < 0.0, -constant, 0.0));
+    const Term added = of_velocity + of_acceleration + of_friction;
+    if (is_zero(added)) return;
     write_.remark("feed-forward");
-    write_.assign(u_, u_ + sum.term());
+    write_.assign(u_, u_ + added);
   }
 
   void write_observer() {
@@ -355,31 +313,23 @@ class ChainWriter {
     const loop::ObserverConstants<double> c =
         loop::observer_constants(blocks_.observer, sample_rate_, of_.resolution);
     write_.remark("disturbance observer");
-    const std::optional<Term> acceleration =
-        coefficient("observer_inertia", c.acceleration, torque_per("count"));
+    const Term acceleration = coefficient("observer_inertia", c.acceleration, torque_per("count"));
     const Term q = write_.constant("observer_q", c.q, "gain of its filter");
-    const std::optional<Term> a1 = coefficient("observer_a1", c.a1, "of its filter");
-    const std::optional<Term> a2 = coefficient("observer_a2", c.a2, "of its filter");
+    const Term a1 = coefficient("observer_a1", c.a1, "of its filter");
+    const Term a2 = coefficient("observer_a2", c.a2, "of its filter");
     const Term first = state("observer_first", torque_unit_);
     const Term second = state("observer_second", torque_unit_);
     const Term inertia = local("inertia");
     const Term filtered = local("filtered");
     const Term estimate = local("estimate");
-    Sum travelled;
-    travelled.add(acceleration, difference_of_counts(count_, *first_count_));
-    write_.assign(inertia, travelled.term());
+    write_.assign(inertia, acceleration * difference_of_counts(count_, *first_count_));
     write_.assign(filtered, q * write_.input(Input::torque));
     write_.assign(estimate, inertia - filtered + first);
     // Twice the sum without a literal, which some compilers of Structured Text take in double precision.
     const Term together = local("together");
     write_.assign(together, inertia + filtered);
-    Sum to_first(-(together + together));
-    to_first.subtract(a1, estimate);
-    to_first.add(second);
-    write_.assign(first, to_first.term());
-    Sum to_second(inertia - filtered);
-    to_second.subtract(a2, estimate);
-    write_.assign(second, to_second.term());
+    write_.assign(first, -(together + together) - a1 * estimate + second);
+    write_.assign(second, inertia - filtered - a2 * estimate);
     write_.assign(u_, u_ - estimate);
   }
 

@@ -52,10 +52,21 @@ class Term {
   std::size_t index() const { return node_->index; }  ///< of a constant or variable in the program
   double value() const { return node_->value; }       ///< of a literal
 
+  // What is 0 as written, such as a gain that does not act, leaves no term behind.
+
+  friend bool is_zero(const Term& a) { return a.operation() == Operation::literal && a.value() == 0.0; }
   friend Term operator-(const Term& a) { return {Operation::negative, {a}}; }
-  friend Term operator+(const Term& a, const Term& b) { return {Operation::sum, {a, b}}; }
-  friend Term operator-(const Term& a, const Term& b) { return {Operation::difference, {a, b}}; }
-  friend Term operator*(const Term& a, const Term& b) { return {Operation::product, {a, b}}; }
+  friend Term operator+(const Term& a, const Term& b) {
+    return is_zero(a) ? b : is_zero(b) ? a : Term(Operation::sum, {a, b});
+  }
+  friend Term operator-(const Term& a, const Term& b) {
+    if (is_zero(b)) return a;
+    if (!is_zero(a)) return {Operation::difference, {a, b}};
+    return b.operation() == Operation::product ? -b.operands()[0] * b.operands()[1] : -b;
+  }
+  friend Term operator*(const Term& a, const Term& b) {
+    return is_zero(a) || is_zero(b) ? Term(0.0) : Term(Operation::product, {a, b});
+  }
   friend Term operator/(const Term& a, const Term& b) { return {Operation::quotient, {a, b}}; }
   friend Term operator<=(const Term& a, const Term& b) { return {Operation::at_most, {a, b}}; }
   friend Term operator>=(const Term& a, const Term& b) { return {Operation::at_least, {a, b}}; }

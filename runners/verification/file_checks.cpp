@@ -1,11 +1,14 @@
 #include "runners/verification/file_checks.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -17,6 +20,7 @@
 #include "results/storage/temporary_folder.hpp"
 #include "runners/study_run/assembly.hpp"
 #include "runners/study_run/earlier_shards.hpp"
+#include "runners/study_run/recorded_trials.hpp"
 #include "runners/verification/replay.hpp"
 
 namespace zerocount::verification {
@@ -37,6 +41,37 @@ void compare_header(const layout::FileHeader& header, const study::Study& study,
   // Another program may define the hash otherwise: its files are compared by their manifests alone.
   if (layout::same_build(header.provenance, layout::current_provenance()))
     require_equal("study_sha256", header.study_sha256, study.study_sha256, problems);
+}
+
+/// Checks that the sample records are those of the retained trials in their order, each from its first sample
+/// on: a file that is made again takes over their numbers.
+void check_records(const reading::ResultsFile& file, const study::Study& study, ProblemList& problems) {
+  if (!file.trials() || study.retained_trials.empty()) return;
+  std::vector<std::int64_t> expected;
+  for (std::int64_t row = file.rows().first; row < file.rows().end(); ++row) {
+    if (std::ranges::binary_search(study.retained_trials, row % study.trials)) expected.push_back(row);
+  }
+  std::size_t traced = 0;
+  std::int64_t position = 0;
+  for (const auto& [row, places] : study_run::places_of_records(*file.trials())) {
+    if (traced == expected.size() || row != expected[traced] || places.first != position) {
+      problems.add(fmt::format("/trace/trial: row {}: it is {}; expected the retained trials, in their order",
+                               places.first, row));
+      return;
+    }
+    std::int64_t k = 0;
+    for (const layout::TraceRecord& record : file.trials()->trace_at(places.first, places.count)) {
+      if (record.trial == row && record.k == k++) continue;
+      problems.add(fmt::format("/trace/k: trial {}: its samples are not those from 0 on", row));
+      return;
+    }
+    position = places.end();
+    ++traced;
+  }
+  if (traced == expected.size()) return;
+  problems.add(
+      fmt::format("/trace/trial: it has records of {} trials; expected those of the {} retained ones", traced,
+                  expected.size()));
 }
 
 /// The sentence for a difference between the file and the rebuilt one.
@@ -127,6 +162,7 @@ std::optional<Described> check_statistics(CheckReport& report,
       }
     };
     work_on([&] { study_run::check_contents(file, described->study); });
+    work_on([&] { check_records(file, described->study, problems); });
     work_on([&] { compare_rebuilt(file, described->study, report.stop, problems); });
   });
   return described;

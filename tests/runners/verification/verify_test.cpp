@@ -114,7 +114,6 @@ TEST_F(Verify, NamesTheDatasetOfAnyValueThatWasChanged) {
     // Some contradict another dataset, which is named in their place.
     EXPECT_TRUE(names(dataset) || names(base_name(dataset) + ": recorded ") ||
                 names(base_name(dataset) + "[") || (dataset.starts_with("/jerk/") && names("/jerk/")) ||
-                (dataset == "/trace/trial" && names("records: recorded ")) ||
                 (dataset.ends_with("settling_time") && names("/outcome/arrived")))
         << dataset << "\n"
         << found;

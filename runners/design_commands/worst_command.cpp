@@ -53,7 +53,7 @@ struct Search {
 std::string headline(const Search& search) {
   const WorstMachines& found = search.found;
   const std::string place = "worst in the box of the central 99.9 % of each input: ";
-  if (found.in_box_is_of_study)
+  if (found.in_box_is_of_study())
     return place + fmt::format("none is worse than {} of the study",
                                machine_name(found.of_study, search.study.rigs > 0));
   return place + fmt::format("{:.4g} % of {} moves {}{}", 100.0 * found.in_box.met, found.in_box.moves,
@@ -128,12 +128,12 @@ document::AnswerDescription<Search> worst_answer() {
                          "the worst machine in the box of the central 99.9 % of each input"),
               found_description("of_study", "the worst machine of the study"),
               [](const Search& s) {
-                return FoundMachine{s.found.in_box, s.found.in_box_is_of_study};
+                return FoundMachine{s.found.in_box, s.found.in_box_is_of_study()};
               })
       .object(everywhere("likely", "worst of the likely machines", "the worst of the likely machines"),
               found_description("in_box", "the machine of the box"),
               [](const Search& s) {
-                return FoundMachine{s.found.likely, s.found.likely_is_in_box};
+                return FoundMachine{s.found.likely, s.found.likely_is_in_box()};
               })
       .sentence(replay_sentence);
   return answer;

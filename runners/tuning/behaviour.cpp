@@ -118,10 +118,11 @@ std::vector<Refusal> refusals_of(const std::vector<MoveBehaviour>& behaviour,
     judge_saturation(row, study, found);
     judge_noise(row, study, found);
   }
-  if (margins && margins->stable && margins->phase < min_phase_margin)
-    found.push_back({"phase margin",
-                     fmt::format("the smallest phase margin is {}°", text::short_number(margins->phase)),
-                     margins->phase, min_phase_margin, "tune: {margins: {phase: 30}}"});
+  if (margins && margins->stable && margins->phase.value < min_phase_margin)
+    found.push_back(
+        {"phase margin",
+         fmt::format("the smallest phase margin is {}°", text::short_number(margins->phase.value)),
+         margins->phase.value, min_phase_margin, "tune: {margins: {phase: 30}}"});
   return found;
 }
 

@@ -138,7 +138,6 @@ void describe_lost_ages(Items& items) {
              lost_columns(), lost_rows)
       .value({.key = "ages_tried_to",
               .meaning = "oldest age that was tried, of a study with ages, in the unit of ages",
-              .shown = Shown::in_data,
               .optional = true},
              [](Of t) -> std::optional<double> {
                const auto* const life = t.answer.extra<LostAges>();

@@ -113,10 +113,10 @@ document::Description<Alternative> alternative_columns() {
   return document::Description<Alternative>()
       .value(document::to_people("control"), &Alternative::name)
       .value(in_data("fixed", "parameters that are not tuned, with their values"), &Alternative::fixed)
-      .value(in_data("gains", "its best values by parameter; none if none keeps the margins"),
+      .value(document::everywhere("gains", "best values",
+                                  "its best values by parameter; none if none keeps the margins"),
              &Alternative::gains)
-      .value(document::to_people("best values"),
-             [](Row row) { return row.verdict ? values_text(row.gains) : "none keeps the margins"; })
+      .shown_as([](Row row) { return row.verdict ? values_text(row.gains) : "none keeps the margins"; })
       .value({.key = "status",
               .heading = "goal",
               .meaning = "verdict on the goal",

@@ -105,10 +105,7 @@ void describe_delay(Items& items) {
                if (!delay.lost) return {};
                return delay.delays[delayed_condition(delay, t)] + *delay.lost;
              })
-      .value({.key = "delay_lost_condition",
-              .meaning = "that condition, with conditions",
-              .shown = document::Shown::in_data,
-              .optional = true},
+      .value({.key = "delay_lost_condition", .meaning = "that condition, with conditions", .optional = true},
              [](Of t) -> std::optional<std::string> {
                const MoreDelay& delay = found_by_extra<MoreDelay>(t);
                if (!delay.lost) return {};

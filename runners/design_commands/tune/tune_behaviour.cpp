@@ -13,7 +13,6 @@ namespace {
 using document::Description;
 using document::in_data;
 using document::Notation;
-using document::Shown;
 using summary::MoveBehaviour;
 using summary::UpperValues;
 using tuning::Refusal;
@@ -29,7 +28,6 @@ void add_upper(Description<MoveBehaviour>& columns, const document::Item& of,
     one.key = of.key + key;
     one.heading = heading;
     one.meaning = meaning;
-    one.shown = heading.empty() ? Shown::in_data : Shown::everywhere;
     return one;
   };
   columns
@@ -117,7 +115,6 @@ void add_refusals(Items& items) {
               Description<Refusal>()
                   .value({.key = "finding",
                           .meaning = "what an engineer would refuse",
-                          .shown = Shown::in_data,
                           .words = {"overshoot", "saturation", "torque noise", "phase margin"}},
                          &Refusal::finding)
                   .value(document::everywhere("text", "finding", "the finding in a sentence"), &Refusal::text)

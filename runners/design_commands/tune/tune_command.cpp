@@ -58,21 +58,15 @@ constexpr const char* tune_help =
     "worst decides. The bounds are of the proof alone. FILE is its results file, whose manifest has\n"
     "the tuned values.\n"
     "\n"
-    "The proven answer is printed at once, when FILE is complete: what the values do (overshoot, peak\n"
-    "torque, saturation, torque at rest), and their margins. Then the extras follow, each as it is\n"
-    "ready: margins (what more delay loses), ages (at which each goal is lost, of a study with ages),\n"
-    "room (of each parameter), controls (others, each at its own best values), limits (what stands in\n"
-    "the way), maps (on a page). --extras chooses them: none, all, or names such as room,limits.\n"
-    "`tune FILE --extras …` makes them for a FILE that is there.\n"
+    "The proven answer is printed at once, when FILE is complete: what the values do, and their margins.\n"
+    "Then the extras follow, each as it is ready, by simulation alone; `tune FILE --extras …` makes them\n"
+    "for a FILE that is there.\n"
     "\n"
     "--budget bounds all together: the search, which takes half, the proof, and the extras. It is a\n"
     "number of trials, with which the answer depends on the seed alone, or a time such as 60s or\n"
     "5min. Extras that it is not enough for are named. Without it the search takes 500000 trials at\n"
     "most, and tune measures at its start how long that is on this machine.\n"
     "Ctrl-C keeps the simulated points, and after the proof what is printed; the same command goes on.\n"
-    "--watch writes the page for a browser from the beginning, every 2 s: the best values so far, then\n"
-    "the proven answer, then the extras as they come; at the end it is the page of --report.\n"
-    "-m writes the manifest with the tuned values, text and comments kept.\n"
     "The exit code is 0 if the goal is met, 1 if no values in the ranges meet it, 3 if the proof\n"
     "does not decide it, 130 after Ctrl-C.\n"
     "\n"
@@ -192,7 +186,7 @@ class TunePrinter {
 struct TuneTask {
   const study::Study& study;
   tuning::TuneSettings settings;
-  std::vector<std::filesystem::path> pages;       ///< for the answer
+  std::optional<std::filesystem::path> page;      ///< for the answer
   std::optional<std::filesystem::path> watched;   ///< for the answer, and what is found before
   std::optional<std::filesystem::path> manifest;  ///< for the tuned values
   std::optional<std::filesystem::path> timeline;  ///< of what the threads do
@@ -209,14 +203,14 @@ std::string spent_of(const tuning::TuneBudget& budget, const tuning::SearchProgr
 
 /// `--report`, `--watch` and `--timeline`, once they can be written.
 void take_pages(const command_line::Arguments& arguments, TuneTask& task) {
-  if (const auto page = commands::page_option(arguments, "report")) task.pages.push_back(*page);
+  task.page = commands::page_option(arguments, "report");
   task.watched = commands::watched_page(arguments);
   task.timeline = commands::timeline_place(arguments);
 }
 
 ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
   const bool in_html = arguments.choice("format") == "html";
-  task.settings.page = !task.pages.empty() || task.watched || in_html;
+  task.settings.page = task.page || task.watched || in_html;
   task.settings.extras = extras_option(arguments, task.study, task.settings.page);
   if (task.settings.page) report::require_drawing_libraries();
   const parallel::ThreadLimit limit(trials::threads_to_use(task.settings.threads));
@@ -255,9 +249,9 @@ ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
         task.study, task.settings, interruption.token());
     if (task.manifest && found.gains.empty())
       status::tell("no values to write into {}\n", task.manifest->string());
-    if (!task.pages.empty() || task.watched) {
+    if (task.page || task.watched) {
       const std::string page = report::html_page(tuning_page(tuning_of(found)));
-      for (const std::filesystem::path& place : task.pages) command_line::write_text(place, page);
+      if (task.page) command_line::write_text(*task.page, page);
       live.finish(page);
     }
     return printer.print_rest(tuning_of(found, in_html));
@@ -282,14 +276,10 @@ ExitCode tune_manifest(const command_line::Arguments& arguments) {
 
 /// The extras of a proof that was made before.
 ExitCode tune_file(const command_line::Arguments& arguments) {
-  for (const char* const option : {"output", "force", "manifest"}) {
-    const bool is_of_page =
-        std::string_view(option) == "force" && (arguments.has("report") || arguments.has("watch"));
-    if (arguments.has(option) && !is_of_page)
-      arguments.refuse(
-          fmt::format("option '--{}': is of a manifest; the extras of a results file need "
-                      "--extras, --budget, --report and --watch alone",
-                      option));
+  const bool replaces_page = arguments.has("report") || arguments.has("watch");
+  for (const char* const option : {"output", "manifest", "force"}) {
+    if (arguments.has(option) && !(replaces_page && std::string_view(option) == "force"))
+      arguments.refuse(fmt::format("option '--{}': is of a manifest, not of a results file", option));
   }
   tuning::TuneSettings settings = tune_settings(arguments);
   settings.output = arguments.operands()[0];

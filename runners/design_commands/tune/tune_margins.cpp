@@ -23,36 +23,31 @@ using tuning::CriticalLoop;
 using tuning::NearestPoint;
 using tuning::SmallestMargins;
 
-using LoopOf = std::optional<CriticalLoop> SmallestMargins::*;
-
 /// A margin that a user can want.
 struct Margin {
   std::string_view name;
   std::string_view title;
   std::string_view unit;
   std::string_view loop_key;  ///< in JSON
-  double SmallestMargins::*found;
-  LoopOf loop;  ///< that has the smallest
+  tuning::Smallest SmallestMargins::*found;
   std::optional<double> study::LoopMargins::*wanted;
   bool is_upper{false};  ///< what is wanted is the largest value
 };
 
 constexpr Margin all_margins[] = {
-    {"gain", "gain margin", " dB", "gain_margin_loop", &SmallestMargins::gain, &SmallestMargins::gain_loop,
-     &study::LoopMargins::gain},
+    {"gain", "gain margin", " dB", "gain_margin_loop", &SmallestMargins::gain, &study::LoopMargins::gain},
     {"phase", "phase margin", " degrees", "phase_margin_loop", &SmallestMargins::phase,
-     &SmallestMargins::phase_loop, &study::LoopMargins::phase},
+     &study::LoopMargins::phase},
     {"delay", "delay margin", " samples", "delay_margin_loop", &SmallestMargins::delay,
-     &SmallestMargins::delay_loop, &study::LoopMargins::delay},
+     &study::LoopMargins::delay},
     {"sensitivity", "sensitivity", "", "sensitivity_loop", &SmallestMargins::sensitivity,
-     &SmallestMargins::sensitivity_loop, &study::LoopMargins::sensitivity, true}};
+     &study::LoopMargins::sensitivity, true}};
 
 /// "7.2 dB (at least 6 wanted)", "10 samples or more (none wanted)", "∞ dB".
 std::string found_text(const Margin& margin, double found, const std::optional<double>& wanted) {
-  constexpr double longest_delay = 10.0;
   return fmt::format(
       "{}{}{} ({})", std::isfinite(found) ? short_number(found) : "∞", margin.unit,
-      margin.name == "delay" && found >= longest_delay ? " or more" : "",
+      margin.name == "delay" && found >= SmallestMargins::max_delay ? " or more" : "",
       wanted ? fmt::format("at {} {:g} wanted", margin.is_upper ? "most" : "least", *wanted) : "none wanted");
 }
 
@@ -86,11 +81,11 @@ Description<MarginRow> margin_columns() {
       .value({.heading = "margin"}, [](Row row) { return row.margin.title; })
       .value({.heading = "smallest"},
              [](Row row) {
-               return found_text(row.margin, row.margins.*row.margin.found,
+               return found_text(row.margin, (row.margins.*row.margin.found).value,
                                  row.study.tuning->margins.*row.margin.wanted);
              })
       .value({.heading = "in the loop"}, [](Row row) {
-        const std::optional<CriticalLoop>& loop = row.margins.*row.margin.loop;
+        const std::optional<CriticalLoop>& loop = (row.margins.*row.margin.found).loop;
         return loop ? loop_text(*loop, row.study) : "";
       });
 }
@@ -146,27 +141,27 @@ Description<LoopReading> loop_description() {
           [](Reading r) { return r.loop.stiffness; })
       .value(in_data("machine", "number of the machine; unknown where the stiffness says all of it"),
              [](Reading r) { return r.loop.machine; })
-      .value({.key = "condition",
-              .meaning = "the condition that it bears, with conditions",
-              .shown = Shown::in_data,
-              .optional = true},
-             [](Reading r) {
-               return tuning::condition_name(r.study, {0, static_cast<std::size_t>(r.loop.condition)});
-             });
+      .value(
+          {.key = "condition", .meaning = "the condition that it bears, with conditions", .optional = true},
+          [](Reading r) {
+            return tuning::condition_name(r.study, {0, static_cast<std::size_t>(r.loop.condition)});
+          });
 }
 
 Description<SmallestMargins> margins_description() {
-  return Description<SmallestMargins>()
-      .value(everywhere("gain", "gain (dB)", "gain margin; unknown where no loop has a limit", "dB"),
-             &SmallestMargins::gain)
-      .value(everywhere("phase", "phase (degrees)", "phase margin; unknown where no loop has a limit",
-                        "degrees"),
-             &SmallestMargins::phase)
-      .value(everywhere("delay", "delay (samples)",
-                        "samples of delay until a loop is unstable; 10 means 10 or more", "samples"),
-             &SmallestMargins::delay)
-      .value(everywhere("sensitivity", "sensitivity", "largest |S|, S = 1/(1 + L)", "1"),
-             &SmallestMargins::sensitivity)
+  Description<SmallestMargins> margins;
+  const auto add = [&](const std::string& key, const std::string& heading, const std::string& meaning,
+                       const std::string& unit, tuning::Smallest SmallestMargins::*found) {
+    margins.value(everywhere(key, heading, meaning, unit),
+                  [found](const SmallestMargins& of) { return (of.*found).value; });
+  };
+  add("gain", "gain (dB)", "gain margin; unknown where no loop has a limit", "dB", &SmallestMargins::gain);
+  add("phase", "phase (degrees)", "phase margin; unknown where no loop has a limit", "degrees",
+      &SmallestMargins::phase);
+  add("delay", "delay (samples)", "samples of delay until a loop is unstable; 10 means 10 or more", "samples",
+      &SmallestMargins::delay);
+  add("sensitivity", "sensitivity", "largest |S|, S = 1/(1 + L)", "1", &SmallestMargins::sensitivity);
+  return margins
       .value(in_data("crossover", "highest frequency at which |L| = 1; 0 without one", "Hz"),
              &SmallestMargins::crossover)
       .value(everywhere("stable", "stable", "whether no loop is unstable"), &SmallestMargins::stable)
@@ -192,7 +187,7 @@ NamedValues lacking_of(const NearestPoint& nearest, const study::LoopMargins& wa
   for (const Margin& one : all_margins) {
     const std::optional<double>& limit = wanted.*one.wanted;
     if (!nearest.margins.stable || !limit) continue;
-    const double found = nearest.margins.*one.found;
+    const double found = (nearest.margins.*one.found).value;
     const double lack = one.is_upper ? found - *limit : *limit - found;
     if (lack > 0.0) lacking.emplace_back(one.name, lack);
   }
@@ -204,19 +199,20 @@ std::string nearest_sentence(Of tuning) {
   const NearestPoint& nearest = *tuning.answer.nearest;
   const std::string at = values_text(named(tuning.answer.free, nearest.values));
   if (!nearest.margins.stable)
-    return fmt::format(
-        "the loop of a machine is unstable at all of them; nearest, at {}, by {} of gain", at,
-        std::isfinite(nearest.margins.gain) ? short_number(nearest.margins.gain) + " dB" : "any factor");
+    return fmt::format("the loop of a machine is unstable at all of them; nearest, at {}, by {} of gain", at,
+                       std::isfinite(nearest.margins.gain.value)
+                           ? short_number(nearest.margins.gain.value) + " dB"
+                           : "any factor");
   const NamedValues lacking = lacking_of(nearest, tuning.study.tuning->margins);
   std::string lines = fmt::format("nearest: {}\n", at);
   for (const Margin& one : all_margins) {
     const auto lack = std::ranges::find(lacking, one.name, &NamedValues::value_type::first);
-    lines +=
-        fmt::format("  its {} is {}{}\n", one.title,
-                    found_text(one, nearest.margins.*one.found, tuning.study.tuning->margins.*one.wanted),
-                    lack == lacking.end() ? ""
-                                          : fmt::format(", {}{} too {}", short_number(lack->second), one.unit,
-                                                        one.is_upper ? "large" : "small"));
+    lines += fmt::format(
+        "  its {} is {}{}\n", one.title,
+        found_text(one, (nearest.margins.*one.found).value, tuning.study.tuning->margins.*one.wanted),
+        lack == lacking.end() ? ""
+                              : fmt::format(", {}{} too {}", short_number(lack->second), one.unit,
+                                            one.is_upper ? "large" : "small"));
   }
   return lines;
 }
@@ -258,9 +254,9 @@ void add_margins(Items& items) {
       [](Of t) { return t.answer.lowest_mode; });
   for (const Margin& one : all_margins) {
     items.object(in_data(std::string(one.loop_key), fmt::format("the loop that has the worst {}", one.title)),
-                 loop_description(), [loop = one.loop](Of t) -> std::optional<LoopReading> {
-                   if (!t.answer.margins || !((*t.answer.margins).*loop)) return {};
-                   return LoopReading{*((*t.answer.margins).*loop), t.study};
+                 loop_description(), [found = one.found](Of t) -> std::optional<LoopReading> {
+                   if (!t.answer.margins || !((*t.answer.margins).*found).loop) return {};
+                   return LoopReading{*((*t.answer.margins).*found).loop, t.study};
                  });
   }
   items.table({.key = "margins_by_condition",

@@ -155,18 +155,13 @@ Description<Tuning> proof_description() {
   Description<Tuning> proof;
   const auto worst = [](Of t) { return worst_claim(t.answer.proof->verdict); };
   return proof
-      .value({.key = "goal",
-              .meaning = "name of the worst goal, of several",
-              .shown = Shown::in_data,
-              .optional = true},
+      .value({.key = "goal", .meaning = "name of the worst goal, of several", .optional = true},
              [worst](Of t) {
                return tuning::has_named_claims(t.study) ? tuning::goal_name(t.study, worst(t)) : std::nullopt;
              })
-      .value({.key = "condition",
-              .meaning = "name of the worst condition, with conditions",
-              .shown = Shown::in_data,
-              .optional = true},
-             [worst](Of t) { return tuning::condition_name(t.study, worst(t)); })
+      .value(
+          {.key = "condition", .meaning = "name of the worst condition, with conditions", .optional = true},
+          [worst](Of t) { return tuning::condition_name(t.study, worst(t)); })
       .value(in_data("rate", "proportion of moves that meet the goal, with one-sided bounds", "1"),
              [](Of t) { return goal::bounded(t.answer.proof->verdict.moves); })
       .value(in_data("machines_low",

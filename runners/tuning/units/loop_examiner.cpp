@@ -24,8 +24,7 @@ namespace {
 
 constexpr std::int64_t max_unlike_machines = 100;
 constexpr int places_on_profile = 64;
-constexpr int stiffnesses = 4;  // from the softest to the stiffest
-constexpr double longest_delay = 10.0;
+constexpr int stiffnesses = 4;             // from the softest to the stiffest
 constexpr double lowest_mode_tried = 1.0;  // of a mode, Hz
 constexpr double frequency_ratio = 1.05;   // of one mode that is tried and the next
 
@@ -99,13 +98,22 @@ bool is_wanted(const study::LoopMargins& margins) {
   return margins.gain || margins.phase || margins.delay || margins.sensitivity;
 }
 
-bool keeps_margins(const theory::FrozenLoop& loop, const study::LoopMargins& margins) {
+/// The part of a margin that is missing; 0 where nothing is.
+double missing_part(double found, double wanted) {
+  return wanted > 0.0 ? std::max(1.0 - found / wanted, 0.0) : 0.0;
+}
+
+/// The largest part of a margin that a loop lacks; 0 where it keeps them.
+double missing_of(const theory::FrozenLoop& loop, const study::LoopMargins& margins) {
+  double missing = 0.0;
   if (margins.gain || margins.phase) {
     const theory::StabilityMargins found = theory::stability_margins(loop);
-    if (margins.gain && decibels(found.gain.value) < *margins.gain) return false;
-    if (margins.phase && degrees(found.phase.value) < *margins.phase) return false;
+    if (margins.gain) missing = missing_part(decibels(found.gain.value), *margins.gain);
+    if (margins.phase) missing = std::max(missing, missing_part(degrees(found.phase.value), *margins.phase));
   }
-  return !margins.sensitivity || theory::peak_sensitivity(loop).value <= *margins.sensitivity;
+  if (!margins.sensitivity) return missing;
+  const double peak = theory::peak_sensitivity(loop).value;
+  return std::max(missing, missing_part(1.0 / (peak - 1.0), 1.0 / (*margins.sensitivity - 1.0)));
 }
 
 bool keeps_margins(const Examination& machine, const study::LoopMargins& margins) {
@@ -115,13 +123,8 @@ bool keeps_margins(const Examination& machine, const study::LoopMargins& margins
     if (margins.delay && !none_unstable(loops_of(machine, share * *margins.delay))) return false;
   }
   return parallel::holds_for_all(
-      of.loops.size(), [&](std::size_t i) { return keeps_margins(of.loops[i].loop, margins); },
+      of.loops.size(), [&](std::size_t i) { return missing_of(of.loops[i].loop, margins) == 0.0; },
       "margins of a loop");
-}
-
-/// The part of a margin that is missing; 0 where nothing is.
-double missing_part(double found, double wanted) {
-  return wanted > 0.0 ? std::max(1.0 - found / wanted, 0.0) : 0.0;
 }
 
 /// How fast loops grow that shall be stable, above 0; 0 where they all are.
@@ -143,19 +146,12 @@ double shortfall_of(const Examination& machine, const study::LoopMargins& margin
     const double fastest = instability(loops_of(machine, share * *margins.delay));
     missing = std::max(missing, fastest / (1.0 + fastest));
   }
-  for (const theory::TrialLoop& one : of.loops) {
-    const theory::StabilityMargins found = theory::stability_margins(one.loop);
-    if (margins.gain) missing = std::max(missing, missing_part(decibels(found.gain.value), *margins.gain));
-    if (margins.phase) missing = std::max(missing, missing_part(degrees(found.phase.value), *margins.phase));
-    if (!margins.sensitivity) continue;
-    const double peak = theory::peak_sensitivity(one.loop).value;
-    missing = std::max(missing, missing_part(1.0 / (peak - 1.0), 1.0 / (*margins.sensitivity - 1.0)));
-  }
+  for (const theory::TrialLoop& one : of.loops) missing = std::max(missing, missing_of(one.loop, margins));
   return missing;
 }
 
 /// The delay (samples) by which the loop may grow until it is unstable, to 0.01, and the first loop that is;
-/// longest_delay where none is.
+/// SmallestMargins::max_delay where none is.
 std::pair<double, std::optional<theory::TrialLoop>> delay_margin(const Examination& machine) {
   std::optional<theory::TrialLoop> first_lost;
   const auto bears = [&](double more) {
@@ -171,7 +167,7 @@ std::pair<double, std::optional<theory::TrialLoop>> delay_margin(const Examinati
   while (bears(lost)) {
     kept = lost;
     lost += 0.25;
-    if (kept >= longest_delay) return {longest_delay, std::nullopt};
+    if (kept >= SmallestMargins::max_delay) return {SmallestMargins::max_delay, std::nullopt};
   }
   const double margin = numerics::bisect({kept, lost}, bears, numerics::within(0.01)).holds;
   return {margin, first_lost};
@@ -201,25 +197,12 @@ std::pair<double, double> stiffness_range(const trial::TrialParameters& p, doubl
   return {softest, stiffest};
 }
 
-/// Of no loop at all.
-SmallestMargins no_limit() {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  return {.gain = none, .phase = none, .delay = longest_delay};
+void include(Smallest& smallest, const Smallest& one) {
+  if (one.value < smallest.value) smallest = one;
 }
 
-/// Lets a margin be the smallest of another loop too.
-void include(double& smallest, std::optional<CriticalLoop>& loop, double one,
-             const std::optional<CriticalLoop>& of) {
-  if (!(one < smallest)) return;
-  smallest = one;
-  loop = of;
-}
-
-/// Likewise the largest sensitivity.
-void include_sensitivity(SmallestMargins& all, double one, const std::optional<CriticalLoop>& of) {
-  if (!(one > all.sensitivity)) return;
-  all.sensitivity = one;
-  all.sensitivity_loop = of;
+void include_largest(Smallest& largest, const Smallest& one) {
+  if (one.value > largest.value) largest = one;
 }
 
 SmallestMargins margins_of_machine(const Examination& machine) {
@@ -229,17 +212,17 @@ SmallestMargins margins_of_machine(const Examination& machine) {
                         machine.machine.draw, machine.machine.condition};
   };
   const Loops of = loops_of(machine);
-  SmallestMargins smallest = no_limit();
+  SmallestMargins smallest;
   smallest.before_sliding = of.before_sliding;
   smallest.sliding = of.sliding;
   const auto [delay, lost] = delay_margin(machine);
-  if (lost) include(smallest.delay, smallest.delay_loop, delay, critical(*lost));
+  if (lost) include(smallest.delay, {delay, critical(*lost)});
   for (const theory::TrialLoop& each : of.loops) {
     smallest.stable = smallest.stable && !is_unstable(each, of.hold);
     const theory::StabilityMargins margins = theory::stability_margins(each.loop);
-    include(smallest.gain, smallest.gain_loop, decibels(margins.gain.value), critical(each));
-    include(smallest.phase, smallest.phase_loop, degrees(margins.phase.value), critical(each));
-    include_sensitivity(smallest, theory::peak_sensitivity(each.loop).value, critical(each));
+    include(smallest.gain, {decibels(margins.gain.value), critical(each)});
+    include(smallest.phase, {degrees(margins.phase.value), critical(each)});
+    include_largest(smallest.sensitivity, {theory::peak_sensitivity(each.loop).value, critical(each)});
     if (margins.crossover.frequency > smallest.crossover) smallest.crossover = margins.crossover.frequency;
   }
   return smallest;
@@ -248,10 +231,10 @@ SmallestMargins margins_of_machine(const Examination& machine) {
 /// Lets margins be the smallest of other machines too.
 void include(SmallestMargins& all, const SmallestMargins& one) {
   all.stable = all.stable && one.stable;
-  include(all.gain, all.gain_loop, one.gain, one.gain_loop);
-  include(all.phase, all.phase_loop, one.phase, one.phase_loop);
-  include(all.delay, all.delay_loop, one.delay, one.delay_loop);
-  include_sensitivity(all, one.sensitivity, one.sensitivity_loop);
+  include(all.gain, one.gain);
+  include(all.phase, one.phase);
+  include(all.delay, one.delay);
+  include_largest(all.sensitivity, one.sensitivity);
   all.crossover = std::max(all.crossover, one.crossover);
   all.before_sliding = all.before_sliding || one.before_sliding;
   all.sliding = all.sliding || one.sliding;
@@ -260,10 +243,10 @@ void include(SmallestMargins& all, const SmallestMargins& one) {
 }  // namespace
 
 bool keeps(const SmallestMargins& margins, const study::LoopMargins& wanted) {
-  return margins.stable && margins.gain >= wanted.gain.value_or(margins.gain) &&
-         margins.phase >= wanted.phase.value_or(margins.phase) &&
-         margins.delay >= wanted.delay.value_or(margins.delay) &&
-         margins.sensitivity <= wanted.sensitivity.value_or(margins.sensitivity);
+  return margins.stable && margins.gain.value >= wanted.gain.value_or(margins.gain.value) &&
+         margins.phase.value >= wanted.phase.value_or(margins.phase.value) &&
+         margins.delay.value >= wanted.delay.value_or(margins.delay.value) &&
+         margins.sensitivity.value <= wanted.sensitivity.value_or(margins.sensitivity.value);
 }
 
 LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
@@ -377,7 +360,7 @@ bool LoopExaminer::keeps(const study::Study& candidate, const study::LoopMargins
 SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool slides,
                                          const std::stop_token& stop) const {
   const std::vector<Corner> corners = examined_corners();
-  std::vector<SmallestMargins> found(corners.size(), no_limit());
+  std::vector<SmallestMargins> found(corners.size());
   parallel::for_each_index(
       corners.size(),
       [&](std::size_t i) {
@@ -385,7 +368,7 @@ SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool sli
         found[i] = margins_of_machine(at(corners[i], candidate, slides));
       },
       "margins of machines");
-  SmallestMargins all = no_limit();
+  SmallestMargins all;
   all.machines = examined_;
   if (!machines_.empty()) all.spread = machines_.front().spread;
   all.conditions.resize(static_cast<std::size_t>(conditions_), all);

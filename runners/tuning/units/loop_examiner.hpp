@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -20,21 +21,28 @@ struct CriticalLoop {
   std::int64_t condition{0};
 };
 
+/// The worst value of a margin, and the loop that has it, where there is a limit.
+struct Smallest {
+  double value{std::numeric_limits<double>::infinity()};
+  std::optional<CriticalLoop> loop{};
+};
+
 /// The smallest margins of the loops of all examined machines; infinite where no loop has a limit.
 struct SmallestMargins {
   bool stable{true};  ///< no loop is unstable over the hold
-  double gain{0.0};   ///< dB
-  double phase{0.0};  ///< degrees
-  double delay{0.0};  ///< samples by which the delay may grow until a loop is unstable; 10 means 10 or more
-  double sensitivity{0.0};     ///< the largest |S|, S = 1/(1 + L)
-  double crossover{0.0};       ///< the highest frequency at which |L| = 1, Hz; 0 without one
-  std::int64_t machines{0};    ///< that were examined
-  bool before_sliding{false};  ///< loops before the machines slide are among them
-  bool sliding{false};         ///< loops of sliding machines are among them
-  study::LoopSpread spread{};  ///< by which the machines differ beyond what the study draws
-  /// Which have them, where there is a limit.
-  std::optional<CriticalLoop> gain_loop{}, phase_loop{}, delay_loop{}, sensitivity_loop{};
+  Smallest gain{};    ///< dB
+  Smallest phase{};   ///< degrees
+  Smallest delay{
+      max_delay};  ///< samples by which the delay may grow until a loop is unstable, at most max_delay
+  Smallest sensitivity{0.0};                  ///< the largest |S|, S = 1/(1 + L)
+  double crossover{0.0};                      ///< the highest frequency at which |L| = 1, Hz; 0 without one
+  std::int64_t machines{0};                   ///< that were examined
+  bool before_sliding{false};                 ///< loops before the machines slide are among them
+  bool sliding{false};                        ///< loops of sliding machines are among them
+  study::LoopSpread spread{};                 ///< by which the machines differ beyond what the study draws
   std::vector<SmallestMargins> conditions{};  ///< [condition] those under each; empty without conditions
+
+  static constexpr double max_delay = 10.0;
 };
 
 /// Whether these are at least as large as wanted.

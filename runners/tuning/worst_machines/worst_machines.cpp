@@ -162,17 +162,11 @@ class MachineSearch {
       }
       return worst;
     };
-    constexpr std::size_t of_study = 1;
     const std::size_t in_box = worst_that([](const BoxPoint&) { return true; });
     std::size_t likely = worst_that([&](const BoxPoint& point) { return box_.is_likely(point); });
     if (likely == named.size()) likely = in_box;  // not sought: no likely machine is worse
-    return {worst_machine(box_.study(), units_.point, results),
-            judgements[of_study],
-            judgements[in_box],
-            in_box == of_study || is_same(named[in_box], named[of_study]),
-            judgements[likely],
-            likely == in_box,
-            box_.has_profile_per_rig()};
+    return {worst_machine(box_.study(), units_.point, results), judgements[1], judgements[in_box],
+            judgements[likely], box_.has_profile_per_rig()};
   }
 
  private:
@@ -231,10 +225,6 @@ class MachineSearch {
         one = quantile_at(std::clamp(place_at(one) + step * numbers_.normal(), 0.0, 1.0));
     }
     return child;
-  }
-
-  static bool is_same(const BoxPoint& a, const BoxPoint& b) {
-    return a.rig == b.rig && a.quantiles == b.quantiles;
   }
 
   JudgedMachine judge(const BoxPoint& point) const {
@@ -307,14 +297,7 @@ WorstMachines worst_machines(const study::Study& study, const trials::Replicates
   const WorstMachines of_study = worst_by([](const WorstMachines& one) { return one.of_study.met; });
   const WorstMachines in_box = worst_by([](const WorstMachines& one) { return one.in_box.met; });
   const WorstMachines likely = worst_by([](const WorstMachines& one) { return one.likely.met; });
-  return {
-      .of_study = of_study.of_study,
-      .again = of_study.again,
-      .in_box = in_box.in_box,
-      .in_box_is_of_study = in_box.in_box.condition == of_study.in_box.condition && in_box.in_box_is_of_study,
-      .likely = likely.likely,
-      .likely_is_in_box = likely.likely.condition == in_box.in_box.condition && likely.likely_is_in_box,
-      .with_profiles = in_box.with_profiles};
+  return {of_study.of_study, of_study.again, in_box.in_box, likely.likely, in_box.with_profiles};
 }
 
 }  // namespace zerocount::tuning

@@ -45,6 +45,10 @@ struct JudgedMachine {
   std::vector<double> quantiles;  ///< [machine input] (study::machine_inputs)
   std::string manifest;           ///< empty if no manifest describes it
   std::string no_manifest;        ///< then: why
+
+  bool is_same_machine(const JudgedMachine& other) const {
+    return condition == other.condition && rig == other.rig && quantiles == other.quantiles;
+  }
 };
 
 /// The worst machines of a point.
@@ -54,11 +58,12 @@ struct WorstMachines {
   /// Of all whose drawn quantities are each within their central 99.9 %, or else of the study: its corners
   /// may be machines that nobody builds.
   JudgedMachine in_box;
-  bool in_box_is_of_study{false};
   /// Of those of the box whose normal scores have Σ z² ≤ the 99.9 % quantile of χ², without correlations.
   JudgedMachine likely;
-  bool likely_is_in_box{false};  ///< both are the same machine
-  bool with_profiles{false};     ///< the machines have profiles of their rigs
+  bool with_profiles{false};  ///< the machines have profiles of their rigs
+
+  bool in_box_is_of_study() const { return in_box.is_same_machine(again); }
+  bool likely_is_in_box() const { return likely.is_same_machine(in_box); }
 };
 
 /// Finds the machines with the fewest moves that meet the goals; of equal ones the one whose moves have the

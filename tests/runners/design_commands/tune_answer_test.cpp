@@ -79,7 +79,7 @@ TEST(TuneAnswer, NamesEachMarginWithItsUnitAndWhatIsWanted) {
   const study::Study study = axis();
   TuneAnswer answer = answer_for(study, goal::Status::met);
   answer.margins =
-      SmallestMargins{.gain = never, .phase = 41.0, .delay = 10.0, .sensitivity = 1.5, .machines = 8};
+      SmallestMargins{.gain = {never}, .phase = {41.0}, .delay = {10.0}, .sensitivity = {1.5}, .machines = 8};
   answer.margins->spread = study::typical_spread;
   answer.margins->before_sliding = true;
   const std::string text = text_of(answer, study);
@@ -97,7 +97,8 @@ TEST(TuneAnswer, NamesTheMarginsThatTheNearestPointLacks) {
   answer.status = goal::Status::missed;
   answer.free = study.tuning->free;
   answer.examined = 4000;
-  answer.nearest = NearestPoint{{3e-5, 1e-4}, {.gain = 4.5, .phase = 41.0, .delay = 2.0, .machines = 8}};
+  answer.nearest =
+      NearestPoint{{3e-5, 1e-4}, {.gain = {4.5}, .phase = {41.0}, .delay = {2.0}, .machines = 8}};
   const std::string text = text_of(answer, study);
   EXPECT_THAT(text, HasSubstr("none of 4000 points that were tried keeps the margins\n"));
   EXPECT_THAT(text, HasSubstr("nearest: controller.ki = 3e-05, controller.kp = 0.0001\n"));
@@ -246,9 +247,9 @@ TEST(TuneAnswer, NamesTheCriterionThatItMinimises) {
 TEST(TuneAnswer, NamesTheLoopsThatHaveTheSmallestMargins) {
   const study::Study study = axis();
   TuneAnswer answer = answer_for(study, goal::Status::met);
-  answer.margins = SmallestMargins{.gain = 7.0, .phase = 41.0, .delay = 10.0, .machines = 8};
-  answer.margins->gain_loop = tuning::CriticalLoop{"before sliding", 110.0, {}, 0};
-  answer.margins->phase_loop = tuning::CriticalLoop{"while sliding", {}, 5, 0};
+  answer.margins = SmallestMargins{.gain = {7.0}, .phase = {41.0}, .delay = {10.0}, .machines = 8};
+  answer.margins->gain.loop = tuning::CriticalLoop{"before sliding", 110.0, {}, 0};
+  answer.margins->phase.loop = tuning::CriticalLoop{"while sliding", {}, 5, 0};
   EXPECT_THAT(text_of(answer, study), HasSubstr("before sliding at 110 N m/rad\n"));
   EXPECT_THAT(text_of(answer, study), HasSubstr("while sliding of machine 5\n"));
   const nlohmann::ordered_json json = json_of(answer, study);
@@ -274,7 +275,7 @@ TEST(TuneAnswer, SaysWhatAnEngineerWouldRefuseAndWhatExcludesIt) {
   const auto remedies_of = [&](const summary::MoveBehaviour& row, double phase) {
     std::vector<std::string> remedies;
     for (const tuning::Refusal& one : tuning::refusals_of(
-             {row}, SmallestMargins{.gain = 9.0, .phase = phase, .delay = 2.0, .machines = 8}, study))
+             {row}, SmallestMargins{.gain = {9.0}, .phase = {phase}, .delay = {2.0}, .machines = 8}, study))
       remedies.push_back(one.remedy);
     return remedies;
   };

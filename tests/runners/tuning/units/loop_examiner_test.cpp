@@ -61,7 +61,7 @@ TEST(LoopExaminer, ExaminesTheSlidingLoopWhereThereIsNoOther) {
       const study::Study good = study_with(friction, stable_everywhere);
       EXPECT_TRUE(keeps(good, slides)) << friction;
       const SmallestMargins margins = LoopExaminer(good, 4).margins_of(good, slides);
-      EXPECT_TRUE(std::isfinite(margins.phase)) << friction;
+      EXPECT_TRUE(std::isfinite(margins.phase.value)) << friction;
       EXPECT_TRUE(margins.sliding) << friction;
     }
   }
@@ -105,16 +105,18 @@ TEST(LoopExaminer, ExaminesTheLoopsUnderEveryCondition) {
   for (std::int64_t condition = 0; condition < 3; ++condition) {
     const SmallestMargins alone = alone_at(condition);
     const SmallestMargins& found = margins.conditions[static_cast<std::size_t>(condition)];
-    EXPECT_EQ(found.gain, alone.gain) << condition;
-    EXPECT_EQ(found.phase, alone.phase) << condition;
-    EXPECT_EQ(found.delay, alone.delay) << condition;
-    EXPECT_LE(margins.phase, alone.phase) << condition;
-    EXPECT_LE(margins.gain, alone.gain) << condition;
-    const study::LoopMargins wanted{.gain = std::nullopt, .phase = alone.phase, .delay = std::nullopt};
-    EXPECT_EQ(LoopExaminer(both, 1).keeps(both, wanted, true), margins.phase >= alone.phase) << condition;
-    EXPECT_EQ(LoopExaminer(both, 1).may_keep(both, wanted, true), margins.phase >= alone.phase) << condition;
+    EXPECT_EQ(found.gain.value, alone.gain.value) << condition;
+    EXPECT_EQ(found.phase.value, alone.phase.value) << condition;
+    EXPECT_EQ(found.delay.value, alone.delay.value) << condition;
+    EXPECT_LE(margins.phase.value, alone.phase.value) << condition;
+    EXPECT_LE(margins.gain.value, alone.gain.value) << condition;
+    const study::LoopMargins wanted{.gain = std::nullopt, .phase = alone.phase.value, .delay = std::nullopt};
+    EXPECT_EQ(LoopExaminer(both, 1).keeps(both, wanted, true), margins.phase.value >= alone.phase.value)
+        << condition;
+    EXPECT_EQ(LoopExaminer(both, 1).may_keep(both, wanted, true), margins.phase.value >= alone.phase.value)
+        << condition;
   }
-  EXPECT_LT(margins.phase, margins.conditions[1].phase) << "the light one is not the worst";
+  EXPECT_LT(margins.phase.value, margins.conditions[1].phase.value) << "the light one is not the worst";
   EXPECT_EQ(LoopExaminer(both, 1).margins_of(both, true).machines, 1);
 }
 
@@ -140,20 +142,20 @@ TEST(LoopExaminer, SpreadsWhatTheStudyDoesNotDraw) {
       for (const double torque : {0.95, 1.05}) {
         const study::Study corner = alone(inertia, damping, torque);
         const SmallestMargins found = LoopExaminer(corner, 4).margins_of(corner, true);
-        worst.gain = std::min(worst.gain, found.gain);
-        worst.phase = std::min(worst.phase, found.phase);
-        worst.delay = std::min(worst.delay, found.delay);
-        worst.sensitivity = std::max(worst.sensitivity, found.sensitivity);
+        worst.gain.value = std::min(worst.gain.value, found.gain.value);
+        worst.phase.value = std::min(worst.phase.value, found.phase.value);
+        worst.delay.value = std::min(worst.delay.value, found.delay.value);
+        worst.sensitivity.value = std::max(worst.sensitivity.value, found.sensitivity.value);
       }
     }
   }
   const study::Study spread = with_margins("{gain: 6, spread: typical}");
   const SmallestMargins found = LoopExaminer(spread, 4).margins_of(spread, true);
-  EXPECT_NEAR(found.gain, worst.gain, 1e-9);
-  EXPECT_NEAR(found.phase, worst.phase, 1e-9);
-  EXPECT_NEAR(found.delay, worst.delay, 1e-9);
-  EXPECT_NEAR(found.sensitivity, worst.sensitivity, 1e-9);
-  EXPECT_LT(found.phase, LoopExaminer(alone(1, 1, 1), 4).margins_of(alone(1, 1, 1), true).phase);
+  EXPECT_NEAR(found.gain.value, worst.gain.value, 1e-9);
+  EXPECT_NEAR(found.phase.value, worst.phase.value, 1e-9);
+  EXPECT_NEAR(found.delay.value, worst.delay.value, 1e-9);
+  EXPECT_NEAR(found.sensitivity.value, worst.sensitivity.value, 1e-9);
+  EXPECT_LT(found.phase.value, LoopExaminer(alone(1, 1, 1), 4).margins_of(alone(1, 1, 1), true).phase.value);
 }
 // What is drawn is not spread as well, and a margin that is wanted is one of every corner.
 TEST(LoopExaminer, LeavesDrawnQuantitiesToTheStudy) {
@@ -171,7 +173,7 @@ TEST(LoopExaminer, LeavesDrawnQuantitiesToTheStudy) {
 
 TEST(LoopExaminer, KeepsASensitivityThatIsTheLargestOfAnyLoop) {
   const study::Study study = with_margins("{gain: 6, spread: typical}");
-  const double largest = LoopExaminer(study, 4).margins_of(study, true).sensitivity;
+  const double largest = LoopExaminer(study, 4).margins_of(study, true).sensitivity.value;
   for (const double wanted : {0.999 * largest, 1.001 * largest}) {
     const study::LoopMargins margins{
         .gain = std::nullopt, .phase = std::nullopt, .delay = std::nullopt, .sensitivity = wanted};

@@ -287,7 +287,7 @@ class Confirmation(Record):
     zero_count : int
         New trials that succeeded.
     success_rate : float or None
-        Their proportion, with bounds unless trials share rigs.
+        Their proportion, with bounds of Clopper and Pearson unless trials share rigs.
     success_rate_low : float or None
         Lower bound.
     success_rate_high : float or None
@@ -459,39 +459,42 @@ class SummaryAnswer(Answer):
           the worlds at the point
         - ``claims``: each goal under each condition at the point
           - ``goal``: name of the goal
-          - ``condition``: the condition under which it is judged
-          - ``moves``: moves that the goal asks, of all trials under the condition
+          - ``condition``: what every machine bears
+          - ``moves``: moves that the goal asks, of all trials
           - ``met``: of them, moves that meet the goal
-          - ``rate``: proportion of these moves, with one-sided bounds; with worlds of the worst world
+          - ``rate``: proportion of moves (under a condition of what the question is about, without a goal of trials),
+            with one-sided bounds; of the worst goal, condition and world
           - ``rate_low``: lower bound
           - ``rate_high``: upper bound
-          - ``machines``: proportion of machines that meet the goal, with one-sided bounds
+          - ``machines``: proportion of machines that meet the goal, at an age under every condition, with one-sided
+            bounds that allow for the few moves in which each was seen
           - ``machines_low``: lower bound
           - ``machines_high``: upper bound
-          - ``settling_time_p95``: 95 % quantile of the settling time of these moves; null where it is not within the
-            hold, s
+          - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; none where it
+            is not within the hold, s
           - ``within``: settling time that the goal allows, s
-          - ``status``: verdict on the goal under the condition
+          - ``status``: verdict on the goal
         - ``conditions``: the point under each condition
           - ``condition``: what every machine bears
-          - ``trials``: trials under the condition
+          - ``trials``: trials under the condition, or at the age
           - ``success``: trials all of whose moves ended at zero error
           - ``goal_met``: trials all of whose moves meet the goal
           - ``goal``: name of the goal that the next numbers are of
-          - ``rate``: proportion that the question is about, with one-sided bounds
+          - ``rate``: proportion of moves (under a condition of what the question is about, without a goal of trials),
+            with one-sided bounds; of the worst goal, condition and world
           - ``rate_low``: lower bound
           - ``rate_high``: upper bound
-          - ``status``: verdict on the goal under the condition
+          - ``status``: verdict on the goal
         - ``ages``: the point at each age
           - ``age``: age of the machines, in the unit of the manifest, cycles
-          - ``trials``: trials at the age
+          - ``trials``: trials under the condition, or at the age
           - ``success``: trials all of whose moves ended at zero error
           - ``goal_met``: trials all of whose moves meet the goal
-          - ``rate``: proportion of moves (trials without a goal), with one-sided bounds; of the worst goal, condition
-            and world
+          - ``rate``: proportion of moves (under a condition of what the question is about, without a goal of trials),
+            with one-sided bounds; of the worst goal, condition and world
           - ``rate_low``: lower bound
           - ``rate_high``: upper bound
-          - ``machines``: proportion of machines that meet the goal at the age under every condition, with one-sided
+          - ``machines``: proportion of machines that meet the goal, at an age under every condition, with one-sided
             bounds that allow for the few moves in which each was seen
           - ``machines_low``: lower bound
           - ``machines_high``: upper bound
@@ -499,9 +502,9 @@ class SummaryAnswer(Answer):
             Clopper and Pearson, which take the verdict on each machine as it was seen
           - ``living_low``: lower bound
           - ``living_high``: upper bound
-          - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; null where it
+          - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; none where it
             is not within the hold, s
-          - ``status``: verdict on the goal at the age
+          - ``status``: verdict on the goal
         - ``assurance``.* (success_at_least, failure_at_most, rule_of_three, settling_time, statement, rigs): what the
           trials show of all axes that the manifest describes
         - ``levels``: the torque levels
@@ -1145,19 +1148,21 @@ class JudgeAnswer(Answer):
         Each goal under each condition.
 
         - ``goal``: name of the goal
-        - ``condition``: the condition under which it is judged
-        - ``moves``: moves that the goal asks, of all trials under the condition
+        - ``condition``: what every machine bears
+        - ``moves``: moves that the goal asks, of all trials
         - ``met``: of them, moves that meet the goal
-        - ``rate``: proportion of these moves, with one-sided bounds; with worlds of the worst world
+        - ``rate``: proportion of moves (under a condition of what the question is about, without a goal of trials),
+          with one-sided bounds; of the worst goal, condition and world
         - ``rate_low``: lower bound
         - ``rate_high``: upper bound
-        - ``machines``: proportion of machines that meet the goal, with one-sided bounds
+        - ``machines``: proportion of machines that meet the goal, at an age under every condition, with one-sided
+          bounds that allow for the few moves in which each was seen
         - ``machines_low``: lower bound
         - ``machines_high``: upper bound
-        - ``settling_time_p95``: 95 % quantile of the settling time of these moves; null where it is not within the
-          hold, s
+        - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; none where it is
+          not within the hold, s
         - ``within``: settling time that the goal allows, s
-        - ``status``: verdict on the goal under the condition
+        - ``status``: verdict on the goal
 
     met_until : float or None
         Last age up to and including which the goal is met; null if not at the first.
@@ -1167,14 +1172,14 @@ class JudgeAnswer(Answer):
         The point at each age.
 
         - ``age``: age of the machines, in the unit of the manifest
-        - ``trials``: trials at the age
+        - ``trials``: trials under the condition, or at the age
         - ``success``: trials all of whose moves ended at zero error
         - ``goal_met``: trials all of whose moves meet the goal
-        - ``rate``: proportion of moves (trials without a goal), with one-sided bounds; of the worst goal, condition and
-          world
+        - ``rate``: proportion of moves (under a condition of what the question is about, without a goal of trials),
+          with one-sided bounds; of the worst goal, condition and world
         - ``rate_low``: lower bound
         - ``rate_high``: upper bound
-        - ``machines``: proportion of machines that meet the goal at the age under every condition, with one-sided
+        - ``machines``: proportion of machines that meet the goal, at an age under every condition, with one-sided
           bounds that allow for the few moves in which each was seen
         - ``machines_low``: lower bound
         - ``machines_high``: upper bound
@@ -1182,9 +1187,9 @@ class JudgeAnswer(Answer):
           Clopper and Pearson, which take the verdict on each machine as it was seen
         - ``living_low``: lower bound
         - ``living_high``: upper bound
-        - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; null where it is
+        - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; none where it is
           not within the hold, s
-        - ``status``: verdict on the goal at the age
+        - ``status``: verdict on the goal
 
     """
 
@@ -1547,19 +1552,21 @@ class TuneAnswer(Answer):
         Each goal under each condition, by the proof; the bounds allow for its attempts.
 
         - ``goal``: name of the goal
-        - ``condition``: the condition under which it is judged
-        - ``moves``: moves that the goal asks, of all trials under the condition
+        - ``condition``: what every machine bears
+        - ``moves``: moves that the goal asks, of all trials
         - ``met``: of them, moves that meet the goal
-        - ``rate``: proportion of these moves, with one-sided bounds; with worlds of the worst world
+        - ``rate``: proportion of moves (under a condition of what the question is about, without a goal of trials),
+          with one-sided bounds; of the worst goal, condition and world
         - ``rate_low``: lower bound
         - ``rate_high``: upper bound
-        - ``machines``: proportion of machines that meet the goal, with one-sided bounds
+        - ``machines``: proportion of machines that meet the goal, at an age under every condition, with one-sided
+          bounds that allow for the few moves in which each was seen
         - ``machines_low``: lower bound
         - ``machines_high``: upper bound
-        - ``settling_time_p95``: 95 % quantile of the settling time of these moves; null where it is not within the
-          hold, s
+        - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; none where it is
+          not within the hold, s
         - ``within``: settling time that the goal allows, s
-        - ``status``: verdict on the goal under the condition
+        - ``status``: verdict on the goal
 
     obstacles : list[str]
         What theory says of a goal that is not met.

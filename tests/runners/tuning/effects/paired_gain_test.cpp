@@ -1,11 +1,10 @@
 // A cause is shown where more machines gain by it than chance explains.
-#include "runners/tuning/effects/limits.hpp"
-
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "runners/tuning/effects/limits.hpp"
 #include "tests/support/draws.hpp"
 
 namespace zerocount::tuning {

@@ -5,23 +5,19 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/comparison/gate_rules.hpp"
+#include "analysis/comparison/judgement.hpp"
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/measures/undecided_moves.hpp"
-#include "analysis/statistics/proportion.hpp"
-#include "analysis/statistics/unknown.hpp"
 #include "experiments/manifest_text/manifest_values.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
 
 /// The result of comparing a results file with a baseline. README.md of this folder describes the method.
 namespace zerocount::comparison {
-
-/// Probability with which the number of trials that would decide does decide, and with which the smallest
-/// detectable change is found.
-inline constexpr double decision_probability = 0.8;
 
 /// How much the two files have in common, which decides how they can be compared.
 enum class ComparisonLayer {
@@ -30,80 +26,8 @@ enum class ComparisonLayer {
   two_samples  ///< different draws: distributions are compared
 };
 
-/// The gate's verdict on a measure, a requirement, a point or the whole comparison; the worst first.
-enum class GateVerdict {
-  regression,    ///< shown: worse by more than the margin, or the requirement is not met
-  changed,       ///< shown: better by more than the margin, where every change fails
-  inconclusive,  ///< neither a failure nor its absence is shown
-  passed,        ///< shown: no worse (or no change) than the margin allows, or the requirement is met
-  not_measured   ///< too few trials have a value; does not affect the other verdicts
-};
-
-/// The change of one measure that the data show. The gate's verdict follows from it. With e the effect and M
-/// the margin:
-enum class ChangeVerdict {
-  worse,        ///< e > 0 is significant, and e > M
-  better,       ///< e < 0 is significant, and e < −M
-  equivalent,   ///< −M < e < M: both one-sided bounds are within the margin
-  not_worse,    ///< e < M only: better or equivalent, which of them is open
-  undecided,    ///< none of these
-  not_measured  ///< too few trials have a value
-};
-
-/// True for a verdict that fails the gate.
-constexpr bool fails(GateVerdict verdict) {
-  return verdict == GateVerdict::regression || verdict == GateVerdict::changed;
-}
-
-/// The numbers of one measure that its verdict follows from. A positive effect is a change for the worse.
-struct TestedMeasure {
-  double effect{statistics::unknown};  ///< how much worse the current file is
-  statistics::ConfidenceInterval bounds{statistics::unknown,
-                                        statistics::unknown};  ///< of the effect, each one-sided
-  double margin{statistics::unknown};                          ///< largest accepted effect
-  bool changed_fails{false};                  ///< a change for the better beyond the margin fails too
-  double p{statistics::unknown};              ///< of no difference, against a change for the worse
-  double improvement_p{statistics::unknown};  ///< of no difference, against a change for the better
-  double adjusted_p{statistics::unknown};     ///< p after control of the false discoveries
-  double adjusted_improvement_p{statistics::unknown};  ///< improvement_p after it
-  ChangeVerdict change{ChangeVerdict::not_measured};
-};
-
-/// One measure at one design point in the two files.
-struct MeasureComparison : TestedMeasure {
-  std::string measure;         ///< name, of gate_measures()
-  std::string unit;            ///< of every value here
-  std::string test;            ///< that gave p
-  std::int64_t baseline_n{0};  ///< trials with a value
-  std::int64_t current_n{0};   ///< trials with a value; the number of pairs in both where they are paired
-  double baseline{statistics::unknown};  ///< proportion or mean
-  double current{statistics::unknown};   ///< proportion or mean
-  /// Smallest true change for the worse that these trials find with decision_probability; README.md.
-  double detectable_change{statistics::unknown};
-  bool paired_proportion{false};                   ///< the trials of a proportion were compared one by one
-  GateVerdict verdict{GateVerdict::not_measured};  ///< of the gate
-  /// Trials per design point that decide an inconclusive measure, with decision_probability.
-  std::optional<double> trials_to_decide;
-  double decided_margin{statistics::unknown};  ///< of an inconclusive measure: any larger one is decided now
-  double max_trials_margin{statistics::unknown};  ///< where no number of trials decides: the smallest margin
-                                                  ///< that max_trials_to_decide do
-  std::string note;                               ///< reason or remark; may be empty
-};
-
-/// An absolute requirement on one quantity at one design point of the current file.
-struct RequirementResult {
-  std::string text;      ///< as it was given, "success_rate ≥ 0.995"
-  std::string quantity;  ///< such as "success_rate" or "settling_time.p95"
-  std::string unit;
-  bool at_least{true};  ///< ≥; otherwise ≤
-  double limit{0.0};
-  std::int64_t n{0};  ///< trials or moves that the value is of
-  double value{statistics::unknown};
-  /// One-sided bounds: the one against the limit at the confidence, the other stricter (see README.md).
-  statistics::ConfidenceInterval bounds{statistics::unknown, statistics::unknown};
-  GateVerdict verdict{GateVerdict::inconclusive};
-  std::optional<double> trials_to_decide;  ///< per design point, as of a measure
-};
+/// "bits", "paired" or "two_samples".
+std::string_view to_string(ComparisonLayer layer);
 
 /// The verdicts of both files on the goal at a design point, if it was chosen before.
 struct GoalStatuses {
@@ -121,14 +45,16 @@ struct PointComparison {
   std::int64_t current_point{0};
   std::int64_t baseline_trials{0};
   std::int64_t current_trials{0};
-  measures::UndecidedMoves baseline_undecided;  ///< of all moves of the file
-  measures::UndecidedMoves current_undecided;
+  measures::UndecidedMoves baseline_undecided{};  ///< of all moves of the file
+  measures::UndecidedMoves current_undecided{};
   std::int64_t pairs{0};  ///< trials that were compared one by one; 0 where they were not
   GateVerdict verdict{GateVerdict::not_measured};
-  std::vector<MeasureComparison> measures;
-  std::vector<RequirementResult> requirements;
-  std::vector<GoalStatuses> goals;  ///< where the points are judged by any
+  std::vector<Judgement> judgements{};  ///< the measures, then the requirements
+  std::vector<GoalStatuses> goals{};    ///< where the points are judged by any
 };
+
+/// The judgements of all points.
+std::vector<Judgement*> judgements_of(std::span<PointComparison> points);
 
 struct ComparedFile {
   std::string path;
@@ -161,6 +87,11 @@ struct StudyComparison {
 /// Whether the comparison is of two design points of one file.
 inline bool compares_points(const StudyComparison& comparison) {
   return !comparison.baseline_label.empty();
+}
+
+/// Whether the data must be equal to the bit and are not.
+inline bool is_unequal(const StudyComparison& comparison) {
+  return comparison.layer == ComparisonLayer::bits && !comparison.equal_to_the_bit;
 }
 
 /// Compares a results file with a baseline: finds what the two have in common, matches their design points,

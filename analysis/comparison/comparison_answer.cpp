@@ -1,6 +1,11 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <functional>
+#include <iterator>
+#include <map>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -27,21 +32,16 @@ std::optional<std::int64_t> whole(const std::optional<double>& trials) {
   return trials ? std::optional(static_cast<std::int64_t>(*trials)) : std::nullopt;
 }
 
+/// The verdicts from the first to `last`, as text.
 template <class Verdict>
-std::vector<std::string> words_of(std::initializer_list<Verdict> verdicts) {
+std::vector<std::string> words_until(Verdict last) {
   std::vector<std::string> words;
-  for (const Verdict verdict : verdicts) words.emplace_back(to_string(verdict));
+  for (int i = 0; i <= static_cast<int>(last); ++i) words.emplace_back(to_string(static_cast<Verdict>(i)));
   return words;
 }
 
-std::vector<std::string> gate_words() {
-  return words_of({GateVerdict::regression, GateVerdict::changed, GateVerdict::inconclusive,
-                   GateVerdict::passed, GateVerdict::not_measured});
-}
-
-std::vector<std::string> change_words() {
-  return words_of({ChangeVerdict::worse, ChangeVerdict::better, ChangeVerdict::equivalent,
-                   ChangeVerdict::not_worse, ChangeVerdict::undecided, ChangeVerdict::not_measured});
+document::Item gate_item(const char* key, const char* meaning) {
+  return with_words(in_data(key, meaning), words_until(GateVerdict::not_measured));
 }
 
 Description<ComparedFile> file_description() {
@@ -64,62 +64,60 @@ Description<ComparedFile> file_description() {
       .include(header, &ComparedFile::header);
 }
 
-Description<MeasureComparison> measure_description() {
-  using Measure = const MeasureComparison&;
-  return Description<MeasureComparison>()
-      .value(in_data("measure", "name of the measure"), &MeasureComparison::measure)
-      .value(in_data("unit", "unit of all values"), &MeasureComparison::unit)
-      .value(with_words(in_data("verdict", "change that the data show"), change_words()),
-             [](Measure m) { return to_string(m.change); })
-      .value(with_words(in_data("gate", "verdict of the gate"), gate_words()),
-             [](Measure m) { return to_string(m.verdict); })
-      .value(in_data("baseline", "proportion or mean in the baseline"), &MeasureComparison::baseline)
-      .value(in_data("current", "proportion or mean in the file"), &MeasureComparison::current)
-      .value(in_data("baseline_n", "trials with a value in the baseline"), &MeasureComparison::baseline_n)
-      .value(in_data("current_n", "trials with a value in the file"), &MeasureComparison::current_n)
+using Judged = const Judgement&;
+
+Description<Judgement> measure_description() {
+  return Description<Judgement>()
+      .value(in_data("measure", "name of the measure"), &Judgement::measure)
+      .value(in_data("unit", "unit of all values"), &Judgement::unit)
+      .value(with_words(in_data("verdict", "change that the data show"),
+                        words_until(ChangeVerdict::not_measured)),
+             [](Judged m) { return to_string(m.change); })
+      .value(gate_item("gate", "verdict of the gate"), [](Judged m) { return to_string(m.verdict); })
+      .value(in_data("baseline", "proportion or mean in the baseline"), &Judgement::baseline)
+      .value(in_data("current", "proportion or mean in the file"), &Judgement::current)
+      .value(in_data("baseline_n", "trials with a value in the baseline"), &Judgement::baseline_n)
+      .value(in_data("current_n", "trials with a value in the file"), &Judgement::current_n)
       .value(in_data("effect", "change for the worse, with one-sided bounds"),
-             [](Measure m) { return bounded(m.effect, m.bounds); })
-      .value(in_data("margin", "largest accepted effect"), &MeasureComparison::margin)
+             [](Judged m) { return bounded(m.effect, m.bounds); })
+      .value(in_data("margin", "largest accepted effect"), &Judgement::margin)
       .value(in_data("changed_fails", "whether a change for the better beyond the margin fails too"),
-             &MeasureComparison::changed_fails)
+             &Judgement::changed_fails)
       .value(in_data("detectable_change", "smallest change for the worse that these trials find"),
-             &MeasureComparison::detectable_change)
-      .value(in_data("test", "test that p is of"), &MeasureComparison::test)
-      .value(in_data("p", "p-value against a change for the worse", "1"), &MeasureComparison::p)
-      .value(in_data("adjusted_p", "p after control of the false discoveries", "1"),
-             &MeasureComparison::adjusted_p)
+             &Judgement::detectable_change)
+      .value(in_data("test", "test that p is of"), &Judgement::test)
+      .value(in_data("p", "p-value against a change for the worse", "1"), &Judgement::p)
+      .value(in_data("adjusted_p", "p after control of the false discoveries", "1"), &Judgement::adjusted_p)
       .value(in_data("improvement_p", "p-value against a change for the better", "1"),
-             &MeasureComparison::improvement_p)
+             &Judgement::improvement_p)
       .value(in_data("adjusted_improvement_p", "improvement_p after control of the false discoveries", "1"),
-             &MeasureComparison::adjusted_improvement_p)
+             &Judgement::adjusted_improvement_p)
       .value(in_data("trials_to_decide", "trials per design point that decide an inconclusive measure"),
-             [](Measure m) { return whole(m.trials_to_decide); })
+             [](Judged m) { return whole(m.trials_to_decide); })
       .value(in_data("decided_margin", "any larger margin is decided by these trials"),
-             &MeasureComparison::decided_margin)
+             &Judgement::decided_margin)
       .value(in_data("max_trials_margin", "smallest margin that max_trials_to_decide trials decide"),
-             &MeasureComparison::max_trials_margin)
-      .value(in_data("note", "reason or remark"), &MeasureComparison::note);
+             &Judgement::max_trials_margin)
+      .value(in_data("note", "reason or remark"), &Judgement::note);
 }
 
-Description<RequirementResult> requirement_description() {
-  using Requirement = const RequirementResult&;
-  return Description<RequirementResult>()
-      .value(in_data("require", "the requirement as it was given"), &RequirementResult::text)
-      .value(in_data("quantity", "quantity that is required"), &RequirementResult::quantity)
-      .value(in_data("unit", "unit of the limit and the value"), &RequirementResult::unit)
-      .value(with_words(in_data("verdict", "verdict of the gate"), gate_words()),
-             [](Requirement r) { return to_string(r.verdict); })
-      .value(in_data("limit", "limit of the value"), &RequirementResult::limit)
-      .value(in_data("value", "value in the file"), &RequirementResult::value)
-      .value(in_data("n", "trials or moves that the value is of"), &RequirementResult::n)
+Description<Judgement> requirement_description() {
+  return Description<Judgement>()
+      .value(in_data("require", "the requirement as it was given"), &Judgement::requirement)
+      .value(in_data("quantity", "quantity that is required"), &Judgement::measure)
+      .value(in_data("unit", "unit of the limit and the value"), &Judgement::unit)
+      .value(gate_item("verdict", "verdict of the gate"), [](Judged r) { return to_string(r.verdict); })
+      .value(in_data("limit", "limit of the value"), &Judgement::margin)
+      .value(in_data("value", "value in the file"), &Judgement::current)
+      .value(in_data("n", "trials or moves that the value is of"), &Judgement::current_n)
       .value(in_data("bounds",
                      "one-sided bounds, low and high: of the value, or of the proportion within "
                      "the limit of a quantile"),
-             [](Requirement r) {
+             [](Judged r) {
                return std::vector<double>{r.bounds.low, r.bounds.high};
              })
       .value(in_data("trials_to_decide", "trials per design point that decide the requirement"),
-             [](Requirement r) { return whole(r.trials_to_decide); });
+             [](Judged r) { return whole(r.trials_to_decide); });
 }
 
 Description<measures::UndecidedMoves> undecided_description() {
@@ -155,8 +153,7 @@ Description<PointComparison> point_description() {
               .shown = document::Shown::in_json,
               .optional = true},
              [](Point p) { return p.condition.empty() ? std::nullopt : std::optional(p.condition); })
-      .value(with_words(in_data("verdict", "verdict of the gate"), gate_words()),
-             [](Point p) { return to_string(p.verdict); })
+      .value(gate_item("verdict", "verdict of the gate"), [](Point p) { return to_string(p.verdict); })
       .value(in_data("baseline_point", "number of the point in the baseline"),
              &PointComparison::baseline_point)
       .value(in_data("current_point", "number of the point in the file"), &PointComparison::current_point)
@@ -168,42 +165,131 @@ Description<PointComparison> point_description() {
       .object(in_data("current_undecided", "undecided moves of the file"), undecided_description(),
               &PointComparison::current_undecided)
       .table(in_data("measures", "comparison of each measure"), measure_description(),
-             &PointComparison::measures)
+             [](Point p) { return std::views::filter(p.judgements, &Judgement::is_measure); })
       .table(in_data("requirements", "absolute requirements"), requirement_description(),
-             &PointComparison::requirements)
+             [](Point p) { return std::views::filter(p.judgements, std::not_fn(&Judgement::is_measure)); })
       .object(in_data("goal", "verdicts on the goal, where the points are judged by one"), statuses,
               [](Point p) { return p.goals.size() == 1 ? &p.goals.front() : nullptr; })
       .include(several, [](Point p) { return p.goals.size() > 1 ? &p : nullptr; });
 }
 
-Description<VerdictCounts> counts_description() {
-  return Description<VerdictCounts>()
-      .value(in_data("passed", "judgements that passed"), &VerdictCounts::passed)
-      .value(in_data("regression", "worse, or a requirement that is not met"), &VerdictCounts::regressions)
-      .value(in_data("changed", "better, where every change fails"), &VerdictCounts::changed)
-      .value(in_data("inconclusive", "judgements that are open"), &VerdictCounts::inconclusive)
-      .value(in_data("not_measured", "judgements without enough values"), &VerdictCounts::not_measured)
-      .value(in_data("worse", "measures that are worse"), &VerdictCounts::worse)
-      .value(in_data("better", "measures that are better"), &VerdictCounts::better)
-      .value(in_data("equivalent", "measures that are equivalent"), &VerdictCounts::equivalent)
-      .value(in_data("not_worse", "measures that are better or equivalent"), &VerdictCounts::not_worse)
-      .value(in_data("undecided", "measures whose change is open"), &VerdictCounts::undecided);
+Description<StudyComparison> counts_description() {
+  Description<StudyComparison> counts;
+  const auto add = [&](const char* key, auto verdict, const char* meaning) {
+    counts.value(in_data(key, meaning), [verdict](Comparison c) { return count(c, verdict); });
+  };
+  add("passed", GateVerdict::passed, "judgements that passed");
+  add("regression", GateVerdict::regression, "worse, or a requirement that is not met");
+  add("changed", GateVerdict::changed, "better, where every change fails");
+  add("inconclusive", GateVerdict::inconclusive, "judgements that are open");
+  add("not_measured", GateVerdict::not_measured, "judgements without enough values");
+  add("worse", ChangeVerdict::worse, "measures that are worse");
+  add("better", ChangeVerdict::better, "measures that are better");
+  add("equivalent", ChangeVerdict::equivalent, "measures that are equivalent");
+  add("not_worse", ChangeVerdict::not_worse, "measures that are better or equivalent");
+  add("undecided", ChangeVerdict::undecided, "measures whose change is open");
+  return counts;
 }
 
-Description<ComparisonRow> row_description() {
+/// A judgement as people read it: a row of the table, and a case of JUnit.
+struct Row {
+  const StudyComparison& comparison;
+  const PointComparison& point;
+  const Judgement& one;
+
+  std::string text(double value) const { return value_text(value, one.measure, one.unit); }
+  std::string place() const { return text::printable(point.label); }
+  std::string name() const { return one.is_measure() ? one.measure : "require " + one.measure; }
+  std::string_view verdict() const {
+    return one.is_measure() ? to_string(one.change) : to_string(one.verdict);
+  }
+  std::string baseline() const { return text(one.baseline); }
+  std::string current() const { return text(one.current); }
+  std::string effect() const { return text(one.effect); }
+  std::string detects() const { return text(one.detectable_change); }
+  std::string bounds() const;
+  std::string margin() const;
+  std::string p() const;
+  std::string note() const;
+  /// It did not simply pass.
+  bool is_noteworthy() const {
+    return one.verdict != GateVerdict::passed || one.change == ChangeVerdict::better;
+  }
+};
+
+/// Of a quantile's requirement those of the proportion within its limit.
+std::string Row::bounds() const {
+  if (std::isnan(one.bounds.low)) return "–";
+  if (one.is_measure() || one.measure.find('.') == std::string::npos)
+    return fmt::format("[{}, {}]", text(one.bounds.low), text(one.bounds.high));
+  const auto percent = [](double value) { return value_text(value, "success_rate", "1"); };
+  return fmt::format("[{}, {}] within", percent(one.bounds.low), percent(one.bounds.high));
+}
+
+std::string Row::margin() const {
+  const char* const relation = !one.is_measure() ? one.at_least ? "≥ " : "≤ " : one.changed_fails ? "± " : "";
+  return relation + text(one.margin);
+}
+
+/// The adjusted p against the change that is shown: for the better if the measure is better, otherwise for
+/// the worse.
+double shown_p(const Judgement& measure) {
+  return measure.change == ChangeVerdict::better ? measure.adjusted_improvement_p : measure.adjusted_p;
+}
+
+std::string Row::p() const {
+  const double p = shown_p(one);
+  if (std::isnan(p)) return "–";
+  return p < 1e-4 ? "< 1e-4" : fmt::format("{:.2g}", p);
+}
+
+/// The reason, the goal beside the proportion of moves in it, undecided moves beside that of stable trials,
+/// and what would decide.
+std::string Row::note() const {
+  std::vector<std::string> notes;
+  if (!one.note.empty()) notes.push_back(one.note);
+  for (const GoalStatuses& goal : point.goals) {
+    if (one.is_measure() && one.measure == name_of_goal_measure("goal_rate", goal.name))
+      notes.push_back(fmt::format("goal {} in the baseline, {} in the file", goal::text_of(goal.baseline),
+                                  goal::text_of(goal.current)));
+  }
+  const measures::UndecidedMoves& before = point.baseline_undecided;
+  const measures::UndecidedMoves& after = point.current_undecided;
+  if (one.measure == "stable_rate" && before.off_target + after.off_target > 0)
+    notes.push_back(fmt::format("undecided: {} of {} moves in the baseline, {} of {} in the file",
+                                before.off_target, before.moves, after.off_target, after.moves));
+  if (one.trials_to_decide)
+    notes.push_back(fmt::format("{} trials would decide", trials_text(*one.trials_to_decide)));
+  if (!std::isnan(one.decided_margin))
+    notes.push_back(fmt::format("these trials decide a margin above {}", text(one.decided_margin)));
+  if (!std::isnan(one.decided_margin) && !std::isnan(one.max_trials_margin))
+    notes.back() += fmt::format(", {} trials one of {}", trials_text(comparison.max_trials_to_decide),
+                                text(one.max_trials_margin));
+  return fmt::format("{}", fmt::join(notes, "; "));
+}
+
+std::vector<Row> all_rows(Comparison comparison) {
+  std::vector<Row> rows;
+  for (const PointComparison& point : comparison.points) {
+    for (const Judgement& one : point.judgements) rows.push_back({comparison, point, one});
+  }
+  return rows;
+}
+
+Description<Row> row_description() {
   // One column names the rows, so that every part of a divided table has it.
-  return Description<ComparisonRow>()
+  return Description<Row>()
       .value(to_people("point, measure"),
-             [](const ComparisonRow& row) { return fmt::format("{} {}", row.point, row.measure); })
-      .value(to_people("verdict"), &ComparisonRow::verdict)
-      .value(to_people("baseline"), &ComparisonRow::baseline)
-      .value(to_people("file"), &ComparisonRow::current)
-      .value(to_people("worse by"), &ComparisonRow::worse_by)
-      .value(to_people("bounds"), &ComparisonRow::bounds)
-      .value(to_people("margin"), &ComparisonRow::margin)
-      .value(to_people("detects"), &ComparisonRow::detects)
-      .value(to_people("p"), &ComparisonRow::p)
-      .value(to_people("note"), &ComparisonRow::note);
+             [](const Row& row) { return fmt::format("{} {}", row.place(), row.name()); })
+      .value(to_people("verdict"), &Row::verdict)
+      .value(to_people("baseline"), &Row::baseline)
+      .value(to_people("file"), &Row::current)
+      .value(to_people("worse by"), &Row::effect)
+      .value(to_people("bounds"), &Row::bounds)
+      .value(to_people("margin"), &Row::margin)
+      .value(to_people("detects"), &Row::detects)
+      .value(to_people("p"), &Row::p)
+      .value(to_people("note"), &Row::note);
 }
 
 std::string file_text(const ComparedFile& file) {
@@ -233,24 +319,24 @@ Description<manifest_text::ManifestDifference> difference_description() {
 }
 
 /// All rows, or the noteworthy ones where there are many.
-std::vector<ComparisonRow> rows_shown(Comparison comparison) {
-  std::vector<ComparisonRow> rows = comparison_rows(comparison);
-  if (rows.size() > max_rows) std::erase_if(rows, [](const ComparisonRow& row) { return !row.noteworthy; });
-  return rows;
+std::vector<Row> rows_shown(Comparison comparison) {
+  std::vector<Row> all = all_rows(comparison);
+  if (all.size() <= max_rows) return all;
+  std::vector<Row> noteworthy;
+  std::ranges::copy_if(all, std::back_inserter(noteworthy), &Row::is_noteworthy);
+  return noteworthy;
 }
 
 std::string omitted_sentence(Comparison comparison) {
-  const std::size_t omitted = comparison_rows(comparison).size() - rows_shown(comparison).size();
+  const std::size_t omitted = all_rows(comparison).size() - rows_shown(comparison).size();
   return omitted == 0 ? "" : fmt::format("({} rows that simply passed are not shown)", omitted);
 }
 
 /// Whether a test is significant whose bounds leave the direction of the change open.
 bool any_contrast(Comparison comparison) {
-  return std::ranges::any_of(comparison.points, [&](const PointComparison& point) {
-    return std::ranges::any_of(point.measures, [&](const MeasureComparison& measure) {
-      return shown_p(measure) < comparison.false_discovery_rate && measure.bounds.low < 0.0 &&
-             measure.bounds.high > 0.0;
-    });
+  return std::ranges::any_of(all_rows(comparison), [&](const Row& row) {
+    return shown_p(row.one) < comparison.false_discovery_rate && row.one.bounds.low < 0.0 &&
+           row.one.bounds.high > 0.0;
   });
 }
 
@@ -318,7 +404,8 @@ void add_judgements(Description<StudyComparison>& items) {
              &StudyComparison::false_discovery_rate)
       .value(in_data("tests", "tests over which the false discoveries are controlled"),
              &StudyComparison::tests)
-      .object(in_data("counts", "number of verdicts"), counts_description(), count_verdicts)
+      .object(in_data("counts", "number of verdicts"), counts_description(),
+              [](Comparison c) -> Comparison { return c; })
       .value(in_data("trials_to_decide", "trials per design point that decide the whole"),
              [](Comparison c) { return whole(c.trials_to_decide); })
       .value(in_data("decision_probability", "probability with which these decide", "1"),
@@ -341,11 +428,54 @@ document::AnswerDescription<StudyComparison> comparison_answer() {
        .csv_table = "points.measures"},
       {}};
   answer.items.headline(verdict_sentence)
-      .value(with_words(in_data("verdict", "verdict of the gate"), gate_words()),
-             [](Comparison c) { return to_string(c.verdict); });
+      .value(gate_item("verdict", "verdict of the gate"), [](Comparison c) { return to_string(c.verdict); });
   add_facts(answer.items);
   add_judgements(answer.items);
   return answer;
+}
+
+std::string comparison_junit(const StudyComparison& comparison) {
+  // What XML cannot hold is replaced.
+  const auto xml = [](std::string_view text) { return text::escaped_markup(text::printable(text)); };
+  const std::string suite = xml(comparison.current.header.name);
+  std::map<std::string, std::int64_t> elements;
+  std::string cases;
+  const auto add = [&](const std::string& name, GateVerdict verdict, const std::string& message) {
+    const std::string element = fails(verdict)                         ? "failure"
+                                : verdict == GateVerdict::inconclusive ? "error"
+                                : verdict == GateVerdict::passed       ? "system-out"
+                                                                       : "skipped";
+    ++elements[element];
+    cases += fmt::format("    <testcase classname=\"{}\" name=\"{}\">", suite, xml(name));
+    if (element == "system-out") {
+      cases += fmt::format("<system-out>{}</system-out>", xml(message));
+    } else {
+      const std::string type = element == "skipped" ? "" : fmt::format(" type=\"{}\"", to_string(verdict));
+      cases += fmt::format("<{}{} message=\"{}\"/>", element, type, xml(message));
+    }
+    cases += "</testcase>\n";
+  };
+  for (const Row& row : all_rows(comparison)) {
+    const std::string note = row.note();
+    add(fmt::format("{}: {}", row.place(), row.name()), row.one.verdict,
+        fmt::format("{}: baseline {}, file {}, worse by {} {}, margin {}, p {}{}", row.verdict(),
+                    row.baseline(), row.current(), row.effect(), row.bounds(), row.margin(), row.p(),
+                    note.empty() ? "" : "; " + note));
+  }
+  // A verdict that no single case gives: unequal data, or nothing measured.
+  const bool silent = comparison.verdict == GateVerdict::inconclusive && elements["error"] == 0;
+  if (comparison.layer == ComparisonLayer::bits || silent) {
+    const GateVerdict other = silent ? GateVerdict::inconclusive : GateVerdict::passed;
+    add("the data", is_unequal(comparison) ? GateVerdict::regression : other, verdict_sentence(comparison));
+  }
+  const std::string numbers =
+      fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\"",
+                  elements["failure"] + elements["error"] + elements["system-out"] + elements["skipped"],
+                  elements["failure"], elements["error"], elements["skipped"]);
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"zerocount compare\" {0}>\n"
+      "  <testsuite name=\"{1}\" {0}>\n{2}  </testsuite>\n</testsuites>\n",
+      numbers, suite, cases);
 }
 
 }  // namespace zerocount::comparison

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
-#include <stdexcept>
 #include <utility>
 
 #include "analysis/parallel/parallel.hpp"
@@ -15,6 +13,10 @@
 
 namespace zerocount::comparison {
 namespace {
+
+using two_samples::ContinuationDraw;
+using two_samples::FileSums;
+using two_samples::FileWeights;
 
 constexpr double factor_step = 1.4;    ///< between the numbers of trials that are tried
 constexpr double slab_variance = 9.0;  ///< of effects that are not zero, in units of the standard error
@@ -34,10 +36,6 @@ double unseen_weight(std::uint64_t bits) {
   return jeffreys_shape * z * z;
 }
 
-SampleSums sums_of_requirement(double hits, double events) {
-  return {1.0, hits, events, hits * hits, hits * events, events * events};
-}
-
 /// The result of a simulated comparison.
 struct SimulatedComparison {
   bool decided{false};
@@ -48,9 +46,14 @@ struct SimulatedComparison {
 class Simulator {
  public:
   Simulator(const ForecastSamples& samples, const ForecastOptions& options)
-      : samples_(samples),
-        options_(options),
-        zero_probabilities_(zero_probabilities_of(samples.measures(), options.confidence)) {}
+      : samples_(samples), options_(options) {
+    std::vector<double> z;
+    for (const ForecastSamples::Measure& measure : samples.measures()) {
+      const double error = standard_error_of(measure.found.bounds, options.confidence);
+      z.push_back(error > 0.0 ? measure.found.effect / error : 0.0);
+    }
+    zero_probabilities_ = zero_difference_probabilities(z);
+  }
 
   double trials() const {
     return static_cast<double>(std::max(samples_.trials_of(0), samples_.trials_of(1)));
@@ -64,7 +67,7 @@ class Simulator {
     FileWeights further;
     for (std::size_t file = 0; file < 2; ++file) {
       const two_samples::Continuation& continuation = samples_.continuations()[file];
-      population[file] = samples_.continuations()[samples_.one_sample() ? 1 : file].population(simulation);
+      population[file] = samples_.continuations()[population_of(file)].population(simulation);
       further[file] = continuation.further_units(population[file], more_units(file, trials), simulation);
     }
     const std::vector<FileSums> sums = further_sums(further, simulation, trials);
@@ -72,7 +75,7 @@ class Simulator {
     std::vector<SimulatedComparison> outcomes;
     for (const Truth truth : truths) {
       std::vector<TestedMeasure> tested;
-      for (std::size_t i = 0; i < zero_probabilities_.size(); ++i)
+      for (std::size_t i = 0; i < sums.size(); ++i)
         tested.push_back(tested_measure(i, population, sums[i], is_zero(i, truth, simulation)));
       decide(tested, options_.false_discovery_rate);
       outcomes.push_back(outcome_of(tested, requirements, truth));
@@ -81,15 +84,9 @@ class Simulator {
   }
 
  private:
-  static std::vector<double> zero_probabilities_of(const std::vector<ForecastMeasure>& measures,
-                                                   double confidence) {
-    std::vector<double> z;
-    for (const ForecastMeasure& measure : measures) {
-      const TestedMeasure& found = measure.found;
-      const double error = standard_error_of(found.bounds, confidence);
-      z.push_back(error > 0.0 ? found.effect / error : 0.0);
-    }
-    return zero_difference_probabilities(z);
+  /// The file whose sample stands for the population of this one.
+  std::uint32_t population_of(std::size_t file) const {
+    return samples_.one_sample() ? 1 : static_cast<std::uint32_t>(file);
   }
 
   double more_units(std::size_t file, double trials) const {
@@ -102,21 +99,19 @@ class Simulator {
   /// of a point.
   double unseen_units(std::size_t file, std::size_t point, std::uint32_t kind, std::uint32_t simulation,
                       double trials) const {
-    const auto stream = 2 * kind + static_cast<std::uint32_t>(file);
-    const auto population = 2 * kind + static_cast<std::uint32_t>(samples_.one_sample() ? 1 : file);
     const double weight = unseen_weight(two_samples::continuation_bits(
-        simulation, population, point, two_samples::ContinuationDraw::unseen_kind));
+        simulation, 2 * kind + population_of(file), point, ContinuationDraw::unseen_kind));
     const double mean =
         weight * more_units(file, trials) / static_cast<double>(samples_.continuations()[file].units());
     return two_samples::poisson_number(
-        mean, two_samples::continuation_bits(simulation, stream, point,
-                                             two_samples::ContinuationDraw::unseen_units));
+        mean, two_samples::continuation_bits(simulation, 2 * kind + static_cast<std::uint32_t>(file), point,
+                                             ContinuationDraw::unseen_units));
   }
 
   bool is_zero(std::size_t measure, Truth truth, std::uint32_t simulation) const {
     if (truth != Truth::some_zero) return false;
     const double u = random::open_uniform(
-        two_samples::continuation_bits(simulation, 0, measure, two_samples::ContinuationDraw::nil_effect));
+        two_samples::continuation_bits(simulation, 0, measure, ContinuationDraw::nil_effect));
     return u < zero_probabilities_[measure];
   }
 
@@ -124,32 +119,24 @@ class Simulator {
   std::vector<FileSums> further_sums(const FileWeights& further, std::uint32_t simulation,
                                      double trials) const {
     std::vector<FileSums> all;
-    for (const auto& [point, found, measure] : samples_.measures()) {
-      FileSums& sums = all.emplace_back(measure.weighted(further));
-      if (!measure.proportion()) continue;
-      for (std::size_t file = 0; file < (measure.paired() ? 1U : 2U); ++file) {
-        measure.add_unseen(sums[file], unseen_units(file, point, 0, simulation, trials),
-                           unseen_units(file, point, 1, simulation, trials));
-      }
+    for (const auto& [point, found, sample] : samples_.measures()) {
+      FileSums& sums = all.emplace_back(sample.weighted(further));
+      for (std::size_t file = 0; sample.failures() && file < (sample.paired() ? 1U : 2U); ++file)
+        sample.add_unseen(sums[file], unseen_units(file, point, 0, simulation, trials),
+                          unseen_units(file, point, 1, simulation, trials));
     }
     return all;
   }
 
   TestedMeasure tested_measure(std::size_t i, const FileWeights& population, FileSums sums, bool zero) const {
-    const JudgedMeasure& measure = samples_.measures()[i].sums;
-    if (zero) measure.remove_effect(sums, measure.weighted(population));
+    const auto& [point, found, sample] = samples_.measures()[i];
+    if (zero) sample.remove_effect(sums, sample.weighted(population));
     if (!samples_.one_sample()) {
-      const FileSums seen = measure.seen();
-      for (std::size_t file = 0; file < sums.size(); ++file) {
-        for (std::size_t k = 0; k < seen[file].size(); ++k) sums[file][k] += seen[file][k];
-      }
+      const FileSums seen = sample.seen();
+      for (std::size_t file = 0; file < sums.size(); ++file) two_samples::add(sums[file], seen[file]);
     }
-    TestedMeasure tested = samples_.measures()[i].found;
-    const two_samples::QuickResult result = measure.test(sums, options_.confidence, !zero);
-    tested.effect = result.effect;
-    tested.bounds = result.bounds;
-    tested.p = result.p;
-    tested.improvement_p = result.improvement_p;
+    TestedMeasure tested = found;
+    static_cast<two_samples::Change&>(tested) = sample.change_of(sums, options_.confidence, !zero);
     return tested;
   }
 
@@ -157,16 +144,15 @@ class Simulator {
                                                 double trials) const {
     std::vector<GateVerdict> verdicts;
     for (const auto& [point, asked, seen] : samples_.requirements()) {
-      SampleSums sums = seen.weighted(further[1]);
-      for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += seen.seen()[k];
+      two_samples::Sums sums = seen.weighted(further[1]);
+      two_samples::add(sums, seen.seen());
       if (asked.kind != RequirementKind::mean && !asked.clustered) {
         const double missed = unseen_units(1, point, 0, simulation, trials);
         const double met = unseen_units(1, point, 1, simulation, trials);
         sums[1] += met;
         sums[2] += met + missed;
       }
-      verdicts.push_back(requirement_verdict(asked, {sums[0], sums[1], sums[2], sums[3], sums[4], sums[5]},
-                                             options_.confidence, options_.failing_confidence));
+      verdicts.push_back(requirement_verdict(asked, sums, options_.confidence, options_.failing_confidence));
     }
     return verdicts;
   }
@@ -176,23 +162,19 @@ class Simulator {
                                  const std::vector<GateVerdict>& requirements, Truth truth) const {
     SimulatedComparison outcome;
     bool failed = false;
-    bool all = true;
+    const auto add = [&](GateVerdict verdict, bool decided) {
+      failed = failed || fails(verdict);
+      outcome.each.push_back(decided);
+    };
     for (const TestedMeasure& measure : tested) {
       const GateVerdict verdict = gate_verdict(measure.change, measure.changed_fails);
-      const bool decided = truth == Truth::no_effect ? measure.change == ChangeVerdict::equivalent
-                                                     : verdict != GateVerdict::inconclusive;
-      failed = failed || fails(verdict);
-      all = all && decided;
-      outcome.each.push_back(decided);
-      outcome.margins.push_back(measure.changed_fails ? std::max(measure.bounds.high, -measure.bounds.low)
-                                                      : measure.bounds.high);
+      add(verdict, truth == Truth::no_effect ? measure.change == ChangeVerdict::equivalent
+                                             : verdict != GateVerdict::inconclusive);
+      outcome.margins.push_back(largest_possible_change(measure));
     }
-    for (const GateVerdict verdict : requirements) {
-      failed = failed || fails(verdict);
-      all = all && verdict != GateVerdict::inconclusive;
-      outcome.each.push_back(verdict != GateVerdict::inconclusive);
-    }
-    outcome.decided = all || (failed && truth != Truth::no_effect);
+    for (const GateVerdict verdict : requirements) add(verdict, verdict != GateVerdict::inconclusive);
+    outcome.decided =
+        std::ranges::find(outcome.each, false) == outcome.each.end() || (failed && truth != Truth::no_effect);
     return outcome;
   }
 
@@ -309,29 +291,23 @@ ForecastSamples::ForecastSamples(std::array<std::int64_t, 2> units, bool one_sam
     : one_sample_(one_sample),
       continuations_{two_samples::Continuation(units[0], 0), two_samples::Continuation(units[1], 1)} {}
 
-void ForecastSamples::add(ForecastPoint point) {
-  trials_ = {std::max(trials_[0], point.baseline_trials), std::max(trials_[1], point.current_trials)};
-  for (std::size_t i = 0; i < point.measures.size(); ++i) {
-    MeasureSample& sample = point.measures[i];
-    if (one_sample_) sample.baseline = sample.current;
-    require_units(std::ssize(sample.baseline), 0);
-    require_units(std::ssize(sample.current), 1);
-    measures_.push_back({points_, point.found[i], JudgedMeasure(sample, continuations_)});
-  }
-  for (RequirementSample& sample : point.requirements) {
-    require_units(std::ssize(sample.hits), 1);
-    std::vector<SampleSums> rows;
-    for (std::size_t i = 0; i < sample.hits.size(); ++i)
-      rows.push_back(sums_of_requirement(sample.hits[i], sample.events[i]));
-    sample.hits = sample.events = {};
-    requirements_.push_back({points_, std::move(sample), BlockedSums(rows, continuations_[1])});
-  }
+void ForecastSamples::add_point(std::int64_t baseline_trials, std::int64_t current_trials) {
+  trials_ = {std::max(trials_[0], baseline_trials), std::max(trials_[1], current_trials)};
   ++points_;
 }
 
-void ForecastSamples::require_units(std::int64_t units, std::size_t file) const {
-  if (units > continuations_[file].units())
-    throw std::invalid_argument("a sample of more units than announced");
+void ForecastSamples::add(const TestedMeasure& found, two_samples::Sample sample) {
+  if (one_sample_) sample.baseline = sample.current;
+  measures_.push_back({points_ - 1, found, two_samples::ContinuedSample(sample, continuations_)});
+}
+
+void ForecastSamples::add(RequirementSample requirement) {
+  std::vector<two_samples::Sums> units;
+  for (std::size_t i = 0; i < requirement.hits.size(); ++i)
+    units.push_back(sums_of_unit(requirement.hits[i], requirement.events[i]));
+  requirement.hits = requirement.events = {};
+  requirements_.push_back(
+      {points_ - 1, std::move(requirement), two_samples::BlockedSums(units, continuations_[1])});
 }
 
 Forecast forecast_decision(const ForecastSamples& samples, const ForecastOptions& options) {

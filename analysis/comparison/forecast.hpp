@@ -6,63 +6,52 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/comparison/judged_sample.hpp"
-#include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/comparison/point_judgements.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/two_samples/continuation.hpp"
+#include "analysis/two_samples/continued_sample.hpp"
 
 /// How many trials would decide a comparison, by simulation of the comparison with more trials.
 namespace zerocount::comparison {
-
-/// The samples of one design point, and the results of their comparison.
-struct ForecastPoint {
-  std::int64_t baseline_trials{0};
-  std::int64_t current_trials{0};
-  std::vector<MeasureSample> measures;  ///< with values enough for a verdict
-  std::vector<TestedMeasure> found;     ///< [measure]
-  std::vector<RequirementSample> requirements;
-};
-
-/// A measure at a design point.
-struct ForecastMeasure {
-  std::size_t point{0};
-  TestedMeasure found;
-  JudgedMeasure sums;
-};
-
-/// A requirement at a design point.
-struct ForecastRequirement {
-  std::size_t point{0};
-  RequirementSample asked;  ///< without its units
-  BlockedSums sums;
-};
 
 /// The samples of all design points, as the sums that simulations need: the memory does not grow with the
 /// trials.
 class ForecastSamples {
  public:
+  struct Measure {
+    std::size_t point;
+    TestedMeasure found;
+    two_samples::ContinuedSample sample;
+  };
+  struct Requirement {
+    std::size_t point;
+    RequirementSample asked;  ///< without its units
+    two_samples::BlockedSums sums;
+  };
+
   /// @param units number of independent units (trials or rigs) of the largest sample of the baseline and of
   /// the file
   /// @param one_sample the samples of the file stand for the baseline too
   ForecastSamples(std::array<std::int64_t, 2> units, bool one_sample);
 
-  void add(ForecastPoint point);
+  /// Begins a design point with so many trials of the baseline and of the file.
+  void add_point(std::int64_t baseline_trials, std::int64_t current_trials);
+  /// Adds a measure of the point, which has values enough for a verdict.
+  void add(const TestedMeasure& found, two_samples::Sample sample);
+  void add(RequirementSample requirement);
 
   bool one_sample() const { return one_sample_; }
   const std::array<two_samples::Continuation, 2>& continuations() const { return continuations_; }
-  const std::vector<ForecastMeasure>& measures() const { return measures_; }
-  const std::vector<ForecastRequirement>& requirements() const { return requirements_; }
+  const std::vector<Measure>& measures() const { return measures_; }
+  const std::vector<Requirement>& requirements() const { return requirements_; }
   /// The most trials of a point of the baseline (0) or the file (1); at least 1.
   std::int64_t trials_of(std::size_t file) const { return trials_[file]; }
 
  private:
-  void require_units(std::int64_t units, std::size_t file) const;
-
   bool one_sample_;
   std::array<two_samples::Continuation, 2> continuations_;
   std::size_t points_{0};
-  std::vector<ForecastMeasure> measures_;
-  std::vector<ForecastRequirement> requirements_;
+  std::vector<Measure> measures_;
+  std::vector<Requirement> requirements_;
   std::array<std::int64_t, 2> trials_{1, 1};
 };
 
@@ -70,9 +59,9 @@ struct ForecastOptions {
   double confidence{statistics::summary_confidence};  ///< of each bound
   double false_discovery_rate{0.05};                  ///< over all measures at all points
   double failing_confidence{
-      statistics::summary_confidence};  ///< with which a requirement must be contradicted
-  double probability{0.8};              ///< with which the number of trials decides
-  int simulations{400};                 ///< of each number of trials
+      statistics::summary_confidence};       ///< with which a requirement must be contradicted
+  double probability{decision_probability};  ///< with which the number of trials decides
+  int simulations{400};                      ///< of each number of trials
   double min_factor{1.0};    ///< the fewest trials that are tried, as a multiple of those that there are
   double max_factor{100.0};  ///< the most trials that are tried, as such a multiple
 };
@@ -92,7 +81,7 @@ struct Forecast {
 /// The number of trials with which the comparison as a whole is decided with the stated probability: some
 /// measure or requirement fails, or all pass. The trials that there are go on (Continuation), as the same
 /// study does with more trials; every simulated comparison has the tests, the adjustment and the margins of
-/// the real one (tests: quick_tests.hpp; ranks keep the scores that they have in the sample).
+/// the real one (ContinuedSample::change_of).
 ///
 /// The number must suffice under two assumptions of what the sample leaves open:
 /// - the true effects are those that were seen, with their uncertainty;

@@ -16,7 +16,7 @@
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/comparison/forecast.hpp"
 #include "analysis/comparison/gate_rules.hpp"
-#include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/comparison/point_judgements.hpp"
 #include "analysis/comparison/point_trials.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
@@ -132,7 +132,7 @@ comparison::PointTrials run_point(const study::Study& study, std::int64_t point,
 struct PlannedMeasure {
   std::string point;      ///< with the condition
   std::string condition;  ///< empty without conditions
-  comparison::MeasureComparison found;
+  comparison::Judgement found;
   comparison::JudgementForecast forecast{};
 };
 
@@ -156,23 +156,22 @@ struct EquivalencePlan {
 
 /// Adds the measures of a point under a condition to the plan. The sample of the pilot stands for both
 /// studies.
-comparison::ForecastPoint planned_point(EquivalencePlan& plan, const std::string& design_point,
-                                        const std::string& condition, const comparison::PointTrials& trials) {
+void add_point(EquivalencePlan& plan, comparison::ForecastSamples& samples, const std::string& design_point,
+               const std::string& condition, const comparison::PointTrials& trials) {
   const std::string label = study::label_under(design_point, condition);
-  const auto found = comparison::compare_measures(plan.rules, label, trials, trials, false);
-  const auto samples = comparison::measure_samples(plan.rules, found, trials, trials, false);
-  comparison::ForecastPoint point{plan.pilot, plan.pilot, {}, {}, {}};
+  const comparison::BothTrials both{trials, trials, false};
+  const auto found = comparison::compare_measures(plan.rules, label, both);
+  const auto of_measures = comparison::measure_samples(plan.rules, found, both);
+  samples.add_point(plan.pilot, plan.pilot);
   for (std::size_t k = 0; k < found.size(); ++k) {
-    const comparison::MeasureComparison& one = found[k];
+    const comparison::Judgement& one = found[k];
     if (!comparison::has_finite_bounds(one)) {
       plan.unplanned.push_back({label, condition, one.measure});
       continue;
     }
-    point.measures.push_back(samples[k]);
-    point.found.push_back(one);
+    samples.add(one, of_measures[k]);
     plan.measures.push_back({label, condition, one});
   }
-  return point;
 }
 
 EquivalencePlan plan_of(const command_line::Arguments& arguments) {
@@ -194,9 +193,9 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   std::int64_t done = 0;
   for (std::int64_t i = 0; i < study::point_count(study); ++i) {
     for (std::size_t condition = 0; condition < under.size(); ++condition) {
-      samples.add(planned_point(plan, study.points.labels[static_cast<std::size_t>(i)],
-                                study.conditions.empty() ? "" : study.conditions[condition],
-                                run_point(under[condition], i, plan.pilot)));
+      add_point(plan, samples, study.points.labels[static_cast<std::size_t>(i)],
+                study.conditions.empty() ? "" : study.conditions[condition],
+                run_point(under[condition], i, plan.pilot));
       progress.update(done += plan.pilot);
     }
   }

@@ -20,13 +20,15 @@ constexpr std::size_t max_bars = 60;
 /// A measure at a point.
 struct ComparedMeasure {
   const comparison::PointComparison* point{nullptr};
-  const comparison::MeasureComparison* measure{nullptr};
+  const comparison::Judgement* measure{nullptr};
 };
 
 std::vector<ComparedMeasure> worst_first(const comparison::StudyComparison& comparison) {
   std::vector<ComparedMeasure> all;
   for (const comparison::PointComparison& point : comparison.points) {
-    for (const comparison::MeasureComparison& measure : point.measures) all.push_back({&point, &measure});
+    for (const comparison::Judgement& one : point.judgements) {
+      if (one.is_measure()) all.push_back({&point, &one});
+    }
   }
   std::stable_sort(all.begin(), all.end(), [](const ComparedMeasure& a, const ComparedMeasure& b) {
     return std::pair(a.measure->verdict, a.measure->change) <
@@ -48,7 +50,7 @@ Figure margins_figure(const comparison::StudyComparison& comparison,
                    {"margin", "margin", ""}}};
   std::size_t drawable = 0;
   for (const ComparedMeasure& one : measures) {
-    const comparison::MeasureComparison& measure = *one.measure;
+    const comparison::Judgement& measure = *one.measure;
     if (!(measure.margin > 0.0) || std::isnan(measure.effect)) continue;
     if (++drawable > max_bars) continue;
     const auto text = [&](double value) {

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "analysis/comparison/comparison.hpp"
-#include "analysis/comparison/matching.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
 #include "results/storage/checksum_trailer.hpp"
@@ -77,7 +76,7 @@ TEST_F(ComparedStudies, EqualDataPass) {
   EXPECT_EQ(result.verdict, comparison::GateVerdict::passed);
   EXPECT_TRUE(result.manifest_differences.empty());
   ASSERT_EQ(result.points.size(), 2u);
-  EXPECT_EQ(result.points[0].measures[0].test, "equal to the bit");
+  EXPECT_EQ(result.points[0].judgements[0].test, "equal to the bit");
 }
 
 /// good_trials, of which every `step`-th move ended off target; in every second of those the error was still
@@ -177,7 +176,7 @@ TEST_F(ComparedStudies, AnotherManifestOnTheSameDrawsIsComparedTrialByTrial) {
   EXPECT_EQ(result.manifest_differences[0].baseline, "1.0e-5");
   EXPECT_EQ(result.manifest_differences[0].current, "2.0e-5");
   EXPECT_EQ(result.points[0].verdict, comparison::GateVerdict::regression);
-  EXPECT_EQ(result.points[0].measures[0].verdict, comparison::GateVerdict::regression);
+  EXPECT_EQ(result.points[0].judgements[0].verdict, comparison::GateVerdict::regression);
   EXPECT_NE(result.points[1].verdict, comparison::GateVerdict::regression);
   EXPECT_EQ(result.verdict, comparison::GateVerdict::regression);
 }
@@ -187,7 +186,7 @@ TEST_F(ComparedStudies, AnotherSeedIsAnotherSample) {
       write("a.h5", study_of(), good_trials()), write("b.h5", study_of("", 2), good_trials()));
   EXPECT_EQ(result.layer, comparison::ComparisonLayer::two_samples);
   EXPECT_EQ(result.points[0].pairs, 0);
-  EXPECT_EQ(result.points[0].measures[0].test, "Fisher, exact");
+  EXPECT_EQ(result.points[0].judgements[0].test, "Fisher, exact");
   EXPECT_EQ(result.verdict, comparison::GateVerdict::inconclusive);  // 120 trials do not show 2 %
 }
 
@@ -280,10 +279,10 @@ TEST_F(ComparedStudies, JudgesAsManyTrialsAsAsked) {
                                     write("d.h5", study_of("", 2, count), first_of(worse, count)));
     for (std::size_t point = 0; point < 2; ++point) {
       EXPECT_EQ(some.points[point].baseline_trials, count);
-      ASSERT_EQ(some.points[point].measures.size(), alone.points[point].measures.size());
-      for (std::size_t i = 0; i < some.points[point].measures.size(); ++i) {
-        EXPECT_EQ(some.points[point].measures[i].baseline, alone.points[point].measures[i].baseline);
-        EXPECT_EQ(some.points[point].measures[i].effect, alone.points[point].measures[i].effect);
+      ASSERT_EQ(some.points[point].judgements.size(), alone.points[point].judgements.size());
+      for (std::size_t i = 0; i < some.points[point].judgements.size(); ++i) {
+        EXPECT_EQ(some.points[point].judgements[i].baseline, alone.points[point].judgements[i].baseline);
+        EXPECT_EQ(some.points[point].judgements[i].effect, alone.points[point].judgements[i].effect);
       }
     }
     ASSERT_FALSE(some.notes.empty());
@@ -315,13 +314,14 @@ TEST_F(ComparedStudies, ADriftingBaselineDoesNotCarryARequirementAway) {
   const comparison::StudyComparison result = comparison::compare_studies(a, a, rules);
   EXPECT_TRUE(result.equal_to_the_bit);
   EXPECT_EQ(result.verdict, comparison::GateVerdict::regression);  // 90 % in both
-  EXPECT_EQ(result.points[0].requirements[0].verdict, comparison::GateVerdict::regression);
+  EXPECT_EQ(result.points[0].judgements.back().verdict, comparison::GateVerdict::regression);
 }
 
 TEST(Draws, RiseInTheSameOrderThroughAnotherDistribution) {
   const TemporaryFolder folder;
-  const auto write = [&](const std::string& name, const std::function<double(std::int64_t)>& k1) {
-    const study::Study study = study_of("distribution: " + name + "\n");
+  const auto write = [&](const std::string& name, const std::function<double(std::int64_t)>& k1,
+                         const std::string& more = "") {
+    const study::Study study = study_of("distribution: " + name + "\n" + more);
     std::vector<shards::TrialResult> results(2 * trials);
     for (std::int64_t row = 0; row < 2 * trials; ++row) {
       results[static_cast<std::size_t>(row)] = {row, {k1(row)}, trial_of(true, 10).outcome, {}, {}};
@@ -335,15 +335,15 @@ TEST(Draws, RiseInTheSameOrderThroughAnotherDistribution) {
   const reading::AllTrialsFile before = write("a.h5", draw);
   const reading::AllTrialsFile scaled = write("b.h5", [&](std::int64_t row) { return 0.95 * draw(row); });
   const reading::AllTrialsFile other = write("c.h5", [&](std::int64_t row) { return draw(row + 1); });
-  const auto points = comparison::match_points(before, scaled);
-  const comparison::DrawComparison same = comparison::compare_draws(before, scaled, {}, {}, points, trials);
-  EXPECT_TRUE(same.same);
+  const comparison::StudyComparison same = comparison::compare_studies(before, scaled);
+  EXPECT_EQ(same.layer, comparison::ComparisonLayer::paired);
   EXPECT_EQ(same.changed_inputs, std::vector<std::string>{"friction.k1"});
-  const comparison::DrawComparison different =
-      comparison::compare_draws(before, other, {}, {}, comparison::match_points(before, other), trials);
-  EXPECT_FALSE(different.same);
-  EXPECT_EQ(different.reason, "trial i has other values of friction.k1");
-  EXPECT_FALSE(comparison::compare_draws(before, scaled, {}, {{"design", "sobol"}}, points, trials).same);
+  const comparison::StudyComparison different = comparison::compare_studies(before, other);
+  EXPECT_EQ(different.layer, comparison::ComparisonLayer::two_samples);
+  EXPECT_TRUE(different.layer_reason.ends_with("; trial i has other values of friction.k1"));
+  const comparison::StudyComparison of_designs =
+      comparison::compare_studies(before, write("d.h5", draw, "design: sobol\n"));
+  EXPECT_TRUE(of_designs.layer_reason.ends_with("; the manifests differ in design"));
 }
 
 }  // namespace

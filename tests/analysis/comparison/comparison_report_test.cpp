@@ -28,8 +28,8 @@ comparison::ChangeVerdict change_behind(comparison::GateVerdict verdict) {
   return comparison::ChangeVerdict::not_measured;
 }
 
-comparison::MeasureComparison reported_measure(const std::string& name, comparison::GateVerdict verdict) {
-  comparison::MeasureComparison one;
+comparison::Judgement reported_measure(const std::string& name, comparison::GateVerdict verdict) {
+  comparison::Judgement one;
   one.measure = name;
   one.unit.assign(1, name == "settling_time" ? 's' : '1');
   one.verdict = verdict;
@@ -53,18 +53,18 @@ comparison::StudyComparison sample() {
   comparison.manifest_differences = {{"controller.ki", "1e-5", ""}};
   comparison::PointComparison point;
   point.label = "a | \"b\"";
-  point.measures = {reported_measure("success_rate", comparison::GateVerdict::regression),
-                    reported_measure("settling_time", comparison::GateVerdict::inconclusive),
-                    reported_measure("jerk_count", comparison::GateVerdict::not_measured),
-                    reported_measure("stable_rate", comparison::GateVerdict::passed)};
-  point.measures[1].trials_to_decide = 1234.0;
-  point.measures[1].decided_margin = 0.031;
-  comparison::RequirementResult requirement;
-  requirement.text = "success_rate ≥ 0.8";
-  requirement.quantity = "success_rate";
+  point.judgements = {reported_measure("success_rate", comparison::GateVerdict::regression),
+                      reported_measure("settling_time", comparison::GateVerdict::inconclusive),
+                      reported_measure("jerk_count", comparison::GateVerdict::not_measured),
+                      reported_measure("stable_rate", comparison::GateVerdict::passed)};
+  point.judgements[1].trials_to_decide = 1234.0;
+  point.judgements[1].decided_margin = 0.031;
+  comparison::Judgement requirement;
+  requirement.requirement = "success_rate ≥ 0.8";
+  requirement.measure = "success_rate";
   requirement.unit = "1";
   requirement.verdict = comparison::GateVerdict::passed;
-  point.requirements = {requirement};
+  point.judgements.push_back(requirement);
   comparison.points = {point};
   comparison.verdict = comparison::GateVerdict::regression;
   return comparison;
@@ -98,7 +98,7 @@ TEST(ComparisonReport, AnswersThatSpeakOfStabilitySayHowManyMovesAreUndecided) {
   EXPECT_EQ(document::text(answer_of(comparison)).find("undecided: "), std::string::npos);
   comparison.points[0].baseline_undecided = {.moves = 300, .off_target = 12, .still_falling = 9};
   comparison.points[0].current_undecided = {.moves = 280, .off_target = 4, .still_falling = 0};
-  comparison.points[0].measures[3].verdict = comparison::GateVerdict::inconclusive;  // the stable rate
+  comparison.points[0].judgements[3].verdict = comparison::GateVerdict::inconclusive;  // the stable rate
   comparison.notes = {"undecided in the file"};
   for (const std::string& text :
        {document::text(answer_of(comparison)), comparison::comparison_junit(comparison)}) {
@@ -114,7 +114,7 @@ TEST(ComparisonReport, AnswersThatSpeakOfStabilitySayHowManyMovesAreUndecided) {
 // A change for the better that fails is a failure in every form, and is not called a regression.
 TEST(ComparisonReport, AFailedImprovementIsAFailureAndNoRegression) {
   comparison::StudyComparison comparison = sample();
-  comparison.points[0].measures = {reported_measure("success_rate", comparison::GateVerdict::changed)};
+  comparison.points[0].judgements = {reported_measure("success_rate", comparison::GateVerdict::changed)};
   comparison.verdict = comparison.points[0].verdict = comparison::GateVerdict::changed;
   const auto json = document::json(answer_of(comparison));
   EXPECT_EQ(json["verdict"], "changed");
@@ -123,7 +123,7 @@ TEST(ComparisonReport, AFailedImprovementIsAFailureAndNoRegression) {
   EXPECT_EQ(json["counts"]["better"], 1);
   EXPECT_NE(comparison::comparison_junit(comparison).find("failures=\"1\""), std::string::npos);
   const std::string text = document::text(answer_of(comparison));
-  EXPECT_TRUE(text.starts_with("changed: 1 of 2 judgements failed (0 worse")) << text;
+  EXPECT_TRUE(text.starts_with("changed: 1 of 1 judgements failed (0 worse")) << text;
   EXPECT_EQ(text.find("regression"), std::string::npos) << text;
 }
 
@@ -170,15 +170,15 @@ TEST(ComparisonReport, JUnitIsNotGreenWhereNothingWasMeasured) {
 TEST(ComparisonReport, TheSentenceSaysWhatWouldDecide) {
   comparison::StudyComparison comparison = sample();
   comparison.verdict = comparison::GateVerdict::inconclusive;
-  comparison.points[0].measures.erase(comparison.points[0].measures.begin());
+  comparison.points[0].judgements.erase(comparison.points[0].judgements.begin());
   comparison.trials_to_decide = 5432.0;
   comparison.max_trials_to_decide = 9000.0;
   EXPECT_EQ(comparison::verdict_sentence(comparison),
             "inconclusive: 1 of 3 judgements are open; 5500 trials per design point would decide, with a "
             "probability of 80 %");
   comparison.trials_to_decide.reset();
-  comparison.points[0].measures[0].trials_to_decide.reset();
-  comparison.points[0].measures[0].max_trials_margin = 0.031;
+  comparison.points[0].judgements[0].trials_to_decide.reset();
+  comparison.points[0].judgements[0].max_trials_margin = 0.031;
   EXPECT_EQ(comparison::verdict_sentence(comparison),
             "inconclusive: 1 of 3 judgements are open; 9000 trials per design point would not decide: "
             "settling_time at a | \"b\" (margin 0.02 s; 0.031 s would be decided)");

@@ -4,13 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/comparison/point_judgements.hpp"
 
 namespace zerocount::testing {
 namespace {
 
-comparison::MeasureComparison measure(double effect, statistics::ConfidenceInterval bounds, double p) {
-  comparison::MeasureComparison one;
+comparison::Judgement measure(double effect, statistics::ConfidenceInterval bounds, double p) {
+  comparison::Judgement one;
   one.measure = "success_rate";
   one.effect = effect;
   one.bounds = bounds;
@@ -20,12 +21,12 @@ comparison::MeasureComparison measure(double effect, statistics::ConfidenceInter
   return one;
 }
 
-comparison::MeasureComparison decided(const comparison::MeasureComparison& one) {
+comparison::Judgement decided(const comparison::Judgement& one) {
   comparison::PointComparison point;
   point.baseline_trials = point.current_trials = 1000;
-  point.measures = {one};
-  comparison::decide({&point, 1}, {});
-  return point.measures.front();
+  point.judgements = {one};
+  comparison::decide(comparison::judgements_of({&point, 1}), {});
+  return point.judgements.front();
 }
 
 TEST(Verdict, PassesWhereTheBoundIsWithinTheMargin) {
@@ -57,26 +58,26 @@ TEST(Verdict, SaysInWhichDirectionAMeasureChanged) {
 
 // With a margin of 2 %; where every change fails, only equivalence passes.
 TEST(Verdict, WhereEveryChangeFailsAnImprovementFailsToo) {
-  comparison::MeasureComparison better = measure(-0.05, {-0.07, -0.03}, 1.0 - 1e-6);
+  comparison::Judgement better = measure(-0.05, {-0.07, -0.03}, 1.0 - 1e-6);
   EXPECT_EQ(decided(better).verdict, comparison::GateVerdict::passed);
   better.changed_fails = true;
   EXPECT_EQ(decided(better).verdict, comparison::GateVerdict::changed);
   EXPECT_EQ(decided(better).change, comparison::ChangeVerdict::better);
-  comparison::MeasureComparison worse = measure(0.05, {0.03, 0.07}, 1e-6);
+  comparison::Judgement worse = measure(0.05, {0.03, 0.07}, 1e-6);
   worse.changed_fails = true;
   EXPECT_EQ(decided(worse).verdict, comparison::GateVerdict::regression);
-  comparison::MeasureComparison open = measure(-0.015, {-0.03, 0.0}, 0.8);
+  comparison::Judgement open = measure(-0.015, {-0.03, 0.0}, 0.8);
   EXPECT_EQ(decided(open).verdict, comparison::GateVerdict::passed);
   open.changed_fails = true;
   EXPECT_EQ(decided(open).verdict, comparison::GateVerdict::inconclusive);
-  comparison::MeasureComparison same = measure(0.0, {-0.01, 0.01}, 0.5);
+  comparison::Judgement same = measure(0.0, {-0.01, 0.01}, 0.5);
   same.changed_fails = true;
   EXPECT_EQ(decided(same).verdict, comparison::GateVerdict::passed);
 }
 
 // Both directions together have the stated rate: each has half of it.
 TEST(Verdict, WhereEveryChangeFailsTheTestIsTwoSided) {
-  comparison::MeasureComparison worse = measure(0.05, {0.03, 0.07}, 0.03);
+  comparison::Judgement worse = measure(0.05, {0.03, 0.07}, 0.03);
   EXPECT_EQ(decided(worse).change, comparison::ChangeVerdict::worse);
   worse.changed_fails = true;
   EXPECT_EQ(decided(worse).change, comparison::ChangeVerdict::undecided);
@@ -86,17 +87,17 @@ TEST(Verdict, WhereEveryChangeFailsTheTestIsTwoSided) {
 
 TEST(Verdict, OneSmallValueAmongManyTestsIsNoDiscovery) {
   comparison::PointComparison point;
-  point.measures.assign(50, measure(0.0, {-0.01, 0.01}, 0.5));
-  point.measures[7] = measure(0.03, {0.002, 0.06}, 0.01);
-  const std::int64_t tests = comparison::decide({&point, 1}, {});
+  point.judgements.assign(50, measure(0.0, {-0.01, 0.01}, 0.5));
+  point.judgements[7] = measure(0.03, {0.002, 0.06}, 0.01);
+  const std::int64_t tests = comparison::decide(comparison::judgements_of({&point, 1}), {});
   EXPECT_EQ(tests, 50);
-  EXPECT_EQ(point.measures[7].verdict, comparison::GateVerdict::inconclusive);
+  EXPECT_EQ(point.judgements[7].verdict, comparison::GateVerdict::inconclusive);
   EXPECT_EQ(decided(measure(0.03, {0.002, 0.06}, 0.01)).verdict,
             comparison::GateVerdict::regression);  // by itself it is
 }
 
 TEST(Verdict, WhatWasNotMeasuredCountsNeitherWay) {
-  comparison::MeasureComparison nothing;
+  comparison::Judgement nothing;
   EXPECT_EQ(decided(nothing).verdict, comparison::GateVerdict::not_measured);
   const std::vector<comparison::GateVerdict> both{comparison::GateVerdict::not_measured,
                                                   comparison::GateVerdict::passed};
@@ -128,10 +129,10 @@ comparison::GateVerdict verdict_on(const comparison::PointTrials& before,
   comparison::PointComparison point;
   point.baseline_trials = before.trials;
   point.current_trials = after.trials;
-  point.measures = comparison::compare_measures({}, "", before, after, paired);
-  comparison::decide({&point, 1}, {});
+  point.judgements = comparison::compare_measures({}, "", {before, after, paired});
+  comparison::decide(comparison::judgements_of({&point, 1}), {});
   std::vector<comparison::GateVerdict> verdicts;
-  for (const comparison::MeasureComparison& one : point.measures) verdicts.push_back(one.verdict);
+  for (const comparison::Judgement& one : point.judgements) verdicts.push_back(one.verdict);
   return comparison::worst_of(verdicts);
 }
 
@@ -150,7 +151,7 @@ TEST(Evidence, TrialsThatNoLongerArriveFailByTheirArrivalAndNotByTheirTimes) {
   std::fill(after.values["arrival_rate"].begin(), after.values["arrival_rate"].end(), false);
   std::fill(after.values["settling_time"].begin(), after.values["settling_time"].end(), std::nan(""));
   for (const bool paired : {false, true}) {
-    const auto measures = comparison::compare_measures({}, "", agreeing(500), after, paired);
+    const auto measures = comparison::compare_measures({}, "", {agreeing(500), after, paired});
     EXPECT_TRUE(std::isnan(measures[3].p));
     EXPECT_EQ(verdict_on(agreeing(500), after, paired), comparison::GateVerdict::regression);
   }
@@ -166,7 +167,7 @@ TEST(Evidence, MovesAreComparedWithTheirPartners) {
     before.values["settling_time"].insert(before.values["settling_time"].end(), {0.01, 0.5});
     after.values["settling_time"].insert(after.values["settling_time"].end(), {0.02, std::nan("")});
   }
-  const auto measures = comparison::compare_measures({}, "", before, after, true);
+  const auto measures = comparison::compare_measures({}, "", {before, after, true});
   EXPECT_NEAR(measures[3].effect, 0.01, 1e-15);
   EXPECT_EQ(measures[3].baseline_n, 100);
   EXPECT_NEAR(measures[3].baseline, 0.01, 1e-15);

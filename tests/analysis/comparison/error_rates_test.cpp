@@ -6,7 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/comparison/point_judgements.hpp"
 #include "tests/analysis/comparison/synthetic_trials.hpp"
 
 namespace zerocount::testing {
@@ -26,22 +27,22 @@ std::vector<comparison::PointComparison> compare_once(
   for (const SyntheticPoint& point : points) {
     comparison::PointComparison one;
     one.baseline_trials = one.current_trials = count;
-    one.measures = comparison::compare_measures(rules, "", synthetic_trials(point, before),
-                                                synthetic_trials(change(point), after), paired);
+    one.judgements = comparison::compare_measures(
+        rules, "", {synthetic_trials(point, before), synthetic_trials(change(point), after), paired});
     compared.push_back(std::move(one));
   }
-  comparison::decide(compared, rules);
+  comparison::decide(comparison::judgements_of(compared), rules);
   return compared;
 }
 
 bool any(const std::vector<comparison::PointComparison>& compared,
-         const std::function<bool(const comparison::MeasureComparison&)>& is) {
+         const std::function<bool(const comparison::Judgement&)>& is) {
   return std::any_of(compared.begin(), compared.end(), [&](const comparison::PointComparison& point) {
-    return std::any_of(point.measures.begin(), point.measures.end(), is);
+    return std::any_of(point.judgements.begin(), point.judgements.end(), is);
   });
 }
 
-bool failed(const comparison::MeasureComparison& measure) {
+bool failed(const comparison::Judgement& measure) {
   return measure.verdict == comparison::GateVerdict::regression;
 }
 
@@ -69,7 +70,7 @@ void expect_false_alarms_as_stated(bool paired, int comparisons) {
   for (int i = 0; i < comparisons; ++i) {
     const auto compared = compare_once(random, paired, rules, unchanged);
     alarms += any(compared, failed);
-    improvements += any(compared, [](const comparison::MeasureComparison& m) {
+    improvements += any(compared, [](const comparison::Judgement& m) {
       return m.change == comparison::ChangeVerdict::better;
     });
   }
@@ -107,8 +108,8 @@ void expect_a_change_of_the_margin_to_fail(bool paired, int comparisons) {
     const auto compared = compare_once(random, paired, rules, [](SyntheticPoint point) {
       return SyntheticPoint{point.success - 0.05, 1.2 * point.settling, point.jerks};
     });
-    passed[0] += compared[1].measures[0].verdict == comparison::GateVerdict::passed;
-    passed[1] += compared[1].measures[3].verdict == comparison::GateVerdict::passed;
+    passed[0] += compared[1].judgements[0].verdict == comparison::GateVerdict::passed;
+    passed[1] += compared[1].judgements[3].verdict == comparison::GateVerdict::passed;
   }
   const double allowed = 0.05 + 2.5 * std::sqrt(0.05 * 0.95 / comparisons);
   ::testing::Test::RecordProperty("passed_success", passed[0]);
@@ -145,8 +146,8 @@ TEST_P(NullComparisons, AnImprovementIsReportedAndNoFailure) {
       },
       1000);
   EXPECT_FALSE(any(compared, failed));
-  EXPECT_EQ(compared[2].measures[0].change, comparison::ChangeVerdict::better);
-  EXPECT_EQ(compared[2].measures[0].verdict, comparison::GateVerdict::passed);
+  EXPECT_EQ(compared[2].judgements[0].change, comparison::ChangeVerdict::better);
+  EXPECT_EQ(compared[2].judgements[0].verdict, comparison::GateVerdict::passed);
 }
 
 // The second point alone changes, and only in its rates.
@@ -155,7 +156,7 @@ void expect_the_detectable_to_be_found(bool paired, int comparisons) {
   constexpr std::int64_t count = 400;
   double detectable = 0.0;
   for (int i = 0; i < 20; ++i)
-    detectable += compare_once(random, paired, {}, unchanged, count)[1].measures[0].detectable_change / 20.0;
+    detectable += compare_once(random, paired, {}, unchanged, count)[1].judgements[0].detectable_change / 20.0;
   EXPECT_GT(detectable, 0.02);
   int found = 0;
   for (int i = 0; i < comparisons; ++i) {
@@ -166,7 +167,7 @@ void expect_the_detectable_to_be_found(bool paired, int comparisons) {
           return point;
         },
         count);
-    found += failed(compared[1].measures[0]);
+    found += failed(compared[1].judgements[0]);
   }
   ::testing::Test::RecordProperty("found", found);
   EXPECT_GE(found, comparisons * 0.7);

@@ -13,7 +13,6 @@
 namespace zerocount::testing {
 namespace {
 
-using comparison::ForecastPoint;
 using comparison::GateRules;
 using comparison::GateVerdict;
 
@@ -37,17 +36,27 @@ PairTrials trials_of(const StudyPair& pair, std::int64_t count) {
   return {before, pair.paired ? redraw_some(other, before, 0.2) : draw_chances(other, count)};
 }
 
-comparison::ForecastSamples samples_of(const std::vector<ForecastPoint>& points, bool one_sample = false) {
-  const comparison::MeasureSample& first = points.front().measures.front();
+/// What a forecast needs of a point.
+struct SampledPoint {
+  std::int64_t trials{0};
+  std::vector<two_samples::Sample> samples{};
+  std::vector<comparison::TestedMeasure> found{};
+};
+
+comparison::ForecastSamples samples_of(const std::vector<SampledPoint>& points, bool one_sample = false) {
+  const two_samples::Sample& first = points.front().samples.front();
   comparison::ForecastSamples samples({std::ssize(first.baseline), std::ssize(first.current)}, one_sample);
-  for (const ForecastPoint& point : points) samples.add(point);
+  for (const SampledPoint& point : points) {
+    samples.add_point(point.trials, point.trials);
+    for (std::size_t k = 0; k < point.found.size(); ++k) samples.add(point.found[k], point.samples[k]);
+  }
   return samples;
 }
 
 /// A comparison, and what a forecast needs of it.
 struct Compared {
   GateVerdict verdict{GateVerdict::inconclusive};
-  std::vector<ForecastPoint> points;
+  std::vector<SampledPoint> points;
 };
 
 Compared compare(const StudyPair& pair, const PairTrials& trials, const GateRules& rules) {
@@ -57,22 +66,20 @@ Compared compare(const StudyPair& pair, const PairTrials& trials, const GateRule
     const comparison::PointTrials before = synthetic_trials(pair.before[i], trials.before);
     const comparison::PointTrials after = synthetic_trials(pair.after[i], trials.after);
     comparison::PointComparison& point = compared.emplace_back();
-    point.measures = comparison::compare_measures(rules, "", before, after, pair.paired);
-    const auto samples = comparison::measure_samples(rules, point.measures, before, after, pair.paired);
-    ForecastPoint& forecast = result.points.emplace_back();
-    forecast.baseline_trials = forecast.current_trials = before.trials;
+    point.judgements = comparison::compare_measures(rules, "", {before, after, pair.paired});
+    const auto samples = comparison::measure_samples(rules, point.judgements, {before, after, pair.paired});
+    SampledPoint& sampled = result.points.emplace_back();
+    sampled.trials = before.trials;
     for (std::size_t k = 0; k < samples.size(); ++k) {
-      const comparison::MeasureComparison& one = point.measures[k];
-      if (std::isnan(one.p)) continue;
-      forecast.measures.push_back(samples[k]);
-      forecast.found.push_back(
-          {one.effect, one.bounds, one.margin, one.changed_fails, one.p, one.improvement_p});
+      if (std::isnan(point.judgements[k].p)) continue;
+      sampled.samples.push_back(samples[k]);
+      sampled.found.emplace_back(point.judgements[k]);
     }
   }
-  comparison::decide(compared, rules);
+  comparison::decide(comparison::judgements_of(compared), rules);
   std::vector<GateVerdict> verdicts;
   for (const auto& point : compared) {
-    for (const auto& measure : point.measures) verdicts.push_back(measure.verdict);
+    for (const auto& measure : point.judgements) verdicts.push_back(measure.verdict);
   }
   result.verdict = comparison::worst_of(verdicts);
   return result;

@@ -6,14 +6,14 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/comparison/measure_comparison.hpp"
-#include "analysis/two_samples/quantile_tests.hpp"
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/comparison/point_judgements.hpp"
 
 namespace zerocount::testing {
 namespace {
 
 using comparison::ChangeVerdict;
-using comparison::MeasureComparison;
+using comparison::Judgement;
 using comparison::PointTrials;
 
 /// How the machines of a study settle, and how many moves are seen of each.
@@ -63,12 +63,12 @@ PointTrials settled_trials(const Machines& machines, unsigned draws, unsigned ag
   return comparison::gather_trials(outcomes, machines.moves, also);
 }
 
-std::vector<MeasureComparison> compare_settled(const PointTrials& before, const PointTrials& after,
-                                               bool paired, const comparison::GateRules& rules = {}) {
+std::vector<Judgement> compare_settled(const PointTrials& before, const PointTrials& after, bool paired,
+                                       const comparison::GateRules& rules = {}) {
   std::vector<comparison::PointComparison> points(1);
-  points[0].measures = comparison::compare_measures(rules, "", before, after, paired);
-  comparison::decide(points, rules);
-  return points[0].measures;
+  points[0].judgements = comparison::compare_measures(rules, "", {before, after, paired});
+  comparison::decide(comparison::judgements_of(points), rules);
+  return points[0].judgements;
 }
 
 /// Studies whose trials are independent, have several moves, or share rigs; paired or not.
@@ -86,9 +86,9 @@ std::vector<Layer> layers() {
   return all;
 }
 
-std::vector<std::string> measure_names(const std::vector<MeasureComparison>& measures) {
+std::vector<std::string> measure_names(const std::vector<Judgement>& measures) {
   std::vector<std::string> names;
-  for (const MeasureComparison& measure : measures) names.push_back(measure.measure);
+  for (const Judgement& measure : measures) names.push_back(measure.measure);
   return names;
 }
 
@@ -97,7 +97,7 @@ TEST(GoalMeasures, AreJudgedInPlaceOfTheOthersUnlessTheRulesNameThese) {
   const PointTrials of_moves = settled_trials({}, 1);
   const PointTrials of_machines = settled_trials({.rigs = 50}, 1);
   const auto names = [](const comparison::GateRules& rules, const PointTrials& trials) {
-    return measure_names(comparison::compare_measures(rules, "a", trials, trials, true));
+    return measure_names(comparison::compare_measures(rules, "a", {trials, trials, true}));
   };
   EXPECT_EQ(names({}, of_moves), (Names{"goal_rate", "goal_settling_time"}));
   EXPECT_EQ(names({}, of_machines), (Names{"goal_rate", "goal_machines", "goal_settling_time"}));
@@ -151,7 +151,7 @@ TEST(GoalMeasures, BoundTheDifferenceOfTheTimesAsOftenAsStated) {
     Machines later = machines;
     later.shift = shift;
     for (unsigned seed = 1; seed <= comparisons; ++seed) {
-      const MeasureComparison time =
+      const Judgement time =
           compare_settled(settled_trials(machines, seed),
                           paired ? settled_trials(later, seed, seed) : settled_trials(later, 1000 + seed),
                           paired)
@@ -189,18 +189,16 @@ TEST(GoalMeasures, AMoveThatNeverSettlesIsLaterThanAnyTime) {
   const Machines settling{.trials = 2000, .never = 0.03};
   Machines lost = settling;
   lost.never = 0.08;
-  const MeasureComparison worse =
-      compare_settled(settled_trials(settling, 1), settled_trials(lost, 2), false).back();
+  const Judgement worse = compare_settled(settled_trials(settling, 1), settled_trials(lost, 2), false).back();
   EXPECT_TRUE(std::isfinite(worse.baseline));
   EXPECT_EQ(worse.current, infinity);
   EXPECT_EQ(worse.effect, infinity);
   EXPECT_EQ(worse.change, ChangeVerdict::worse);
-  const MeasureComparison better =
+  const Judgement better =
       compare_settled(settled_trials(lost, 2), settled_trials(settling, 1), false).back();
   EXPECT_EQ(better.effect, -infinity);
   EXPECT_EQ(better.change, ChangeVerdict::better);
-  const MeasureComparison neither =
-      compare_settled(settled_trials(lost, 1), settled_trials(lost, 2), false).back();
+  const Judgement neither = compare_settled(settled_trials(lost, 1), settled_trials(lost, 2), false).back();
   EXPECT_EQ(neither.verdict, comparison::GateVerdict::not_measured);
 }
 
@@ -209,8 +207,8 @@ TEST(GoalMeasures, JudgeMachinesByAsManyMovesOfEach) {
   const Machines few{.rigs = 200, .trials = 400};
   Machines many = few;
   many.trials = 4000;
-  const auto of_machines = [](const std::vector<MeasureComparison>& all) { return all[1]; };
-  const MeasureComparison found =
+  const auto of_machines = [](const std::vector<Judgement>& all) { return all[1]; };
+  const Judgement found =
       of_machines(compare_settled(settled_trials(many, 1), settled_trials(few, 2), false));
   EXPECT_NE(found.note.find("first 2 trials on each"), std::string::npos) << found.note;
   EXPECT_NEAR(found.effect, 0.0, 0.1);

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/comparison/gate_rules.hpp"
-#include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/comparison/point_judgements.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::testing {
@@ -26,8 +26,8 @@ comparison::PointTrials with_successes(std::int64_t successes, std::int64_t tria
   return all;
 }
 
-comparison::RequirementResult judged(const std::string& text, const comparison::PointTrials& trials,
-                                     double failing = 0.95) {
+comparison::Judgement judged(const std::string& text, const comparison::PointTrials& trials,
+                             double failing = 0.95) {
   const comparison::GateRules rules = comparison::parse_gate_rules("require: '" + text + "'\n", "m.yaml", {});
   return comparison::judge_requirement(rules.requirements.front(), trials, 0.95, failing);
 }
@@ -36,9 +36,9 @@ comparison::RequirementResult judged(const std::string& text, const comparison::
 TEST(Requirement, IsShownByTheLowerBound) {
   EXPECT_EQ(judged("success_rate ≥ 0.995", with_successes(598, 598)).verdict,
             comparison::GateVerdict::passed);
-  const comparison::RequirementResult open = judged("success_rate >= 0.995", with_successes(597, 597));
+  const comparison::Judgement open = judged("success_rate >= 0.995", with_successes(597, 597));
   EXPECT_EQ(open.verdict, comparison::GateVerdict::inconclusive);
-  EXPECT_EQ(open.value, 1.0);
+  EXPECT_EQ(open.current, 1.0);
 }
 
 TEST(Requirement, IsContradictedByTheUpperBound) {
@@ -63,10 +63,10 @@ TEST(Requirement, ManyOfThemMustBeContradictedMoreStrictly) {
 TEST(Requirement, AQuantileCountsTrialsThatNeverSettle) {
   EXPECT_EQ(judged("settling_time.p95 ≤ 0.5", with_successes(500, 500)).verdict,
             comparison::GateVerdict::passed);
-  const comparison::RequirementResult late = judged("settling_time.p95 ≤ 0.5", with_successes(400, 500));
+  const comparison::Judgement late = judged("settling_time.p95 ≤ 0.5", with_successes(400, 500));
   EXPECT_EQ(late.verdict, comparison::GateVerdict::regression);
-  EXPECT_EQ(late.value, std::numeric_limits<double>::infinity());
-  EXPECT_NEAR(judged("settling_time.median ≤ 0.3", with_successes(400, 500)).value, 0.250, 1e-12);
+  EXPECT_EQ(late.current, std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(judged("settling_time.median ≤ 0.3", with_successes(400, 500)).current, 0.250, 1e-12);
 }
 
 TEST(Requirement, TheMeanOfTheJerksHasBoundsOfItsOwn) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/comparison/point_judgements.hpp"
 
 namespace zerocount::comparison {
 namespace {
@@ -36,7 +36,7 @@ int false_alarms(int comparisons, bool as_if_independent) {
     PointTrials before = trials_on_rigs(30, 600, random);
     PointTrials after = trials_on_rigs(30, 600, random);
     if (as_if_independent) before.rigs = after.rigs = 0;
-    alarms += compare_measures({}, "", before, after, false).front().p <= 0.05;
+    alarms += compare_measures({}, "", {before, after, false}).front().p <= 0.05;
   }
   return alarms;
 }
@@ -55,7 +55,7 @@ TEST(ComparisonOverRigs, FindsRigsThatFailNow) {
   for (std::size_t trial = 0; trial < 1200; ++trial) {
     if (trial % 60 < 20) after.values["success_rate"][trial] = false;
   }
-  const MeasureComparison success = compare_measures({}, "", before, after, true).front();
+  const Judgement success = compare_measures({}, "", {before, after, true}).front();
   EXPECT_EQ(success.current_n, 60);  // rigs
   EXPECT_LT(success.p, 1e-3);
   EXPECT_GT(success.effect, 0.15);
@@ -67,11 +67,11 @@ TEST(ComparisonOverRigs, RequirementsHaveBoundsOverRigs) {
   PointTrials trials = trials_on_rigs(40, 4000, random);
   const RequirableQuantity success = find_requirable("success_rate").value();
   const Requirement requirement{.text = "", .quantity = success, .at_least = true, .limit = 0.6};
-  const RequirementResult over_rigs = judge_requirement(requirement, trials, 0.95, 0.95);
+  const Judgement over_rigs = judge_requirement(requirement, trials, 0.95, 0.95);
   trials.rigs = 0;
-  const RequirementResult plain = judge_requirement(requirement, trials, 0.95, 0.95);
-  EXPECT_EQ(over_rigs.value, plain.value);
-  EXPECT_GT(over_rigs.value - over_rigs.bounds.low, 2.0 * (plain.value - plain.bounds.low));
+  const Judgement plain = judge_requirement(requirement, trials, 0.95, 0.95);
+  EXPECT_EQ(over_rigs.current, plain.current);
+  EXPECT_GT(over_rigs.current - over_rigs.bounds.low, 2.0 * (plain.current - plain.bounds.low));
 }
 
 }  // namespace

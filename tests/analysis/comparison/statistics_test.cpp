@@ -5,10 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/comparison/measure_comparison.hpp"
-#include "analysis/two_samples/mean_tests.hpp"
-#include "analysis/two_samples/proportion_tests.hpp"
-#include "analysis/two_samples/rank_tests.hpp"
+#include "analysis/comparison/point_judgements.hpp"
+#include "analysis/two_samples/exact_tests.hpp"
+#include "analysis/two_samples/sample.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/comparison/point_judgements.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/sensitivity/trial_outputs.hpp"
 #include "analysis/summary/study_statistics.hpp"
@@ -137,8 +137,8 @@ TEST_F(AddedMeasure, IsJudgedByTheGate) {
   comparison::PointTrials after = before;
   for (double& reserve : after.values.at("torque_reserve")) reserve -= 0.01;
   for (const bool paired : {true, false}) {
-    const std::vector<comparison::MeasureComparison> measures =
-        comparison::compare_measures({}, "", before, after, paired);
+    const std::vector<comparison::Judgement> measures =
+        comparison::compare_measures({}, "", {before, after, paired});
     ASSERT_EQ(measures.back().measure, "torque_reserve");
     EXPECT_EQ(measures.back().unit, "N m");
     EXPECT_NEAR(measures.back().baseline, mean_reserve(), 1e-12);
@@ -169,11 +169,11 @@ TEST(AddedQuality, IsJudgedByTheTrialsThatHaveItWhereMoreIsWorse) {
   for (std::size_t i = 0; i < 30; ++i) moves[i].broke_away = true;
   const comparison::PointTrials after = comparison::gather_trials(moves, 1, table);
   for (const bool paired : {true, false}) {
-    const std::vector<comparison::MeasureComparison> measures =
-        comparison::compare_measures({}, "", before, after, paired);
-    const auto found = std::find_if(
-        measures.begin(), measures.end(),
-        [](const comparison::MeasureComparison& one) { return one.measure == "breakaway_rate"; });
+    const std::vector<comparison::Judgement> measures =
+        comparison::compare_measures({}, "", {before, after, paired});
+    const auto found = std::find_if(measures.begin(), measures.end(), [](const comparison::Judgement& one) {
+      return one.measure == "breakaway_rate";
+    });
     ASSERT_NE(found, measures.end());
     EXPECT_EQ(found->baseline, 0.0);
     EXPECT_EQ(found->current, 0.3);

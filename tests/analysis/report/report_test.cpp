@@ -244,7 +244,7 @@ TEST_F(Report, ShowsAllMeasuresAgainstTheirMargins) {
   const Figure& figure = find_figure(page, "margins");
   std::size_t measured = 0;
   for (const comparison::PointComparison& point : options.comparison->points) {
-    for (const comparison::MeasureComparison& measure : point.measures)
+    for (const comparison::Judgement& measure : point.judgements)
       measured += measure.change != comparison::ChangeVerdict::not_measured;
   }
   ASSERT_EQ(figure.data.front().rows.size(), std::min<std::size_t>(measured, 60));

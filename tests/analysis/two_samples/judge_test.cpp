@@ -8,9 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/two_samples/mean_tests.hpp"
-#include "analysis/two_samples/proportion_tests.hpp"
-#include "analysis/two_samples/rank_tests.hpp"
+#include "analysis/two_samples/exact_tests.hpp"
+#include "analysis/two_samples/sample.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::testing {

@@ -8,7 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/comparison/measure_comparison.hpp"
+#include "analysis/comparison/comparison.hpp"
+#include "analysis/comparison/point_judgements.hpp"
 #include "analysis/comparison/point_trials.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "runners/trials/trial_runner.hpp"
@@ -64,12 +65,12 @@ comparison::GateVerdict verdict_on(const std::vector<std::string>& change, const
   std::vector<comparison::PointComparison> points(before.size());
   for (std::size_t point = 0; point < points.size(); ++point) {
     points[point].baseline_trials = points[point].current_trials = trials;
-    points[point].measures = comparison::compare_measures(rules, "", before[point], after[point], true);
+    points[point].judgements = comparison::compare_measures(rules, "", {before[point], after[point], true});
   }
-  comparison::decide(points, rules);
+  comparison::decide(comparison::judgements_of(points), rules);
   std::vector<comparison::GateVerdict> verdicts;
   for (const comparison::PointComparison& point : points) {
-    for (const comparison::MeasureComparison& measure : point.measures) verdicts.push_back(measure.verdict);
+    for (const comparison::Judgement& measure : point.judgements) verdicts.push_back(measure.verdict);
   }
   return comparison::worst_of(verdicts);
 }
@@ -130,14 +131,14 @@ TEST(GatePower, RaisesNoMoreFalseAlarmsThanStatedOnRealTrials) {
     std::shuffle(lot.begin(), lot.end(), random);
     std::vector<comparison::PointComparison> points(all.size());
     for (std::size_t point = 0; point < points.size(); ++point) {
-      points[point].measures =
-          comparison::compare_measures(rules, "", some_of(all[point], lot, 0, trials / 2),
-                                       some_of(all[point], lot, trials / 2, trials / 2), false);
+      points[point].judgements = comparison::compare_measures(
+          rules, "",
+          {some_of(all[point], lot, 0, trials / 2), some_of(all[point], lot, trials / 2, trials / 2), false});
     }
-    comparison::decide(points, rules);
+    comparison::decide(comparison::judgements_of(points), rules);
     alarms += std::any_of(points.begin(), points.end(), [](const comparison::PointComparison& point) {
-      return std::any_of(point.measures.begin(), point.measures.end(),
-                         [](const comparison::MeasureComparison& one) {
+      return std::any_of(point.judgements.begin(), point.judgements.end(),
+                         [](const comparison::Judgement& one) {
                            return one.verdict == comparison::GateVerdict::regression;
                          });
     });

@@ -1,25 +1,15 @@
+#include "analysis/comparison/judgement.hpp"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <string>
-#include <vector>
 
-#include "analysis/comparison/measure_comparison.hpp"
 #include "analysis/statistics/distributions.hpp"
 
 namespace zerocount::comparison {
 namespace {
-
-std::vector<MeasureComparison*> tested_measures(std::span<PointComparison> points) {
-  std::vector<MeasureComparison*> tested;
-  for (PointComparison& point : points) {
-    for (MeasureComparison& measure : point.measures) {
-      if (!std::isnan(measure.p)) tested.push_back(&measure);
-    }
-  }
-  return tested;
-}
 
 constexpr int detectable_steps = 40;  ///< of a fixed-point iteration that halves its error or better
 
@@ -64,13 +54,25 @@ ChangeVerdict change_of(const TestedMeasure& measure, double rate) {
 }
 
 /// The reason why a measure does not decide.
-std::string reason_of(const MeasureComparison& measure) {
+std::string reason_of(const TestedMeasure& measure) {
   const bool beyond =
       measure.effect > measure.margin || (measure.changed_fails && -measure.effect > measure.margin);
   return beyond ? "beyond the margin, but not significantly" : "not shown to be within the margin";
 }
 
 }  // namespace
+
+std::string_view to_string(GateVerdict verdict) {
+  constexpr std::array<std::string_view, 5> words{"regression", "changed", "inconclusive", "passed",
+                                                  "not measured"};
+  return words[static_cast<std::size_t>(verdict)];
+}
+
+std::string_view to_string(ChangeVerdict change) {
+  constexpr std::array<std::string_view, 6> words{"worse",     "better",    "equivalent",
+                                                  "not worse", "undecided", "not measured"};
+  return words[static_cast<std::size_t>(change)];
+}
 
 GateVerdict gate_verdict(ChangeVerdict change, bool changed_fails) {
   switch (change) {
@@ -103,7 +105,11 @@ double standard_error_of(const statistics::ConfidenceInterval& bounds, double co
   return bounds.half_width() / statistics::normal_quantile(confidence);
 }
 
-double detectable_change(const MeasureComparison& measure, const GateRules& rules, std::size_t tests) {
+double largest_possible_change(const TestedMeasure& measure) {
+  return measure.changed_fails ? std::max(measure.bounds.high, -measure.bounds.low) : measure.bounds.high;
+}
+
+double detectable_change(const Judgement& measure, const GateRules& rules, std::size_t tests) {
   if (!has_finite_bounds(measure)) return statistics::unknown;
   const double error = standard_error_of(measure.bounds, rules.confidence);
   const double rate = rules.false_discovery_rate / (measure.changed_fails ? 2.0 : 1.0);
@@ -124,19 +130,21 @@ void decide(std::span<TestedMeasure> tested, double rate) {
   for (TestedMeasure& measure : tested) measure.change = change_of(measure, rate);
 }
 
-std::int64_t decide(std::span<PointComparison> points, const GateRules& rules) {
-  const std::vector<MeasureComparison*> measures = tested_measures(points);
+std::int64_t decide(std::span<Judgement* const> measures, const GateRules& rules) {
+  std::vector<Judgement*> judged;
   std::vector<TestedMeasure> tested;
-  tested.reserve(measures.size());
-  for (const MeasureComparison* measure : measures) tested.push_back(*measure);
+  for (Judgement* const measure : measures) {
+    if (std::isnan(measure->p)) continue;
+    judged.push_back(measure);
+    tested.push_back(*measure);
+  }
   decide(tested, rules.false_discovery_rate);
   for (std::size_t i = 0; i < tested.size(); ++i) {
-    MeasureComparison& measure = *measures[i];
+    Judgement& measure = *judged[i];
     static_cast<TestedMeasure&>(measure) = tested[i];
     measure.detectable_change = detectable_change(measure, rules, tested.size());
     measure.verdict = gate_verdict(measure.change, measure.changed_fails);
-    if (measure.verdict == GateVerdict::inconclusive)
-      measure.note = (measure.note.empty() ? "" : measure.note + "; ") + reason_of(measure);
+    if (measure.is_open()) measure.note += (measure.note.empty() ? "" : "; ") + reason_of(measure);
   }
   return std::ssize(tested);
 }

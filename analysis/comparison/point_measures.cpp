@@ -1,0 +1,262 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "analysis/comparison/point_judgements.hpp"
+#include "analysis/two_samples/quantile.hpp"
+
+namespace zerocount::comparison {
+namespace {
+
+using two_samples::QuantileSample;
+using two_samples::Sample;
+
+/// A value so that larger is worse, and back: of a quality of which less is worse, its lack.
+double worsened(const GateMeasure& measure, double value) {
+  if (measure.worse == layout::Worse::more) return value;
+  return measure.proportion() ? 1.0 - value : -value;
+}
+
+/// Whether trials share rigs, or worlds that take their place.
+bool over_rigs(const BothTrials& trials) {
+  return trials.baseline.rigs > 0 || trials.current.rigs > 0;
+}
+
+/// The values of both [trial], of pairs over the moves that have one in both; NaN where no move has.
+Sample values_of_pairs(const BothTrials& trials, const GateMeasure& measure) {
+  Sample sample{.paired = true};
+  const std::vector<double>& before = trials.baseline.of(measure);
+  const std::vector<double>& after = trials.current.of(measure);
+  const auto count = static_cast<std::size_t>(trials.baseline.trials);
+  const std::size_t before_width = before.size() / count;
+  const std::size_t after_width = after.size() / count;
+  for (std::size_t trial = 0; trial < count; ++trial) {
+    double one = 0.0;
+    double two = 0.0;
+    double moves = 0.0;
+    for (std::size_t move = 0; move < std::min(before_width, after_width); ++move) {
+      const double old_value = before[trial * before_width + move];
+      const double new_value = after[trial * after_width + move];
+      if (std::isnan(old_value) || std::isnan(new_value)) continue;
+      one += old_value;
+      two += new_value;
+      moves += 1.0;
+    }
+    sample.baseline.push_back(one / moves);
+    sample.current.push_back(two / moves);
+    sample.differences.push_back((two - one) / moves);
+  }
+  return sample;
+}
+
+/// Machines are judged by the moves that were seen of each, so both files must show as many: the trials on
+/// each rig that both have.
+std::int64_t common_trials_of_rig(const BothTrials& trials, std::size_t goal) {
+  const auto of_rig = [goal](const PointTrials& all) {
+    return all.trials / std::max<std::int64_t>(all.judged[goal].rigs, 1);
+  };
+  return std::min(of_rig(trials.baseline), of_rig(trials.current));
+}
+
+/// 1 for each rig that meets the goal in Goal::moves of its moves in its first `trials_of_rig`, else 0,
+/// [rig].
+std::vector<double> rigs_in_goal(const PointTrials& trials, const GoalTrials& goal,
+                                 std::int64_t trials_of_rig) {
+  const auto rigs = static_cast<std::size_t>(goal.rigs);
+  std::vector<double> met(rigs, 0.0);
+  for (std::size_t trial = 0; trial < rigs * static_cast<std::size_t>(trials_of_rig); ++trial)
+    met[trial % rigs] += goal.moves_in_goal[trial];
+  const auto moves = static_cast<double>(trials_of_rig * goal.asked_moves(trials.moves));
+  for (double& of_rig : met) of_rig = of_rig >= goal.goal.moves * moves ? 1.0 : 0.0;
+  return met;
+}
+
+/// The proportion of the moves of each trial that meet the goal, [trial].
+std::vector<double> moves_in_goal(const PointTrials& trials, const GoalTrials& goal) {
+  std::vector<double> met = goal.moves_in_goal;
+  for (double& value : met) value /= static_cast<double>(goal.asked_moves(trials.moves));
+  return met;
+}
+
+/// The clusters in which the values of a file are: the number of rigs or worlds, 0 where each is independent.
+std::int64_t clusters_of(const PointTrials& trials, const GateMeasure& measure) {
+  const bool of_rigs =
+      measure.statistic == GateStatistic::machines && trials.rigs == trials.judged[measure.goal].rigs;
+  return of_rigs ? 0 : trials.rigs;
+}
+
+/// Whether the values of a proportion are independent, and each 0 or 1.
+bool are_whole(const PointTrials& trials, const GateMeasure& measure) {
+  return measure.proportion() && clusters_of(trials, measure) == 0 &&
+         (measure.statistic != GateStatistic::moves ||
+          trials.judged[measure.goal].asked_moves(trials.moves) == 1);
+}
+
+/// The value of each trial; of machines, of each rig.
+Sample values_of_both(const BothTrials& trials, const GateMeasure& measure) {
+  if (!measure.proportion() && trials.paired) return values_of_pairs(trials, measure);
+  const auto values = [&](const PointTrials& all) {
+    switch (measure.statistic) {
+      case GateStatistic::moves:
+        return moves_in_goal(all, all.judged[measure.goal]);
+      case GateStatistic::machines:
+        return rigs_in_goal(all, all.judged[measure.goal], common_trials_of_rig(trials, measure.goal));
+      case GateStatistic::trials:
+      case GateStatistic::mean:
+      case GateStatistic::quantile:
+        break;
+    }
+    return values_of_trials(all, measure);
+  };
+  return {.paired = trials.paired, .baseline = values(trials.baseline), .current = values(trials.current)};
+}
+
+/// Plausible difference of a single trial, the `unit` of cautious_bounds(): 1 for counts and proportions; for
+/// times the larger of both means, or 1 ms without one.
+double plausible_difference(const GateMeasure& measure, const Sample& sample) {
+  if (measure.proportion() || measure.measure->field.column.element != hdf5::Element::float64) return 1.0;
+  const auto mean = [](const std::vector<double>& values) {
+    return std::abs(two_samples::mean_of(two_samples::known(values)));
+  };
+  const double value = std::max(mean(sample.baseline), mean(sample.current));
+  return value > 0.0 ? value : 1e-3;
+}
+
+/// The values of the independent units.
+Sample sample_of(const BothTrials& trials, const GateMeasure& measure) {
+  Sample sample = values_of_both(trials, measure);
+  sample.failures = are_whole(trials.baseline, measure) && are_whole(trials.current, measure);
+  for (std::vector<double>* values : {&sample.baseline, &sample.current}) {
+    for (double& value : *values) value = worsened(measure, value);
+  }
+  if (measure.proportion()) {
+    for (std::size_t i = 0; trials.paired && i < sample.current.size(); ++i)
+      sample.differences.push_back(sample.current[i] - sample.baseline[i]);
+  } else {
+    for (double& difference : sample.differences) difference = worsened(measure, difference);
+  }
+  sample.baseline = means_of_units(sample.baseline, clusters_of(trials.baseline, measure));
+  sample.current = means_of_units(sample.current, clusters_of(trials.current, measure));
+  sample.differences = means_of_units(sample.differences, clusters_of(trials.current, measure));
+  sample.plausible = plausible_difference(measure, sample);
+  return sample;
+}
+
+std::string test_name(const Sample& sample, bool over_rigs) {
+  if (sample.failures) return sample.paired ? "McNemar, exact" : "Fisher, exact";
+  return fmt::format("{}{}", sample.paired ? "signed rank and paired t" : "Smirnov and Welch's t",
+                     over_rigs ? ", over rigs" : "");
+}
+
+/// Takes the values of the sample and, where there are enough of them, the change that they show.
+void compare_sample(Judgement& result, const GateMeasure& measure, const BothTrials& trials,
+                    double confidence) {
+  const Sample sample = sample_of(trials, measure);
+  const std::vector<double> before = two_samples::known(sample.baseline);
+  const std::vector<double> after = two_samples::known(sample.current);
+  result.baseline_n = std::ssize(before);
+  result.current_n = std::ssize(after);
+  result.baseline = worsened(measure, two_samples::mean_of(before));
+  result.current = worsened(measure, two_samples::mean_of(after));
+  result.test = test_name(sample, over_rigs(trials));
+  result.paired_proportion = sample.failures && sample.paired;
+  if (!measure.proportion() && std::min(result.baseline_n, result.current_n) < min_values) {
+    result.note = fmt::format("fewer than {} {} have a value{}", min_values,
+                              over_rigs(trials) ? "rigs" : "trials", trials.paired ? " in both files" : "");
+    return;
+  }
+  static_cast<two_samples::Change&>(result) = two_samples::change_of(sample, confidence);
+}
+
+/// Probability of the quantile of the goal's settling time that is compared.
+constexpr double judged_quantile = 0.95;
+
+QuantileSample times_of(const BothTrials& trials, const GateMeasure& measure) {
+  const auto times = [&](const PointTrials& all) {
+    return two_samples::ClusteredValues{all.of(measure), all.judged[measure.goal].asked_moves(all.moves),
+                                        all.rigs};
+  };
+  return {times(trials.baseline), times(trials.current), trials.paired, judged_quantile};
+}
+
+void compare_quantile(Judgement& result, const GateMeasure& measure, const BothTrials& trials,
+                      double confidence) {
+  const auto units = [](const PointTrials& all) {
+    return all.rigs > 0 ? std::min(all.rigs, all.trials) : all.trials;
+  };
+  result.baseline_n = units(trials.baseline);
+  result.current_n = units(trials.current);
+  result.test = fmt::format("{} % quantile of all moves of the goal, by the moves later than that of both{}",
+                            100.0 * judged_quantile, over_rigs(trials) ? ", over rigs" : "");
+  if (std::min(result.baseline_n, result.current_n) < min_values) {
+    result.note = fmt::format("fewer than {} {}", min_values, over_rigs(trials) ? "rigs" : "trials");
+    return;
+  }
+  const QuantileSample times = times_of(trials, measure);
+  result.baseline = two_samples::quantile_of(times.baseline, judged_quantile);
+  result.current = two_samples::quantile_of(times.current, judged_quantile);
+  if (std::isnan(result.current - result.baseline)) {
+    result.note = "not within the hold in either";
+    return;
+  }
+  static_cast<two_samples::Change&>(result) = two_samples::change_of(times, confidence);
+}
+
+/// The larger of the two parts of a margin. Nothing is a proportion of a value that is unknown or infinite.
+double margin_at(const GateMargin& margin, double baseline) {
+  return std::isfinite(baseline) ? std::max(margin.absolute, margin.relative * std::abs(baseline))
+                                 : margin.absolute;
+}
+
+}  // namespace
+
+std::vector<GateMeasure> judged_measures(const GateRules& rules, const PointTrials& trials) {
+  std::vector<JudgedGoal> goals;
+  for (const GoalTrials& one : trials.judged)
+    goals.push_back({one.goal.name, one.goal.machines.has_value() && one.rigs > 0});
+  return judged_measures(rules, *trials.table, goals);
+}
+
+std::vector<Judgement> compare_measures(const GateRules& rules, const std::string& label,
+                                        const BothTrials& trials) {
+  std::vector<Judgement> results;
+  for (const GateMeasure& measure : judged_measures(rules, trials.current)) {
+    Judgement& result = results.emplace_back();
+    result.measure = measure.name;
+    result.unit = measure.unit;
+    if (measure.statistic == GateStatistic::quantile) {
+      compare_quantile(result, measure, trials, rules.confidence);
+    } else {
+      compare_sample(result, measure, trials, rules.confidence);
+    }
+    if (measure.statistic == GateStatistic::machines) {
+      const std::int64_t of_rig = common_trials_of_rig(trials, measure.goal);
+      if (of_rig * trials.baseline.judged[measure.goal].rigs < trials.baseline.trials ||
+          of_rig * trials.current.judged[measure.goal].rigs < trials.current.trials)
+        result.note = fmt::format("by the first {} trials on each", of_rig);
+    }
+    const GateMargin margin = margin_of(rules, label, measure);
+    result.margin = margin_at(margin, result.baseline);
+    result.changed_fails = rules.changed_fails || margin.changed_fails;
+  }
+  return results;
+}
+
+std::vector<Sample> measure_samples(const GateRules& rules, std::span<const Judgement> found,
+                                    const BothTrials& trials) {
+  std::vector<Sample> samples;
+  for (const GateMeasure& measure : judged_measures(rules, trials.current)) {
+    if (measure.statistic != GateStatistic::quantile) {
+      samples.push_back(sample_of(trials, measure));
+      continue;
+    }
+    const Judgement& quantile = found[samples.size()];
+    samples.push_back(two_samples::linearised(times_of(trials, measure), quantile,
+                                              standard_error_of(quantile.bounds, rules.confidence)));
+  }
+  return samples;
+}
+
+}  // namespace zerocount::comparison

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/unknown.hpp"
+
+/// The change of one statistic between a baseline and what is compared with it: whatever the statistic is, it
+/// is a value of each of the units that are independent. A larger value, and a positive change, is worse.
+namespace zerocount::two_samples {
+
+/// A statistic in both: the values of the trials, or of the rigs or worlds where trials share these.
+struct Sample {
+  bool failures{false};               ///< each value is 1 (failed) or 0: for the exact tests of counts
+  bool paired{false};                 ///< unit i of both drew the same random numbers
+  double plausible{1.0};              ///< difference of a single unit, the `unit` of cautious_bounds()
+  std::vector<double> baseline{};     ///< [unit]; NaN where the unit has no value
+  std::vector<double> current{};      ///< [unit]
+  std::vector<double> differences{};  ///< [unit] current − baseline; of pairs only
+};
+
+/// One-sided p-values of no change.
+struct DirectionalP {
+  double worse{1.0};   ///< against a change for the worse
+  double better{1.0};  ///< against a change for the better
+};
+
+/// A change, current − baseline. Its members are unknown where it was not tested.
+struct Change {
+  double effect{statistics::unknown};
+  statistics::ConfidenceInterval bounds{statistics::unknown, statistics::unknown};  ///< each one-sided
+  double p{statistics::unknown};              ///< of no change, against one for the worse
+  double improvement_p{statistics::unknown};  ///< of no change, against one for the better
+};
+
+/// Of failures by McNemar's exact test, or Fisher's. Of other values the larger p of a rank test and a
+/// t-test, because both must show a change: signed ranks and the paired t, or Smirnov's test and Welch's t.
+DirectionalP p_of(const Sample& sample);
+
+/// The change with p_of() and bounds, each with `confidence`: of failures tango(), or newcombe(); of other
+/// values cautious_bounds(). @param sample with two values or more
+Change change_of(const Sample& sample, double confidence);
+
+/// The values without NaN.
+std::vector<double> known(std::span<const double> values);
+
+/// The mean of known values; NaN without any.
+double mean_of(std::span<const double> values);
+
+/// Difference of the means, and what its bounds come from.
+struct MeanDifference {
+  double value{0.0};
+  double standard_error{0.0};
+  double degrees_of_freedom{0.0};
+};
+
+/// Paired samples: the mean of the differences.
+/// @param differences two or more
+MeanDifference mean_difference(std::span<const double> differences);
+
+/// Two independent samples with variances of their own (Welch, Biometrika 34 (1947), 28): current −
+/// baseline.
+/// @param baseline two or more, @param current two or more
+MeanDifference mean_difference(std::span<const double> baseline, std::span<const double> current);
+
+/// Of the known values of the sample.
+MeanDifference mean_difference(const Sample& sample);
+
+/// P(t ≥ value/standard error): one-sided, against a difference for the worse. Without any spread 0, ½ or 1.
+double p_of(const MeanDifference& difference);
+
+/// One-sided bounds of the difference, each with `confidence`. For each bound one more trial is added, `unit`
+/// beyond the mean on the side of that bound, because the observed spread is too small if nearly all
+/// differences are 0. In n trials without a difference the upper bound is about 2.7·unit/n; the rule of three
+/// gives 3/n for the proportion of trials that might differ.
+/// @param unit plausible difference of a single trial, greater than 0
+statistics::ConfidenceInterval cautious_bounds(std::span<const double> differences, double unit,
+                                               double confidence);
+statistics::ConfidenceInterval cautious_bounds(std::span<const double> baseline,
+                                               std::span<const double> current, double unit,
+                                               double confidence);
+
+}  // namespace zerocount::two_samples

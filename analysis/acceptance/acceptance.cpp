@@ -1,6 +1,7 @@
 #include "analysis/acceptance/acceptance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -8,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/trial_value.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "results/layout/layout.hpp"
@@ -15,7 +17,8 @@
 namespace zerocount::acceptance {
 namespace {
 
-constexpr std::int64_t trials_at_a_time = 4096;
+/// [machine][move that a goal is about] whether it meets the goal.
+using MetMoves = std::vector<std::vector<bool>>;
 
 /// The measure that says when a move is within the band, or the tolerance, of the goal for good.
 std::string settling_measure_of(const study::Goal& goal) {
@@ -85,31 +88,17 @@ std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log
   return met;
 }
 
-void require_acceptable(const study::Study& study, const std::string& path) {
-  if (study.rigs == 0)
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: no trials share a machine, so that it does not tell machines from moves; expected "
-                    "rigs: 50, or more",
-                    path));
-}
-
 /// [goal] the moves of each machine of the study at the point.
 std::vector<measures::MoveCounts> simulated_counts(const reading::AllTrialsFile& file, std::int64_t point) {
   const study::Study& study = file.study();
   const std::vector<measures::CountedGoal> goals = measures::counted_goals(study);
   std::vector<measures::MoveCounts> counts(goals.size());
   for (measures::MoveCounts& one : counts) one.tell_apart(study.worlds, 0);
-  const auto of_trial = static_cast<std::size_t>(file.moves());
   const layout::RowRange rows = file.rows_of(point);
-  for (std::int64_t first = 0; first < rows.count; first += trials_at_a_time) {
-    const std::int64_t count = std::min(trials_at_a_time, rows.count - first);
-    const std::vector<trial::MoveOutcome> outcomes = file.outcomes({rows.first + first, count});
-    for (std::int64_t i = 0; i < count; ++i)
-      for (std::size_t goal = 0; goal < goals.size(); ++goal)
-        measures::count_moves(counts[goal], goals[goal], first + i, study.rigs,
-                              std::span(outcomes).subspan(static_cast<std::size_t>(i) * of_trial, of_trial));
-  }
+  measures::visit_trials(file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+    for (std::size_t goal = 0; goal < goals.size(); ++goal)
+      measures::count_moves(counts[goal], goals[goal], row - rows.first, study.rigs, moves);
+  });
   return counts;
 }
 
@@ -119,8 +108,8 @@ goal::BoundedProportion bounded_rate(std::int64_t met, std::int64_t moves, doubl
 }
 
 /// The first moves of the machines, beside the simulated ones.
-Agreement agreement_with(const std::vector<std::vector<bool>>& met_of_machines,
-                         const measures::MoveCounts& simulated, std::uint64_t seed) {
+Agreement agreement_with(const MetMoves& met_of_machines, const measures::MoveCounts& simulated,
+                         std::uint64_t seed) {
   std::int64_t common = std::numeric_limits<std::int64_t>::max();
   for (const statistics::RigMoves& rig : simulated.rigs) common = std::min(common, rig.moves);
   for (const std::vector<bool>& met : met_of_machines) common = std::min(common, std::ssize(met));
@@ -130,50 +119,51 @@ Agreement agreement_with(const std::vector<std::vector<bool>>& met_of_machines,
   return agreement_of(first_met, common, simulated.rigs, seed);
 }
 
-/// The prediction of the world that the machines are most like, with the intervals of all worlds.
-void compare_with_worlds(Claim& claim, const std::vector<measures::MoveCounts>& worlds,
-                         const std::vector<std::vector<bool>>& met_of_machines, std::uint64_t seed,
-                         double significance) {
+/// The prediction of a claim, and whether the machines agree with it: with worlds that of the one that they
+/// are most like, with the intervals of all.
+void compare_with_prediction(Claim& claim, const measures::MoveCounts& simulated, const MetMoves& met,
+                             std::uint64_t seed) {
+  std::vector<measures::MoveCounts> worlds = measures::in_worlds(simulated);
+  if (!worlds.empty()) claim.like_worlds = 0;
+  if (worlds.empty()) worlds = {simulated};
   statistics::ConfidenceInterval all{1.0, 0.0};
-  claim.like_worlds = 0;
   for (std::size_t world = 0; world < worlds.size(); ++world) {
-    const Agreement one = agreement_with(met_of_machines, worlds[world], seed);
+    const Agreement one = agreement_with(met, worlds[world], seed);
     all = {std::min(all.low, one.predicted.low), std::max(all.high, one.predicted.high)};
-    if (one.p > significance) ++*claim.like_worlds;
+    if (claim.like_worlds && one.p > claim.significance) ++*claim.like_worlds;
     if (world > 0 && one.p <= claim.agreement.p) continue;
     claim.agreement = one;
     claim.predicted = goal::judge_goal(claim.goal, worlds[world], 1);
   }
   claim.agreement.predicted = all;
+  claim.is_below_prediction = claim.agreement.p <= claim.significance && claim.agreement.is_lower;
 }
 
 /// The goal for the measured machines alone. @param parts goals that must be met
 goal::Status status_of_these(const study::Goal& goal, const measures::MoveCounts& measured,
                              std::size_t parts) {
+  const auto bounds = [&](std::int64_t met, std::int64_t moves, std::size_t statements) {
+    return bounded_rate(met, moves, statistics::confidence_of_each(goal.confidence, statements));
+  };
   if (!goal.machines) {
-    if (bounded_rate(measured.met, measured.moves, goal.confidence).low >= goal.moves)
-      return goal::Status::met;
-    const double confidence = statistics::confidence_of_each(goal.confidence, parts);
-    const bool is_missed = bounded_rate(measured.met, measured.moves, confidence).high < goal.moves;
-    return is_missed ? goal::Status::missed : goal::Status::undecided;
+    if (bounds(measured.met, measured.moves, 1).low >= goal.moves) return goal::Status::met;
+    return bounds(measured.met, measured.moves, parts).high < goal.moves ? goal::Status::missed
+                                                                         : goal::Status::undecided;
   }
   const std::size_t machines = measured.rigs.size();
-  std::int64_t meeting = 0, missing = 0;
+  std::int64_t meeting = 0;
+  std::int64_t not_missing = 0;
   for (const statistics::RigMoves& one : measured.rigs) {
-    const auto bounds = [&](std::size_t statements) {
-      return bounded_rate(one.met, one.moves, statistics::confidence_of_each(goal.confidence, statements));
-    };
-    meeting += bounds(machines).low >= goal.moves;
-    missing += bounds(machines * parts).high < goal.moves;
+    meeting += bounds(one.met, one.moves, machines).low >= goal.moves;
+    not_missing += bounds(one.met, one.moves, machines * parts).high >= goal.moves;
   }
   const double wanted = *goal.machines * static_cast<double>(machines);
   if (static_cast<double>(meeting) >= wanted) return goal::Status::met;
-  return static_cast<double>(std::ssize(measured.rigs) - missing) < wanted ? goal::Status::missed
-                                                                           : goal::Status::undecided;
+  return static_cast<double>(not_missing) < wanted ? goal::Status::missed : goal::Status::undecided;
 }
 
 /// The moves of the machines, each a cluster. @param met_of_machines [machine, move]
-measures::MoveCounts measured_counts(const std::vector<std::vector<bool>>& met_of_machines) {
+measures::MoveCounts measured_counts(const MetMoves& met_of_machines) {
   measures::MoveCounts measured;
   for (std::size_t i = 0; i < met_of_machines.size(); ++i) {
     const std::vector<bool>& met = met_of_machines[i];
@@ -183,20 +173,6 @@ measures::MoveCounts measured_counts(const std::vector<std::vector<bool>>& met_o
                       .met = std::count(met.begin(), met.end(), true)});
   }
   return measured;
-}
-
-/// The prediction of a claim, and whether the machines agree with it.
-void compare_with_prediction(Claim& claim, const measures::MoveCounts& simulated,
-                             const std::vector<std::vector<bool>>& met_of_machines, std::uint64_t seed,
-                             double significance) {
-  const std::vector<measures::MoveCounts> worlds = measures::in_worlds(simulated);
-  if (worlds.empty()) {
-    claim.predicted = goal::judge_goal(claim.goal, simulated, 1);
-    claim.agreement = agreement_with(met_of_machines, simulated, seed);
-  } else {
-    compare_with_worlds(claim, worlds, met_of_machines, seed, significance);
-  }
-  claim.is_below_prediction = claim.agreement.p <= significance && claim.agreement.is_lower;
 }
 
 /// The verdict on each goal, [goal], of the machines that are judged.
@@ -225,21 +201,30 @@ Status status_of(const Claim& claim) {
 }
 
 Status status_of(const Acceptance& acceptance) {
-  Status worst = Status::accepted;
-  for (const Claim& claim : acceptance.claims) {
-    const Status status = status_of(claim);
-    if (status == Status::rejected) return status;
-    if (status == Status::undecided) worst = status;
+  constexpr std::array worst_first{Status::rejected, Status::undecided};
+  for (const Status status : worst_first) {
+    for (const Claim& claim : acceptance.claims)
+      if (status_of(claim) == status) return status;
   }
-  return worst;
+  return Status::accepted;
+}
+
+ExitCode exit_code_of(Status status) {
+  if (status == Status::accepted) return ExitCode::success;
+  return status == Status::rejected ? ExitCode::regression : ExitCode::inconclusive;
 }
 
 Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
                   std::span<const monitor::MoveLog> logs, Judged judged) {
   const study::Study& study = file.study();
-  require_acceptable(study, file.path().string());
-  Acceptance acceptance{.judged = judged};
-  acceptance.significance /= static_cast<double>(study.goals.size());
+  const std::string path = file.path().string();
+  if (study.rigs == 0)
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: no trials share a machine, so that it does not tell machines from moves; "
+                              "expected rigs: 50, or more",
+                              path));
+  Acceptance acceptance{.study = path, .point = file.point_labels()[static_cast<std::size_t>(point)]};
+  acceptance.judged = judged;
   for (const monitor::MoveLog& log : logs) {
     if (log.moves() == 0)
       throw Failure(ExitCode::bad_data,
@@ -249,7 +234,7 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
   const std::vector<measures::MoveCounts> simulated = simulated_counts(file, point);
   std::vector<measures::MoveCounts> measured;
   for (std::size_t i = 0; i < study.goals.size(); ++i) {
-    std::vector<std::vector<bool>> met;
+    MetMoves met;
     for (std::size_t machine = 0; machine < logs.size(); ++machine) {
       met.push_back(met_moves(study.goals[i], logs[machine], file));
       acceptance.machines[machine].moves.push_back(std::ssize(met.back()));
@@ -257,7 +242,8 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
     }
     measured.push_back(measured_counts(met));
     Claim& claim = acceptance.claims.emplace_back(Claim{.goal = study.goals[i]});
-    compare_with_prediction(claim, simulated[i], met, study.seed, acceptance.significance);
+    claim.significance /= static_cast<double>(study.goals.size());
+    compare_with_prediction(claim, simulated[i], met, study.seed);
     acceptance.simulated = std::ssize(simulated[i].rigs);
   }
   judge(acceptance, study.goals, measured);

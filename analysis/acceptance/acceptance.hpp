@@ -4,10 +4,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/acceptance/agreement.hpp"
-#include "analysis/acceptance/standard_values.hpp"
+#include "analysis/document/answer.hpp"
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/monitor/move_log.hpp"
 #include "results/reading/all_trials_file.hpp"
@@ -37,7 +38,8 @@ struct Claim {
   /// Of all moves of the measured machines, each one-sided with the confidence of the goal.
   goal::BoundedProportion rate{};
   goal::Status status{goal::Status::undecided};  ///< of the goal, for the machines that are judged
-  bool is_below_prediction{false};               ///< significantly fewer moves meet the goal than predicted
+  double significance{0.05};        ///< of a difference from the prediction of one goal (Bonferroni)
+  bool is_below_prediction{false};  ///< significantly fewer moves meet the goal than predicted
   Agreement agreement{};
   /// Worlds of the study that the machines are like; the prediction is that of the one that they are most
   /// like, with the intervals of all. Null: it has none.
@@ -51,7 +53,20 @@ struct MeasuredMachine {
   std::vector<std::int64_t> met{};    ///< [goal] of these, that meet it
 };
 
+/// A value of ISO 230-2 by the encoder, counts: of the simulated machines, and of the measured ones.
+struct StandardValue {
+  std::string_view name;    ///< "repeatability"
+  std::string_view symbol;  ///< of the standard
+  double median{0.0};       ///< of the simulated runs of the test
+  double low{0.0};          ///< 95 % of them lie between these
+  double high{0.0};
+  std::vector<double> measured{};  ///< [run] of all machines; NaN where it is not defined
+  std::int64_t within{0};          ///< measured runs between `low` and `high`
+};
+
 struct Acceptance {
+  std::string study{};  ///< name of the file
+  std::string point{};  ///< label of the design point
   std::vector<Claim> claims{};
   std::vector<MeasuredMachine> machines{};
   Judged judged{Judged::all_machines};
@@ -60,14 +75,15 @@ struct Acceptance {
   std::int64_t simulated{0};                     ///< machines
   std::int64_t worlds{0};                        ///< of the study; 0: none
   std::vector<StandardValue> standard_values{};  ///< of a study with a sequence, where the logs tell them
-  std::vector<std::string>
-      assumed{};              ///< effects that the study is without, which its manifest does not name
-  double significance{0.05};  ///< of a difference from the prediction of one goal (Bonferroni)
+  /// Effects that the study is without, which its manifest does not name.
+  std::vector<std::string> assumed{};
 };
 
 Status status_of(const Claim& claim);
 /// Of all claims: rejected before undecided before accepted.
 Status status_of(const Acceptance& acceptance);
+/// success for accepted, regression for rejected, inconclusive.
+ExitCode exit_code_of(Status status);
 
 /// Judges the machines whose logs these are by the goals of the study, and compares them with its machines at
 /// the point, its rigs. Machines as predicted are found below the prediction of any goal with a probability
@@ -85,5 +101,13 @@ Status status_of(const Acceptance& acceptance);
 /// where a goal asks for some; bad_data for a log without moves
 Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
                   std::span<const monitor::MoveLog> logs, Judged judged = Judged::all_machines);
+
+/// The values of the axis, where the study has a sequence of moves and each log the columns `final_error` and
+/// `move`; empty otherwise. A run of the test is as many rows with the numbers 0 to the last one in this
+/// order; other rows are left out.
+std::vector<StandardValue> standard_values(const reading::AllTrialsFile& file, std::int64_t point,
+                                           std::span<const monitor::MoveLog> logs);
+
+document::AnswerDescription<Acceptance> acceptance_answer();
 
 }  // namespace zerocount::acceptance

@@ -1,14 +1,14 @@
-#include "analysis/acceptance/acceptance_answer.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
+#include <iterator>
 #include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/acceptance/acceptance.hpp"
 #include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/text/percent.hpp"
@@ -18,29 +18,32 @@ namespace zerocount::acceptance {
 namespace {
 
 using document::Bounded;
+using document::Description;
+using document::everywhere;
+using document::in_data;
+using document::Item;
+using document::Notation;
+using document::with_words;
+using Of = const Acceptance&;
+using OfClaim = const Claim&;
 
-/// A claim, with what decides on it.
-struct JudgedClaim {
-  const Claim& claim;
-  double significance;
-};
+/// [Status]
+std::vector<std::string> status_words() {
+  return {"accepted", "rejected", "undecided"};
+}
 
-std::string_view word_of(Status status) {
-  switch (status) {
-    case Status::accepted:
-      return "accepted";
-    case Status::rejected:
-      return "rejected";
-    case Status::undecided:
-      break;
-  }
-  return "undecided";
+std::string word_of(Status status) {
+  return status_words()[static_cast<std::size_t>(status)];
 }
 
 /// The words of Summary's comparison with what was observed.
-std::string_view agreement_word(const JudgedClaim& c) {
-  if (c.claim.agreement.p <= c.significance) return "differs";
-  return c.claim.agreement.lowest_p <= c.significance ? "consistent" : "too_few";
+std::string_view agreement_word(OfClaim c) {
+  if (c.agreement.p <= c.significance) return "differs";
+  return c.agreement.lowest_p <= c.significance ? "consistent" : "too_few";
+}
+
+std::string name_of(OfClaim claim) {
+  return claim.goal.name.empty() ? "goal" : claim.goal.name;
 }
 
 /// "20 moves of 1 machine"; "20 to 40 moves" where the goals are about different moves.
@@ -51,12 +54,8 @@ std::string judged_text(const Acceptance& a) {
   return fmt::format("{} moves of {} machine{}", moves, a.machines.size(), a.machines.size() == 1 ? "" : "s");
 }
 
-std::string name_of(const Claim& claim) {
-  return claim.goal.name.empty() ? "the goal" : "goal " + claim.goal.name;
-}
-
-/// "missed: goal fast; met less often than predicted: goal near (80 % of the moves, predicted 97 %)".
-std::string reasons_to_reject(const Acceptance& a) {
+/// "missed: fast; met less often than predicted: near (80 % of the moves, predicted 97 %)".
+std::string reasons_to_reject(Of a) {
   std::vector<std::string> missed, fewer;
   for (const Claim& claim : a.claims) {
     if (claim.status == goal::Status::missed) missed.push_back(name_of(claim));
@@ -72,14 +71,12 @@ std::string reasons_to_reject(const Acceptance& a) {
   return fmt::format("{}", fmt::join(reasons, "; "));
 }
 
-std::string headline_of(const AcceptanceReading& r) {
-  const Acceptance& a = r.acceptance;
+std::string headline_of(Of a) {
   const std::string of = judged_text(a);
-  const std::string whose = a.judged == Judged::all_machines ? "all such machines" : "these machines";
-  const std::string goals = a.claims.size() == 1 ? "the goal" : "every goal";
+  const char* const whose = a.judged == Judged::all_machines ? "all such machines" : "these machines";
   switch (status_of(a)) {
     case Status::accepted:
-      return fmt::format("accepted: {} show {} for {}, met as often as predicted", of, goals, whose);
+      return fmt::format("accepted: {} show that {} meet the goal, as often as predicted", of, whose);
     case Status::rejected:
       return fmt::format("rejected by {}: {}", of, reasons_to_reject(a));
     case Status::undecided:
@@ -87,89 +84,78 @@ std::string headline_of(const AcceptanceReading& r) {
   }
   const std::string needed =
       a.needed_machines == 0 ? "" : fmt::format("; about {} machines would decide", a.needed_machines);
-  return fmt::format("undecided: {} are too few to show {} for {}{}", of, goals, whose, needed);
+  return fmt::format("undecided: {} are too few to show that {} meet the goal{}", of, whose, needed);
 }
 
-std::string goal_name(const JudgedClaim& c) {
-  return c.claim.goal.name.empty() ? "goal" : c.claim.goal.name;
-}
-
-std::string sentences_of_goals(const AcceptanceReading& r) {
+std::string sentences_of_goals(Of a) {
   std::string text;
-  for (const Claim& claim : r.acceptance.claims)
-    text += fmt::format("{}: {}\n", claim.goal.name.empty() ? "goal" : claim.goal.name,
-                        goal::goal_sentence(claim.goal));
+  for (const Claim& claim : a.claims)
+    text += fmt::format("{}: {}\n", name_of(claim), goal::goal_sentence(claim.goal));
   return text;
 }
 
-std::string comparison_of(const JudgedClaim& c) {
-  const Agreement& agreement = c.claim.agreement;
-  return fmt::format("{} (p = {})", agreement_word(c) == "too_few" ? "too few to tell" : agreement_word(c),
-                     text::short_number(agreement.p));
+std::string comparison_of(OfClaim c) {
+  const std::string_view word = agreement_word(c);
+  return fmt::format("{} (p = {})", word == "too_few" ? "too few to tell" : word,
+                     text::short_number(c.agreement.p));
 }
 
-std::optional<Bounded> of_machines(const JudgedClaim& c, const goal::Verdict& verdict) {
-  if (!c.claim.goal.machines) return std::nullopt;
+std::optional<Bounded> of_machines(OfClaim c, const goal::Verdict& verdict) {
+  if (!c.goal.machines) return std::nullopt;
   return goal::bounded(verdict.machines);
 }
 
-document::Description<JudgedClaim> claim_rows() {
-  using document::in_data;
-  using document::Notation;
-  using document::Shown;
-  using Of = const JudgedClaim&;
-  const auto percent = [](std::string key, std::string heading, std::string meaning) {
-    return document::Item{.key = std::move(key),
-                          .heading = std::move(heading),
-                          .meaning = std::move(meaning),
-                          .unit = "1",
-                          .notation = Notation::percent};
-  };
-  return document::Description<JudgedClaim>()
-      .value({"goal", "goal", "name of the goal"}, goal_name)
-      .value(with_words(document::everywhere("status", "status",
-                                             "verdict on the machines by the goal and its prediction"),
-                        {"accepted", "rejected", "undecided"}),
-             [](Of c) { return word_of(status_of(c.claim)); })
+Item percent(std::string key, std::string heading, std::string meaning) {
+  Item item = everywhere(std::move(key), std::move(heading), std::move(meaning), "1");
+  item.notation = Notation::percent;
+  return item;
+}
+
+Description<Claim> claim_rows() {
+  return Description<Claim>()
+      .value(everywhere("goal", "goal", "name of the goal"), name_of)
+      .value(
+          with_words(everywhere("status", "status", "verdict on the machines by the goal and its prediction"),
+                     status_words()),
+          [](OfClaim c) { return word_of(status_of(c)); })
       .value(with_words(in_data("goal_status", "verdict on the goal alone, whatever was predicted"),
                         goal::status_words()),
-             [](Of c) { return goal::text_of(c.claim.status); })
+             [](OfClaim c) { return goal::text_of(c.status); })
       .value(percent("wanted", "wanted", "proportion of moves that should meet it"),
-             [](Of c) { return c.claim.goal.moves; })
+             [](OfClaim c) { return c.goal.moves; })
       .value(percent("predicted", "predicted",
                      "proportion of the simulated moves that meet it; bounds: of as many machines, in as "
-                     "many moves as "
-                     "are compared, with 95 %"),
-             [](Of c) {
-               return Bounded{c.claim.predicted.moves.value, c.claim.agreement.predicted.low,
-                              c.claim.agreement.predicted.high};
+                     "many moves as are compared, with 95 %"),
+             [](OfClaim c) {
+               return Bounded{c.predicted.moves.value, c.agreement.predicted.low, c.agreement.predicted.high};
              })
       .value(
           percent("measured", "measured",
                   "proportion of the measured moves that meet it, with one-sided bounds of these machines"),
-          [](Of c) { return goal::bounded(c.claim.rate); })
-      .value(in_data("met", "measured moves that meet it"), [](Of c) { return c.claim.met; })
-      .value(in_data("moves", "measured moves"), [](Of c) { return c.claim.moves; })
-      .value(with_words(in_data("agreement", "whether these machines are like those simulated"),
-                        {"consistent", "differs", "too_few"}),
-             agreement_word)
-      .value(in_data("p_value", "two-sided p-value of that", "1"), [](Of c) { return c.claim.agreement.p; })
-      .value(in_data("like_worlds", "worlds of the study that the machines are like; null: it has none"),
-             [](Of c) { return c.claim.like_worlds; })
+          [](OfClaim c) { return goal::bounded(c.rate); })
+      .value(in_data("met", "measured moves that meet it"), &Claim::met)
+      .value(in_data("moves", "measured moves"), &Claim::moves)
+      .value(
+          with_words(everywhere("agreement", "agreement", "whether these machines are like those simulated"),
+                     {"consistent", "differs", "too_few"}),
+          agreement_word)
+      .shown_as(comparison_of)
+      .value(in_data("p_value", "two-sided p-value of that", "1"), [](OfClaim c) { return c.agreement.p; })
+      .value(everywhere("like_worlds", "like worlds",
+                        "worlds of the study that the machines are like; null: it has none"),
+             &Claim::like_worlds)
       .value(in_data("compared_moves", "first moves of each machine that are compared"),
-             [](Of c) { return c.claim.agreement.moves; })
-      .value(document::to_people("agreement"), comparison_of)
+             [](OfClaim c) { return c.agreement.moves; })
       .value(
           percent("all_machines", "of all such machines",
                   "proportion of moves of all machines of which these are a sample, with one-sided bounds"),
-          [](Of c) { return goal::bounded(c.claim.measured.moves); })
+          [](OfClaim c) { return goal::bounded(c.measured.moves); })
       .value(percent("machines_predicted", "machines, predicted",
                      "proportion of machines that meet it in the wanted proportion of moves, with one-sided "
-                     "bounds; null: "
-                     "the goal does not ask for machines"),
-             [](Of c) { return of_machines(c, c.claim.predicted); })
+                     "bounds; null: the goal does not ask for machines"),
+             [](OfClaim c) { return of_machines(c, c.predicted); })
       .value(percent("machines_measured", "machines, measured", "likewise as measured"),
-             [](Of c) { return of_machines(c, c.claim.measured); });
+             [](OfClaim c) { return of_machines(c, c.measured); });
 }
 
 /// "20 of 20" for each goal.
@@ -180,152 +166,112 @@ std::string met_text(const MeasuredMachine& machine) {
   return fmt::format("{}", fmt::join(goals, ", "));
 }
 
-document::Description<MeasuredMachine> machine_rows() {
-  return document::Description<MeasuredMachine>()
-      .value({"machine", "machine", "its log"}, [](const MeasuredMachine& m) { return m.name; })
-      .value(document::in_data("moves", "its moves that each goal is about, in the order of the goals"),
+Description<MeasuredMachine> machine_rows() {
+  return Description<MeasuredMachine>()
+      .value(everywhere("machine", "machine", "its log"), &MeasuredMachine::name)
+      .value(in_data("moves", "its moves that each goal is about, in the order of the goals"),
              &MeasuredMachine::moves)
-      .value(document::in_data("met", "of these, those that meet it"), &MeasuredMachine::met)
-      .value({.heading = "meet the goal", .shown = document::Shown::to_people, .numeric = true}, met_text);
+      .value({.key = "met",
+              .heading = "meet the goal",
+              .meaning = "of these, those that meet it",
+              .numeric = true},
+             &MeasuredMachine::met)
+      .shown_as(met_text);
 }
 
 /// "3 to 5", or one number.
-std::optional<std::string> measured_text(const StandardValue& value) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const double one : value.measured) {
-    if (!std::isfinite(one)) continue;
-    low = std::min(low, one);
-    high = std::max(high, one);
-  }
-  if (low > high) return std::nullopt;
-  if (low == high) return text::short_number(low);
-  return fmt::format("{} to {}", text::short_number(low), text::short_number(high));
+std::string measured_text(const StandardValue& value) {
+  std::vector<double> known;
+  std::ranges::copy_if(value.measured, std::back_inserter(known),
+                       [](double one) { return std::isfinite(one); });
+  if (known.empty()) return "";
+  const auto [low, high] = std::ranges::minmax(known);
+  return low == high ? text::short_number(low)
+                     : fmt::format("{} to {}", text::short_number(low), text::short_number(high));
 }
 
-document::Description<StandardValue> standard_rows() {
-  using document::Notation;
-  return document::Description<StandardValue>()
-      .value({"value", "value", "name of the value of the axis"},
-             [](const StandardValue& v) { return v.name; })
-      .value({"symbol", "symbol", "in the standard"}, [](const StandardValue& v) { return v.symbol; })
-      .value({.key = "predicted",
-              .heading = "predicted",
-              .meaning = "median of the simulated runs",
-              .unit = "count",
-              .notation = Notation::three_digits},
-             &StandardValue::median)
-      .value({.key = "predicted_low",
-              .heading = "95 % from",
-              .meaning = "95 % of the simulated runs have more",
-              .unit = "count",
-              .notation = Notation::three_digits},
+Description<StandardValue> standard_rows() {
+  const auto counts = [](const char* key, const char* heading, const char* meaning) {
+    Item item = everywhere(key, heading, meaning, "count");
+    item.notation = Notation::three_digits;
+    return item;
+  };
+  return Description<StandardValue>()
+      .value(everywhere("value", "value", "name of the value of the axis"), &StandardValue::name)
+      .value(everywhere("symbol", "symbol", "in the standard"), &StandardValue::symbol)
+      .value(counts("predicted", "predicted", "median of the simulated runs"), &StandardValue::median)
+      .value(counts("predicted_low", "95 % from", "95 % of the simulated runs have more"),
              &StandardValue::low)
-      .value({.key = "predicted_high",
-              .heading = "to",
-              .meaning = "and less",
+      .value(counts("predicted_high", "to", "and less"), &StandardValue::high)
+      .value({.key = "measured",
+              .heading = "measured",
+              .meaning = "of each measured run",
               .unit = "count",
-              .notation = Notation::three_digits},
-             &StandardValue::high)
-      .value(document::in_data("measured", "of each measured run", "count"), &StandardValue::measured)
-      .value({.heading = "measured", .shown = document::Shown::to_people, .numeric = true}, measured_text)
-      .value({"within", "runs within", "measured runs in the predicted interval"}, &StandardValue::within)
-      .value(document::in_data("runs", "measured runs"),
-             [](const StandardValue& v) { return v.measured.size(); });
+              .numeric = true},
+             &StandardValue::measured)
+      .shown_as(measured_text)
+      .value(everywhere("within", "runs within", "measured runs in the predicted interval"),
+             &StandardValue::within)
+      .value(in_data("runs", "measured runs"), [](const StandardValue& v) { return v.measured.size(); });
 }
 
-std::string worlds_sentence(const AcceptanceReading& r) {
-  if (r.acceptance.worlds == 0) return "";
-  std::string text;
-  for (const Claim& claim : r.acceptance.claims)
-    text += fmt::format(
-        "{}: the machines are like those of {} of {} worlds; the prediction is that of the world "
-        "that they are most like, with the interval of all\n",
-        claim.goal.name.empty() ? "goal" : claim.goal.name, claim.like_worlds.value_or(0),
-        r.acceptance.worlds);
-  return text;
+std::string worlds_sentence(Of a) {
+  if (a.worlds == 0) return "";
+  return fmt::format(
+      "of {} worlds: the prediction is that of the world that the machines are most like, with the interval "
+      "of all",
+      a.worlds);
 }
 
-std::string assumed_sentence(const AcceptanceReading& r) {
-  if (r.acceptance.assumed.empty()) return "";
-  return fmt::format("the prediction assumes: {}", fmt::join(r.acceptance.assumed, ", "));
+std::string assumed_sentence(Of a) {
+  if (a.assumed.empty()) return "";
+  return fmt::format("the prediction assumes: {}", fmt::join(a.assumed, ", "));
 }
 
 }  // namespace
 
-document::AnswerDescription<AcceptanceReading> acceptance_answer() {
-  using document::in_data;
-  using Of = const AcceptanceReading&;
-  document::AnswerDescription<AcceptanceReading> answer{
+document::AnswerDescription<Acceptance> acceptance_answer() {
+  document::AnswerDescription<Acceptance> answer{
       {.name = "accept",
        .meaning = "whether machines that were built meet the goal, and the prediction",
        .csv_table = "goals"},
       {}};
   answer.items.headline(headline_of)
-      .value(with_words(in_data("status", "verdict on the machines"), {"accepted", "rejected", "undecided"}),
-             [](Of r) { return word_of(status_of(r.acceptance)); })
+      .value(with_words(in_data("status", "verdict on the machines"), status_words()),
+             [](Of a) { return word_of(status_of(a)); })
       .value(with_words(in_data("judged", "machines that the goals are judged for"),
                         {"all_machines", "these_machines"}),
-             [](Of r) {
-               return r.acceptance.judged == Judged::all_machines ? "all_machines" : "these_machines";
-             })
+             [](Of a) { return a.judged == Judged::all_machines ? "all_machines" : "these_machines"; })
       .value(in_data("needed_machines",
                      "machines, with as many moves each, that would decide the goals for all machines; null: "
                      "they are decided, or no number is known"),
-             [](Of r) {
-               const std::int64_t needed = r.acceptance.needed_machines;
-               return needed > 0 ? std::optional(needed) : std::nullopt;
-             })
-      .value({.key = "study", .heading = "study", .meaning = "the results file of the prediction"},
-             [](Of r) { return r.study; })
-      .value({.key = "point", .heading = "point", .meaning = "label of the design point"},
-             [](Of r) { return r.point; })
-      .value({.key = "simulated_machines",
-              .heading = "simulated machines",
-              .meaning = "machines of the prediction"},
-             [](Of r) { return r.acceptance.simulated; })
+             [](Of a) { return a.needed_machines > 0 ? std::optional(a.needed_machines) : std::nullopt; })
+      .value(everywhere("study", "study", "the results file of the prediction"), &Acceptance::study)
+      .value(everywhere("point", "point", "label of the design point"), &Acceptance::point)
+      .value(everywhere("simulated_machines", "simulated machines", "machines of the prediction"),
+             &Acceptance::simulated)
       .sentence(sentences_of_goals)
-      .table({.key = "goals", .meaning = "each goal"}, claim_rows(),
-             [](Of r) {
-               std::vector<JudgedClaim> claims;
-               for (const Claim& claim : r.acceptance.claims)
-                 claims.push_back({claim, r.acceptance.significance});
-               return claims;
-             })
+      .table({.key = "goals", .meaning = "each goal"}, claim_rows(), &Acceptance::claims)
       .sentence(worlds_sentence)
       .table(
-          {.key = "standard",
-           .heading = "ISO 230-2, by the encoder",
-           .meaning = "values of the axis; empty without a sequence, or without the columns final_error and "
-                      "move in every log"},
-          standard_rows(), [](Of r) { return r.acceptance.standard_values; })
-      .table({.key = "machines", .heading = "machines", .meaning = "each machine that was measured"},
-             machine_rows(), [](Of r) { return r.acceptance.machines; })
+          everywhere("standard", "ISO 230-2, by the encoder",
+                     "values of the axis; empty without a sequence, or without the columns final_error and "
+                     "move in every log"),
+          standard_rows(), &Acceptance::standard_values)
+      .table(everywhere("machines", "machines", "each machine that was measured"), machine_rows(),
+             &Acceptance::machines)
       .value({.key = "assumed",
               .meaning = "effects that the prediction is without, which its manifest does not name",
               .shown = document::Shown::in_json},
-             [](Of r) { return r.acceptance.assumed; })
+             &Acceptance::assumed)
       .sentence(assumed_sentence)
       .sentence([](Of) {
         return std::string(
             "measured bounds are of moves that do not depend on each other; those of the measured machines "
-            "are of "
-            "these machines alone, the others of all machines of which they are a sample");
+            "are of these machines alone, the others of all machines of which they are a sample");
       })
       .sentence([](Of) { return std::string("date, name, signature: ____________________"); });
   return answer;
-}
-
-ExitCode exit_code_of(Status status) {
-  switch (status) {
-    case Status::accepted:
-      return ExitCode::success;
-    case Status::rejected:
-      return ExitCode::regression;
-    case Status::undecided:
-      break;
-  }
-  return ExitCode::inconclusive;
 }
 
 }  // namespace zerocount::acceptance

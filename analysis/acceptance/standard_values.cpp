@@ -1,11 +1,11 @@
-#include "analysis/acceptance/standard_values.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "analysis/acceptance/acceptance.hpp"
 #include "analysis/iso230/columns.hpp"
 #include "analysis/iso230/trial_values.hpp"
+#include "analysis/measures/trial_value.hpp"
 
 namespace zerocount::acceptance {
 namespace {
@@ -24,11 +24,12 @@ std::optional<iso230::AxisRepeatability> values_of_run(Sequence sequence,
 
 Values simulated_values(const reading::AllTrialsFile& file, std::int64_t point) {
   Values values;
-  const layout::RowRange rows = file.rows_of(point);
-  for (std::int64_t row = 0; row < rows.count; ++row) {
-    const std::vector<trial::MoveOutcome> moves = file.outcomes({rows.first + row, 1});
-    if (const auto of_trial = values_of_run(file.study().sequence, moves)) values.push_back(*of_trial);
-  }
+  const Sequence sequence = file.study().sequence;
+  measures::visit_trials(file, file.rows_of(point),
+                         [&](std::int64_t, std::span<const trial::MoveOutcome> moves) {
+                           if (const auto of_trial = values_of_run(sequence, moves))
+                             values.push_back(*of_trial);
+                         });
   return values;
 }
 

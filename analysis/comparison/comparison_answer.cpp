@@ -305,17 +305,15 @@ constexpr std::size_t max_rows = 60;
 
 Description<manifest_text::ManifestDifference> difference_description() {
   using Difference = manifest_text::ManifestDifference;
-  Description<Difference> description;
-  description.value(everywhere("key", "key", "dotted path"), &Difference::key);
-  const auto add = [&](document::Item data, const char* heading, std::string Difference::*value) {
-    description.value(std::move(data), value)
-        .value(to_people(heading), [value](const Difference& difference) {
-          return (difference.*value).empty() ? "(absent)" : difference.*value;
-        });
+  const auto shown = [](std::string Difference::*value) {
+    return [value](const Difference& one) { return (one.*value).empty() ? "(absent)" : one.*value; };
   };
-  add(in_data("baseline", "value in the baseline"), "baseline", &Difference::baseline);
-  add(in_data("current", "value in the file"), "file", &Difference::current);
-  return description;
+  return Description<Difference>()
+      .value(everywhere("key", "key", "dotted path"), &Difference::key)
+      .value(everywhere("baseline", "baseline", "value in the baseline"), &Difference::baseline)
+      .shown_as(shown(&Difference::baseline))
+      .value(everywhere("current", "file", "value in the file"), &Difference::current)
+      .shown_as(shown(&Difference::current));
 }
 
 /// All rows, or the noteworthy ones where there are many.
@@ -358,21 +356,23 @@ std::optional<std::string> baseline_label(Comparison comparison) {
 
 void add_facts(Description<StudyComparison>& items) {
   items
-      .value(to_people("baseline"),
-             [](Comparison c) { return compares_points(c) ? std::string() : file_text(c.baseline); })
-      .value(to_people("file"), [](Comparison c) { return file_text(c.current); })
-      .object(in_data("baseline", "the file of the baseline"), file_description(), &StudyComparison::baseline)
-      .object(in_data("current", "the file that is compared with it"), file_description(),
+      .object(everywhere("baseline", "baseline", "the file of the baseline"), file_description(),
+              &StudyComparison::baseline)
+      .shown_as([](Comparison c) {
+        return compares_points(c) ? std::nullopt : std::optional(file_text(c.baseline));
+      })
+      .object(everywhere("current", "file", "the file that is compared with it"), file_description(),
               &StudyComparison::current)
+      .shown_as([](Comparison c) { return file_text(c.current); })
       .value(everywhere("baseline_label", "baseline point",
                         "label of the baseline's point, where two points of one file are compared"),
              baseline_label)
       .value(to_people("point"),
              [](Comparison c) { return compares_points(c) ? c.points.front().design_point : std::string(); })
-      .value(to_people("compared"),
-             [](Comparison c) { return fmt::format("{}: {}", to_string(c.layer), c.layer_reason); })
-      .value(with_words(in_data("layer", "what the files have in common"), {"bits", "paired", "two_samples"}),
+      .value(with_words(everywhere("layer", "compared", "what the files have in common"),
+                        {"bits", "paired", "two_samples"}),
              [](Comparison c) { return to_string(c.layer); })
+      .shown_as([](Comparison c) { return fmt::format("{}: {}", to_string(c.layer), c.layer_reason); })
       .value(in_data("layer_reason", "why they are compared so"), &StudyComparison::layer_reason)
       .value(in_data("equal_to_the_bit", "whether every dataset is equal to the bit"),
              &StudyComparison::equal_to_the_bit)

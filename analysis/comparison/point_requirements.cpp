@@ -123,7 +123,7 @@ RequirementSample requirement_sample(const Requirement& requirement, const Point
   if (quantity.kind == RequirementKind::goal) return goal_sample(trials, trials.required[requirement.goal]);
   RequirementSample sample{quantity.kind, requirement.at_least, requirement.limit, trials.rigs > 0};
   if (quantity.kind == RequirementKind::mean) {
-    sample.hits = trial_means(trials, quantity.measure);
+    sample.hits = two_samples::known(means_of_units(values_of_trials(trials, quantity.measure), trials.rigs));
     sample.events.assign(sample.hits.size(), 1.0);
     return sample;
   }

@@ -22,7 +22,7 @@ void add_to_goal(GoalTrials& goal, std::int64_t first, std::int64_t moves,
 }
 
 /// Adds the settling times of the moves that the goal asks, s; of those that do not settle infinity.
-void add_goal_times(std::vector<double>& times, const TrialGoal& goal,
+void add_goal_times(std::vector<double>& times, const GoalTrials& goal,
                     std::span<const trial::MoveOutcome> outcomes) {
   for (const trial::MoveOutcome& move : outcomes) {
     if (!measures::asks(goal.counted, move)) continue;
@@ -31,28 +31,15 @@ void add_goal_times(std::vector<double>& times, const TrialGoal& goal,
   }
 }
 
-PointTrials empty_trials(std::int64_t moves, const layout::MeasureTable& table, const AlsoRead& also) {
+PointTrials empty_trials(std::int64_t moves, const AlsoRead& also, const layout::MeasureTable& table) {
   PointTrials trials;
+  static_cast<AlsoRead&>(trials) = also;
   trials.moves = moves;
   trials.table = &table;
-  trials.bands = also.bands;
-  trials.rigs = also.rigs;
-  trials.claims = also.claims;
-  const auto counted_by = [&](const std::vector<TrialGoal>& goals) {
-    std::vector<GoalTrials> all;
-    for (const TrialGoal& goal : goals) {
-      all.push_back({goal, also.goal_rigs, {}, {}});
-      all.back().counts.worlds = also.worlds;
-    }
-    return all;
-  };
-  trials.required = counted_by(also.required);
-  trials.judged = counted_by(also.judged);
   return trials;
 }
 
-}  // namespace
-
+/// Adds trials, from the outcomes of all their moves, [trial][move], flattened.
 void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcomes) {
   for (GoalTrials& goal : trials.required) add_to_goal(goal, trials.trials, trials.moves, outcomes);
   for (GoalTrials& goal : trials.judged) {
@@ -76,21 +63,18 @@ void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcome
   for (const trial::MoveOutcome& move : outcomes) measures::add_move(trials.undecided, move);
 }
 
-PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
-                          const layout::MeasureTable& table) {
-  return gather_trials(outcomes, moves, {}, table);
-}
+}  // namespace
 
 PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
                           const AlsoRead& also, const layout::MeasureTable& table) {
-  PointTrials result = empty_trials(moves, table, also);
+  PointTrials result = empty_trials(moves, also, table);
   add_trials(result, outcomes);
   return result;
 }
 
 PointTrials read_point_trials(const reading::AllTrialsFile& file, std::int64_t point, std::int64_t trials,
                               const AlsoRead& also) {
-  PointTrials result = empty_trials(file.moves(), file.table(), also);
+  PointTrials result = empty_trials(file.moves(), also, file.table());
   measures::visit_blocks(
       file, {point * file.header().trials, trials},
       [&](layout::RowRange, std::span<const trial::MoveOutcome> outcomes) { add_trials(result, outcomes); });
@@ -124,10 +108,6 @@ std::vector<double> values_of_trials(const PointTrials& trials, const GateMeasur
   return means;
 }
 
-std::vector<double> trial_means(const PointTrials& trials, const GateMeasure& measure) {
-  return means_by_rig(values_of_trials(trials, measure), trials.rigs);
-}
-
 std::vector<double> means_of_units(std::span<const double> values, std::int64_t rigs) {
   const auto clusters = rigs > 0 ? static_cast<std::size_t>(rigs) : values.size();
   std::vector<double> means;
@@ -141,12 +121,6 @@ std::vector<double> means_of_units(std::span<const double> values, std::int64_t 
     }
     means.push_back(count > 0.0 ? sum / count : statistics::unknown);
   }
-  return means;
-}
-
-std::vector<double> means_by_rig(std::span<const double> values, std::int64_t rigs) {
-  std::vector<double> means = means_of_units(values, rigs);
-  std::erase_if(means, [](double mean) { return std::isnan(mean); });
   return means;
 }
 

@@ -16,10 +16,13 @@
 
 namespace zerocount::comparison {
 
-/// A goal, as the trials of a file are counted by it.
-struct TrialGoal {
+/// The trials of one design point as a goal counts them.
+struct GoalTrials {
   study::Goal goal{};
   measures::CountedGoal counted{};
+  std::int64_t rigs{0};                 ///< number of rigs, also of a study with worlds; 0: none
+  measures::MoveCounts counts{};        ///< without trials it tells the worlds apart that it shall count
+  std::vector<double> moves_in_goal{};  ///< [trial]
 
   /// Number of moves of a trial that it is about. @param moves of a trial
   std::int64_t asked_moves(std::int64_t moves) const { return measures::asked_moves(counted, moves); }
@@ -27,15 +30,17 @@ struct TrialGoal {
   std::string settling_time() const { return name_of_goal_measure("goal_settling_time", goal.name); }
 };
 
-/// The trials of one design point as a goal counts them.
-struct GoalTrials : TrialGoal {
-  std::int64_t rigs{0};  ///< number of rigs, also of a study with worlds; 0: none
-  measures::MoveCounts counts{};
-  std::vector<double> moves_in_goal{};  ///< [trial]
+/// What is gathered of trials beside the gate measures.
+struct AlsoRead {
+  std::vector<GateMeasure> bands{};    ///< measures of error bands, which the file has
+  std::vector<GoalTrials> required{};  ///< by the goals that a requirement asks for
+  std::vector<GoalTrials> judged{};    ///< by the goals whose measures are judged
+  std::size_t claims{1};  ///< on a design point: goals times conditions, all of which must be met
+  std::int64_t rigs{0};   ///< number of rigs, or of worlds: trial i on rig i mod rigs; 0: no trials share one
 };
 
 /// The compared values of the trials of one design point.
-struct PointTrials {
+struct PointTrials : AlsoRead {
   std::int64_t trials{0};
   std::int64_t moves{0};  ///< of each
   /// [name of the gate measure] of qualities, as 1 or 0, and of sums: [trial]; of other measures:
@@ -43,39 +48,18 @@ struct PointTrials {
   /// does not settle.
   std::map<std::string, std::vector<double>, std::less<>> values{};
   measures::UndecidedMoves undecided{};  ///< of all moves
-  std::int64_t rigs{0};  ///< number of rigs, or of worlds: trial i on rig i mod rigs; 0: no trials share one
   const layout::MeasureTable* table{&layout::measure_table()};
-  std::vector<GateMeasure> bands{};    ///< measures of error bands that have values, too
-  std::vector<GoalTrials> required{};  ///< by the goals that a requirement asks for
-  std::vector<GoalTrials> judged{};    ///< by the goals whose measures are judged
-  std::size_t claims{1};               ///< as AlsoRead::claims
 
   const std::vector<double>& of(const GateMeasure& measure) const {
     return values.find(measure.name)->second;
   }
 };
 
-/// Parts of the trials that are read besides the gate measures.
-struct AlsoRead {
-  std::vector<GateMeasure> bands{};  ///< measures of error bands, which the file has
-  std::vector<TrialGoal> required{};
-  std::vector<TrialGoal> judged{};
-  std::size_t claims{1};      ///< on a design point: goals times conditions, all of which must be met
-  std::int64_t rigs{0};       ///< as PointTrials::rigs
-  std::int64_t goal_rigs{0};  ///< as GoalTrials::rigs
-  std::int64_t worlds{0};     ///< of the study
-};
-
-/// Adds trials, from the outcomes of all their moves, [trial][move], flattened.
-void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcomes);
-
 /// From the outcomes of all moves of the trials, [trial][move], flattened.
 /// @param moves of each trial
 PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
+                          const AlsoRead& also = {},
                           const layout::MeasureTable& table = layout::measure_table());
-/// With the parts that are `also` asked for.
-PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
-                          const AlsoRead& also, const layout::MeasureTable& table = layout::measure_table());
 
 /// The first `trials` trials of design point `point` of a whole study.
 /// @throws Failure (bad_data) where the file is damaged.
@@ -85,23 +69,14 @@ PointTrials read_point_trials(const reading::AllTrialsFile& file, std::int64_t p
 /// The first `trials` of them. `undecided` stays that of all.
 PointTrials first_trials(const PointTrials& all, std::int64_t trials);
 
-/// For each trial the mean over its moves with a value; with rigs, the mean of these over each rig. Trials
-/// and rigs without a value are left out. For settling_time this is the mean settling time of the moves, not
-/// the settling time of the trial (worst_of_moves()).
-std::vector<double> trial_means(const PointTrials& trials, const GateMeasure& measure);
-
-/// For each trial the mean over its moves with a value; NaN where none has.
+/// For each trial the mean over its moves with a value; NaN where none has. For settling_time this is the
+/// mean settling time of the moves, not the settling time of the trial (worst_of_moves()).
 std::vector<double> values_of_trials(const PointTrials& trials, const GateMeasure& measure);
 
 /// Mean over the trials of each rig, ignoring NaN; NaN for a rig without a value. Without rigs the values
 /// themselves.
 /// @param values [trial]
 std::vector<double> means_of_units(std::span<const double> values, std::int64_t rigs);
-
-/// Mean over the trials of each rig, ignoring NaN; rigs without a value are left out. Without rigs the values
-/// themselves, without NaN.
-/// @param values [trial]
-std::vector<double> means_by_rig(std::span<const double> values, std::int64_t rigs);
 
 /// The worst value of the moves of each trial, [trial]; infinitely bad if a move has no value. For
 /// settling_time this is the settling time of the trial.

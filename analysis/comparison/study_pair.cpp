@@ -149,19 +149,24 @@ std::vector<study::Goal> goals_of(const ComparedStudy& study) {
   return has_goal ? study.file.study().goals : std::vector<study::Goal>();
 }
 
+std::int64_t whole_value(const ComparedStudy& study, const std::string& key) {
+  return std::stoll(value_or(study.values, key, "0"));
+}
+
 /// The goals as the moves of the file are counted by them.
 /// @throws Failure (bad_data) where the file does not have what it is judged by
-std::vector<TrialGoal> counted_in(const AllTrialsFile& file, const std::vector<study::Goal>& goals) {
-  std::vector<TrialGoal> all;
+std::vector<GoalTrials> counted_in(const ComparedStudy& study, const std::vector<study::Goal>& goals) {
+  std::vector<GoalTrials> all;
   for (const study::Goal& goal : goals) {
-    const auto counted = measures::counted_by(goal, file.features());
+    const auto counted = measures::counted_by(goal, study.file.features());
     if (!counted)
       throw Failure(ExitCode::bad_data,
                     fmt::format("{}: it cannot be judged by the goal of the other ({}): it lacks its band, "
                                 "tolerance or limits; expected a study that measures them, or measures "
                                 "without the goal",
-                                file.path().string(), goal::goal_sentence(goal)));
-    all.push_back({goal, *counted});
+                                study.file.path().string(), goal::goal_sentence(goal)));
+    all.push_back({goal, *counted, whole_value(study, "rigs")});
+    all.back().counts.worlds = whole_value(study, "worlds");
   }
   return all;
 }
@@ -200,12 +205,12 @@ void take_goals(StudyPair& pair, const GateRules& rules) {
       refuse_without_goal(pair.current.file, "by whose measures it is to be judged");
   }
   for (ComparedStudy* study : {&pair.baseline, &pair.current})
-    study->also.judged = counted_in(study->file, pair.goals);
+    study->also.judged = counted_in(*study, pair.goals);
   AlsoRead& also = pair.current.also;
   also.claims = std::max(after.size(), std::size_t{1}) * static_cast<std::size_t>(pair.conditions);
   if (requires_goal(rules)) {
     if (after.empty()) refuse_without_goal(pair.current.file, "which a requirement asks for");
-    also.required = counted_in(pair.current.file, after);
+    also.required = counted_in(pair.current, after);
   }
   for (const GateMeasure& measure : measures_of_limits(rules))
     also.bands.push_back(in_file(pair.current.file, measure));
@@ -220,20 +225,17 @@ void take_trials(StudyPair& pair, const GateRules& rules) {
   const bool same_seed = pair.baseline.file.header().seed == pair.current.file.header().seed;
   pair.other_worlds = before != after || (after != "0" && !same_seed);
   for (ComparedStudy* study : {&pair.baseline, &pair.current}) {
-    const std::int64_t rigs = std::stoll(value_or(study->values, "rigs", "0"));
-    const std::int64_t worlds = std::stoll(value_or(study->values, "worlds", "0"));
-    study->rigs = pair.other_worlds && worlds > 0 ? worlds : rigs;
+    const std::int64_t worlds = whole_value(*study, "worlds");
+    study->rigs = pair.other_worlds && worlds > 0 ? worlds : whole_value(*study, "rigs");
     study->also.rigs = study->rigs;
-    study->also.goal_rigs = rigs;
-    study->also.worlds = worlds;
     const AllTrialsFile& under = study->trials_of(pair.points.front());
     study->trials = std::min(under.header().trials, std::max(trial_limit(rules, under), study->rigs));
   }
 }
 
-std::vector<std::string> names_of(const std::vector<TrialGoal>& goals) {
+std::vector<std::string> names_of(const std::vector<GoalTrials>& goals) {
   std::vector<std::string> names;
-  for (const TrialGoal& one : goals) names.push_back(one.goal.name);
+  for (const GoalTrials& one : goals) names.push_back(one.goal.name);
   return names;
 }
 

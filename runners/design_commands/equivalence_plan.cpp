@@ -31,8 +31,8 @@
 namespace zerocount::design_commands {
 namespace {
 
+using document::everywhere;
 using document::in_data;
-using document::Shown;
 
 constexpr std::int64_t pilot_trials = 1000;  ///< of each design point
 constexpr std::int64_t pilot_block = 100;    ///< that one task runs
@@ -121,10 +121,12 @@ comparison::PointTrials run_point(const study::Study& study, std::int64_t point,
            trials, pilot_block, draw, {}, [](const trial::TrialOutcome& outcome) { return outcome.moves; }))
     outcomes.insert(outcomes.end(), moves.begin(), moves.end());
   comparison::AlsoRead also;
-  also.rigs = also.goal_rigs = study.rigs;
-  also.worlds = study.worlds;
+  also.rigs = study.rigs;
   const std::vector<measures::CountedGoal> counted = measures::counted_goals(study);
-  for (std::size_t i = 0; i < study.goals.size(); ++i) also.judged.push_back({study.goals[i], counted[i]});
+  for (std::size_t i = 0; i < study.goals.size(); ++i) {
+    also.judged.push_back({study.goals[i], counted[i], study.rigs});
+    also.judged.back().counts.worlds = study.worlds;
+  }
   return comparison::gather_trials(outcomes, std::ssize(outcomes) / trials, also);
 }
 
@@ -258,37 +260,41 @@ std::string trials_cell(const MeasureRow& row) {
 
 document::Description<MeasureRow> measure_columns() {
   using Row = const MeasureRow&;
+  const auto shown = [](const char* key, const char* heading, const char* meaning) {
+    document::Item item = everywhere(key, heading, meaning);
+    item.numeric = true;
+    return item;
+  };
   return document::Description<MeasureRow>()
-      .value({.key = "point", .heading = "point", .meaning = "label of the design point, with the condition"},
+      .value(everywhere("point", "point", "label of the design point, with the condition"),
              [](Row row) { return row.planned.point; })
       .value(in_data("condition", "its trials are under it; absent without conditions"),
              [](Row row) {
                return row.planned.condition.empty() ? std::nullopt : std::optional(row.planned.condition);
              })
-      .value({.key = "measure", .heading = "measure", .meaning = "name of the measure"},
+      .value(everywhere("measure", "measure", "name of the measure"),
              [](Row row) { return row.planned.found.measure; })
       .value(in_data("unit", "its unit"), [](Row row) { return row.planned.found.unit; })
-      .value(in_data("value", "its value in the pilot, in its unit"),
+      .value(shown("value", "pilot", "its value in the pilot, in its unit"),
              [](Row row) { return row.planned.found.current; })
-      .value({.heading = "pilot", .shown = Shown::to_people, .numeric = true},
-             [](Row row) { return row.text(row.planned.found.current); })
-      .value(in_data("margin", "largest accepted difference, in its unit"),
+      .shown_as([](Row row) { return row.text(row.planned.found.current); })
+      .value(shown("margin", "margin", "largest accepted difference, in its unit"),
              [](Row row) { return row.planned.found.margin; })
-      .value({.heading = "margin", .shown = Shown::to_people, .numeric = true},
-             [](Row row) { return "± " + row.text(row.planned.found.margin); })
-      .value(in_data("trials", "trials of each study per design point for this measure alone"),
+      .shown_as([](Row row) { return "± " + row.text(row.planned.found.margin); })
+      .value(shown("trials", "trials", "trials of each study per design point for this measure alone"),
              [](Row row) { return trials_of_point(row.plan, row.planned.forecast.trials); })
-      .value({.heading = "trials", .shown = Shown::to_people, .numeric = true}, trials_cell);
+      .shown_as(trials_cell);
 }
 
 document::Description<UnplannedMeasure> unplanned_columns() {
   return document::Description<UnplannedMeasure>()
-      .value(in_data("point", "label of the design point, with the condition"), &UnplannedMeasure::point)
+      .value(everywhere("point", "point", "label of the design point, with the condition"),
+             &UnplannedMeasure::point)
       .value(in_data("condition", "its trials are under it; absent without conditions"),
              [](const UnplannedMeasure& one) {
                return one.condition.empty() ? std::nullopt : std::optional(one.condition);
              })
-      .value(in_data("measure", "name of the measure"), &UnplannedMeasure::measure);
+      .value(everywhere("measure", "measure", "name of the measure"), &UnplannedMeasure::measure);
 }
 
 std::string equivalence_headline(const EquivalencePlan& plan) {
@@ -299,15 +305,6 @@ std::string equivalence_headline(const EquivalencePlan& plan) {
       trials_text(plan, plan.forecast.trials.value_or(plan.forecast.max_trials)),
       plan.conditions > 1 ? ", under all conditions together," : "", plan.forecast.trials ? "" : " do not",
       text::percent(plan.power));
-}
-
-std::string unplanned_sentence(const EquivalencePlan& plan) {
-  if (plan.unplanned.empty()) return "";
-  std::vector<std::string> names;
-  for (const UnplannedMeasure& one : plan.unplanned)
-    names.push_back(fmt::format("{} at {}", one.measure, text::printable(one.point)));
-  return fmt::format("not planned, because fewer than {} of the pilot's trials have a value: {}",
-                     comparison::min_values, fmt::join(names, ", "));
 }
 
 std::string aim_sentence(const EquivalencePlan& plan) {
@@ -337,9 +334,9 @@ document::AnswerDescription<EquivalencePlan> equivalence_answer() {
       .value(in_data("max_trials", "the most trials that were tried"),
              [](Of plan) { return trials_of_point(plan, plan.forecast.max_trials); })
       .table({.key = "measures", .meaning = "measures at the design points"}, measure_columns(), measure_rows)
-      .table(in_data("unplanned", "measures of which too few trials of the pilot have a value"),
-             unplanned_columns(), &EquivalencePlan::unplanned)
-      .sentence(unplanned_sentence);
+      .table(everywhere("unplanned", "Not planned: too few trials of the pilot have a value",
+                        "measures of which too few trials of the pilot have a value"),
+             unplanned_columns(), &EquivalencePlan::unplanned);
   return answer;
 }
 

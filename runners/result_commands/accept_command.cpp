@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "analysis/acceptance/acceptance.hpp"
-#include "analysis/acceptance/acceptance_answer.hpp"
 #include "analysis/goal/question.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/answers/answer_format.hpp"
@@ -66,10 +65,8 @@ ExitCode accept(const command_line::Arguments& arguments) {
   const acceptance::Judged judged =
       arguments.has("these") ? acceptance::Judged::these_machines : acceptance::Judged::all_machines;
   const acceptance::Acceptance accepted = acceptance::accept(file, point, logs, judged);
-  return answers::print(
-      arguments, acceptance::acceptance_answer(),
-      acceptance::AcceptanceReading{accepted, operands[0], labels[static_cast<std::size_t>(point)]},
-      acceptance::exit_code_of(acceptance::status_of(accepted)));
+  return answers::print(arguments, acceptance::acceptance_answer(), accepted,
+                        acceptance::exit_code_of(acceptance::status_of(accepted)));
 }
 
 }  // namespace

@@ -57,9 +57,9 @@ PointTrials settled_trials(const Machines& machines, unsigned draws, unsigned ag
     }
   }
   comparison::AlsoRead also;
-  also.rigs = also.goal_rigs = machines.rigs;
+  also.rigs = machines.rigs;
   const std::optional<double> asked = machines.rigs > 0 ? std::optional(0.9) : std::nullopt;
-  also.judged = {{{.band = 0, .within = 0.03, .moves = 0.9, .machines = asked}, {0, 0.03}}};
+  also.judged = {{{.band = 0, .within = 0.03, .moves = 0.9, .machines = asked}, {0, 0.03}, machines.rigs}};
   return comparison::gather_trials(outcomes, machines.moves, also);
 }
 

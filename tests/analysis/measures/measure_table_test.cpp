@@ -165,9 +165,9 @@ TEST(AddedQuality, IsJudgedByTheTrialsThatHaveItWhereMoreIsWorse) {
       measure.gate = {"breakaway_rate", layout::Worse::more, 0.02, 0.0};
   }
   std::vector<trial::MoveOutcome> moves(100);
-  const comparison::PointTrials before = comparison::gather_trials(moves, 1, table);
+  const comparison::PointTrials before = comparison::gather_trials(moves, 1, {}, table);
   for (std::size_t i = 0; i < 30; ++i) moves[i].broke_away = true;
-  const comparison::PointTrials after = comparison::gather_trials(moves, 1, table);
+  const comparison::PointTrials after = comparison::gather_trials(moves, 1, {}, table);
   for (const bool paired : {true, false}) {
     const std::vector<comparison::Judgement> measures =
         comparison::compare_measures({}, "", {before, after, paired});

@@ -109,7 +109,7 @@ TEST_F(Accept, CorrectsForTheNumberOfGoals) {
   EXPECT_EQ(two["goals"][0]["agreement"], "too_few");
   write_log("bad.csv", 60, 40);
   const std::string text = program({"accept", "study.h5", "bad.csv", "--these"}).out;
-  EXPECT_EQ(text.find("rejected by 60 moves of 1 machine: missed: goal one, goal other"), 0u) << text;
+  EXPECT_EQ(text.find("rejected by 60 moves of 1 machine: missed: one, other"), 0u) << text;
 }
 
 // Few moves that meet the goal are shown by nothing, but fewer of them than predicted meet it.
@@ -118,7 +118,7 @@ TEST_F(Accept, RejectsFewerThanPredicted) {
   const Json worse = json_of({"worse.csv"}, 1);
   EXPECT_EQ(worse["goals"][0]["goal_status"], "undecided");
   const std::string text = program({"accept", "study.h5", "worse.csv"}).out;
-  EXPECT_EQ(text.find("rejected by 60 moves of 1 machine: met less often than predicted: the goal (90 % of"),
+  EXPECT_EQ(text.find("rejected by 60 moves of 1 machine: met less often than predicted: goal (90 % of"),
             0u)
       << text;
   EXPECT_GT(worse["goals"][0]["measured_high"], 0.9);
@@ -213,7 +213,7 @@ goals: {back: {on: [1], band: 1, within: 0.03, moves: 0.9}}
   EXPECT_EQ(numbered["machines"][0]["moves"], Json({100}));
   EXPECT_EQ(numbered["machines"][0]["met"], Json({100}));
   const std::string page = program({"accept", "study.h5", "numbered.csv", "--these"}).out;
-  EXPECT_NE(page.find("accepted: 100 moves of 1 machine show the goal for these machines"), std::string::npos)
+  EXPECT_NE(page.find("accepted: 100 moves of 1 machine show that these machines meet the goal"), std::string::npos)
       << page;
   EXPECT_NE(page.find("100 of 100"), std::string::npos) << page;
   EXPECT_EQ(page.find("200"), std::string::npos) << page;

@@ -135,14 +135,10 @@ struct PlannedMeasure {
   std::string point;      ///< with the condition
   std::string condition;  ///< empty without conditions
   comparison::Judgement found;
-  comparison::JudgementForecast forecast{};
-};
+  std::optional<std::int64_t> trials{};  ///< of each study per design point for this measure alone
+  std::string trials_text{};             ///< likewise, or what the most trials decide
 
-/// A measure at a point that cannot be planned: too few trials of the pilot have a value.
-struct UnplannedMeasure {
-  std::string point;      ///< with the condition
-  std::string condition;  ///< empty without conditions
-  std::string measure;
+  std::string text(double value) const { return comparison::value_text(value, found.measure, found.unit); }
 };
 
 struct EquivalencePlan {
@@ -153,7 +149,7 @@ struct EquivalencePlan {
   comparison::Forecast forecast;
   std::int64_t rigs{1};  ///< of each point; 1: no trials share one
   std::vector<PlannedMeasure> measures;
-  std::vector<UnplannedMeasure> unplanned;
+  std::vector<PlannedMeasure> unplanned;  ///< those of which too few trials of the pilot have a value
 };
 
 /// Adds the measures of a point under a condition to the plan. The sample of the pilot stands for both
@@ -167,12 +163,34 @@ void add_point(EquivalencePlan& plan, comparison::ForecastSamples& samples, cons
   samples.add_point(plan.pilot, plan.pilot);
   for (std::size_t k = 0; k < found.size(); ++k) {
     const comparison::Judgement& one = found[k];
-    if (!comparison::has_finite_bounds(one)) {
-      plan.unplanned.push_back({label, condition, one.measure});
-      continue;
-    }
-    samples.add(one, of_measures[k]);
-    plan.measures.push_back({label, condition, one});
+    const bool is_planned = comparison::has_finite_bounds(one);
+    (is_planned ? plan.measures : plan.unplanned).push_back({label, condition, one});
+    if (is_planned) samples.add(one, of_measures[k]);
+  }
+}
+
+/// The trials of a design point, under all conditions together: as many on each rig under each condition.
+/// @param each under each condition
+std::int64_t trials_of_point(const EquivalencePlan& plan, double each) {
+  const double on_rig = std::ceil(each / static_cast<double>(plan.rigs));
+  return plan.conditions * plan.rigs * static_cast<std::int64_t>(on_rig);
+}
+
+/// The same to people: rounded up, as far as every number of trials can be run.
+std::string trials_text(const EquivalencePlan& plan, double each) {
+  const std::int64_t trials = trials_of_point(plan, each);
+  return plan.conditions * plan.rigs > 1 ? std::to_string(trials)
+                                         : comparison::trials_text(static_cast<double>(trials));
+}
+
+void take_forecast(const EquivalencePlan& plan, PlannedMeasure& measure,
+                   const comparison::JudgementForecast& forecast) {
+  if (forecast.trials) {
+    measure.trials = trials_of_point(plan, *forecast.trials);
+    measure.trials_text = trials_text(plan, *forecast.trials);
+  } else {
+    measure.trials_text = fmt::format("{} decide a margin of {}", trials_text(plan, plan.forecast.max_trials),
+                                      measure.text(forecast.margin));
   }
 }
 
@@ -214,87 +232,39 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   options.max_factor = std::max(2.0, max_planned_trials / static_cast<double>(plan.pilot));
   plan.forecast = comparison::forecast_equivalence(samples, options);
   for (std::size_t k = 0; k < plan.measures.size(); ++k)
-    plan.measures[k].forecast = plan.forecast.judgements[k];
+    take_forecast(plan, plan.measures[k], plan.forecast.judgements[k]);
   return plan;
 }
 
-/// The trials of a design point, under all conditions together: as many on each rig under each condition.
-/// @param each under each condition
-std::int64_t trials_of_point(const EquivalencePlan& plan, double each) {
-  const double on_rig = std::ceil(each / static_cast<double>(plan.rigs));
-  return plan.conditions * plan.rigs * static_cast<std::int64_t>(on_rig);
-}
-std::optional<std::int64_t> trials_of_point(const EquivalencePlan& plan, const std::optional<double>& each) {
-  return each ? std::optional(trials_of_point(plan, *each)) : std::nullopt;
-}
+using Measure = const PlannedMeasure&;
 
-/// The same to people: rounded up, as far as every number of trials can be run.
-std::string trials_text(const EquivalencePlan& plan, double each) {
-  const std::int64_t trials = trials_of_point(plan, each);
-  return plan.conditions * plan.rigs > 1 ? std::to_string(trials)
-                                         : comparison::trials_text(static_cast<double>(trials));
+document::Description<PlannedMeasure> place_columns() {
+  return document::Description<PlannedMeasure>()
+      .value(everywhere("point", "point", "label of the design point, with the condition"),
+             &PlannedMeasure::point)
+      .value(in_data("condition", "its trials are under it; absent without conditions"),
+             [](Measure one) { return one.condition.empty() ? std::nullopt : std::optional(one.condition); })
+      .value(everywhere("measure", "measure", "name of the measure"),
+             [](Measure one) { return one.found.measure; });
 }
 
-/// A measure of the plan.
-struct MeasureRow {
-  const EquivalencePlan& plan;
-  const PlannedMeasure& planned;
-
-  std::string text(double value) const {
-    return comparison::value_text(value, planned.found.measure, planned.found.unit);
-  }
-};
-
-std::vector<MeasureRow> measure_rows(const EquivalencePlan& plan) {
-  std::vector<MeasureRow> rows;
-  for (const PlannedMeasure& one : plan.measures) rows.push_back({plan, one});
-  return rows;
-}
-
-std::string trials_cell(const MeasureRow& row) {
-  const comparison::JudgementForecast& forecast = row.planned.forecast;
-  if (forecast.trials) return trials_text(row.plan, *forecast.trials);
-  return fmt::format("{} decide a margin of {}", trials_text(row.plan, row.plan.forecast.max_trials),
-                     row.text(forecast.margin));
-}
-
-document::Description<MeasureRow> measure_columns() {
-  using Row = const MeasureRow&;
+document::Description<PlannedMeasure> measure_columns() {
   const auto shown = [](const char* key, const char* heading, const char* meaning) {
     document::Item item = everywhere(key, heading, meaning);
     item.numeric = true;
     return item;
   };
-  return document::Description<MeasureRow>()
-      .value(everywhere("point", "point", "label of the design point, with the condition"),
-             [](Row row) { return row.planned.point; })
-      .value(in_data("condition", "its trials are under it; absent without conditions"),
-             [](Row row) {
-               return row.planned.condition.empty() ? std::nullopt : std::optional(row.planned.condition);
-             })
-      .value(everywhere("measure", "measure", "name of the measure"),
-             [](Row row) { return row.planned.found.measure; })
-      .value(in_data("unit", "its unit"), [](Row row) { return row.planned.found.unit; })
+  return place_columns()
+      .value(in_data("unit", "its unit"), [](Measure one) { return one.found.unit; })
       .value(shown("value", "pilot", "its value in the pilot, in its unit"),
-             [](Row row) { return row.planned.found.current; })
-      .shown_as([](Row row) { return row.text(row.planned.found.current); })
+             [](Measure one) { return one.found.current; })
+      .shown_as([](Measure one) { return one.text(one.found.current); })
       .value(shown("margin", "margin", "largest accepted difference, in its unit"),
-             [](Row row) { return row.planned.found.margin; })
-      .shown_as([](Row row) { return "± " + row.text(row.planned.found.margin); })
+             [](Measure one) { return one.found.margin; })
+      .shown_as([](Measure one) { return "± " + one.text(one.found.margin); })
       .value(shown("trials", "trials", "trials of each study per design point for this measure alone"),
-             [](Row row) { return trials_of_point(row.plan, row.planned.forecast.trials); })
-      .shown_as(trials_cell);
-}
-
-document::Description<UnplannedMeasure> unplanned_columns() {
-  return document::Description<UnplannedMeasure>()
-      .value(everywhere("point", "point", "label of the design point, with the condition"),
-             &UnplannedMeasure::point)
-      .value(in_data("condition", "its trials are under it; absent without conditions"),
-             [](const UnplannedMeasure& one) {
-               return one.condition.empty() ? std::nullopt : std::optional(one.condition);
-             })
-      .value(everywhere("measure", "measure", "name of the measure"), &UnplannedMeasure::measure);
+             &PlannedMeasure::trials)
+      .shown_as(&PlannedMeasure::trials_text);
 }
 
 std::string equivalence_headline(const EquivalencePlan& plan) {
@@ -330,13 +300,17 @@ document::AnswerDescription<EquivalencePlan> equivalence_answer() {
       .value(in_data("pilot_trials", "trials of the pilot per design point"),
              [](Of plan) { return plan.conditions * plan.pilot; })
       .value(in_data("trials", "trials of each study per design point; unknown if max_trials do not suffice"),
-             [](Of plan) { return trials_of_point(plan, plan.forecast.trials); })
+             [](Of plan) {
+               const std::optional<double>& trials = plan.forecast.trials;
+               return trials ? std::optional(trials_of_point(plan, *trials)) : std::nullopt;
+             })
       .value(in_data("max_trials", "the most trials that were tried"),
              [](Of plan) { return trials_of_point(plan, plan.forecast.max_trials); })
-      .table({.key = "measures", .meaning = "measures at the design points"}, measure_columns(), measure_rows)
+      .table({.key = "measures", .meaning = "measures at the design points"}, measure_columns(),
+             &EquivalencePlan::measures)
       .table(everywhere("unplanned", "Not planned: too few trials of the pilot have a value",
                         "measures of which too few trials of the pilot have a value"),
-             unplanned_columns(), &EquivalencePlan::unplanned);
+             place_columns(), &EquivalencePlan::unplanned);
   return answer;
 }
 

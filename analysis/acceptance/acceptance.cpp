@@ -89,15 +89,14 @@ std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log
 }
 
 /// [goal] the moves of each machine of the study at the point.
-std::vector<measures::MoveCounts> simulated_counts(const reading::AllTrialsFile& file, std::int64_t point) {
+std::vector<measures::CellCounts> simulated_counts(const reading::AllTrialsFile& file, std::int64_t point) {
   const study::Study& study = file.study();
   const std::vector<measures::CountedGoal> goals = measures::counted_goals(study);
-  std::vector<measures::MoveCounts> counts(goals.size());
-  for (measures::MoveCounts& one : counts) one.tell_apart(study.worlds, 0);
+  std::vector<measures::CellCounts> counts(goals.size(), measures::CellCounts({study.rigs, study.worlds, 0}));
   const layout::RowRange rows = file.rows_of(point);
   measures::visit_trials(file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
     for (std::size_t goal = 0; goal < goals.size(); ++goal)
-      measures::count_moves(counts[goal], goals[goal], row - rows.first, study.rigs, moves);
+      measures::count_moves(counts[goal], goals[goal], row - rows.first, moves);
   });
   return counts;
 }
@@ -121,11 +120,10 @@ Agreement agreement_with(const MetMoves& met_of_machines, const measures::MoveCo
 
 /// The prediction of a claim, and whether the machines agree with it: with worlds that of the one that they
 /// are most like, with the intervals of all.
-void compare_with_prediction(Claim& claim, const measures::MoveCounts& simulated, const MetMoves& met,
+void compare_with_prediction(Claim& claim, const measures::CellCounts& simulated, const MetMoves& met,
                              std::uint64_t seed) {
-  std::vector<measures::MoveCounts> worlds = measures::in_worlds(simulated);
-  if (!worlds.empty()) claim.like_worlds = 0;
-  if (worlds.empty()) worlds = {simulated};
+  if (simulated.shape().worlds > 0) claim.like_worlds = 0;
+  const std::vector<measures::MoveCounts> worlds = simulated.worlds_under(0);
   statistics::ConfidenceInterval all{1.0, 0.0};
   for (std::size_t world = 0; world < worlds.size(); ++world) {
     const Agreement one = agreement_with(met, worlds[world], seed);
@@ -163,8 +161,8 @@ goal::Status status_of_these(const study::Goal& goal, const measures::MoveCounts
 }
 
 /// The moves of the machines, each a cluster. @param met_of_machines [machine, move]
-measures::MoveCounts measured_counts(const MetMoves& met_of_machines) {
-  measures::MoveCounts measured;
+measures::CellCounts measured_counts(const MetMoves& met_of_machines) {
+  measures::CellCounts measured({.rigs = std::ssize(met_of_machines)});
   for (std::size_t i = 0; i < met_of_machines.size(); ++i) {
     const std::vector<bool>& met = met_of_machines[i];
     measured.add_rig(i, 0,
@@ -177,17 +175,18 @@ measures::MoveCounts measured_counts(const MetMoves& met_of_machines) {
 
 /// The verdict on each goal, [goal], of the machines that are judged.
 void judge(Acceptance& acceptance, std::span<const study::Goal> goals,
-           std::span<const measures::MoveCounts> measured) {
+           std::span<const measures::CellCounts> measured) {
   const goal::Verdict verdict = goal::judge_goals(goals, measured, 1);
   for (std::size_t i = 0; i < goals.size(); ++i) {
     Claim& claim = acceptance.claims[i];
-    claim.moves = measured[i].moves;
-    claim.met = measured[i].met;
+    const measures::MoveCounts counts = measured[i].sum();
+    claim.moves = counts.moves;
+    claim.met = counts.met;
     claim.rate = bounded_rate(claim.met, claim.moves, goals[i].confidence);
-    claim.measured = verdict.goals.empty() ? verdict : verdict.goals[i];
+    claim.measured = verdict.claims[i];
     claim.status = acceptance.judged == Judged::all_machines
                        ? claim.measured.status
-                       : status_of_these(goals[i], measured[i], goals.size());
+                       : status_of_these(goals[i], counts, goals.size());
   }
   if (acceptance.judged == Judged::all_machines && verdict.status == goal::Status::undecided)
     acceptance.needed_machines = goal::needs_of(goals, measured, 1).rigs;
@@ -231,8 +230,8 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
                     fmt::format("{}: has no moves; expected a row for each move of the machine", log.name()));
     acceptance.machines.push_back({.name = log.name()});
   }
-  const std::vector<measures::MoveCounts> simulated = simulated_counts(file, point);
-  std::vector<measures::MoveCounts> measured;
+  const std::vector<measures::CellCounts> simulated = simulated_counts(file, point);
+  std::vector<measures::CellCounts> measured;
   for (std::size_t i = 0; i < study.goals.size(); ++i) {
     MetMoves met;
     for (std::size_t machine = 0; machine < logs.size(); ++machine) {
@@ -244,7 +243,7 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
     Claim& claim = acceptance.claims.emplace_back(Claim{.goal = study.goals[i]});
     claim.significance /= static_cast<double>(study.goals.size());
     compare_with_prediction(claim, simulated[i], met, study.seed);
-    acceptance.simulated = std::ssize(simulated[i].rigs);
+    acceptance.simulated = study.rigs;
   }
   judge(acceptance, study.goals, measured);
   acceptance.worlds = study.worlds;

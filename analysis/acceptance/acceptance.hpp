@@ -31,9 +31,9 @@ enum class Judged {
 /// One goal: what was predicted, and what was measured.
 struct Claim {
   study::Goal goal{};
-  goal::Verdict predicted{};  ///< on the simulated machines
-  goal::Verdict measured{};   ///< on all machines of which the measured ones are a sample
-  std::int64_t moves{0};      ///< measured, of all machines
+  goal::ClaimVerdict predicted{};  ///< on the simulated machines
+  goal::ClaimVerdict measured{};   ///< on all machines of which the measured ones are a sample
+  std::int64_t moves{0};           ///< measured, of all machines
   std::int64_t met{0};
   /// Of all moves of the measured machines, each one-sided with the confidence of the goal.
   goal::BoundedProportion rate{};

@@ -100,7 +100,7 @@ std::string comparison_of(OfClaim c) {
                      text::short_number(c.agreement.p));
 }
 
-std::optional<Bounded> of_machines(OfClaim c, const goal::Verdict& verdict) {
+std::optional<Bounded> of_machines(OfClaim c, const goal::ClaimVerdict& verdict) {
   if (!c.goal.machines) return std::nullopt;
   return goal::bounded(verdict.machines);
 }

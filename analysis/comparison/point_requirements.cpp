@@ -59,8 +59,8 @@ void judge_mean(Judgement& result, const std::vector<double>& values, double con
 /// The verdict of the goal; its confidence is that of the manifest.
 void judge_goal(Judgement& result, const GoalTrials& required, std::size_t claims) {
   const study::Goal& asked = required.goal;
-  const measures::MoveCounts& counts = required.counts;
-  const goal::Verdict verdict = goal::judge_goal(asked, counts, 1, claims);
+  const measures::MoveCounts counts = required.counts.sum();
+  const goal::Verdict verdict = goal::judge_goal(asked, required.counts, 1, claims);
   const bool machines = asked.machines.has_value();
   const goal::BoundedProportion& judged = machines ? verdict.machines : verdict.moves;
   result.current_n = machines ? std::ssize(counts.rigs) : counts.moves;

@@ -15,9 +15,8 @@ namespace {
 void add_to_goal(GoalTrials& goal, std::int64_t first, std::int64_t moves,
                  std::span<const trial::MoveOutcome> outcomes) {
   for (auto move = outcomes.begin(); move != outcomes.end(); move += moves) {
-    const std::int64_t before = goal.counts.met;
-    count_moves(goal.counts, goal.counted, first++, goal.rigs, {move, move + moves});
-    goal.moves_in_goal.push_back(static_cast<double>(goal.counts.met - before));
+    goal.moves_in_goal.push_back(
+        static_cast<double>(count_moves(goal.counts, goal.counted, first++, {move, move + moves})));
   }
 }
 

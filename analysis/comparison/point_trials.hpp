@@ -21,7 +21,7 @@ struct GoalTrials {
   study::Goal goal{};
   measures::CountedGoal counted{};
   std::int64_t rigs{0};                 ///< number of rigs, also of a study with worlds; 0: none
-  measures::MoveCounts counts{};        ///< without trials it tells the worlds apart that it shall count
+  measures::CellCounts counts{};        ///< of the shape that tells rigs and worlds apart
   std::vector<double> moves_in_goal{};  ///< [trial]
 
   /// Number of moves of a trial that it is about. @param moves of a trial

@@ -165,8 +165,8 @@ std::vector<GoalTrials> counted_in(const ComparedStudy& study, const std::vector
                                 "tolerance or limits; expected a study that measures them, or measures "
                                 "without the goal",
                                 study.file.path().string(), goal::goal_sentence(goal)));
-    all.push_back({goal, *counted, whole_value(study, "rigs")});
-    all.back().counts.worlds = whole_value(study, "worlds");
+    const std::int64_t rigs = whole_value(study, "rigs");
+    all.push_back({goal, *counted, rigs, measures::CellCounts({rigs, whole_value(study, "worlds"), 0})});
   }
   return all;
 }

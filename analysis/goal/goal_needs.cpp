@@ -252,18 +252,16 @@ class ObservedClaim {
 /// All claims of a study: each goal under each condition. What is known of one says nothing of another.
 class ObservedStudy {
  public:
-  ObservedStudy(std::span<const study::Goal> goals, std::span<const measures::MoveCounts> counts,
+  ObservedStudy(std::span<const study::Goal> goals, std::span<const measures::CellCounts> counts,
                 std::size_t points) {
-    const std::vector<measures::MoveCounts>& conditions = counts.front().of_conditions;
-    conditions_ = std::max<std::int64_t>(std::ssize(conditions), 1);
+    conditions_ = static_cast<std::int64_t>(counts.front().conditions());
     for (std::size_t i = 0; i < goals.size(); ++i) {
       for (std::size_t c = 0; c < static_cast<std::size_t>(conditions_); ++c) {
-        const measures::MoveCounts& one = measures::under_condition(counts[i], c);
-        const auto worlds = one.worlds > 0 ? measures::in_worlds(one) : std::vector{one};
+        const std::vector<measures::MoveCounts> worlds = counts[i].worlds_under(c);
         has_moves_ = has_moves_ && std::ranges::all_of(worlds, [](const auto& of) { return of.moves > 0; });
         if (!has_moves_) return;
         worlds_ = std::ssize(worlds);
-        if (!one.rigs.empty()) trials_of_rig_ = worlds.front().rigs.front().trials;
+        if (!worlds.front().rigs.empty()) trials_of_rig_ = worlds.front().rigs.front().trials;
         claims_.emplace_back(goals[i], worlds, points, goals.size() * static_cast<std::size_t>(conditions_));
       }
     }
@@ -318,7 +316,7 @@ std::int64_t smallest_without_miss(const AskedGoal& asked, std::int64_t trials, 
 }  // namespace
 
 std::vector<Needs> deciding_studies(std::span<const study::Goal> goals,
-                                    std::span<const measures::MoveCounts> counts, std::size_t points,
+                                    std::span<const measures::CellCounts> counts, std::size_t points,
                                     double probability) {
   ObservedStudy observed(goals, counts, points);
   if (!observed.has_moves()) return {};
@@ -347,7 +345,7 @@ std::vector<Needs> deciding_studies(std::span<const study::Goal> goals,
   return studies;
 }
 
-Needs needs_of(std::span<const study::Goal> goals, std::span<const measures::MoveCounts> counts,
+Needs needs_of(std::span<const study::Goal> goals, std::span<const measures::CellCounts> counts,
                std::size_t points, double probability) {
   const std::vector<Needs> studies = deciding_studies(goals, counts, points, probability);
   return studies.empty() ? Needs{} : cheapest(studies);

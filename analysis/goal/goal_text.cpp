@@ -100,7 +100,7 @@ statistics::RigStudy shape_of(const measures::MoveCounts& counts) {
 
 /// The readings of a study with worlds: the worst world, and the worlds by their verdicts.
 std::string readings_of_worlds(const study::Goal& goal, const measures::MoveCounts& counts,
-                               const Verdict& verdict) {
+                               const ClaimVerdict& verdict) {
   const std::size_t worst = worst_worlds_first(goal, verdict).front();
   std::string text = fmt::format(
       "  it must hold in each of {} worlds: met in {}, missed in {}, undecided in {}\n",
@@ -173,26 +173,26 @@ std::string ending_text(const Question& question, std::span<const trial::MoveOut
 
 std::string goals_text(const Question& question, const measures::PointSummary& point,
                        const Verdict& verdict) {
-  const auto readings = [&](const JudgedPart& part, const Verdict& of_goal) {
-    const measures::MoveCounts& counts = point.goals[part.number];
+  const auto readings = [&](const JudgedPart& part, const ClaimVerdict& of_goal) {
+    const measures::MoveCounts counts = point.goals[part.number].sum({.condition = of_goal.condition});
     return (question.conditions.empty()
                 ? ""
                 : fmt::format(" {}, the worst:\n", under_text(question, of_goal.condition))) +
-           readings_text(*part.claim, under_condition(counts, of_goal.condition), of_goal);
+           readings_text(*part.claim, counts, of_goal);
   };
   if (!has_several(question))
     return readings(question.parts.front(), verdict) + together_text(question, point);
   std::string text;
-  for (std::size_t i = 0; i < verdict.goals.size(); ++i) {
-    const JudgedPart& part = question.parts[i];
-    text += fmt::format("  {}{}\n{}", name_text(*part.claim), text_of(verdict.goals[i].status),
-                        readings(part, verdict.goals[i]));
+  for (std::size_t goal = 0; goal < question.parts.size(); ++goal) {
+    const JudgedPart& part = question.parts[goal];
+    const ClaimVerdict& worst = worst_of_goal(verdict, goal);
+    text += fmt::format("  {}{}\n{}", name_text(*part.claim), text_of(worst.status), readings(part, worst));
   }
   return text + together_text(question, point);
 }
 
 std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,
-                          const Verdict& verdict) {
+                          const ClaimVerdict& verdict) {
   if (!verdict.worlds.empty()) return readings_of_worlds(goal, counts, verdict);
   std::string text = fmt::format("  of all moves of all machines, {} meet it: {} of {}, {}\n",
                                  text::percentage(counts.met, counts.moves), counts.met, counts.moves,
@@ -213,7 +213,7 @@ std::string readings_text(const study::Goal& goal, const measures::MoveCounts& c
 }
 
 std::string one_machine_text(const study::Goal& goal, const statistics::RigStudy& study,
-                             const Verdict& verdict) {
+                             const ClaimVerdict& verdict) {
   if (!goal.machines || verdict.status != Status::undecided) return {};
   const double at_limit = statistics::chance_to_show(study, goal.moves, study.moves);
   if (at_limit <= 1.0 - goal.confidence) return {};

@@ -22,7 +22,7 @@ std::string question_sentence(const Question& question);
 /// The readings of the proportions, a line each: of all moves of all machines; with rigs, of machines that
 /// meet the goal in Goal::moves of their moves, and of rigs without a miss.
 std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,
-                          const Verdict& verdict);
+                          const ClaimVerdict& verdict);
 
 /// The readings of the goal, or of each of several with its name and verdict. @param verdict on the point
 std::string goals_text(const Question& question, const measures::PointSummary& point, const Verdict& verdict);
@@ -39,7 +39,7 @@ std::string ending_text(const Question& question, std::span<const trial::MoveOut
 /// moves of one machine lack, a line. Empty where a machine without a miss is shown to meet the goal, where
 /// the verdict is decided, and where the goal is not about machines. @param study of the moves that are asked
 std::string one_machine_text(const study::Goal& goal, const statistics::RigStudy& study,
-                             const Verdict& verdict);
+                             const ClaimVerdict& verdict);
 
 /// "About 300 rigs with 100 trials each decide it with a probability of 90 %, …", or that no study does.
 /// @param on_rigs whether trials share rigs

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 #include <tuple>
-#include <utility>
 
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/statistics/clusters/rig_proportion.hpp"
@@ -27,11 +26,10 @@ struct Confidences {
         high(statistics::confidence_of_each(goal.confidence, points * parts)) {}
 };
 
-/// The verdict on one world, or on a study without worlds.
-Verdict judge_world(const study::Goal& goal, const measures::MoveCounts& counts,
-                    const Confidences& confidence) {
+WorldVerdict judge_world(const study::Goal& goal, const measures::MoveCounts& counts,
+                         const Confidences& confidence) {
   const statistics::ClusterSums clusters = measures::clusters_of(counts);
-  Verdict verdict;
+  WorldVerdict verdict;
   verdict.moves = {statistics::rate(counts.met, counts.moves),
                    statistics::clustered_at_least(clusters, confidence.low),
                    statistics::clustered_at_most(clusters, confidence.high)};
@@ -52,28 +50,8 @@ Verdict judge_world(const study::Goal& goal, const measures::MoveCounts& counts,
   verdict.without_miss = {statistics::rate(verdict.rigs_without_miss, all),
                           statistics::proportion_at_least(verdict.rigs_without_miss, all, confidence.low),
                           statistics::proportion_at_most(verdict.rigs_without_miss, all, confidence.high)};
-  verdict.machines = {statistics::rate(low.meeting, std::ssize(counts.rigs)), low.low, high};
+  verdict.machines = {statistics::rate(low.meeting, all), low.low, high};
   verdict.status = status_of(verdict.machines, *goal.machines);
-  return verdict;
-}
-
-Verdict judge_worlds(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
-                     std::size_t parts) {
-  const std::vector<measures::MoveCounts> worlds = measures::in_worlds(counts);
-  const Confidences confidence(goal, points, parts * worlds.size());
-  Verdict verdict;
-  for (const measures::MoveCounts& world : worlds) {
-    const Verdict one = judge_world(goal, world, confidence);
-    const bool first = verdict.worlds.empty();
-    verdict.moves = first ? one.moves : lowest(verdict.moves, one.moves);
-    verdict.machines = first ? one.machines : lowest(verdict.machines, one.machines);
-    verdict.without_miss = first ? one.without_miss : lowest(verdict.without_miss, one.without_miss);
-    verdict.rigs_meeting += one.rigs_meeting;
-    verdict.rigs_without_miss += one.rigs_without_miss;
-    verdict.worlds.push_back({one.status, one.moves, one.machines});
-  }
-  verdict.status =
-      goal.machines ? status_of(verdict.machines, *goal.machines) : status_of(verdict.moves, goal.moves);
   return verdict;
 }
 
@@ -81,10 +59,26 @@ double logit(double proportion) {
   return std::log(proportion / (1.0 - proportion));
 }
 
-/// How far the lower bound of what the goal claims is above what it asks for.
-double margin_of(const study::Goal& goal, const Verdict& verdict) {
-  return goal.machines ? logit(verdict.machines.low) - logit(*goal.machines)
-                       : logit(verdict.moves.low) - logit(goal.moves);
+/// @param worlds in each of which the claim must hold
+ClaimVerdict judge_claim(const study::Goal& goal, std::span<const measures::MoveCounts> worlds,
+                         std::size_t points, std::size_t parts) {
+  const Confidences confidence(goal, points, parts * worlds.size());
+  ClaimVerdict verdict;
+  for (const measures::MoveCounts& world : worlds) {
+    const WorldVerdict one = judge_world(goal, world, confidence);
+    const bool first = verdict.worlds.empty();
+    verdict.moves = first ? one.moves : lowest(verdict.moves, one.moves);
+    verdict.machines = first ? one.machines : lowest(verdict.machines, one.machines);
+    verdict.without_miss = first ? one.without_miss : lowest(verdict.without_miss, one.without_miss);
+    verdict.rigs_meeting += one.rigs_meeting;
+    verdict.rigs_without_miss += one.rigs_without_miss;
+    verdict.worlds.push_back(one);
+  }
+  const double wanted = goal.machines.value_or(goal.moves);
+  const BoundedProportion& judged = goal.machines ? verdict.machines : verdict.moves;
+  verdict.status = status_of(judged, wanted);
+  verdict.margin = logit(judged.low) - logit(wanted);
+  return verdict;
 }
 
 }  // namespace
@@ -117,56 +111,54 @@ std::string_view text_of(Status status) {
   return "undecided";
 }
 
-bool is_worse(const Verdict& one, const Verdict& other) {
+bool is_worse(const ClaimVerdict& one, const ClaimVerdict& other) {
   // Of claims on machines that show nothing the lower bounds of moves tell more.
   return std::tuple(rank_of(one.status), one.margin, one.moves.low) <
          std::tuple(rank_of(other.status), other.margin, other.moves.low);
 }
 
-Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
-                   std::size_t parts) {
-  if (!counts.of_conditions.empty()) {
-    std::vector<Verdict> each;
-    for (const measures::MoveCounts& condition : counts.of_conditions)
-      each.push_back(judge_goal(goal, condition, points, parts * counts.of_conditions.size()));
-    const auto worst = std::ranges::min_element(each, is_worse);
-    Verdict verdict = *worst;
-    verdict.condition = static_cast<std::size_t>(worst - each.begin());
-    verdict.conditions = std::move(each);
-    return verdict;
+ClaimVerdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
+                        std::size_t parts) {
+  ClaimVerdict verdict = judge_claim(goal, {&counts, 1}, points, parts);
+  verdict.worlds.clear();
+  return verdict;
+}
+
+Verdict judge_goals(std::span<const study::Goal> goals, std::span<const measures::CellCounts> counts,
+                    std::size_t points, std::size_t parts) {
+  Verdict verdict;
+  for (std::size_t goal = 0; goal < goals.size(); ++goal) {
+    const std::size_t conditions = counts[goal].conditions();
+    for (std::size_t condition = 0; condition < conditions; ++condition) {
+      ClaimVerdict& claim = verdict.claims.emplace_back(judge_claim(
+          goals[goal], counts[goal].worlds_under(condition), points, parts * goals.size() * conditions));
+      claim.goal = goal;
+      claim.condition = condition;
+      if (counts[goal].shape().worlds == 0) claim.worlds.clear();
+    }
   }
-  Verdict verdict = counts.worlds > 0 ? judge_worlds(goal, counts, points, parts)
-                                      : judge_world(goal, counts, {goal, points, parts});
-  verdict.margin = margin_of(goal, verdict);
+  static_cast<ClaimVerdict&>(verdict) = *std::ranges::min_element(verdict.claims, is_worse);
   return verdict;
 }
 
-Verdict judge_goals(std::span<const study::Goal> goals, std::span<const measures::MoveCounts> counts,
-                    std::size_t points) {
-  std::vector<Verdict> each;
-  for (std::size_t i = 0; i < goals.size(); ++i)
-    each.push_back(judge_goal(goals[i], counts[i], points, goals.size()));
-  if (each.size() == 1) return each.front();
-  const auto worst = std::ranges::min_element(each, is_worse);
-  Verdict verdict = *worst;
-  verdict.goal = static_cast<std::size_t>(worst - each.begin());
-  verdict.goals = std::move(each);
-  return verdict;
+const ClaimVerdict& worst_where(const Verdict& verdict,
+                                const std::function<bool(const ClaimVerdict&)>& is_asked) {
+  const ClaimVerdict* worst = nullptr;
+  for (const ClaimVerdict& claim : verdict.claims)
+    if (is_asked(claim) && (worst == nullptr || is_worse(claim, *worst))) worst = &claim;
+  return *worst;
 }
 
-std::vector<ClaimVerdict> claims_of(const Verdict& verdict) {
-  std::vector<ClaimVerdict> claims;
-  const auto add = [&claims](std::size_t goal, const Verdict& of_goal) {
-    if (of_goal.conditions.empty()) claims.push_back({goal, 0, &of_goal});
-    for (std::size_t condition = 0; condition < of_goal.conditions.size(); ++condition)
-      claims.push_back({goal, condition, &of_goal.conditions[condition]});
-  };
-  if (verdict.goals.empty()) add(0, verdict);
-  for (std::size_t goal = 0; goal < verdict.goals.size(); ++goal) add(goal, verdict.goals[goal]);
-  return claims;
+const ClaimVerdict& worst_of_goal(const Verdict& verdict, std::size_t goal) {
+  return worst_where(verdict, [goal](const ClaimVerdict& claim) { return claim.goal == goal; });
 }
 
-std::vector<std::size_t> worst_worlds_first(const study::Goal& goal, const Verdict& verdict) {
+const ClaimVerdict& worst_under(const Verdict& verdict, std::size_t condition) {
+  return worst_where(verdict,
+                     [condition](const ClaimVerdict& claim) { return claim.condition == condition; });
+}
+
+std::vector<std::size_t> worst_worlds_first(const study::Goal& goal, const ClaimVerdict& verdict) {
   std::vector<std::size_t> order(verdict.worlds.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto known = [](double rate) { return std::isnan(rate) ? 2.0 : rate; };  // without trials: the last
@@ -179,7 +171,7 @@ std::vector<std::size_t> worst_worlds_first(const study::Goal& goal, const Verdi
   return order;
 }
 
-std::vector<std::size_t> worlds_that(Status status, const Verdict& verdict) {
+std::vector<std::size_t> worlds_that(Status status, const ClaimVerdict& verdict) {
   std::vector<std::size_t> worlds;
   for (std::size_t world = 0; world < verdict.worlds.size(); ++world) {
     if (verdict.worlds[world].status == status) worlds.push_back(world);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -34,66 +35,65 @@ BoundedProportion lowest(const BoundedProportion& a, const BoundedProportion& b)
 /// The moves, or machines, of one world that meet the goal.
 struct WorldVerdict {
   Status status{Status::undecided};
-  BoundedProportion moves;
-  BoundedProportion machines;
+  BoundedProportion moves;     ///< of all moves of all axes that meet the goal (clustered_proportion.hpp)
+  BoundedProportion machines;  ///< of axes that meet it in Goal::moves of their moves (rig_proportion.hpp);
+                               ///< NaN, 0 and 1 where the goal does not ask for machines
+  BoundedProportion without_miss;     ///< of all axes, in as many moves; where the goal asks for machines
+  std::int64_t rigs_meeting{0};       ///< rigs that meet it in Goal::moves of their moves, as observed
+  std::int64_t rigs_without_miss{0};  ///< rigs all of whose moves meet the goal
 };
 
-/// Verdict on the goal at one design point, for all axes that the manifest describes. With worlds the
-/// proportions are those of the worst world: the lowest of all, and of the bounds. A goal is met if it is met
-/// in every world, each at the confidence γ: that a claim must hold in every part needs no correction for
-/// their number (intersection–union test; Berger, Technometrics 24 (1982) 295). It is missed if it is shown
-/// to be missed in one: the upper bounds have the confidence 1 − (1 − γ)/worlds (Bonferroni).
-struct Verdict {
-  Status status{Status::undecided};
-  BoundedProportion moves;       ///< of all moves of all axes that meet the goal (clustered_proportion.hpp)
-  BoundedProportion machines;    ///< of axes that meet it in Goal::moves of their moves (rig_proportion.hpp);
-                                 ///< NaN, 0 and 1 where the goal does not ask for machines
-  std::int64_t rigs_meeting{0};  ///< rigs that meet it in Goal::moves of their moves, as observed
-  std::int64_t rigs_without_miss{0};   ///< rigs all of whose moves meet the goal
-  BoundedProportion without_miss{};    ///< of all axes, in as many moves; where the goal asks for machines
-  std::vector<WorldVerdict> worlds{};  ///< [world]; empty without worlds
-  double margin{0.0};        ///< logit of the lower bound of what is claimed, minus that of what is asked for
-  std::size_t goal{0};       ///< of several, the worst: the one that all of this is of
-  std::size_t condition{0};  ///< the worst, which all of this is of
-  std::vector<Verdict> conditions{};  ///< [condition] each; empty without conditions
-  std::vector<Verdict> goals{};       ///< [goal] each of several; empty of one
-};
-
-/// The verdict by Goal::machines, or by Goal::moves where the goal does not ask for machines.
-/// @param points number of design points from which the point was chosen by its trials; 1 if it was chosen
-/// before. The bounds have the confidence 1 − (1 − γ)/points (Bonferroni).
-/// With conditions it is that of the worst condition, as of several goals the worst (judge_goals()).
-/// @param parts that the goal is one of, all of which must be met: goals
-Verdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
-                   std::size_t parts = 1);
-
-/// The verdict on several goals, all of which must be met, as that of the worst: a missed one before an
-/// undecided one before one that is met; among equals the one whose lower bound is least above what it asks
-/// for, as the difference of the logits. The upper bounds allow for the number of goals (Bonferroni).
-/// @param counts [goal]
-Verdict judge_goals(std::span<const study::Goal> goals, std::span<const measures::MoveCounts> counts,
-                    std::size_t points);
-
-/// The verdict on one goal under one condition.
-struct ClaimVerdict {
+/// The verdict on a claim, one goal under one condition, for all axes that the manifest describes; by
+/// Goal::machines, or by Goal::moves where the goal does not ask for machines. With worlds the proportions
+/// are those of the worst world: the lowest of all, and of the bounds. A goal is met if it is met in every
+/// world, each at the confidence γ: that a claim must hold in every part needs no correction for their number
+/// (intersection–union test; Berger, Technometrics 24 (1982) 295). It is missed if it is shown to be missed
+/// in one: the upper bounds have the confidence 1 − (1 − γ)/worlds (Bonferroni).
+struct ClaimVerdict : WorldVerdict {
   std::size_t goal{0};
-  std::size_t condition{0};  ///< 0 without conditions
-  const Verdict* verdict{nullptr};
+  std::size_t condition{0};            ///< 0 without conditions
+  std::vector<WorldVerdict> worlds{};  ///< [world]; empty without worlds
+  double margin{0.0};  ///< logit of the lower bound of what is claimed, minus that of what is asked for
 };
-/// The claims that a verdict is of, by goal and condition; they point into it.
-std::vector<ClaimVerdict> claims_of(const Verdict& verdict);
+
+/// The verdict on several claims, all of which must be met, as that of the worst: a missed one before an
+/// undecided one before one that is met; among equals the one whose lower bound is least above what it asks
+/// for, as the difference of the logits. The upper bounds allow for the number of claims (Bonferroni).
+struct Verdict : ClaimVerdict {
+  std::vector<ClaimVerdict> claims{};  ///< [goal, condition] each
+};
+
+/// The verdict on each goal under each condition. @param counts [goal]
+/// @param points number of design points from which the point was chosen by its trials; 1 if it was chosen
+/// before. The bounds have the confidence 1 − (1 − γ)/points (Bonferroni). @param parts as many times these
+/// claims must be met
+Verdict judge_goals(std::span<const study::Goal> goals, std::span<const measures::CellCounts> counts,
+                    std::size_t points, std::size_t parts = 1);
+inline Verdict judge_goal(const study::Goal& goal, const measures::CellCounts& counts, std::size_t points,
+                          std::size_t parts = 1) {
+  return judge_goals({&goal, 1}, {&counts, 1}, points, parts);
+}
+/// The verdict on one claim, by moves of one world. @param parts claims that must be met
+ClaimVerdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
+                        std::size_t parts = 1);
+
+/// The worst of the claims on one goal; of those under one condition; of those in some other group.
+const ClaimVerdict& worst_of_goal(const Verdict& verdict, std::size_t goal);
+const ClaimVerdict& worst_under(const Verdict& verdict, std::size_t condition);
+const ClaimVerdict& worst_where(const Verdict& verdict,
+                                const std::function<bool(const ClaimVerdict&)>& is_asked);
 
 /// From the worst status, missed, to the best: 0, 1, 2.
 int rank_of(Status status);
 /// Whether the first is worse: missed before undecided before met; of equals that with the smaller margin.
-bool is_worse(const Verdict& one, const Verdict& other);
+bool is_worse(const ClaimVerdict& one, const ClaimVerdict& other);
 
 /// The worlds in order of their proportions, the worst first: of machines that meet the goal where it asks
 /// for them, else of moves.
-std::vector<std::size_t> worst_worlds_first(const study::Goal& goal, const Verdict& verdict);
+std::vector<std::size_t> worst_worlds_first(const study::Goal& goal, const ClaimVerdict& verdict);
 
 /// The worlds of which the verdict says this, in order.
-std::vector<std::size_t> worlds_that(Status status, const Verdict& verdict);
+std::vector<std::size_t> worlds_that(Status status, const ClaimVerdict& verdict);
 
 /// Study size that decides the goal with a stated probability.
 struct Needs {
@@ -113,16 +113,16 @@ inline constexpr double probability_of_needs = 0.9;
 /// observed, and for goals on machines with twice, four times … as many, as long as these save rigs. Empty if
 /// none is large enough. @param counts [goal] @param points, as of judge_goal()
 std::vector<Needs> deciding_studies(std::span<const study::Goal> goals,
-                                    std::span<const measures::MoveCounts> counts, std::size_t points,
+                                    std::span<const measures::CellCounts> counts, std::size_t points,
                                     double probability = probability_of_needs);
 
 /// The study with the fewest trials. @param studies at least one
 const Needs& cheapest(std::span<const Needs> studies);
 
 /// The cheapest of deciding_studies().
-Needs needs_of(std::span<const study::Goal> goals, std::span<const measures::MoveCounts> counts,
+Needs needs_of(std::span<const study::Goal> goals, std::span<const measures::CellCounts> counts,
                std::size_t points, double probability = probability_of_needs);
-inline Needs needs_of(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
+inline Needs needs_of(const study::Goal& goal, const measures::CellCounts& counts, std::size_t points,
                       double probability = probability_of_needs) {
   return needs_of({&goal, 1}, {&counts, 1}, points, probability);
 }

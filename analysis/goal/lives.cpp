@@ -12,22 +12,25 @@ namespace {
 /// One goal under one condition at one age.
 struct ClaimAtAge {
   const study::Goal* goal;
-  const measures::MoveCounts* counts;
+  measures::CellCounts counts;
+  std::vector<statistics::RigMoves> rigs;  ///< of the counts
 };
 
 std::vector<ClaimAtAge> claims_at_age(const Question& question,
-                                      const std::vector<measures::MoveCounts>& counts, std::size_t age) {
+                                      const std::vector<measures::CellCounts>& counts, std::size_t age) {
   const std::size_t of_age = question.conditions.size() / question.ages.at.size();
   std::vector<ClaimAtAge> claims;
   for (const JudgedPart& part : question.parts) {
-    for (std::size_t c = 0; c < of_age; ++c)
-      claims.push_back({&*part.claim, &measures::under_condition(counts[part.number], age * of_age + c)});
+    for (std::size_t c = 0; c < of_age; ++c) {
+      const measures::CellCounts one = counts[part.number].under(age * of_age + c);
+      claims.push_back({&*part.claim, one, one.sum().rigs});
+    }
   }
   return claims;
 }
 
 bool meets(const ClaimAtAge& claim, std::size_t rig) {
-  const statistics::RigMoves& moves = claim.counts->rigs[rig];
+  const statistics::RigMoves& moves = claim.rigs[rig];
   return statistics::rate(moves.met, moves.moves) >= claim.goal->moves;
 }
 
@@ -36,7 +39,7 @@ bool meets_all(const std::vector<ClaimAtAge>& claims, std::size_t rig) {
 }
 
 std::size_t rig_count(const std::vector<ClaimAtAge>& claims) {
-  return claims.front().counts->rigs.size();
+  return claims.front().rigs.size();
 }
 
 /// The proportion of the rigs that meet all claims; with worlds the least of them.
@@ -59,15 +62,15 @@ double most_of(const ClaimAtAge& claim, std::size_t claims) {
   study::Goal goal = *claim.goal;
   goal.machines = goal.machines.value_or(usual);
   goal.confidence = statistics::confidence_of_each(goal.confidence, claims);
-  return judge_goal(goal, *claim.counts, 1, 1).machines.high;
+  return judge_goal(goal, claim.counts, 1).machines.high;
 }
 
 /// The moves of a rig in which it meets one goal, under the condition where these are the fewest; as if the
 /// moves that it made under some conditions only met the goal, and were left out.
 statistics::RigMoves least_moves(const std::vector<ClaimAtAge>& claims, std::size_t rig) {
-  statistics::RigMoves least = claims.front().counts->rigs[rig];
+  statistics::RigMoves least = claims.front().rigs[rig];
   for (const ClaimAtAge& claim : claims) {
-    const statistics::RigMoves& one = claim.counts->rigs[rig];
+    const statistics::RigMoves& one = claim.rigs[rig];
     const std::int64_t missed = std::max(least.moves - least.met, one.moves - one.met);
     least.trials = std::min(least.trials, one.trials);
     least.moves = std::min(least.moves, one.moves);
@@ -109,7 +112,7 @@ std::vector<std::vector<ClaimAtAge>> by_goals(const std::vector<ClaimAtAge>& cla
 }  // namespace
 
 std::vector<BoundedProportion> machines_at_ages(const Question& question,
-                                                const std::vector<measures::MoveCounts>& counts) {
+                                                const std::vector<measures::CellCounts>& counts) {
   std::vector<BoundedProportion> machines;
   for (std::size_t age = 0; age < question.ages.at.size(); ++age) {
     const std::vector<ClaimAtAge> claims = claims_at_age(question, counts, age);
@@ -127,7 +130,7 @@ std::vector<BoundedProportion> machines_at_ages(const Question& question,
   return machines;
 }
 
-std::vector<double> lives_of_rigs(const Question& question, const std::vector<measures::MoveCounts>& counts) {
+std::vector<double> lives_of_rigs(const Question& question, const std::vector<measures::CellCounts>& counts) {
   std::vector<double> lives;
   std::vector<bool> alive;
   for (std::size_t age = 0; age < question.ages.at.size(); ++age) {

@@ -21,10 +21,10 @@ namespace zerocount::goal {
 /// conditions, each at 1 − (1 − γ)/K (Bonferroni). With worlds they are those of the worst of them.
 /// @param counts [goal of the study] (PointSummary::goals)
 std::vector<BoundedProportion> machines_at_ages(const Question& question,
-                                                const std::vector<measures::MoveCounts>& counts);
+                                                const std::vector<measures::CellCounts>& counts);
 
 /// [rig] the last age up to and including which it meets the question; NaN if it does not at the first.
-std::vector<double> lives_of_rigs(const Question& question, const std::vector<measures::MoveCounts>& counts);
+std::vector<double> lives_of_rigs(const Question& question, const std::vector<measures::CellCounts>& counts);
 
 /// Rigs that meet the question at every age up to one.
 struct Survival {

@@ -84,7 +84,7 @@ measures::MoveCounts successes_of(const measures::PointSummary& point) {
 /// All claims, and the moves of a point that meet each.
 struct CountedClaims {
   std::vector<study::Goal> goals{};
-  std::vector<measures::MoveCounts> counts{};
+  std::vector<measures::CellCounts> counts{};
 
   CountedClaims(const Question& question, const measures::PointSummary& point) {
     for (const JudgedPart& part : question.parts) {
@@ -174,10 +174,6 @@ Badness badness_of(const Question& question, std::span<const trial::MoveOutcome>
   return {static_cast<double>(missed), time, severity, error};
 }
 
-Verdict verdict_on(const Question& question, const measures::MoveCounts& counts, std::size_t points) {
-  return judge_goal(question.claim().value(), counts, points);
-}
-
 Verdict verdict_on(const Question& question, const measures::PointSummary& point, std::size_t points) {
   const CountedClaims claims(question, point);
   return judge_goals(claims.goals, claims.counts, points);
@@ -196,10 +192,8 @@ Needs needs_of(const Question& question, const measures::PointSummary& point, st
 
 measures::MoveCounts counts_of(const Question& question, const measures::PointSummary& point) {
   if (!question.claim()) return successes_of(point);
-  const measures::MoveCounts& first = point.goals.at(question.parts.front().number);
-  if (!has_several(question) && first.of_conditions.empty()) return first;
   const Verdict verdict = verdict_on(question, point);
-  return measures::under_condition(point.goals.at(question.parts[verdict.goal].number), verdict.condition);
+  return point.goals.at(question.parts[verdict.goal].number).sum({.condition = verdict.condition});
 }
 
 std::vector<GoalTimes> goal_times(const Question& question, const measures::PointSummary& point) {
@@ -247,11 +241,10 @@ std::vector<double> merits_of(const Question& question, const measures::PointSum
             -lateness((settling_of(question, point).*settling_quantile(question)).value)};
   }
   const Verdict verdict = verdict_on(question, point);
-  const auto is_met = [](const Verdict& one) { return one.status == Status::met; };
-  const auto met = has_several(question) ? std::ranges::count_if(verdict.goals, is_met)
-                                         : static_cast<std::ptrdiff_t>(is_met(verdict));
-  std::vector<double> merits{static_cast<double>(met), static_cast<double>(rank_of(verdict.status)),
-                             verdict.margin};
+  double met = 0.0;
+  for (std::size_t goal = 0; goal < question.parts.size(); ++goal)
+    met += worst_of_goal(verdict, goal).status == Status::met ? 1.0 : 0.0;
+  std::vector<double> merits{met, static_cast<double>(rank_of(verdict.status)), verdict.margin};
   if (question.parts[verdict.goal].claim->machines) merits.push_back(verdict.machines.value);
   merits.push_back(verdict.moves.value);
   merits.push_back(-slowest_goal_times(question, point).share);
@@ -266,41 +259,38 @@ QuestionRate rate_of(const Question& question, const measures::PointSummary& poi
   }
   const Verdict verdict = verdict_on(question, point, points);
   const JudgedPart& worst = question.parts[verdict.goal];
-  const measures::MoveCounts& all = measures::under_condition(point.goals[worst.number], verdict.condition);
-  const measures::MoveCounts shown =
-      all.worlds > 0 ? measures::in_worlds(all)[worst_worlds_first(*worst.claim, verdict).front()] : all;
+  measures::Cells cells{.condition = verdict.condition};
+  if (!verdict.worlds.empty()) cells.world = worst_worlds_first(*worst.claim, verdict).front();
+  const measures::MoveCounts shown = point.goals[worst.number].sum(cells);
   return {verdict.moves.value, {verdict.moves.low, verdict.moves.high}, shown.met, shown.moves};
 }
 
 RigsWithoutFailure rigs_without_failure(const Question& question, const measures::PointSummary& point) {
   if (!question.claim())
     return {std::llround(point.rigs.without_failure * static_cast<double>(point.rigs.n)), point.rigs.n};
-  const auto rigs = static_cast<std::int64_t>(point.goals.front().rigs.size());
-  RigsWithoutFailure without{0, rigs};
-  for (std::int64_t rig = 0; rig < rigs; ++rig) {
-    without.rigs += std::ranges::all_of(question.parts, [&](const JudgedPart& part) {
-      const statistics::RigMoves& moves = point.goals[part.number].rigs[static_cast<std::size_t>(rig)];
-      return moves.met == moves.moves;
-    });
+  std::vector<bool> without(point.goals.front().sum().rigs.size(), true);
+  for (const JudgedPart& part : question.parts) {
+    const measures::MoveCounts counts = point.goals[part.number].sum();
+    for (std::size_t rig = 0; rig < without.size(); ++rig)
+      without[rig] = without[rig] && counts.rigs[rig].met == counts.rigs[rig].moves;
   }
-  return without;
+  return {std::ranges::count(without, true), std::ssize(without)};
 }
 
 std::optional<RigsWithoutFailure> rigs_meeting_all(const Question& question,
                                                    const measures::PointSummary& point) {
-  std::vector<std::pair<double, const measures::MoveCounts*>> claims;  // proportion of moves, of these
+  std::vector<std::pair<double, measures::MoveCounts>> claims;  // proportion of moves, of these
   for (const JudgedPart& part : question.parts) {
     if (!part.claim || !part.claim->machines) continue;
-    const measures::MoveCounts& counts = point.goals[part.number];
-    if (counts.of_conditions.empty()) claims.emplace_back(part.claim->moves, &counts);
-    for (const measures::MoveCounts& condition : counts.of_conditions)
-      claims.emplace_back(part.claim->moves, &condition);
+    const measures::CellCounts& counts = point.goals[part.number];
+    for (std::size_t condition = 0; condition < counts.conditions(); ++condition)
+      claims.emplace_back(part.claim->moves, counts.sum({.condition = condition}));
   }
   if (claims.size() < 2) return std::nullopt;
-  RigsWithoutFailure meeting{0, std::ssize(claims.front().second->rigs)};
-  for (std::size_t rig = 0; rig < claims.front().second->rigs.size(); ++rig) {
+  RigsWithoutFailure meeting{0, std::ssize(claims.front().second.rigs)};
+  for (std::size_t rig = 0; rig < claims.front().second.rigs.size(); ++rig) {
     meeting.rigs += std::ranges::all_of(claims, [&](const auto& claim) {
-      const statistics::RigMoves& moves = claim.second->rigs[rig];
+      const statistics::RigMoves& moves = claim.second.rigs[rig];
       return statistics::rate(moves.met, moves.moves) >= claim.first;
     });
   }

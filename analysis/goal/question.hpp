@@ -105,10 +105,7 @@ double settling_time(const Question& question, std::span<const trial::MoveOutcom
 using Badness = std::array<double, 4>;
 Badness badness_of(const Question& question, std::span<const trial::MoveOutcome> moves);
 
-/// The verdict on the claim of a question of one part. @param counts of the moves that meet it @param points
-/// as of judge_goal()
-Verdict verdict_on(const Question& question, const measures::MoveCounts& counts, std::size_t points = 1);
-/// The verdict on all claims at a point.
+/// The verdict on all claims at a point. @param points as of judge_goals()
 Verdict verdict_on(const Question& question, const measures::PointSummary& point, std::size_t points = 1);
 
 /// deciding_studies() and needs_of() of all claims at a point.
@@ -116,8 +113,8 @@ std::vector<Needs> deciding_studies(const Question& question, const measures::Po
                                     std::size_t points);
 Needs needs_of(const Question& question, const measures::PointSummary& point, std::size_t points);
 
-/// The moves of a point (without a claim its trials, each as one move) that meet the question; of several
-/// goals those of the worst.
+/// The moves of a point (without a claim its trials, each as one move) that meet the question: those of the
+/// worst claim.
 measures::MoveCounts counts_of(const Question& question, const measures::PointSummary& point);
 
 /// The settling times of one of the goals: within its band or tolerance for good.

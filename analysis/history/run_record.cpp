@@ -63,7 +63,7 @@ std::vector<RunValue> goal_values(const goal::Question& question, const measures
                                   const std::string& label, double confidence) {
   study::Goal both_sides = *question.claim();
   both_sides.confidence = 0.5 * (1.0 + confidence);
-  const measures::MoveCounts& counts = point.goals[question.parts.front().number];
+  const measures::CellCounts& counts = point.goals[question.parts.front().number];
   const goal::Verdict verdict = goal::judge_goal(both_sides, counts, 1);
   const auto name = [&](std::string_view measure) {
     return comparison::name_of_goal_measure(measure, both_sides.name);
@@ -78,7 +78,7 @@ std::vector<RunValue> goal_values(const goal::Question& question, const measures
   RunValue time{label, name("goal_settling_time"), "s"};
   time.value = p95.value;
   time.bounds = {p95.low, p95.high};
-  time.n = counts.moves;
+  time.n = counts.sum().moves;
   values.push_back(std::move(time));
   return values;
 }

@@ -67,11 +67,12 @@ bool meets(const CountedGoal& goal, const trial::MoveOutcome& move) {
       goal.limits, [&](const CountedLimit& limit) { return std::abs(limit.value(move)) <= limit.largest; });
 }
 
-void count_moves(MoveCounts& counts, const CountedGoal& goal, std::int64_t trial, std::int64_t rigs,
-                 std::span<const trial::MoveOutcome> moves) {
+std::int64_t count_moves(CellCounts& counts, const CountedGoal& goal, std::int64_t trial,
+                         std::span<const trial::MoveOutcome> moves) {
   const auto met = std::ranges::count_if(
       moves, [&](const trial::MoveOutcome& move) { return asks(goal, move) && meets(goal, move); });
-  counts.add(trial, rigs, asked_moves(goal, std::ssize(moves)), met);
+  counts.add(trial, asked_moves(goal, std::ssize(moves)), met);
+  return met;
 }
 
 }  // namespace zerocount::measures

@@ -68,9 +68,8 @@ inline bool all_meet(const CountedGoal& goal, std::span<const trial::MoveOutcome
       moves, [&](const trial::MoveOutcome& move) { return !asks(goal, move) || meets(goal, move); });
 }
 
-/// Adds the moves of a trial that the goal asks to those that meet it. @param rigs number of rigs; 0: no
-/// trials share a rig
-void count_moves(MoveCounts& counts, const CountedGoal& goal, std::int64_t trial, std::int64_t rigs,
-                 std::span<const trial::MoveOutcome> moves);
+/// Adds the moves of a trial that the goal asks. @returns how many meet it
+std::int64_t count_moves(CellCounts& counts, const CountedGoal& goal, std::int64_t trial,
+                         std::span<const trial::MoveOutcome> moves);
 
 }  // namespace zerocount::measures

@@ -8,11 +8,10 @@
 
 namespace zerocount::measures {
 
-GoalSettling::GoalSettling(const CountedGoal& goal, std::int64_t rigs, std::int64_t conditions)
-    : rigs_(rigs) {
-  if (goal.on.empty() && conditions == 0) return;
-  times_.assign(static_cast<std::size_t>(std::max<std::int64_t>(conditions, 1)),
-                statistics::TrialClusters(rigs));
+GoalSettling::GoalSettling(const CountedGoal& goal, const Shape& shape) : rigs_(shape.rigs) {
+  if (goal.on.empty() && shape.conditions == 0) return;
+  times_.assign(static_cast<std::size_t>(std::max<std::int64_t>(shape.conditions, 1)),
+                statistics::TrialClusters(shape.rigs));
 }
 
 void GoalSettling::add(std::int64_t trial, const CountedGoal& goal,

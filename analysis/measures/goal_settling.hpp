@@ -16,8 +16,7 @@ namespace zerocount::measures {
 /// a measure of the study.
 class GoalSettling {
  public:
-  /// @param conditions number of conditions; 0: none
-  GoalSettling(const CountedGoal& goal, std::int64_t rigs, std::int64_t conditions);
+  GoalSettling(const CountedGoal& goal, const Shape& shape);
 
   /// Adds the moves of a trial. @param trial its index at the design point
   void add(std::int64_t trial, const CountedGoal& goal, std::span<const trial::MoveOutcome> moves);

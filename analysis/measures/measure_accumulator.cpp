@@ -56,7 +56,8 @@ MeasureAccumulator::MeasureAccumulator(const layout::Measure& measure,
       in_clusters_(needs_every_value(measure, reported)),
       has_mean_bounds_(reports(reported, layout::Statistic::bootstrap_low)),
       counts_moves_(reports(reported, layout::Statistic::moves_rate)),
-      clusters_(kind.rigs) {}
+      clusters_(kind.shape.rigs),
+      of_moves_({kind.shape.rigs, 0, 0}) {}
 
 void MeasureAccumulator::add(const MovesOfTrials& some) {
   if (reported_->texts.empty()) return;
@@ -85,14 +86,14 @@ void MeasureAccumulator::add_qualities(const MovesOfTrials& some) {
       of_move += has;
       moves += has;
     }
-    if (kind_.rigs > 0) {
-      judged_.add(trial % kind_.rigs, 1);
-      hits_.add(trial % kind_.rigs, moves >= wanted);
+    if (kind_.shape.rigs > 0) {
+      judged_.add(trial % kind_.shape.rigs, 1);
+      hits_.add(trial % kind_.shape.rigs, moves >= wanted);
     }
     having += moves >= wanted;
-    if (counts_moves_) of_moves_.add(trial, kind_.rigs, of_trial, moves);
+    if (counts_moves_) of_moves_.add(trial, of_trial, moves);
   }
-  if (kind_.rigs > 0) return;
+  if (kind_.shape.rigs > 0) return;
   judged_.add(0, some.trials());
   hits_.add(0, having);
 }
@@ -126,7 +127,7 @@ void MeasureAccumulator::add_totals(std::int64_t trial, std::size_t of_trial) {
   std::vector<double> known;
   for (std::span<const double> values(values_); !values.empty(); values = values.subspan(of_trial)) {
     statistics::find_known(values.first(of_trial), known);
-    totals_.add(kind_.rigs > 0 ? trial % kind_.rigs : trial, known);
+    totals_.add(kind_.shape.rigs > 0 ? trial % kind_.shape.rigs : trial, known);
     ++trial;
   }
 }
@@ -154,12 +155,12 @@ bool MeasureAccumulator::is_valid(std::int64_t trials, std::int64_t moves) const
 bool MeasureAccumulator::has_valid_qualities(std::int64_t moves) const {
   if (!layout::is_quality(*measure_) || trials_ == 0)
     return by_move_.empty() && judged_.sums().empty() && hits_.sums().empty();
-  const std::int64_t rigs = std::max<std::int64_t>(kind_.rigs, 1);
+  const std::int64_t rigs = std::max<std::int64_t>(kind_.shape.rigs, 1);
   if (std::ssize(by_move_) != moves || judged_.end() > rigs || hits_.end() > rigs) return false;
   for (std::int64_t rig = 0; rig < rigs; ++rig)
     if (hits_[rig] < 0 || hits_[rig] > judged_[rig]) return false;
   return is_sum_of(judged_.sums(), trials_) && statistics::are_counts(by_move_, trials_) &&
-         (!counts_moves_ || of_moves_.is_valid(trials_, moves, kind_.rigs));
+         (!counts_moves_ || of_moves_.is_valid(trials_, moves));
 }
 
 bool MeasureAccumulator::has_valid_totals() const {
@@ -172,7 +173,7 @@ bool MeasureAccumulator::has_valid_totals() const {
 
 RateWithBounds MeasureAccumulator::rate_of_moves(double confidence) const {
   const statistics::ClusteredProportion proportion =
-      statistics::clustered_proportion(clusters_of(of_moves_), confidence);
+      statistics::clustered_proportion(clusters_of(of_moves_.sum()), confidence);
   return {proportion.value, proportion.korn_graubard, proportion.wilson};
 }
 
@@ -187,7 +188,7 @@ statistics::ConfidenceInterval MeasureAccumulator::bootstrap_bounds(const Statis
 
 RateWithBounds MeasureAccumulator::rate(double confidence) const {
   if (trials_ == 0 || kind_.open_loop) return {};
-  if (kind_.rigs == 0) {
+  if (kind_.shape.rigs == 0) {
     return {zerocount::statistics::rate(hits_[0], trials_),
             statistics::clopper_pearson(hits_[0], trials_, confidence),
             statistics::wilson(hits_[0], trials_, confidence)};

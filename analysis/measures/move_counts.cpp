@@ -1,125 +1,15 @@
 #include "analysis/measures/move_counts.hpp"
 
-#include <algorithm>
-#include <cstddef>
 #include <iterator>
 
-#include "experiments/study/study.hpp"
-
 namespace zerocount::measures {
-
 namespace {
 
-bool has_valid_worlds(const MoveCounts& counts) {
-  if (counts.worlds == 0) return counts.of_worlds.empty();
-  if (std::ssize(counts.of_worlds) != counts.worlds) return false;
-  std::int64_t events = 0;
-  std::int64_t hits = 0;
-  for (const statistics::ClusterSums& world : counts.of_worlds) {
-    if (world.events < 0 || world.events > counts.of_trials.events - events) return false;
-    events += world.events;
-    hits += world.hits;
-  }
-  return events == counts.of_trials.events && hits == counts.of_trials.hits;
-}
-
-study::TrialTurns turns_of(const MoveCounts& counts, std::int64_t rigs) {
-  return {std::max<std::int64_t>(rigs, 1), std::max<std::int64_t>(std::ssize(counts.of_conditions), 1)};
-}
-
-bool has_valid_conditions(const MoveCounts& counts, std::int64_t moves_of_trial, std::int64_t rigs) {
-  std::int64_t moves = 0;
-  std::int64_t met = 0;
-  for (const MoveCounts& condition : counts.of_conditions) {
-    if (condition.moves < 0 || condition.moves > counts.moves - moves ||
-        (condition.moves > 0 && !condition.is_valid(condition.moves / moves_of_trial, moves_of_trial, rigs)))
-      return false;
-    moves += condition.moves;
-    met += condition.met;
-  }
-  return counts.of_conditions.empty() || (moves == counts.moves && met == counts.met);
+bool is_possible(const statistics::RigMoves& rig, std::int64_t most) {
+  return rig.trials >= 0 && rig.trials <= most && rig.met >= 0 && rig.met <= rig.moves && rig.moves <= most;
 }
 
 }  // namespace
-
-void MoveCounts::tell_apart(std::int64_t worlds_of_study, std::int64_t conditions) {
-  worlds = worlds_of_study;
-  of_conditions.resize(static_cast<std::size_t>(conditions));
-  for (MoveCounts& condition : of_conditions) condition.worlds = worlds;
-}
-
-void MoveCounts::add(std::int64_t trial_index, std::int64_t rig_count, std::int64_t of_trial,
-                     std::int64_t meeting) {
-  const study::TrialTurns turns = turns_of(*this, rig_count);
-  const std::int64_t trial = turns.draw_of(trial_index);
-  if (!of_conditions.empty())
-    of_conditions[static_cast<std::size_t>(turns.condition_of(trial_index))].add(trial, rig_count, of_trial,
-                                                                                 meeting);
-  moves += of_trial;
-  met += meeting;
-  if (rig_count == 0) {
-    of_trials.add(meeting, of_trial);
-    if (worlds == 0) return;
-    of_worlds.resize(static_cast<std::size_t>(worlds));
-    of_worlds[static_cast<std::size_t>(trial % worlds)].add(meeting, of_trial);
-    return;
-  }
-  rigs.resize(static_cast<std::size_t>(rig_count));
-  statistics::RigMoves& rig = rigs[static_cast<std::size_t>(trial % rig_count)];
-  ++rig.trials;
-  rig.moves += of_trial;
-  rig.met += meeting;
-}
-
-void MoveCounts::add_rig(std::size_t rig, std::size_t condition, const statistics::RigMoves& of_rig) {
-  if (!of_conditions.empty()) of_conditions[condition].add_rig(rig, 0, of_rig);
-  moves += of_rig.moves;
-  met += of_rig.met;
-  rigs.resize(std::max(rigs.size(), rig + 1));
-  rigs[rig].trials += of_rig.trials;
-  rigs[rig].moves += of_rig.moves;
-  rigs[rig].met += of_rig.met;
-}
-
-MoveCounts& MoveCounts::operator+=(const MoveCounts& other) {
-  moves += other.moves;
-  met += other.met;
-  of_trials += other.of_trials;
-  worlds = std::max(worlds, other.worlds);
-  of_conditions.resize(std::max(of_conditions.size(), other.of_conditions.size()));
-  for (std::size_t condition = 0; condition < other.of_conditions.size(); ++condition)
-    of_conditions[condition] += other.of_conditions[condition];
-  of_worlds.resize(std::max(of_worlds.size(), other.of_worlds.size()));
-  for (std::size_t world = 0; world < other.of_worlds.size(); ++world)
-    of_worlds[world] += other.of_worlds[world];
-  rigs.resize(std::max(rigs.size(), other.rigs.size()));
-  for (std::size_t rig = 0; rig < other.rigs.size(); ++rig) {
-    rigs[rig].trials += other.rigs[rig].trials;
-    rigs[rig].moves += other.rigs[rig].moves;
-    rigs[rig].met += other.rigs[rig].met;
-  }
-  return *this;
-}
-
-bool MoveCounts::is_valid(std::int64_t trials, std::int64_t moves_of_trial, std::int64_t rig_count) const {
-  if (moves != trials * moves_of_trial || met < 0 || met > moves ||
-      !has_valid_conditions(*this, moves_of_trial, rig_count))
-    return false;
-  if (rig_count == 0) {
-    return rigs.empty() && of_trials.events == moves && of_trials.hits == met && has_valid_worlds(*this);
-  }
-  if (!of_worlds.empty()) return false;
-  if (of_trials.clusters != 0 || std::ssize(rigs) != rig_count) return false;
-  std::int64_t rig_trials = 0, rig_met = 0;
-  for (const statistics::RigMoves& rig : rigs) {
-    if (rig.trials < 0 || rig.trials > trials || rig.met < 0 || rig.met > rig.moves ||
-        rig.moves != rig.trials * moves_of_trial)
-      return false;
-    rig_trials += rig.trials;
-    rig_met += rig.met;
-  }
-  return rig_trials == trials && rig_met == met;
-}
 
 statistics::ClusterSums clusters_of(const MoveCounts& counts) {
   statistics::ClusterSums sums = counts.of_trials;
@@ -127,20 +17,141 @@ statistics::ClusterSums clusters_of(const MoveCounts& counts) {
   return sums;
 }
 
-std::vector<MoveCounts> in_worlds(const MoveCounts& counts) {
-  std::vector<MoveCounts> worlds(static_cast<std::size_t>(counts.worlds));
-  for (std::size_t world = 0; world < counts.of_worlds.size(); ++world) {
-    worlds[world].of_trials = counts.of_worlds[world];
-    worlds[world].moves = counts.of_worlds[world].events;
-    worlds[world].met = counts.of_worlds[world].hits;
+std::int64_t CellCounts::cells_of_condition() const {
+  return shape_.rigs > 0 ? shape_.rigs : static_cast<std::int64_t>(worlds());
+}
+
+/// @param within the rig, or without rigs the world
+std::int64_t CellCounts::cell_of(std::size_t condition, std::size_t within) const {
+  return static_cast<std::int64_t>(condition) * cells_of_condition() + static_cast<std::int64_t>(within);
+}
+
+void CellCounts::add(std::int64_t trial, std::int64_t moves, std::int64_t met) {
+  const study::TrialTurns turns{std::max<std::int64_t>(shape_.rigs, 1),
+                                static_cast<std::int64_t>(conditions())};
+  const auto condition = static_cast<std::size_t>(turns.condition_of(trial));
+  const auto within = static_cast<std::size_t>(turns.draw_of(trial) % cells_of_condition());
+  if (shape_.rigs > 0) {
+    add_rig(within, condition, {1, moves, met});
+  } else {
+    trials_.sum_of(cell_of(condition, within)).add(met, moves);
   }
-  for (std::size_t rig = 0; counts.worlds > 0 && rig < counts.rigs.size(); ++rig) {
-    MoveCounts& world = worlds[rig % worlds.size()];
-    world.rigs.push_back(counts.rigs[rig]);
-    world.moves += counts.rigs[rig].moves;
-    world.met += counts.rigs[rig].met;
+}
+
+void CellCounts::add_rig(std::size_t rig, std::size_t condition, const statistics::RigMoves& moves) {
+  rigs_.add(cell_of(condition, rig), moves);
+}
+
+void CellCounts::add_trials(std::size_t world, std::size_t condition, const statistics::ClusterSums& moves) {
+  trials_.add(cell_of(condition, world), moves);
+}
+
+CellCounts& CellCounts::operator+=(const CellCounts& other) {
+  trials_ += other.trials_;
+  rigs_ += other.rigs_;
+  return *this;
+}
+
+MoveCounts CellCounts::sum(const Cells& cells) const {
+  MoveCounts sum;
+  const std::size_t first = cells.condition.value_or(0);
+  const std::size_t end = cells.condition ? first + 1 : conditions();
+  // Rigs of which nothing was counted under these conditions are none.
+  if (shape_.rigs > 0 && (rigs_.end() <= cell_of(first, 0) || rigs_.first() >= cell_of(end, 0))) return sum;
+  const std::size_t step = cells.world ? worlds() : 1;
+  for (std::size_t i = cells.world.value_or(0); i < static_cast<std::size_t>(cells_of_condition());
+       i += step) {
+    statistics::RigMoves of_rig;
+    for (std::size_t condition = first; condition < end; ++condition) {
+      sum.of_trials += trials_[cell_of(condition, i)];
+      of_rig += rigs_[cell_of(condition, i)];
+    }
+    if (shape_.rigs > 0) sum.rigs.push_back(of_rig);
+    sum.moves += of_rig.moves;
+    sum.met += of_rig.met;
   }
-  return worlds;
+  sum.moves += sum.of_trials.events;
+  sum.met += sum.of_trials.hits;
+  return sum;
+}
+
+std::vector<MoveCounts> CellCounts::by_world(Condition condition) const {
+  std::vector<MoveCounts> each;
+  for (std::size_t world = 0; shape_.worlds > 0 && world < worlds(); ++world)
+    each.push_back(sum({condition, world}));
+  return each;
+}
+
+std::vector<MoveCounts> CellCounts::by_condition() const {
+  std::vector<MoveCounts> each;
+  for (std::size_t condition = 0; shape_.conditions > 0 && condition < conditions(); ++condition)
+    each.push_back(sum({condition, std::nullopt}));
+  return each;
+}
+
+std::vector<MoveCounts> CellCounts::worlds_under(std::size_t condition) const {
+  return shape_.worlds > 0 ? by_world(condition) : std::vector{sum({condition, std::nullopt})};
+}
+
+CellCounts CellCounts::under(std::size_t condition) const {
+  CellCounts counts({shape_.rigs, shape_.worlds, 0});
+  for (std::int64_t i = 0; i < cells_of_condition(); ++i) {
+    const std::int64_t cell = cell_of(condition, 0) + i;
+    if (shape_.rigs > 0) {
+      counts.rigs_.add(i, rigs_[cell]);
+    } else {
+      counts.trials_.add(i, trials_[cell]);
+    }
+  }
+  return counts;
+}
+
+bool CellCounts::is_valid(std::int64_t trials, std::int64_t moves_of_trial) const {
+  return sum().moves == trials * moves_of_trial &&
+         std::ranges::all_of(rigs_.sums(), [moves_of_trial](const statistics::RigMoves& rig) {
+           return rig.moves % moves_of_trial == 0 && rig.moves / moves_of_trial == rig.trials;
+         });
+}
+
+/// As they stand in files: empty with rigs, and where nothing was counted.
+std::vector<statistics::ClusterSums> CellCounts::sums_of_worlds(Condition condition) const {
+  std::vector<statistics::ClusterSums> sums;
+  for (const MoveCounts& world : by_world(condition)) sums.push_back(world.of_trials);
+  const auto is_empty = [](const statistics::ClusterSums& one) { return one.clusters == 0; };
+  if (shape_.rigs > 0 || std::ranges::all_of(sums, is_empty)) sums.clear();
+  return sums;
+}
+
+/// Whether what was read can be a part: sums of cells do not overflow.
+bool CellCounts::can_be(const Part& part) const {
+  constexpr std::int64_t most_moves = std::int64_t{1} << 53;
+  const std::int64_t most = most_moves / cells_of_condition() / static_cast<std::int64_t>(conditions());
+  if (std::ranges::any_of(part.counts.rigs, [&](const auto& rig) { return !is_possible(rig, most); }) ||
+      std::ranges::any_of(part.of_worlds, [&](const auto& world) { return world.events > most; }))
+    return false;
+  const auto has_size = [](std::size_t size, std::int64_t wanted) {
+    return size == 0 || static_cast<std::int64_t>(size) == wanted;
+  };
+  return part.counts.of_trials.events <= most_moves && has_size(part.counts.rigs.size(), shape_.rigs) &&
+         has_size(part.of_worlds.size(), shape_.rigs > 0 ? 0 : shape_.worlds);
+}
+
+void CellCounts::take(std::size_t condition, const Part& part) {
+  const std::vector<statistics::RigMoves>& rigs = part.counts.rigs;
+  for (std::size_t rig = 0; rig < rigs.size(); ++rig) add_rig(rig, condition, rigs[rig]);
+  for (std::size_t world = 0; world < part.of_worlds.size(); ++world)
+    add_trials(world, condition, part.of_worlds[world]);
+  if (shape_.worlds == 0 && shape_.rigs == 0) add_trials(0, condition, part.counts.of_trials);
+}
+
+bool CellCounts::has_sum(const Part& part, Condition condition) const {
+  const MoveCounts found = sum({condition, std::nullopt});
+  const auto is_same = [](const statistics::ClusterSums& a, const statistics::ClusterSums& b) {
+    return a.clusters == b.clusters && a.hits == b.hits && a.events == b.events;  // squares may be rounded
+  };
+  return found.moves == part.counts.moves && found.met == part.counts.met && found.rigs == part.counts.rigs &&
+         is_same(found.of_trials, part.counts.of_trials) &&
+         std::ranges::equal(sums_of_worlds(condition), part.of_worlds, is_same);
 }
 
 }  // namespace zerocount::measures

@@ -65,10 +65,8 @@ void add_each(std::vector<Summand>& sums, const std::vector<Summand>& added) {
 MoveKind move_kind(const study::Study& study, std::int64_t version) {
   return {.open_loop = study.open_loop,
           .version = version,
-          .rigs = study.rigs,
-          .goals = counted_goals(study),
-          .worlds = study.worlds,
-          .conditions = std::ssize(study.conditions)};
+          .shape = shape_of(study),
+          .goals = counted_goals(study)};
 }
 
 OutcomeCounts& OutcomeCounts::operator+=(const OutcomeCounts& other) {
@@ -116,12 +114,13 @@ std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome) {
 
 PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTable& table,
                                    std::int64_t first_trial)
-    : kind_(kind), first_trial_(first_trial), table_(&table), trial_settling_times_(kind.rigs) {
-  goals_.resize(kind.goals.size());
-  for (MoveCounts& counts : goals_) counts.tell_apart(kind.worlds, kind.conditions);
-  for (const CountedGoal& goal : kind.goals) goal_settling_.emplace_back(goal, kind.rigs, kind.conditions);
-  for (MoveCounts* counts : {&groups_.succeeded, &groups_.meeting})
-    counts->tell_apart(kind.worlds, kind.conditions);
+    : kind_(kind),
+      first_trial_(first_trial),
+      table_(&table),
+      goals_(kind.goals.size(), CellCounts(kind.shape)),
+      groups_{CellCounts(kind.shape), CellCounts(kind.shape)},
+      trial_settling_times_(kind.shape.rigs) {
+  for (const CountedGoal& goal : kind.goals) goal_settling_.emplace_back(goal, kind.shape);
   for (const layout::Measure& measure : table) measures_.emplace_back(measure, measure.point, kind);
 }
 
@@ -175,9 +174,9 @@ void PointAccumulator::add_moves(std::span<const trial::MoveOutcome> moves) {
   counted_.moves += std::ssize(moves);
   ++(counted_.outcomes.*counter_of(trial::worst_outcome(moves)));
   if (kind_.open_loop) return;
-  if (kind_.rigs > 0) add_to_rig(moves);
+  if (kind_.shape.rigs > 0) add_to_rig(moves);
   for (std::size_t i = 0; i < goals_.size(); ++i) {
-    count_moves(goals_[i], kind_.goals[i], first_trial_ + counted_.trials, kind_.rigs, moves);
+    count_moves(goals_[i], kind_.goals[i], first_trial_ + counted_.trials, moves);
     goal_settling_[i].add(first_trial_ + counted_.trials, kind_.goals[i], moves);
   }
   if (kind_.has_groups()) add_to_groups(moves);
@@ -185,11 +184,11 @@ void PointAccumulator::add_moves(std::span<const trial::MoveOutcome> moves) {
 
 void PointAccumulator::add_to_groups(std::span<const trial::MoveOutcome> moves) {
   const std::int64_t trial = first_trial_ + counted_.trials;
-  groups_.succeeded.add(trial, kind_.rigs, 1, trial::succeeded(moves) ? 1 : 0);
+  groups_.succeeded.add(trial, 1, trial::succeeded(moves) ? 1 : 0);
   if (kind_.goals.empty()) return;
   const bool meeting =
       std::ranges::all_of(kind_.goals, [&](const CountedGoal& goal) { return all_meet(goal, moves); });
-  groups_.meeting.add(trial, kind_.rigs, 1, meeting ? 1 : 0);
+  groups_.meeting.add(trial, 1, meeting ? 1 : 0);
 }
 
 void PointAccumulator::add_level(std::size_t level, std::span<const trial::MoveOutcome> move) {
@@ -214,7 +213,7 @@ void PointAccumulator::add_to_rig(std::span<const trial::MoveOutcome> moves) {
                                   [](const trial::MoveOutcome& m) { return trial::is_success(m.outcome); });
   const statistics::RigTrials trial{
       .trials = 1, .successes = trial::succeeded(moves), .moves = std::ssize(moves), .zero_moves = zero};
-  rigs_.add((first_trial_ + counted_.trials) % kind_.rigs, trial);
+  rigs_.add((first_trial_ + counted_.trials) % kind_.shape.rigs, trial);
 }
 
 /// The settling time of a trial is that of its slowest move. It is censored if a move did not arrive, or was
@@ -315,8 +314,8 @@ bool PointAccumulator::is_valid(std::int64_t moves) const {
   if (!has_valid_counts(moves) || !has_valid_jerks() || !has_valid_rigs() || !has_valid_groups())
     return false;
   for (std::size_t i = 0; i < goals_.size(); ++i) {
-    if (!goals_[i].is_valid(counted_.trials, asked_moves(kind_.goals[i], moves), kind_.rigs) ||
-        !goal_settling_[i].is_valid(goals_[i].moves))
+    if (!goals_[i].is_valid(counted_.trials, asked_moves(kind_.goals[i], moves)) ||
+        !goal_settling_[i].is_valid(goals_[i].sum().moves))
       return false;
   }
   for (std::size_t level = 0; level < levels_.size(); ++level) {
@@ -351,8 +350,8 @@ bool PointAccumulator::has_valid_jerks() const {
 }
 
 bool PointAccumulator::has_valid_rigs() const {
-  if (kind_.rigs == 0 || kind_.open_loop) return rigs_.sums().empty();
-  if (rigs_.end() > kind_.rigs) return false;
+  if (kind_.shape.rigs == 0 || kind_.open_loop) return rigs_.sums().empty();
+  if (rigs_.end() > kind_.shape.rigs) return false;
   statistics::RigTrials sum;
   for (const statistics::RigTrials& rig : rigs_.sums()) {
     if (rig.successes < 0 || rig.successes > rig.trials || rig.trials > counted_.trials - sum.trials ||
@@ -366,9 +365,9 @@ bool PointAccumulator::has_valid_rigs() const {
 
 bool PointAccumulator::has_valid_groups() const {
   if (!kind_.has_groups() || kind_.open_loop) return true;
-  return groups_.succeeded.is_valid(counted_.trials, 1, kind_.rigs) &&
-         groups_.succeeded.met == counted_.outcomes.zero_count &&
-         (kind_.goals.empty() || groups_.meeting.is_valid(counted_.trials, 1, kind_.rigs));
+  return groups_.succeeded.is_valid(counted_.trials, 1) &&
+         groups_.succeeded.sum().met == counted_.outcomes.zero_count &&
+         (kind_.goals.empty() || groups_.meeting.is_valid(counted_.trials, 1));
 }
 
 statistics::State PointAccumulator::state() const {
@@ -405,7 +404,7 @@ statistics::SuccessClaim PointAccumulator::claim(const PointSummary& point,
   const auto at_any_time = [&] {
     return statistics::success_claim_at_any_time(successes, point.judged, options.confidence);
   };
-  if (kind_.rigs == 0 || point.judged == 0) {
+  if (kind_.shape.rigs == 0 || point.judged == 0) {
     return options.stopped_by_outcomes
                ? at_any_time()
                : statistics::success_claim(successes, point.judged, options.confidence);
@@ -422,14 +421,13 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
   result.judged = kind_.open_loop ? 0 : result.trials;
   result.measures = statistics_of(measures_, options);
   result.levels = level_statistics(options);
-  if (kind_.rigs > 0 && result.judged > 0)
+  if (kind_.shape.rigs > 0 && result.judged > 0)
     result.rigs = statistics::rig_statistics(rigs_.from_zero(), options.confidence);
   result.claim = claim(result, options);
   result.goals = goals_;
   for (const GoalSettling& settling : goal_settling_)
     result.goal_settling.push_back(settling.statistics(options.confidence));
-  if (kind_.worlds > 0 && result.judged > 0) result.worlds = groups_;
-  if (kind_.conditions > 0 && result.judged > 0) result.conditions = groups_;
+  if (kind_.has_groups() && result.judged > 0) result.trials_of_groups = groups_;
   if (options.stopped_by_outcomes)
     result.rigs.tolerance = {};  // it takes a number of trials that was fixed beforehand
   result.settles_within = tolerance_limits(trial_settling_times_.sample(), options);

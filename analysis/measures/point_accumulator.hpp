@@ -23,12 +23,10 @@ namespace zerocount::measures {
 struct MoveKind {
   bool open_loop{false};                         ///< torque levels in place of targets
   std::int64_t version{layout::format_version};  ///< of the layout of the results file
-  std::int64_t rigs{0};  ///< number of rigs, trial i on rig i mod rigs; 0: no trials share a rig
+  Shape shape{};
   std::vector<CountedGoal> goals{};
-  std::int64_t worlds{0};      ///< the trial with draw j is in world j mod worlds; 0: none
-  std::int64_t conditions{0};  ///< see study::TrialTurns; 0: none
 
-  bool has_groups() const { return worlds > 0 || conditions > 0; }
+  bool has_groups() const { return shape.worlds > 0 || shape.conditions > 0; }
 };
 
 /// The kind of the moves of a study, in a results file of this version of the layout.
@@ -99,7 +97,7 @@ class MeasureAccumulator {
   std::vector<std::int64_t> by_move_;  ///< [move] trials whose move has the quality; empty without trials
   statistics::ByCluster<> judged_;     ///< trials; without rigs all are of rig 0
   statistics::ByCluster<> hits_;       ///< those with the quality, likewise
-  MoveCounts of_moves_;                ///< with the quality, where they are counted
+  CellCounts of_moves_;                ///< with the quality, where they are counted
   std::vector<double> values_;         ///< of the trials that are being added
 };
 
@@ -173,7 +171,7 @@ class PointAccumulator {
   std::vector<std::vector<MeasureAccumulator>> levels_;  ///< [move][row of the table]
   std::vector<std::int64_t> lost_in_levels_;             ///< [move] trials whose motion was lost
   statistics::ByCluster<statistics::RigTrials> rigs_;
-  std::vector<MoveCounts> goals_;                   ///< [goal]
+  std::vector<CellCounts> goals_;                   ///< [goal]
   std::vector<GoalSettling> goal_settling_;         ///< [goal]
   GroupTrials groups_;                              ///< empty without worlds and conditions
   statistics::TrialClusters trial_settling_times_;  ///< of each trial: of its slowest move

@@ -88,11 +88,10 @@ struct PointCounts {
   }
 };
 
-/// Trials of a design point, each as one move, told apart by worlds (in_worlds) and by conditions
-/// (in_conditions).
+/// Trials of a design point, each as one move.
 struct GroupTrials {
-  MoveCounts succeeded;  ///< all their moves ended at zero error
-  MoveCounts meeting;    ///< all moves meet the goals about them; empty without one
+  CellCounts succeeded;  ///< all their moves ended at zero error
+  CellCounts meeting;    ///< all moves meet the goals about them; empty without one
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
@@ -115,13 +114,12 @@ struct PointSummary : StatisticsOfMeasures, PointCounts {
   double jerk_agreement{statistics::unknown};        ///< jerks_agreeing / jerks
   double jerk_one_count_share{statistics::unknown};  ///< jerks of magnitude 1 / jerks
   UndecidedMoves undecided;                          ///< only off_target is known without the study
-  std::vector<MoveCounts> goals;                     ///< [goal] moves that meet it
+  std::vector<CellCounts> goals;                     ///< [goal] moves that meet it
   /// [goal][condition, or 0 without conditions] settling times of the moves that it asks; empty for a goal on
   /// all moves of a study without conditions, of which the measure of its band is
   std::vector<std::vector<MeasureStatistics>> goal_settling;
-  std::optional<GroupTrials> worlds;      ///< of a study with worlds and targets
-  std::optional<GroupTrials> conditions;  ///< of a study with conditions and targets
-  std::vector<LevelStatistics> levels;    ///< [move] in an open-loop study, otherwise empty
+  std::optional<GroupTrials> trials_of_groups;  ///< of a study with targets, and with worlds or conditions
+  std::vector<LevelStatistics> levels;          ///< [move] in an open-loop study, otherwise empty
 
   /// The proportion of trials all of whose moves ended at zero error.
   const RateWithBounds& success_rate() const { return of(&trial::MoveOutcome::outcome).rate; }

@@ -40,9 +40,7 @@ struct Conditions {
 };
 
 /// The proportion of trials that succeed; with worlds in the worst of them.
-goal::BoundedProportion success_of(const measures::MoveCounts& counts, double confidence) {
-  std::vector<measures::MoveCounts> worlds = measures::in_worlds(counts);
-  if (worlds.empty()) worlds.push_back(counts);
+goal::BoundedProportion success_of(const std::vector<measures::MoveCounts>& worlds, double confidence) {
   const double each = statistics::confidence_of_each(confidence, worlds.size());
   goal::BoundedProportion lowest;
   for (std::size_t world = 0; world < worlds.size(); ++world) {
@@ -60,9 +58,8 @@ std::optional<double> known(double value) {
 }
 
 /// What the verdict says of a claim.
-void judge(CellOfPoint& cell, const goal::Question& question, std::size_t goal_number,
-           const goal::Verdict& verdict) {
-  const study::Goal& goal = *question.parts[goal_number].claim;
+void judge(CellOfPoint& cell, const goal::Question& question, const goal::ClaimVerdict& verdict) {
+  const study::Goal& goal = *question.parts[verdict.goal].claim;
   if (!goal.name.empty()) cell.goal = goal.name;
   cell.rate = verdict.moves;
   cell.judged = goal.machines ? verdict.machines : verdict.moves;
@@ -75,24 +72,22 @@ void judge(CellOfPoint& cell, const goal::Question& question, std::size_t goal_n
 /// settling time.
 CellOfPoint cell_under(const Point& point, const Conditions& conditions) {
   CellOfPoint cell;
-  const auto& succeeded = measures::in_conditions(point.statistics.conditions->succeeded);
-  const auto& meeting = measures::in_conditions(point.statistics.conditions->meeting);
+  const auto& [succeeded, meeting] = *point.statistics.trials_of_groups;
   for (std::size_t c = conditions.first; c < conditions.first + conditions.count; ++c) {
-    cell.trials += succeeded[c].moves;
-    cell.success += succeeded[c].met;
+    const measures::MoveCounts successes = succeeded.sum({.condition = c});
+    cell.trials += successes.moves;
+    cell.success += successes.met;
     if (point.verdict) {
-      cell.goal_met += meeting[c].met;
+      cell.goal_met += meeting.sum({.condition = c}).met;
       continue;
     }
-    const goal::BoundedProportion rate = success_of(succeeded[c], point.summary.confidence);
+    const goal::BoundedProportion rate = success_of(succeeded.worlds_under(c), point.summary.confidence);
     cell.rate = cell.judged = c == conditions.first ? rate : goal::lowest(cell.rate, rate);
   }
   if (!point.verdict) return cell;
-  std::vector<goal::ClaimVerdict> claims = goal::claims_of(*point.verdict);
-  std::erase_if(claims, [&](const goal::ClaimVerdict& one) { return !conditions.contains(one.condition); });
-  const goal::ClaimVerdict worst =
-      std::ranges::min(claims, [](const auto& a, const auto& b) { return is_worse(*a.verdict, *b.verdict); });
-  judge(cell, point.summary.question, worst.goal, *worst.verdict);
+  judge(cell, point.summary.question, goal::worst_where(*point.verdict, [&](const goal::ClaimVerdict& one) {
+          return conditions.contains(one.condition);
+        }));
   const goal::GoalTimes* slowest = nullptr;
   for (const goal::GoalTimes& one : point.times) {
     if (conditions.contains(one.condition) && (slowest == nullptr || !(one.share <= slowest->share)))
@@ -111,13 +106,12 @@ std::vector<CellOfPoint> claims_of_point(const StudySummary& summary, std::int64
   std::vector<CellOfPoint> claims;
   for (const goal::GoalTimes& times : point.times) {
     CellOfPoint& claim = claims.emplace_back();
-    const goal::Verdict& of_goal =
-        point.verdict->goals.empty() ? *point.verdict : point.verdict->goals[times.part];
-    const bool has_conditions = !of_goal.conditions.empty();
-    judge(claim, question, times.part, has_conditions ? of_goal.conditions[times.condition] : of_goal);
-    if (has_conditions) claim.condition = question.conditions[times.condition];
-    const measures::MoveCounts& counts =
-        under_condition(point.statistics.goals[question.parts[times.part].number], times.condition);
+    judge(claim, question, *std::ranges::find_if(point.verdict->claims, [&](const goal::ClaimVerdict& one) {
+            return one.goal == times.part && one.condition == times.condition;
+          }));
+    if (!question.conditions.empty()) claim.condition = question.conditions[times.condition];
+    const measures::MoveCounts counts =
+        point.statistics.goals[question.parts[times.part].number].sum({.condition = times.condition});
     claim.moves = counts.moves;
     claim.met = counts.met;
     claim.settling_time_p95 = known(times.statistics->p95.value);
@@ -129,7 +123,7 @@ std::vector<CellOfPoint> conditions_of_point(const StudySummary& summary, std::i
                                              std::size_t points) {
   const Point point(summary, number, points);
   std::vector<CellOfPoint> cells;
-  for (std::size_t c = 0; point.statistics.conditions && c < summary.conditions.size(); ++c) {
+  for (std::size_t c = 0; point.statistics.trials_of_groups && c < summary.conditions.size(); ++c) {
     cells.push_back(cell_under(point, {c, 1}));
     cells.back().condition = summary.conditions[c];
   }
@@ -141,7 +135,7 @@ std::vector<CellOfPoint> ages_of_point(const StudySummary& summary, std::int64_t
   const std::vector<double>& at = question.ages.at;
   const Point point(summary, number, points);
   std::vector<CellOfPoint> cells;
-  if (at.empty() || !point.statistics.conditions) return cells;
+  if (at.empty() || !point.statistics.trials_of_groups) return cells;
   const std::size_t of_age = summary.conditions.size() / at.size();
   for (std::size_t age = 0; age < at.size(); ++age) {
     cells.push_back(cell_under(point, {age * of_age, of_age}));

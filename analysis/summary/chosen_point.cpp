@@ -76,19 +76,26 @@ struct AdjustedRate {
   }
 };
 
-/// Whether the worst world of `other` is shown to be worse than that of `best`, by the bounds of both.
-bool has_worse_world(const goal::Question& question, const measures::MoveCounts& best,
-                     const measures::MoveCounts& other) {
-  const goal::Verdict of_best = verdict_on(question, best);
-  const goal::Verdict of_other = verdict_on(question, other);
+/// Whether by one goal the worst world of `other` is shown to be worse than that of `best`, by the bounds of
+/// both.
+bool has_worse_world(const goal::Question& question, const measures::PointSummary& best,
+                     const measures::PointSummary& other) {
+  const auto alone = [&](const measures::PointSummary& point) {
+    const measures::CellCounts& counts = point.goals[question.parts.front().number];
+    return goal::judge_goal(*question.claim(), counts.under(verdict_on(question, point).condition), 1);
+  };
+  const goal::Verdict of_best = alone(best);
+  const goal::Verdict of_other = alone(other);
   return is_of_machines(question) ? of_other.machines.high < of_best.machines.low
                                   : of_other.moves.high < of_best.moves.low;
 }
 
 /// Whether the trials show that `other` is worse than `best`.
-bool is_shown_worse(const goal::Question& question, const measures::MoveCounts& best,
-                    const measures::MoveCounts& other) {
-  if (best.worlds > 0) return has_worse_world(question, best, other);
+bool is_shown_worse(const goal::Question& question, const measures::PointSummary& best_point,
+                    const measures::PointSummary& other_point) {
+  if (is_of_worst_world(question)) return has_worse_world(question, best_point, other_point);
+  const measures::MoveCounts best = goal::counts_of(question, best_point);
+  const measures::MoveCounts other = goal::counts_of(question, other_point);
   const std::vector<double> of_best = rates_of_rigs(question, best);
   const std::vector<double> of_other = rates_of_rigs(question, other);
   if (!of_best.empty() && of_best.size() == of_other.size()) return differ(of_best, of_other);
@@ -149,8 +156,7 @@ ChosenPoint choose_point(const StudySummary& summary, std::optional<std::int64_t
   const auto is_worse = [&](std::int64_t other) {
     return std::ranges::any_of(summary.question.parts, [&](const goal::JudgedPart& part) {
       const goal::Question question = only(summary.question, part.number);
-      return is_shown_worse(question, goal::counts_of(question, best),
-                            goal::counts_of(question, point_of(summary, other)));
+      return is_shown_worse(question, best, point_of(summary, other));
     });
   };
   for (const std::int64_t other : order) {

@@ -24,8 +24,8 @@ const study::Goal& worst_goal(const StudySummary& summary, const goal::Verdict& 
 /// "'large' and 'small'"; empty where fewer than two goals are missed.
 std::string missed_goals(const goal::Question& question, const goal::Verdict& verdict) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < verdict.goals.size(); ++i) {
-    if (verdict.goals[i].status == goal::Status::missed)
+  for (std::size_t i = 0; i < question.parts.size(); ++i) {
+    if (worst_of_goal(verdict, i).status == goal::Status::missed)
       names.push_back(fmt::format("'{}'", question.parts[i].claim->name));
   }
   if (names.size() < 2) return "";

@@ -12,11 +12,11 @@ namespace {
 
 /// The real rig lives in one world, which nobody knows: it differs from the simulation if it differs from
 /// each world.
-ObservedComparison compare_with_worlds(const measures::PointSummary& point,
+ObservedComparison compare_with_worlds(const std::vector<measures::MoveCounts>& worlds,
                                        const study::ObservedCounts& counts) {
   const statistics::Successes observed{counts.successes, counts.of};
   ObservedComparison nearest{counts, std::nullopt, "no trial was simulated", true};
-  for (const measures::MoveCounts& world : measures::in_worlds(point.worlds->succeeded)) {
+  for (const measures::MoveCounts& world : worlds) {
     if (world.moves == 0) continue;
     statistics::ObservedTest test;
     if (world.rigs.empty()) {
@@ -42,8 +42,10 @@ bool is_better(const measures::PointSummary& point, const study::ObservedCounts&
 ObservedComparison compare_observed(const measures::PointSummary& point,
                                     const study::ObservedCounts& counts) {
   if (point.judged == 0) return {counts, std::nullopt, "no trial was simulated"};
-  if (point.worlds && (point.rigs.n == 0 || counts.of <= point.rigs.trials_of_rig))
-    return compare_with_worlds(point, counts);
+  std::vector<measures::MoveCounts> worlds;
+  if (point.trials_of_groups) worlds = point.trials_of_groups->succeeded.by_world();
+  if (!worlds.empty() && (point.rigs.n == 0 || counts.of <= point.rigs.trials_of_rig))
+    return compare_with_worlds(worlds, counts);
   const statistics::Successes observed{counts.successes, counts.of};
   if (point.rigs.n == 0) {
     return {counts, statistics::fisher_test(observed, {point.outcomes.zero_count, point.judged}), {}};

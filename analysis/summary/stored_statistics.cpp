@@ -19,19 +19,20 @@ namespace {
 constexpr std::size_t points_at_once = 256;  ///< that are held with all their statistics
 
 /// The trials of the groups (worlds or conditions) at each point; of an open loop none is judged.
-/// @param trials of a point. @param groups of the counts
+/// @param groups of the trials of a point
 layout::GroupCounts group_counts(
     std::span<const measures::PointSummary> points, std::int64_t count, bool has_goal,
-    std::optional<measures::GroupTrials> measures::PointSummary::*trials,
-    const std::function<std::vector<measures::MoveCounts>(const measures::MoveCounts&)>& groups) {
+    const std::function<std::vector<measures::MoveCounts>(const measures::CellCounts&)>& groups) {
+  using measures::CellCounts;
   using measures::GroupTrials;
   using measures::MoveCounts;
   layout::GroupCounts counts;
   for (const measures::PointSummary& point : points) {
-    const auto numbers = [&](MoveCounts GroupTrials::*which, std::int64_t MoveCounts::*number) {
+    const auto numbers = [&](CellCounts GroupTrials::*which, std::int64_t MoveCounts::*number) {
       std::vector<std::int64_t> found;
-      if (point.*trials) {
-        for (const MoveCounts& group : groups((*(point.*trials)).*which)) found.push_back(group.*number);
+      if (point.trials_of_groups) {
+        for (const MoveCounts& group : groups((*point.trials_of_groups).*which))
+          found.push_back(group.*number);
       }
       found.resize(static_cast<std::size_t>(count));  // none in an open loop
       return found;
@@ -128,13 +129,12 @@ layout::StoredStatistics stored_statistics(std::span<const measures::PointSummar
     stored.rig_successes.push_back(points[point].rigs.successes_of_rigs);
     stored.rig_successes.back().resize(static_cast<std::size_t>(study.rigs));  // empty in an open loop
   }
-  using measures::PointSummary;
   if (study.worlds > 0)
-    stored.worlds =
-        group_counts(points, study.worlds, !study.goals.empty(), &PointSummary::worlds, measures::in_worlds);
+    stored.worlds = group_counts(points, study.worlds, !study.goals.empty(),
+                                 [](const measures::CellCounts& counts) { return counts.by_world(); });
   if (study.conditions.empty()) return stored;
   const layout::GroupCounts turns = group_counts(points, std::ssize(study.conditions), !study.goals.empty(),
-                                                 &PointSummary::conditions, measures::in_conditions);
+                                                 std::mem_fn(&measures::CellCounts::by_condition));
   const std::size_t names = study.condition_names.size();
   if (names > 0)
     stored.conditions =

@@ -159,8 +159,8 @@ std::string meanings_text(const worlds::WorldRule& rule, const std::vector<world
 std::optional<worlds::PointWorlds> worlds_of_point(const StudySummary& summary, std::int64_t point,
                                                    std::size_t chosen_from) {
   const measures::PointSummary& one = summary.points[static_cast<std::size_t>(point)];
-  if (!one.worlds) return std::nullopt;
-  for (const measures::MoveCounts& world : measures::in_worlds(one.worlds->succeeded)) {
+  if (!one.trials_of_groups || summary.question.worlds == 0) return std::nullopt;
+  for (const measures::MoveCounts& world : one.trials_of_groups->succeeded.by_world()) {
     if (world.moves == 0) return std::nullopt;  // of an unfinished run
   }
   return worlds::point_worlds(one, summary.question, summary.world_inputs[static_cast<std::size_t>(point)],

@@ -17,7 +17,7 @@ namespace {
 
 using document::Shown;
 using Point = const PointReading&;
-using Verdict = const goal::Verdict&;
+using Verdict = const goal::ClaimVerdict&;
 
 bool has_several_claims(const summary::StudySummary& summary) {
   return summary.question.claim() && !summary.features.open_loop &&
@@ -31,8 +31,8 @@ std::optional<summary::WorldsReading> worlds_at(Point p) {
 
 }  // namespace
 
-document::Description<goal::Verdict> verdict_description(const goal::Question& question, bool on_rigs) {
-  document::Description<goal::Verdict> description;
+document::Description<goal::ClaimVerdict> verdict_description(const goal::Question& question, bool on_rigs) {
+  document::Description<goal::ClaimVerdict> description;
   const std::string where = question.worlds > 0 ? " (worst world)" : "";
   const bool has_machines = std::ranges::any_of(
       question.parts, [](const goal::JudgedPart& part) { return part.claim->machines.has_value(); });
@@ -62,7 +62,7 @@ document::Description<goal::Verdict> verdict_description(const goal::Question& q
               .notation = document::Notation::percent},
              [](Verdict v) { return goal::bounded(v.moves); });
   if (has_machines) {
-    const auto of_machines = [question](goal::BoundedProportion goal::Verdict::*proportion) {
+    const auto of_machines = [question](goal::BoundedProportion goal::ClaimVerdict::*proportion) {
       return [question, proportion](Verdict v) -> std::optional<document::Bounded> {
         if (!question.parts[v.goal].claim->machines) return std::nullopt;
         return goal::bounded(v.*proportion);
@@ -76,13 +76,13 @@ document::Description<goal::Verdict> verdict_description(const goal::Question& q
                 .unit = "1",
                 .notation = document::Notation::percent,
                 .optional = true},
-               of_machines(&goal::Verdict::machines))
+               of_machines(&goal::ClaimVerdict::machines))
         .value({.key = "without_miss",
                 .meaning = "proportion of machines without a miss in as many moves as these have, with "
                            "one-sided bounds; left out where the goal is not on machines",
                 .unit = "1",
                 .optional = true},
-               of_machines(&goal::Verdict::without_miss))
+               of_machines(&goal::ClaimVerdict::without_miss))
         .value({.key = "trials_of_one_machine",
                 .meaning = "trials without a miss that show of one machine that it meets the goal; left out "
                            "where the goal is not on machines",
@@ -95,7 +95,7 @@ document::Description<goal::Verdict> verdict_description(const goal::Question& q
   }
   if (on_rigs)
     description.value({.key = "rigs_without_miss", .meaning = "rigs all of whose moves meet the goal"},
-                      &goal::Verdict::rigs_without_miss);
+                      &goal::ClaimVerdict::rigs_without_miss);
   return description;
 }
 
@@ -104,8 +104,11 @@ document::Description<goal::Verdict> goals_description(const goal::Question& que
   for (const goal::JudgedPart& part : question.parts) {
     const std::size_t number = part.number;
     goals.object({.key = part.claim->name, .meaning = goal::goal_sentence(*part.claim)},
-                 verdict_description(only(question, number), on_rigs),
-                 [number](Verdict v) { return v.goals.empty() ? v : v.goals.at(number); });
+                 verdict_description(only(question, number), on_rigs), [number](const goal::Verdict& v) {
+                   goal::ClaimVerdict worst = worst_of_goal(v, number);
+                   worst.goal = 0;  // of this goal alone
+                   return worst;
+                 });
   }
   return goals;
 }

@@ -67,7 +67,7 @@ std::function<std::string(const PointReading&)> short_label(const summary::Study
 PointDescription labelled_points(const summary::StudySummary& summary);
 
 void add_goal(PointDescription& point, const summary::StudySummary& summary);
-document::Description<goal::Verdict> verdict_description(const goal::Question& question, bool on_rigs);
+document::Description<goal::ClaimVerdict> verdict_description(const goal::Question& question, bool on_rigs);
 
 /// Moves that are off target: their numbers, and the hold that would decide them.
 void add_undecided(PointDescription& point, const summary::StudySummary& summary);

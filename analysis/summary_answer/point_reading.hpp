@@ -44,7 +44,7 @@ struct Confirmation {
   std::int64_t trials{0};
   std::int64_t rigs{0};                       ///< 0: no trials share one that they were drawn for
   std::int64_t successes{0};                  ///< trials all of whose moves ended at zero error
-  std::vector<measures::MoveCounts> goals{};  ///< [goal]
+  std::vector<measures::CellCounts> goals{};  ///< [goal]
 };
 
 /// How a summary is shown.

@@ -77,7 +77,7 @@ void count_goal(StudySummary& summary, const reading::AllTrialsFile& file, const
       const std::int64_t met = std::count_if(begin, begin + file.moves(),
                                              [&](double time) { return time <= measures::latest(counted); });
       summary.points[static_cast<std::size_t>((first + i) / study.trials)].goals.front().add(
-          (first + i) % study.trials, study.rigs, static_cast<std::int64_t>(moves), met);
+          (first + i) % study.trials, static_cast<std::int64_t>(moves), met);
     }
   }
 }
@@ -100,7 +100,7 @@ bool outline_points(StudySummary& summary, const reading::AllTrialsFile& file, c
   outline.measures.assign(table.size(), {});
   outline.measures.shrink_to_fit();
   outline.trials = outline.judged = study.trials;
-  if (summary.question.claim()) outline.goals.emplace_back();
+  if (summary.question.claim()) outline.goals.emplace_back(measures::Shape{.rigs = study.rigs});
   summary.points.assign(summary.labels.size(), outline);
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     measures::PointSummary& point = summary.points[i];

@@ -41,7 +41,7 @@ std::string simulated_text(Point p) {
   if (point.judged == 0) return "–";
   return fmt::format("{} of {}{}{}", text::percentage(point.outcomes.zero_count, point.judged), point.judged,
                      point.rigs.n > 0 ? fmt::format(" on {} rigs", point.rigs.n) : "",
-                     point.worlds ? ", on average over the worlds" : "");
+                     p.summary.question.worlds > 0 ? ", on average over the worlds" : "");
 }
 
 std::string observed_statement(Point p) {
@@ -89,8 +89,8 @@ std::string shown_at_least(double proportion) {
 std::string assurance_statement(Point p) {
   const measures::PointSummary& point = p.statistics();
   const std::string settling = statistics::settling_sentence(point.settles_within);
-  return (point.worlds ? "on average over the worlds: " : "") + statistics::claim_sentence(point.claim) +
-         (settling.empty() ? "" : "; " + settling);
+  return (p.summary.question.worlds > 0 ? "on average over the worlds: " : "") +
+         statistics::claim_sentence(point.claim) + (settling.empty() ? "" : "; " + settling);
 }
 
 std::string title_of_assurance(const summary::StudySummary& summary) {

@@ -34,25 +34,24 @@ RatesOfWorlds judged_rates(const goal::Question& question, const goal::Verdict& 
 }
 
 /// [world] the worst verdict of the claims on it.
-std::vector<goal::Status> worst_statuses(std::span<const goal::ClaimVerdict> claims) {
-  std::vector<goal::Status> worst(claims.front().verdict->worlds.size(), goal::Status::met);
-  for (const goal::ClaimVerdict& claim : claims) {
+std::vector<goal::Status> worst_statuses(const goal::Verdict& verdict) {
+  std::vector<goal::Status> worst(verdict.worlds.size(), goal::Status::met);
+  for (const goal::ClaimVerdict& claim : verdict.claims) {
     for (std::size_t world = 0; world < worst.size(); ++world)
-      worst[world] = std::min(worst[world], claim.verdict->worlds[world].status,
+      worst[world] = std::min(worst[world], claim.worlds[world].status,
                               [](auto a, auto b) { return goal::rank_of(a) < goal::rank_of(b); });
   }
   return worst;
 }
 
 /// [world] whether it falls short of a claim, as observed.
-std::vector<bool> short_of_claims(const goal::Question& question,
-                                  std::span<const goal::ClaimVerdict> claims) {
-  std::vector<bool> bad(claims.front().verdict->worlds.size(), false);
-  for (const goal::ClaimVerdict& claim : claims) {
+std::vector<bool> short_of_claims(const goal::Question& question, const goal::Verdict& verdict) {
+  std::vector<bool> bad(verdict.worlds.size(), false);
+  for (const goal::ClaimVerdict& claim : verdict.claims) {
     const study::Goal& goal = *question.parts[claim.goal].claim;
     const double wanted = goal.machines.value_or(goal.moves);
     for (std::size_t world = 0; world < bad.size(); ++world) {
-      const goal::WorldVerdict& one = claim.verdict->worlds[world];
+      const goal::WorldVerdict& one = claim.worlds[world];
       if ((goal.machines ? one.machines.value : one.moves.value) < wanted) bad[world] = true;
     }
   }
@@ -60,21 +59,21 @@ std::vector<bool> short_of_claims(const goal::Question& question,
 }
 
 /// [world] whether it is shown to succeed less often than the median world.
-std::vector<bool> below_median(const PointWorlds& point, const measures::MoveCounts& succeeded,
+std::vector<bool> below_median(const PointWorlds& point, const std::vector<measures::MoveCounts>& succeeded,
                                double confidence) {
   std::vector<bool> bad;
-  const double each = statistics::confidence_of_each(confidence, static_cast<std::size_t>(succeeded.worlds));
-  for (const measures::MoveCounts& world : measures::in_worlds(succeeded))
+  const double each = statistics::confidence_of_each(confidence, succeeded.size());
+  for (const measures::MoveCounts& world : succeeded)
     bad.push_back(statistics::clustered_at_most(measures::clusters_of(world), each) < point.success.median);
   return bad;
 }
 
 }  // namespace
 
-RatesOfWorlds rates_of_worlds(const measures::MoveCounts& counts, double confidence) {
+RatesOfWorlds rates_of_worlds(const std::vector<measures::MoveCounts>& worlds, double confidence) {
   RatesOfWorlds rates;
-  const double each = statistics::confidence_of_each(confidence, static_cast<std::size_t>(counts.worlds));
-  for (const measures::MoveCounts& world : measures::in_worlds(counts)) {
+  const double each = statistics::confidence_of_each(confidence, worlds.size());
+  for (const measures::MoveCounts& world : worlds) {
     const statistics::ClusterSums sums = measures::clusters_of(world);
     const double value = statistics::rate(world.met, world.moves);
     const double low = statistics::clustered_at_least(sums, each);
@@ -92,15 +91,14 @@ PointWorlds point_worlds(const measures::PointSummary& point, const goal::Questi
                          std::span<const WorldInput> inputs, std::uint64_t seed, double confidence,
                          std::size_t points) {
   PointWorlds result;
-  const measures::MoveCounts& succeeded = point.worlds.value().succeeded;
+  const std::vector<measures::MoveCounts> succeeded = point.trials_of_groups.value().succeeded.by_world();
   result.success = rates_of_worlds(succeeded, confidence);
   if (all.claim()) result.goal = verdict_on(all, point, points);
   const goal::Question question = result.goal ? only(all, result.goal->goal) : all;
   result.asked = result.goal ? judged_rates(question, *result.goal) : result.success;
   if (result.goal) {
-    const std::vector<goal::ClaimVerdict> claims = goal::claims_of(*result.goal);
-    result.statuses = worst_statuses(claims);
-    result.bad = short_of_claims(all, claims);
+    result.statuses = worst_statuses(*result.goal);
+    result.bad = short_of_claims(all, *result.goal);
   } else {
     result.bad = below_median(result, succeeded, confidence);
   }

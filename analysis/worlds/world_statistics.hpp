@@ -25,7 +25,7 @@ struct RatesOfWorlds {
 };
 
 /// The rate of each world; all of them have trials. @param confidence of each one-sided bound
-RatesOfWorlds rates_of_worlds(const measures::MoveCounts& counts, double confidence);
+RatesOfWorlds rates_of_worlds(const std::vector<measures::MoveCounts>& worlds, double confidence);
 
 /// A design point by world.
 struct PointWorlds {

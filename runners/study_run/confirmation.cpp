@@ -53,12 +53,11 @@ summary_answer::Confirmation counted_in(const study::Study& study, std::int64_t 
                                         std::span<const trial::TrialOutcome> outcomes) {
   const std::vector<measures::CountedGoal> goals = measures::counted_goals(study);
   summary_answer::Confirmation counts;
-  counts.goals.resize(goals.size());
-  for (measures::MoveCounts& goal : counts.goals) goal.tell_apart(study.worlds, std::ssize(study.conditions));
+  counts.goals.assign(goals.size(), measures::CellCounts(measures::shape_of(study)));
   for (const trial::TrialOutcome& outcome : outcomes) {
     counts.successes += trial::succeeded(outcome.moves) ? 1 : 0;
     for (std::size_t i = 0; i < goals.size(); ++i)
-      measures::count_moves(counts.goals[i], goals[i], first, study.rigs, outcome.moves);
+      measures::count_moves(counts.goals[i], goals[i], first, outcome.moves);
     ++first;
   }
   return counts;

@@ -35,7 +35,7 @@ struct ShownLine {
     return {verdict.machines.value,
             {verdict.machines.low, verdict.machines.high},
             verdict.rigs_meeting,
-            std::ssize(shown.goals.front().rigs)};
+            shown.goals.front().shape().rigs};
   }
   /// The proportion that is asked for.
   ordered_json asked() const {

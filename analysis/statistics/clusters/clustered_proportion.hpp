@@ -33,6 +33,7 @@ struct ClusterSums {
   void add(std::int64_t cluster_hits, std::int64_t cluster_events);
   /// Adds the sums of other clusters.
   ClusterSums& operator+=(const ClusterSums& other);
+  bool operator==(const ClusterSums&) const = default;
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {

@@ -16,6 +16,14 @@ struct RigMoves {
   std::int64_t moves{0};   ///< of all trials, each with as many
   std::int64_t met{0};
 
+  RigMoves& operator+=(const RigMoves& other) {
+    trials += other.trials;
+    moves += other.moves;
+    met += other.met;
+    return *this;
+  }
+  bool operator==(const RigMoves&) const = default;
+
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
     archive(self.trials, self.moves, self.met);

@@ -192,10 +192,10 @@ AgeVerdict AgeRuns::at(double age, const std::vector<study::FreeParameter>& free
   const goal::Verdict verdict = goal::judge_goals(study.goals, counts_of(study, units_, candidate.units), 1);
   AgeVerdict found;
   found.age = age;
-  for (const goal::ClaimVerdict& claim : goal::claims_of(verdict)) {
+  for (const goal::ClaimVerdict& claim : verdict.claims) {
     const bool of_machines = study.goals[claim.goal].machines.has_value();
-    found.rates.push_back(of_machines ? claim.verdict->machines : claim.verdict->moves);
-    found.statuses.push_back(claim.verdict->status);
+    found.rates.push_back(of_machines ? claim.machines : claim.moves);
+    found.statuses.push_back(claim.status);
   }
   found.criterion = estimate_of(aim_of(study), candidate, units_.count).criterion;
   return found;

@@ -28,7 +28,7 @@ inline constexpr int max_attempts = 3;
 std::size_t correction_of(int attempt);
 
 /// The moves that meet each goal, [goal].
-using GoalCounts = std::vector<measures::MoveCounts>;
+using GoalCounts = std::vector<measures::CellCounts>;
 
 struct ProofProblem {
   std::vector<study::Goal> goals;  ///< all of which must be met

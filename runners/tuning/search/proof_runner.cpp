@@ -48,20 +48,19 @@ std::int64_t min_units_of(const study::Study& study, std::int64_t each, std::siz
 }
 
 /// @param each trials of a rig
-measures::MoveCounts at_trials_each(measures::MoveCounts counts, std::int64_t each) {
-  for (statistics::RigMoves& rig : counts.rigs) {
-    const auto factor = static_cast<double>(each) / static_cast<double>(rig.trials);
-    counts.moves -= rig.moves;
-    counts.met -= rig.met;
-    rig.trials = each;
-    rig.moves = std::llround(static_cast<double>(rig.moves) * factor);
-    rig.met = std::llround(static_cast<double>(rig.met) * factor);
-    counts.moves += rig.moves;
-    counts.met += rig.met;
+measures::CellCounts at_trials_each(const measures::CellCounts& counts, std::int64_t each) {
+  measures::CellCounts scaled(counts.shape());
+  for (std::size_t condition = 0; condition < counts.conditions(); ++condition) {
+    const std::vector<statistics::RigMoves> rigs = counts.sum({.condition = condition}).rigs;
+    for (std::size_t rig = 0; rig < rigs.size(); ++rig) {
+      const std::int64_t trials = each / static_cast<std::int64_t>(counts.conditions());
+      const auto factor = static_cast<double>(trials) / static_cast<double>(rigs[rig].trials);
+      scaled.add_rig(rig, condition,
+                     {trials, std::llround(static_cast<double>(rigs[rig].moves) * factor),
+                      std::llround(static_cast<double>(rigs[rig].met) * factor)});
+    }
   }
-  for (measures::MoveCounts& condition : counts.of_conditions)
-    condition = at_trials_each(std::move(condition), each / std::ssize(counts.of_conditions));
-  return counts;
+  return scaled;
 }
 
 /// The fewest units, with as many trials each, that decide all goals with a probability of 1/2.
@@ -125,17 +124,18 @@ void make_run(const study::Study& study, const std::filesystem::path& output, in
 GoalCounts counts_of(const study::Study& study, const trials::Replicates& units,
                      std::span<const UnitResult> results) {
   const auto conditions = static_cast<std::size_t>(study::condition_count(study));
-  GoalCounts goals(study.goals.size());
+  measures::Shape shape = measures::shape_of(study);
+  if (shape.rigs > 0) shape.rigs = std::ssize(results);
+  GoalCounts goals(study.goals.size(), measures::CellCounts(shape));
   for (std::size_t goal = 0; goal < goals.size(); ++goal) {
-    measures::MoveCounts& counts = goals[goal];
-    counts.tell_apart(study.worlds, std::ssize(study.conditions));
+    measures::CellCounts& counts = goals[goal];
     for (std::size_t unit = 0; unit < results.size(); ++unit) {
       for (std::size_t condition = 0; condition < conditions; ++condition) {
         const ClaimResult& claim = results[unit].claims[goal * conditions + condition];
         const auto number = static_cast<std::int64_t>(unit);
         if (study.rigs == 0) {
           counts.add(trials::trial_of_replicate(study, units, number, static_cast<std::int64_t>(condition)),
-                     0, claim.moves, claim.met);
+                     claim.moves, claim.met);
         } else {
           counts.add_rig(unit, condition,
                          {units.trials_each / static_cast<std::int64_t>(conditions), claim.moves, claim.met});
@@ -147,7 +147,8 @@ GoalCounts counts_of(const study::Study& study, const trials::Replicates& units,
 }
 
 GoalCounts with_trials_each(GoalCounts counts, std::int64_t each) {
-  for (measures::MoveCounts& goal : counts) goal = at_trials_each(std::move(goal), each);
+  if (counts.front().shape().rigs == 0) return counts;
+  for (measures::CellCounts& goal : counts) goal = at_trials_each(goal, each);
   return counts;
 }
 

@@ -53,9 +53,9 @@ struct Case {
 constexpr std::int64_t moves_of_rig = 20;
 
 /// A study: the first goal is of the population, the others are met by all machines in 0.99 of their moves.
-std::vector<measures::MoveCounts> study_of(testing::Draws& draws, const Population& population,
+std::vector<measures::CellCounts> study_of(testing::Draws& draws, const Population& population,
                                            const Case& one) {
-  std::vector<measures::MoveCounts> counts(one.goals);
+  std::vector<measures::CellCounts> counts(one.goals, measures::CellCounts({.rigs = one.rigs}));
   const std::int64_t machines = one.rigs > 0 ? one.rigs : 300;
   for (std::int64_t rig = 0; rig < machines; ++rig) {
     const double first = population.proportion(draws, one.on_machines);
@@ -63,7 +63,7 @@ std::vector<measures::MoveCounts> study_of(testing::Draws& draws, const Populati
       const double common = draws.uniform(0.0, 1.0);
       for (std::size_t i = 0; i < one.goals; ++i) {
         const double own = one.correlated ? common : draws.uniform(0.0, 1.0);
-        counts[i].add(rig + machines * move, one.rigs, 1, own < (i == 0 ? first : 0.99));
+        counts[i].add(rig + machines * move, 1, own < (i == 0 ? first : 0.99));
       }
     }
   }

@@ -55,20 +55,19 @@ std::int64_t binomial(testing::Draws& draws, std::int64_t n, double p) {
 }
 
 /// A study of one world. @param rigs 0: every trial on a machine of its own
-measures::MoveCounts counts_of_study(testing::Draws& draws, const Machines& machines, std::int64_t rigs,
+measures::CellCounts counts_of_study(testing::Draws& draws, const Machines& machines, std::int64_t rigs,
                                      std::int64_t trials) {
-  measures::MoveCounts counts;
-  counts.moves = trials;
+  measures::CellCounts counts({.rigs = rigs});
   if (rigs == 0) {
-    counts.met = binomial(draws, trials, machines.mean);
-    const auto met = static_cast<double>(counts.met);
-    counts.of_trials = {trials, counts.met, trials, met, met, static_cast<double>(trials)};
+    const std::int64_t hits = binomial(draws, trials, machines.mean);
+    const auto met = static_cast<double>(hits);
+    counts.add_trials(0, 0, {trials, hits, trials, met, met, static_cast<double>(trials)});
     return counts;
   }
   for (std::int64_t rig = 0; rig < rigs; ++rig) {
     const std::int64_t each = trials / rigs;
-    counts.rigs.push_back({each, each, binomial(draws, each, machines.draw(draws))});
-    counts.met += counts.rigs.back().met;
+    counts.add_rig(static_cast<std::size_t>(rig), 0,
+                   {each, each, binomial(draws, each, machines.draw(draws))});
   }
   return counts;
 }
@@ -92,12 +91,12 @@ TEST_P(GoalNeedsOf, NineInTenStudiesAreDecided) {
   int decided = 0;
   while (planned < 200) {
     const Machines machines{draws.uniform(plan.least_mean, 1.0 - 0.02 * (1.0 - plan.least_mean)), plan.sd};
-    const measures::MoveCounts pilot = counts_of_study(draws, machines, plan.rigs, plan.trials);
+    const measures::CellCounts pilot = counts_of_study(draws, machines, plan.rigs, plan.trials);
     if (judge_goal(plan.goal, pilot, 1).status != Status::undecided) continue;
     const Needs needs = needs_of(plan.goal, pilot, 1);
     ++planned;
     if (needs.trials == 0) continue;
-    const measures::MoveCounts study = counts_of_study(draws, machines, needs.rigs, needs.trials);
+    const measures::CellCounts study = counts_of_study(draws, machines, needs.rigs, needs.trials);
     decided += judge_goal(plan.goal, study, 1).status == Status::undecided ? 0 : 1;
   }
   EXPECT_GE(decided, 167);  // 0.9·200 − 3 standard deviations
@@ -118,7 +117,7 @@ TEST(GoalNeeds, CountMachinesWhereTheyHardlyMiss) {
   EXPECT_EQ(cheapest(smallest_studies(goal, true, 1, 1)).rigs, 59);
   std::int64_t without_miss = 0;
   for (const std::int64_t misses : {0, 1, 4}) {
-    measures::MoveCounts pilot;
+    measures::CellCounts pilot({.rigs = 20});
     for (std::size_t rig = 0; rig < 20; ++rig)
       pilot.add_rig(rig, 0, {100, 100, std::cmp_less(rig, misses) ? 99 : 100});
     ASSERT_EQ(judge_goal(goal, pilot, 1).status, Status::undecided) << misses;
@@ -136,20 +135,19 @@ TEST(GoalNeeds, OfMachinesDecideNineInTenStudiesOfMachinesAsThese) {
   int planned = 0;
   int decided = 0;
   for (int pilots = 0; pilots < 100 && planned < 25; ++pilots) {
-    const measures::MoveCounts pilot = counts_of_study(draws, {draws.uniform(0.8, 0.99), 0.06}, 40, 4000);
+    const measures::CellCounts pilot = counts_of_study(draws, {draws.uniform(0.8, 0.99), 0.06}, 40, 4000);
     if (judge_goal(goal, pilot, 1).status != Status::undecided) continue;
     const Needs needs = needs_of(goal, pilot, 1);
     if (needs.trials == 0 || needs.rigs > 5000) continue;
     ++planned;
-    measures::MoveCounts study;
+    measures::CellCounts study({.rigs = needs.rigs});
+    const std::vector<statistics::RigMoves> rigs = pilot.sum().rigs;
     for (std::int64_t rig = 0; rig < needs.rigs; ++rig) {
-      const statistics::RigMoves& like = pilot.rigs[static_cast<std::size_t>(draws.integer(0, 39))];
+      const statistics::RigMoves& like = rigs[static_cast<std::size_t>(draws.integer(0, 39))];
       const std::int64_t each = needs.trials / needs.rigs;
-      study.rigs.push_back(
-          {each, each,
-           binomial(draws, each, static_cast<double>(like.met) / static_cast<double>(like.moves))});
-      study.moves += each;
-      study.met += study.rigs.back().met;
+      study.add_rig(static_cast<std::size_t>(rig), 0,
+                    {each, each,
+                     binomial(draws, each, static_cast<double>(like.met) / static_cast<double>(like.moves))});
     }
     decided += judge_goal(goal, study, 1).status == Status::undecided ? 0 : 1;
   }
@@ -163,15 +161,9 @@ TEST(GoalNeedsInWorlds, NineInTenStudiesAreDecided) {
   const study::Goal goal{.within = 0.05, .moves = 0.9};
   constexpr std::int64_t worlds = 4;
   const auto study_of = [&](const std::vector<Machines>& truth, std::int64_t trials) {
-    measures::MoveCounts counts;
-    counts.worlds = worlds;
-    for (const Machines& world : truth) {
-      const measures::MoveCounts one = counts_of_study(draws, world, 0, trials / worlds);
-      counts.moves += one.moves;
-      counts.met += one.met;
-      counts.of_trials += one.of_trials;
-      counts.of_worlds.push_back(one.of_trials);
-    }
+    measures::CellCounts counts({.worlds = worlds});
+    for (std::size_t world = 0; world < truth.size(); ++world)
+      counts.add_trials(world, 0, counts_of_study(draws, truth[world], 0, trials / worlds).sum().of_trials);
     return counts;
   };
   int planned = 0;
@@ -179,7 +171,7 @@ TEST(GoalNeedsInWorlds, NineInTenStudiesAreDecided) {
   while (planned < 200) {
     std::vector<Machines> truth;
     for (std::int64_t world = 0; world < worlds; ++world) truth.push_back({draws.uniform(0.7, 1.0), 0.0});
-    const measures::MoveCounts pilot = study_of(truth, 100 * worlds);
+    const measures::CellCounts pilot = study_of(truth, 100 * worlds);
     if (judge_goal(goal, pilot, 1).status != Status::undecided) continue;
     const Needs needs = needs_of(goal, pilot, 1);
     ++planned;
@@ -197,14 +189,13 @@ TEST(GoalNeedsOfSeveral, NineInTenStudiesAreDecided) {
   constexpr std::int64_t conditions = 2;
   using Truth = std::vector<double>;  // [goal + 2·condition]
   const auto study_of = [&](const Truth& truth, std::int64_t trials) {
-    std::vector<measures::MoveCounts> counts(goals.size());
-    for (measures::MoveCounts& one : counts) one.tell_apart(0, conditions);
+    std::vector<measures::CellCounts> counts(goals.size(), measures::CellCounts({.conditions = conditions}));
     for (std::int64_t trial = 0; trial < trials; ++trial) {
       const double common = draws.uniform(0.0, 1.0);
       const bool together = draws.chance(0.5);
       for (std::size_t i = 0; i < goals.size(); ++i) {
         const double own = together ? common : draws.uniform(0.0, 1.0);
-        counts[i].add(trial, 0, 1, own < truth[i + 2 * static_cast<std::size_t>(trial % conditions)]);
+        counts[i].add(trial, 1, own < truth[i + 2 * static_cast<std::size_t>(trial % conditions)]);
       }
     }
     return counts;

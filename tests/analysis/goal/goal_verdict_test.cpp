@@ -23,11 +23,11 @@ trial::MoveOutcome move_settled_at(double time) {
 }
 
 /// Trials of one move, on so many rigs; `met` of them meet the goal.
-measures::MoveCounts counts_of(std::int64_t met, std::int64_t trials, std::int64_t rigs = 0) {
-  measures::MoveCounts counts;
+measures::CellCounts counts_of(std::int64_t met, std::int64_t trials, std::int64_t rigs = 0) {
+  measures::CellCounts counts({.rigs = rigs});
   for (std::int64_t i = 0; i < trials; ++i) {
     const trial::MoveOutcome move = move_settled_at(i < met ? 0.05 : 0.0505);
-    measures::count_moves(counts, within_50_ms, i, rigs, {&move, 1});
+    measures::count_moves(counts, within_50_ms, i, {&move, 1});
   }
   return counts;
 }
@@ -107,7 +107,7 @@ TEST(GoalNeeds, DecideIfTheProportionsAreThoseObserved) {
   EXPECT_LT(needs_of(moves, counts_of(99, 100), 1, 0.5).trials, trials.trials / 5);
 
   const study::Goal machines{.within = 0.05, .moves = 0.9, .machines = 0.9};
-  const measures::MoveCounts few = counts_of(200, 200, 20);
+  const measures::CellCounts few = counts_of(200, 200, 20);
   ASSERT_EQ(judge_goal(machines, few, 1).status, Status::undecided);
   const Needs rigs = needs_of(machines, few, 1);
   ASSERT_GT(rigs.rigs, 20);
@@ -122,7 +122,7 @@ TEST(GoalText, NamesTheGoalAndItsThreeReadings) {
   EXPECT_EQ(
       goal_sentence({.within = 0.02, .moves = 0.9, .confidence = 0.8}),
       "error 0 for good after 0.02 s in at least 90 % of all moves of all machines, with 80 % confidence");
-  const measures::MoveCounts counts = counts_of(990, 1000, 100);
+  const measures::MoveCounts counts = counts_of(990, 1000, 100).sum();
   const std::string text = readings_text(goal, counts, judge_goal(goal, counts, 1));
   EXPECT_NE(text.find("of all moves of all machines, 99.0 % meet it: 990 of 1000"), std::string::npos)
       << text;
@@ -147,9 +147,9 @@ TEST(GoalText, SaysWhatTheMovesOfOneMachineLack) {
   const std::string fewer = readings_text(goal, counts, judge_goal(goal, counts, 1));
   EXPECT_NE(fewer.find("; all 330 that had none may be at 97.6"), std::string::npos) << fewer;
   // It is so in each world, too; what all machines may be at is not said of several worlds.
-  measures::MoveCounts worlds = counts;
-  worlds.worlds = 4;
-  const std::string in_worlds = readings_text(goal, worlds, judge_goal(goal, worlds, 1));
+  measures::CellCounts worlds({.rigs = 400, .worlds = 4});
+  for (std::size_t rig = 0; rig < 400; ++rig) worlds.add_rig(rig, 0, counts.rigs[rig]);
+  const std::string in_worlds = readings_text(goal, worlds.sum(), judge_goal(goal, worlds, 1));
   EXPECT_NE(in_worlds.find("  40 moves in 10 trials cannot show 99 % of one machine: 299 trials"),
             std::string::npos)
       << in_worlds;

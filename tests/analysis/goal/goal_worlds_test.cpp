@@ -16,15 +16,11 @@ namespace zerocount::goal {
 namespace {
 
 /// Trials of one move in each world, of which met[world] meet the goal.
-/// @param rigs of each world; 0: no trials share a rig
-measures::MoveCounts counts_in_worlds(const std::vector<std::int64_t>& met, std::int64_t trials,
-                                      std::int64_t rigs = 0) {
-  measures::MoveCounts counts;
-  counts.worlds = std::ssize(met);
-  for (std::int64_t i = 0; i < trials * counts.worlds; ++i) {
-    const std::int64_t wanted = met[static_cast<std::size_t>(i % counts.worlds)];
-    counts.add(i, rigs * counts.worlds, 1, i / counts.worlds < wanted ? 1 : 0);
-  }
+measures::CellCounts counts_in_worlds(const std::vector<std::int64_t>& met, std::int64_t trials) {
+  const std::int64_t worlds = std::ssize(met);
+  measures::CellCounts counts({.worlds = worlds});
+  for (std::int64_t i = 0; i < trials * worlds; ++i)
+    counts.add(i, 1, i / worlds < met[static_cast<std::size_t>(i % worlds)] ? 1 : 0);
   return counts;
 }
 
@@ -65,15 +61,14 @@ struct RatesInWorlds {
   static constexpr unsigned seeds = 200;
   explicit RatesInWorlds(unsigned seed) : draws(seed) {
     if (rigs > 0 && draws.chance(0.5)) goal.machines = draws.uniform(0.5, 0.9);
-    counts.worlds = worlds;
     std::vector<double> rates;
     for (std::int64_t world = 0; world < worlds; ++world) rates.push_back(draws.uniform(0.7, 1.0));
     for (std::int64_t i = 0; i < trials * worlds; ++i) {
       const auto world = static_cast<std::size_t>(i % worlds);
       std::int64_t met = 0;
       for (std::int64_t move = 0; move < moves; ++move) met += draws.chance(rates[world]) ? 1 : 0;
-      counts.add(i, rigs * worlds, moves, met);
-      alone[world].add(i / worlds, rigs, moves, met);
+      counts.add(i, moves, met);
+      alone[world].add(i / worlds, moves, met);
     }
   }
 
@@ -87,8 +82,9 @@ struct RatesInWorlds {
                    .moves = draws.uniform(0.7, 0.95),
                    .machines = {},
                    .confidence = draws.uniform(0.8, 0.99)};
-  measures::MoveCounts counts;
-  std::vector<measures::MoveCounts> alone{static_cast<std::size_t>(worlds)};  ///< [world] a study of its own
+  measures::CellCounts counts{{.rigs = rigs * worlds, .worlds = worlds}};
+  std::vector<measures::CellCounts> alone{
+      std::vector(static_cast<std::size_t>(worlds), measures::CellCounts({.rigs = rigs}))};  ///< [world]
 };
 
 TEST_EACH_SEED(RatesInWorlds, AreJudgedAsTheLowestOfSoManyStudies) {
@@ -151,11 +147,11 @@ struct JudgedStudies {
       for (std::size_t world = 0; world < rates.size(); ++world) {
         for (int trial = 0; trial < 200; ++trial) met[world] += draws.chance(rates[world]) ? 1 : 0;
       }
-      const measures::MoveCounts counts = counts_in_worlds(met, 200);
+      const measures::CellCounts counts = counts_in_worlds(met, 200);
       const Verdict verdict = judge_goal(goal, counts, 1);
       if (verdict.status == Status::met) ++claimed_met;
       if (verdict.status == Status::missed) ++claimed_missed;
-      const std::vector<measures::MoveCounts> alone = measures::in_worlds(counts);
+      const std::vector<measures::MoveCounts> alone = counts.by_world();
       if (std::ranges::any_of(alone, [&](const measures::MoveCounts& world) {
             return judge_goal(goal, world, 1).status == Status::missed;
           }))
@@ -204,12 +200,12 @@ TEST(GoalNeedsInWorlds, DecideIfTheRatesAreThoseObserved) {
                                          UndecidedStudy{{49, 46, 45}, 50, 0.95, Status::missed},
                                          UndecidedStudy{{95, 99, 93}, 100, 0.95, Status::missed}}) {
     const study::Goal goal{.within = 0.05, .moves = observed.goal};
-    const measures::MoveCounts counts = counts_in_worlds(observed.met, observed.trials);
+    const measures::CellCounts counts = counts_in_worlds(observed.met, observed.trials);
     ASSERT_EQ(judge_goal(goal, counts, 1).status, Status::undecided);
     const Needs needs = needs_of(goal, counts, 1);
     EXPECT_EQ(needs.rigs, 0);
-    ASSERT_GT(needs.trials, counts.of_trials.clusters);
-    ASSERT_EQ(needs.trials % counts.worlds, 0);
+    ASSERT_GT(needs.trials, counts.sum().moves);
+    ASSERT_EQ(needs.trials % counts.shape().worlds, 0);
     const auto status_of = [&](std::int64_t trials) {
       const double factor = static_cast<double>(trials) / static_cast<double>(observed.trials);
       std::vector<std::int64_t> met;
@@ -217,21 +213,16 @@ TEST(GoalNeedsInWorlds, DecideIfTheRatesAreThoseObserved) {
         met.push_back(std::llround(static_cast<double>(one) * factor));
       return judge_goal(goal, counts_in_worlds(met, trials), 1).status;
     };
-    EXPECT_EQ(status_of(needs.trials / counts.worlds), observed.expected);
+    EXPECT_EQ(status_of(needs.trials / counts.shape().worlds), observed.expected);
   }
 }
 
 /// The rigs of all worlds. @param worlds [world][rig]
-measures::MoveCounts counts_on_rigs(const std::vector<std::vector<statistics::RigMoves>>& worlds) {
-  measures::MoveCounts counts;
-  counts.worlds = std::ssize(worlds);
-  for (std::size_t rig = 0; rig < worlds.front().size(); ++rig) {
-    for (const std::vector<statistics::RigMoves>& world : worlds) {
-      counts.rigs.push_back(world[rig]);
-      counts.moves += world[rig].moves;
-      counts.met += world[rig].met;
-    }
-  }
+measures::CellCounts counts_on_rigs(const std::vector<std::vector<statistics::RigMoves>>& worlds) {
+  const std::size_t rigs = worlds.front().size() * worlds.size();
+  measures::CellCounts counts({static_cast<std::int64_t>(rigs), std::ssize(worlds), 0});
+  for (std::size_t rig = 0; rig < rigs; ++rig)
+    counts.add_rig(rig, 0, worlds[rig % worlds.size()][rig / worlds.size()]);
   return counts;
 }
 
@@ -259,7 +250,7 @@ TEST(GoalNeedsInWorlds, HaveRigsAndTrialsForTheWorldThatNeedsMost) {
   mixed[0] = mixed[1] = {10, 10, 5};
   for (const auto& worlds :
        {std::vector{close, close}, std::vector{mixed, mixed}, std::vector{close, mixed}}) {
-    const measures::MoveCounts counts = counts_on_rigs(worlds);
+    const measures::CellCounts counts = counts_on_rigs(worlds);
     ASSERT_EQ(judge_goal(goal, counts, 1).status, Status::undecided);
     const Needs needs = needs_of(goal, counts, 1);
     ASSERT_GT(needs.rigs, 40);

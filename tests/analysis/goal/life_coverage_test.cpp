@@ -73,9 +73,9 @@ Question question_over(const LifeCase& one) {
   return question;
 }
 
-measures::MoveCounts counts_over(testing::Draws& draws, const Aging& aging, const LifeCase& one) {
-  measures::MoveCounts counts;
-  counts.tell_apart(0, static_cast<std::int64_t>(one.conditions * ages.size()));
+measures::CellCounts counts_over(testing::Draws& draws, const Aging& aging, const LifeCase& one) {
+  measures::CellCounts counts(
+      {.rigs = one.rigs, .conditions = static_cast<std::int64_t>(one.conditions * ages.size())});
   for (std::int64_t rig = 0; rig < one.rigs; ++rig) {
     const Machine machine = aging.draw(draws);
     for (std::size_t turn = 0; turn < one.conditions * ages.size(); ++turn) {
@@ -151,7 +151,7 @@ void expect_bounds_cover(int studies) {
       testing::Draws draws(29);
       Misses machines, living;
       for (int study = 0; study < studies; ++study) {
-        const std::vector<measures::MoveCounts> counts{counts_over(draws, aging, one)};
+        const std::vector<measures::CellCounts> counts{counts_over(draws, aging, one)};
         const std::vector<BoundedProportion> at = machines_at_ages(question, counts);
         const std::vector<Survival> curve =
             survival_of(lives_of_rigs(question, counts), question.ages.at, 0.95);

@@ -26,8 +26,8 @@ struct SeveralGoals {
       goals.push_back({.within = 0.05, .moves = draws.uniform(0.7, 0.97), .machines = {}, .confidence = 0.9});
       if (rigs > 0 && draws.chance(0.5)) goals.back().machines = draws.uniform(0.5, 0.9);
       const double rate = draws.uniform(0.7, 1.0);
-      measures::MoveCounts& of_goal = counts.emplace_back();
-      for (std::int64_t trial = 0; trial < trials; ++trial) of_goal.add(trial, rigs, 1, draws.chance(rate));
+      measures::CellCounts& of_goal = counts.emplace_back(measures::Shape{.rigs = rigs});
+      for (std::int64_t trial = 0; trial < trials; ++trial) of_goal.add(trial, 1, draws.chance(rate));
     }
   }
 
@@ -36,7 +36,7 @@ struct SeveralGoals {
   std::int64_t rigs{draws.chance(0.5) ? 0 : draws.integer(10, 40)};
   std::int64_t trials{rigs > 0 ? rigs* draws.integer(2, 20) : draws.integer(50, 400)};
   std::vector<study::Goal> goals;
-  std::vector<measures::MoveCounts> counts;
+  std::vector<measures::CellCounts> counts;
 };
 
 TEST_EACH_SEED(SeveralGoals, AreMetIfEachIsMetAtItsConfidence) {
@@ -46,8 +46,8 @@ TEST_EACH_SEED(SeveralGoals, AreMetIfEachIsMetAtItsConfidence) {
     const Verdict alone = judge_goal(goals[i], counts[i], 1);
     // Bonferroni's correction is of the points from which one is chosen too: of the upper bound alone.
     const Verdict corrected = judge_goal(goals[i], counts[i], goals.size());
-    EXPECT_EQ(verdict.goals[i].moves.low, alone.moves.low);
-    EXPECT_EQ(verdict.goals[i].moves.high, corrected.moves.high);
+    EXPECT_EQ(verdict.claims[i].moves.low, alone.moves.low);
+    EXPECT_EQ(verdict.claims[i].moves.high, corrected.moves.high);
     all_met = all_met && alone.status == Status::met;
     one_missed = one_missed || corrected.status == Status::missed;
   }
@@ -61,15 +61,15 @@ TEST_EACH_SEED(SeveralGoals, AreJudgedByTheWorst) {
     return status == Status::missed ? 0 : status == Status::undecided ? 1 : 2;
   };
   const auto margin = [&](std::size_t i) {
-    const Verdict& one = verdict.goals[i];
+    const ClaimVerdict& one = verdict.claims[i];
     return goals[i].machines ? logit(one.machines.low) - logit(*goals[i].machines)
                              : logit(one.moves.low) - logit(goals[i].moves);
   };
   const std::size_t worst = verdict.goal;
-  EXPECT_EQ(verdict.status, verdict.goals[worst].status);
+  EXPECT_EQ(verdict.status, verdict.claims[worst].status);
   for (std::size_t i = 0; i < goals.size(); ++i) {
-    EXPECT_GE(rank(verdict.goals[i].status), rank(verdict.status));
-    if (verdict.goals[i].status == verdict.status) {
+    EXPECT_GE(rank(verdict.claims[i].status), rank(verdict.status));
+    if (verdict.claims[i].status == verdict.status) {
       EXPECT_LE(margin(worst), margin(i));
     }
   }
@@ -77,18 +77,18 @@ TEST_EACH_SEED(SeveralGoals, AreJudgedByTheWorst) {
 
 TEST_EACH_SEED(SeveralGoals, AreJudgedUnderEachConditionAlike) {
   const std::int64_t conditions = draws.integer(2, 3);
-  std::vector<measures::MoveCounts> under(goals.size());
-  std::vector<std::vector<measures::MoveCounts>> alone(goals.size());
+  std::vector<measures::CellCounts> under(goals.size(),
+                                          measures::CellCounts({.rigs = rigs, .conditions = conditions}));
+  std::vector<std::vector<measures::CellCounts>> alone(goals.size());
   for (std::size_t i = 0; i < goals.size(); ++i) {
-    under[i].tell_apart(0, conditions);
-    alone[i].resize(static_cast<std::size_t>(conditions));
+    alone[i].assign(static_cast<std::size_t>(conditions), measures::CellCounts({.rigs = rigs}));
     const double rate = draws.uniform(0.7, 1.0);
     const std::int64_t each = std::max<std::int64_t>(rigs, 1);
     for (std::int64_t trial = 0; trial < conditions * trials; ++trial) {
       const std::int64_t met = draws.chance(rate);
-      under[i].add(trial, rigs, 1, met);
+      under[i].add(trial, 1, met);
       const std::int64_t draw = trial % each + each * (trial / (each * conditions));
-      alone[i][static_cast<std::size_t>(trial / each % conditions)].add(draw, rigs, 1, met);
+      alone[i][static_cast<std::size_t>(trial / each % conditions)].add(draw, 1, met);
     }
   }
   const Verdict verdict = judge_goals(goals, under, 1);
@@ -97,7 +97,7 @@ TEST_EACH_SEED(SeveralGoals, AreJudgedUnderEachConditionAlike) {
   for (std::size_t i = 0; i < goals.size(); ++i) {
     for (std::size_t c = 0; c < alone[i].size(); ++c) {
       const Verdict one = judge_goal(goals[i], alone[i][c], 1, parts);
-      const Verdict& found = verdict.goals[i].conditions.at(c);
+      const ClaimVerdict& found = verdict.claims.at(i * alone[i].size() + c);
       EXPECT_EQ(found.status, one.status);
       EXPECT_EQ(found.moves.low, one.moves.low);
       EXPECT_EQ(found.moves.high, one.moves.high);
@@ -121,10 +121,10 @@ std::vector<Verdict> verdicts_on(const std::vector<study::Goal>& goals, const st
   testing::Draws draws(9);
   std::vector<Verdict> verdicts;
   for (int study = 0; study < studies; ++study) {
-    std::vector<measures::MoveCounts> counts(goals.size());
+    std::vector<measures::CellCounts> counts(goals.size(), measures::CellCounts({.rigs = rigs}));
     for (std::size_t i = 0; i < goals.size(); ++i) {
       for (std::int64_t trial = 0; trial < (rigs > 0 ? rigs * 20 : 300); ++trial)
-        counts[i].add(trial, rigs, 1, draws.chance(rates[i]));
+        counts[i].add(trial, 1, draws.chance(rates[i]));
     }
     verdicts.push_back(judge_goals(goals, counts, 1));
   }

@@ -54,7 +54,7 @@ struct GoalSettlingTimes {
   }
 
   GoalSettling of(std::int64_t first, std::int64_t end) const {
-    GoalSettling settling(goal, rigs, conditions);
+    GoalSettling settling(goal, {.rigs = rigs, .conditions = conditions});
     for (std::int64_t trial = first; trial < end; ++trial)
       settling.add(trial, goal, of_trials[static_cast<std::size_t>(trial)]);
     return settling;
@@ -105,7 +105,7 @@ TEST_EACH_SEED(GoalSettlingTimes, DoNotDependOnHowTrialsAreDivided) {
   statistics::State state;
   statistics::StateWriter writer(state);
   GoalSettling::transfer(parts, writer);
-  GoalSettling restored(goal, rigs, conditions);
+  GoalSettling restored(goal, {.rigs = rigs, .conditions = conditions});
   statistics::StateReader reader(state.whole, state.real);
   GoalSettling::transfer(restored, reader);
   EXPECT_TRUE(restored.is_valid(trials * asked_moves(goal, moves)));
@@ -119,7 +119,7 @@ TEST_EACH_SEED(GoalSettlingTimes, DoNotDependOnHowTrialsAreDivided) {
 }
 
 TEST(GoalSettling, CollectsNothingWhereTheBandOfAllMovesIsMeasured) {
-  EXPECT_TRUE(GoalSettling(CountedGoal{.slot = 0}, 0, 0).statistics(0.95).empty());
+  EXPECT_TRUE(GoalSettling(CountedGoal{.slot = 0}, Shape{}).statistics(0.95).empty());
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ TEST(PointStatistics, FinalSettlingTimesAreOfAllMovesToo) {
 }
 
 TEST(PointStatistics, LimitsOnRigsAreOfTheSlowestMove) {
-  PointAccumulator on_rigs({.rigs = 100}), plain;
+  PointAccumulator on_rigs({.shape = {.rigs = 100}}), plain;
   for (int trial = 0; trial < 100; ++trial) {
     const trial::TrialOutcome moves{
         {move_that(trial::Outcome::zero_count, 0.5), move_that(trial::Outcome::zero_count, 0.01)}};

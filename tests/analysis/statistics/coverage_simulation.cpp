@@ -224,7 +224,7 @@ std::vector<Coverage> coverage_of(const Population& population, const Sample& sa
     std::vector<SimulatedRig> rigs;
     for (std::int64_t rig = 0; rig < std::max<std::int64_t>(sample.rigs, 1); ++rig)
       rigs.push_back(simulation.rig());
-    measures::PointAccumulator clustered({.rigs = sample.rigs});
+    measures::PointAccumulator clustered({.shape = {.rigs = sample.rigs}});
     measures::PointAccumulator trials;
     measures::PointAccumulator moves;
     statistics::Moments times, jerks;

@@ -31,7 +31,7 @@ trial::MoveOutcome move_that(bool succeeds) {
 measures::PointSummary on_rigs(std::uint64_t seed, double worse, std::int64_t rigs) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform;
-  measures::PointAccumulator point({.rigs = rigs});
+  measures::PointAccumulator point({.shape = {.rigs = rigs}});
   std::vector<double> probability;
   for (std::int64_t rig = 0; rig < rigs; ++rig) probability.push_back(0.3 + 0.6 * uniform(random) - worse);
   for (std::int64_t trial = 0; trial < 20 * rigs; ++trial) {

@@ -127,7 +127,7 @@ TEST(AssuranceSection, TrialsThatWereStoppedByTheirOutcomesClaimLess) {
 }
 
 TEST(AssuranceSection, TellsOfRigsWhereTrialsShareThem) {
-  measures::PointAccumulator on_rigs({.rigs = 40}), stopped({.rigs = 40});
+  measures::PointAccumulator on_rigs({.shape = {.rigs = 40}}), stopped({.shape = {.rigs = 40}});
   for (int trial = 0; trial < 4000; ++trial) {
     const bool failed = trial % 40 == 3;  // one rig always does
     on_rigs.add({{failed ? never_arrived() : arrived_after(0.05)}}, {});

@@ -151,20 +151,15 @@ tune: {free: {controller.ki: {log: [1.0e-5, 1.0e-4]}, controller.kp: [0, 1.0e-3]
 goal::Verdict verdict_on_claims() {
   goal::Verdict whole;
   for (std::size_t goal = 0; goal < 2; ++goal) {
-    goal::Verdict of_goal;
     for (std::size_t condition = 0; condition < 2; ++condition) {
-      goal::Verdict& one = of_goal.conditions.emplace_back();
+      goal::ClaimVerdict& one = whole.claims.emplace_back();
       one.status = goal::Status::met;
       one.moves.value = 0.99 - 0.02 * static_cast<double>(goal) - 0.01 * static_cast<double>(condition);
+      one.goal = goal;
+      one.condition = condition;
     }
-    of_goal.moves = of_goal.conditions[1].moves;
-    of_goal.condition = 1;
-    whole.goals.push_back(of_goal);
   }
-  whole.status = goal::Status::met;
-  whole.moves = whole.goals[1].moves;
-  whole.goal = 1;
-  whole.condition = 1;
+  static_cast<goal::ClaimVerdict&>(whole) = whole.claims.back();
   return whole;
 }
 

@@ -10,12 +10,10 @@ namespace zerocount::tuning {
 namespace {
 
 GoalCounts counts_of(const MadeUpProblem& truth, const Values& at, std::uint64_t first, std::int64_t units) {
-  measures::MoveCounts counts;
+  measures::CellCounts counts;
   for (std::int64_t i = 0; i < units; ++i) {
     const ClaimResult unit = truth.result(at, first + static_cast<std::uint64_t>(i)).claims.front();
-    counts.moves += unit.moves;
-    counts.met += unit.met;
-    counts.of_trials.add(unit.met, unit.moves);
+    counts.add(i, unit.moves, unit.met);
   }
   return {counts};
 }
@@ -111,12 +109,10 @@ TEST(Proof, GoesOnToTheNextFinalistAfterAMissAndToMoreUnitsWhenUndecided) {
   problem.run = [&](const Attempt& attempt) -> std::optional<GoalCounts> {
     attempts.push_back(attempt);
     const double rate = attempt.finalist == 0 ? 0.8 : attempt.units == 1000 ? 0.955 : 0.97;
-    measures::MoveCounts counts;
+    measures::CellCounts counts;
     for (std::int64_t i = 0; i < attempt.units; ++i) {
       const bool met = static_cast<double>(i) < rate * static_cast<double>(attempt.units);
-      ++counts.moves;
-      counts.met += met ? 1 : 0;
-      counts.of_trials.add(met ? 1 : 0, 1);
+      counts.add(i, 1, met ? 1 : 0);
     }
     return GoalCounts{counts};
   };
@@ -137,12 +133,8 @@ TEST(Proof, GoesOnToTheNextFinalistWhereItRejectsOneThatMeetsTheGoal) {
   problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
   problem.goes_on = [] { return true; };
   problem.run = [](const Attempt& attempt) -> std::optional<GoalCounts> {
-    measures::MoveCounts counts;
-    for (std::int64_t i = 0; i < attempt.units; ++i) {
-      ++counts.moves;
-      ++counts.met;
-      counts.of_trials.add(1, 1);
-    }
+    measures::CellCounts counts;
+    for (std::int64_t i = 0; i < attempt.units; ++i) counts.add(i, 1, 1);
     return GoalCounts{counts};
   };
   problem.rejects = [](const Attempt& attempt) { return attempt.finalist == 0; };

@@ -4,7 +4,7 @@
 
 #include "analysis/acceptance/acceptance.hpp"
 #include "analysis/iso230/columns.hpp"
-#include "analysis/iso230/trial_values.hpp"
+#include "analysis/iso230/repeatability.hpp"
 #include "analysis/measures/trial_value.hpp"
 
 namespace zerocount::acceptance {

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <vector>
 
 #include "analysis/history/run_record.hpp"
+
+namespace SQLite {
+class Database;
+}
 
 /// The SQLite file of a history. README.md documents its schema.
 namespace zerocount::history {
@@ -35,5 +40,15 @@ Addition add_run(const std::filesystem::path& database, const RunRecord& run, co
 /// All runs of a history, by the time at which they were made.
 /// @throws Failure: bad_input where there is no such file, otherwise as add_run().
 std::vector<RunRecord> read_runs(const std::filesystem::path& database, const Wait& wait = {});
+
+/// Opens an SQLite database for reading and writing, and applies `action` to it.
+/// @param flags SQLite::OPEN_CREATE, or 0: the file must exist
+/// @throws Failure for every SQLite::Exception, with the file's name and the reason in our words: bad_data
+/// for damage or another format, otherwise machine_failed
+void with_database(const std::filesystem::path& path, int flags, const Wait& wait,
+                   const std::function<void(SQLite::Database&)>& action);
+
+/// Throws an SQLite::Exception that with_database calls damage, unless `condition` holds.
+void require_undamaged(bool condition);
 
 }  // namespace zerocount::history

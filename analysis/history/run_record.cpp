@@ -1,11 +1,18 @@
 #include "analysis/history/run_record.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstddef>
+#include <ctime>
+#include <functional>
 #include <iterator>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/goal/question.hpp"
@@ -14,12 +21,148 @@
 #include "core/hash/sha256.hpp"
 #include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/study/condition_study.hpp"
+#include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/recorded_values.hpp"
 #include "results/storage/checksum_trailer.hpp"
 
 namespace zerocount::history {
 namespace {
+
+using Json = nlohmann::json;
+
+double number_of(const Json& value) {
+  return value.is_number() ? value.get<double>() : statistics::unknown;
+}
+
+/// Gives `take` the parsed JSON of a verb's answer, and its text.
+/// @param format that makes the verb print it
+void read_answer(const std::filesystem::path& path, std::string_view verb, std::string_view format,
+                 const std::function<void(const Json&, const std::string&)>& take) {
+  constexpr std::size_t max_size = std::size_t{256} << 20U;  // bytes
+  const std::string text = yaml::read_text(path, max_size, fmt::format("the JSON of 'zerocount {}'", verb));
+  try {
+    take(Json::parse(text), text);
+  } catch (const Json::exception&) {
+    throw Failure(ExitCode::bad_data, fmt::format("{}: is not the JSON that 'zerocount {} {}, or is damaged",
+                                                  yaml::name_of_text(path), verb, format));
+  }
+}
+
+ValueComparison value_comparison(const Json& measure) {
+  ValueComparison found;
+  found.verdict = measure.at("verdict").get<std::string>();
+  found.baseline = number_of(measure.at("baseline"));
+  found.effect = number_of(measure.at("effect"));
+  found.bounds = {number_of(measure.at("effect_low")), number_of(measure.at("effect_high"))};
+  found.margin = number_of(measure.at("margin"));
+  const double one_sided = std::min(number_of(measure.at("p")), number_of(measure.at("improvement_p")));
+  found.p = std::min(1.0, 2.0 * one_sided);
+  return found;
+}
+
+/// "NAME, made 2026-… by commit …, seed 7, 200 trials".
+std::string description_of(const RunIdentity& run) {
+  return fmt::format("{}, made {} by commit {}, seed {}, {} trials", run.study, run.created, run.git_commit,
+                     run.seed, run.trials);
+}
+
+std::string description_of(const Json& file) {
+  RunIdentity run;
+  run.study = file.at("name").get<std::string>();
+  run.created = file.at("created").get<std::string>();
+  run.git_commit = file.at("git_commit").get<std::string>();
+  run.seed = file.at("seed").dump();
+  run.trials = file.at("trials").get<std::int64_t>();
+  return description_of(run);
+}
+
+void add(RunRecord& run, const Json& comparison) {
+  const Json& baseline = comparison.at("baseline");
+  run.comparison =
+      RunComparison{comparison.at("verdict").get<std::string>(), comparison.at("layer").get<std::string>(),
+                    baseline.at("created").get<std::string>(), baseline.at("git_commit").get<std::string>()};
+  for (const Json& point : comparison.at("points")) {
+    const auto label = point.at("label").get<std::string>();
+    for (const Json& measure : point.at("measures")) {
+      const auto name = measure.at("measure").get<std::string>();
+      const auto value = std::find_if(run.values.begin(), run.values.end(), [&](const RunValue& one) {
+        return one.point == label && one.measure == name;
+      });
+      if (value != run.values.end()) value->comparison = value_comparison(measure);
+    }
+  }
+}
+
+/// When the file was written, UTC.
+std::string time_written(const std::filesystem::path& path) {
+  const auto written = std::chrono::file_clock::to_sys(std::filesystem::last_write_time(path));
+  const std::time_t time =
+      std::chrono::system_clock::to_time_t(std::chrono::time_point_cast<std::chrono::seconds>(written));
+  std::tm utc{};
+  gmtime_r(&time, &utc);
+  std::string text(std::size_t{32}, '\0');
+  text.resize(std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc));
+  return text;
+}
+
+RunValue value_of(const Json& answer, const Json& measure) {
+  RunValue value;
+  value.point = answer.at("log").get<std::string>();
+  value.measure = measure.at("measure").get<std::string>();
+  value.unit = measure.at("unit").get<std::string>();
+  value.value = number_of(measure.at("moves"));
+  value.n = answer.at("moves").get<std::int64_t>();
+  ValueComparison comparison;
+  comparison.verdict = measure.at("alarm_at").is_null() ? "no alarm" : "changed";
+  comparison.baseline = number_of(measure.at("baseline"));
+  comparison.effect = value.value - comparison.baseline;
+  // Valid at every time: without a change the evidence is ever E or more with a probability of at most 1/E.
+  // It is the capital over the number of measures that are watched, so that this holds for the largest of
+  // them.
+  const double evidence = measure.at("evidence").get<double>();
+  comparison.p = evidence > 1.0 ? 1.0 / evidence : 1.0;
+  value.comparison = comparison;
+  return value;
+}
+
+/// The medians of each kind of moves, for a measure whose kinds make several peaks.
+std::vector<RunValue> values_of_likes(const Json& answer, const Json& measure) {
+  std::vector<RunValue> values;
+  if (!answer.contains("likes")) return values;
+  for (const Json& like : answer.at("likes")) {
+    if (like.at("measure") != measure.at("measure")) continue;
+    RunValue value = value_of(answer, measure);
+    value.point += ", " + like.at("like").get<std::string>();
+    value.value = number_of(like.at("median"));
+    value.n = like.at("moves").get<std::int64_t>();
+    value.comparison->baseline = number_of(like.at("baseline"));
+    value.comparison->effect = value.value - value.comparison->baseline;
+    values.push_back(std::move(value));
+  }
+  return values;
+}
+
+RunRecord run_of(const Json& answer) {
+  RunRecord run;
+  const auto baseline = answer.at("baseline").get<std::string>();
+  run.study = "monitor of " + baseline;
+  const bool grouped = answer.contains("group") && !answer.at("group").is_null();
+  run.series_sha256 = hash::sha256_hex(fmt::format(
+      "monitor\n{}\n{}\n{}\n{}{}", baseline, answer.at("baseline_moves").dump(), answer.at("block").dump(),
+      answer.at("alarm").dump(), grouped ? "\n" + answer.at("group").dump() : ""));
+  run.study_sha256 = run.series_sha256;
+  run.seed = "1";
+  run.trials = answer.at("moves").get<std::int64_t>();
+  run.comparison = RunComparison{answer.at("status").get<std::string>(), "monitor", "", ""};
+  for (const Json& measure : answer.at("measures")) {
+    std::vector<RunValue> values = values_of_likes(answer, measure);
+    if (values.empty()) values.push_back(value_of(answer, measure));
+    for (RunValue& value : values)
+      if (std::isfinite(value.value)) run.values.push_back(std::move(value));
+  }
+  return run;
+}
 
 bool drawn_per_study(const manifest_text::ManifestValues& values, const study::Study& study) {
   return study.worlds > 0 ||  // another seed draws other worlds
@@ -112,6 +255,33 @@ void add_values(std::vector<RunValue>& values, const summary::StudySummary& summ
 }
 
 }  // namespace
+
+void add_comparison(RunRecord& run, const std::filesystem::path& path) {
+  read_answer(path, "compare", "--json' writes", [&](const Json& answer, const std::string&) {
+    const std::string of = description_of(answer.at("current"));
+    if (of != description_of(run))
+      throw Failure(ExitCode::bad_input, fmt::format("{}: compares another run: {}; expected {}",
+                                                     yaml::name_of_text(path), of, description_of(run)));
+    add(run, answer);
+  });
+}
+
+std::optional<RunRecord> monitor_record(const std::filesystem::path& path) {
+  if (path.extension() != ".json") return std::nullopt;
+  RunRecord run;
+  read_answer(path, "monitor", "--format json' prints", [&](const Json& answer, const std::string& text) {
+    const std::string name = yaml::name_of_text(path);
+    if (answer.at("answer") != "monitor")
+      throw Failure(ExitCode::bad_input,
+                    fmt::format("{}: is another answer; expected that of 'zerocount monitor'", name));
+    run = run_of(answer);
+    if (run.values.empty())
+      throw Failure(ExitCode::inconclusive, fmt::format("{}: has no moves with values yet", name));
+    run.file_sha256 = hash::sha256_hex(text);
+    run.created = time_written(path);
+  });
+  return run;
+}
 
 std::string series_sha256(const reading::AllTrialsFile& file) {
   const layout::FileHeader& header = file.header();

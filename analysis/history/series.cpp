@@ -4,8 +4,11 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,6 +16,7 @@
 #include "analysis/comparison/comparison_report.hpp"
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/statistics/change_point.hpp"
+#include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::history {
@@ -124,7 +128,8 @@ std::vector<SeriesChange> changes_since_baseline(const Series& series, double ma
   std::size_t start = 0;  // first run against this baseline
   bool found = false;     // against this baseline
   for (std::size_t i = 0; i < series.runs.size(); ++i) {
-    const auto& [run, value] = series.runs[i];
+    const RunValue& value = series.runs[i].value;
+    const auto& run = series.runs[i].run;
     if (!value.comparison || !run->comparison) continue;
     const std::string against = run->comparison->baseline_created + run->comparison->baseline_commit;
     if (against != baseline) {
@@ -158,22 +163,162 @@ std::vector<SeriesChange> changes_since_baseline(const Series& series, double ma
 }
 
 /// "2026-11-22T02:30:00Z (commit 1a2b3c4d5e)".
-std::string place_text(const std::string& created, const std::string& commit) {
+std::string place_text(const RunPlace& place) {
   constexpr std::size_t shown = 10;
+  const std::string& commit = place.git_commit;
   const bool is_hash = commit.size() >= 40;
-  const bool dirty = commit.ends_with("-dirty");
-  return fmt::format("{} (commit {}{})", created, is_hash ? commit.substr(0, shown) : commit,
-                     is_hash && dirty ? "-dirty" : "");
+  return fmt::format("{} (commit {}{})", place.created, is_hash ? commit.substr(0, shown) : commit,
+                     is_hash && commit.ends_with("-dirty") ? "-dirty" : "");
 }
 
-std::string place_text(const RunIdentity& run) {
-  return place_text(run.created, run.git_commit);
+std::string value_text(const RunValue& of, double value) {
+  return comparison::value_text(value, of.measure, of.unit);
 }
 
-std::string place_before(const Series& series, const SeriesChange& change) {
-  if (!change.since_baseline) return place_text(*series.runs[change.first - 1].run);
-  const RunComparison& compared = *series.runs[change.significant].run->comparison;
-  return "the baseline of " + place_text(compared.baseline_created, compared.baseline_commit);
+std::string bounds_text(const RunValue& value) {
+  return fmt::format("[{}, {}]", value_text(value, value.bounds.low), value_text(value, value.bounds.high));
+}
+
+/// Names the runs of a change, and notes it at them.
+void describe(Series& series, SeriesChange& change) {
+  const auto place_of = [&](std::size_t run) {
+    return RunPlace{series.runs[run].run->created, series.runs[run].run->git_commit};
+  };
+  ++series.runs[change.first].changed;
+  ++series.runs[change.significant].significant;
+  change.first_after = place_of(change.first);
+  change.significant_since = place_of(change.significant);
+  if (change.since_baseline) {
+    const RunComparison& compared = *series.runs[change.significant].run->comparison;
+    change.last_before = {compared.baseline_created, compared.baseline_commit};
+  } else {
+    change.last_before = place_of(change.first - 1);
+  }
+  const RunValue& of = series.runs.front().value;
+  change.sentence = fmt::format("{} from {} to {} between {}{} and {}; significant since {}",
+                                change.after > change.before ? "rose" : "fell", value_text(of, change.before),
+                                value_text(of, change.after), change.since_baseline ? "the baseline of " : "",
+                                place_text(change.last_before), place_text(change.first_after),
+                                place_text(change.significant_since));
+}
+
+using document::Description;
+using document::everywhere;
+using document::in_data;
+using document::to_people;
+using Run = const SeriesRun&;
+
+/// Of a run whose value has a comparison.
+Description<SeriesRun> comparison_description() {
+  const auto compared = [](auto ValueComparison::*member) {
+    return [member](Run r) { return (*r.value.comparison).*member; };
+  };
+  const auto baseline = [](std::string RunComparison::*member) {
+    return [member](Run r) {
+      return r.run->comparison ? std::optional((*r.run->comparison).*member) : std::nullopt;
+    };
+  };
+  return Description<SeriesRun>()
+      .value(in_data("verdict", "verdict on the change"), compared(&ValueComparison::verdict))
+      .value(in_data("baseline", "value of the baseline"), compared(&ValueComparison::baseline))
+      .value(in_data("effect", "change for the worse, with one-sided bounds"),
+             [](Run r) { return document::bounded(r.value.comparison->effect, r.value.comparison->bounds); })
+      .value(in_data("margin", "largest accepted effect"), compared(&ValueComparison::margin))
+      .value(in_data("p", "two-sided p-value of no difference", "1"), compared(&ValueComparison::p))
+      .value(in_data("baseline_created", "time of the baseline, UTC"),
+             baseline(&RunComparison::baseline_created))
+      .value(in_data("baseline_commit", "commit of the baseline"), baseline(&RunComparison::baseline_commit));
+}
+
+Description<SeriesRun> run_description() {
+  return Description<SeriesRun>()
+      .value(everywhere("created", "run", "time of the run, UTC"), [](Run r) { return r.run->created; })
+      .value(in_data("git_commit", "commit of the program"), [](Run r) { return r.run->git_commit; })
+      .value(to_people("commit"), [](Run r) { return r.run->git_commit.substr(0, 10); })
+      .value(in_data("zerocount_version", "version of the program"),
+             [](Run r) { return r.run->zerocount_version; })
+      .value(in_data("study_sha256", "hash of the study"), [](Run r) { return r.run->study_sha256; })
+      .value(everywhere("seed", "seed", "seed of the study, decimal"), [](Run r) { return r.run->seed; })
+      .value(everywhere("trials", "trials", "trials per design point"), [](Run r) { return r.run->trials; })
+      .value(in_data("n", "trials or values that the value is of"), [](Run r) { return r.value.n; })
+      .value(in_data("value", "value of the measure, in its unit, with 95 % bounds"),
+             [](Run r) { return document::bounded(r.value.value, r.value.bounds); })
+      .value(to_people("value"), [](Run r) { return value_text(r.value, r.value.value); })
+      .value(to_people("95 % bounds"), [](Run r) { return bounds_text(r.value); })
+      .object(in_data("comparison", "comparison with the baseline"), comparison_description(),
+              [](Run r) { return r.value.comparison ? &r : nullptr; })
+      .value(to_people("verdict"),
+             [](Run r) { return r.value.comparison ? r.value.comparison->verdict : std::string(); })
+      .value(everywhere("changed", "changed", "changes after which this is the first run"),
+             &SeriesRun::changed)
+      .value(everywhere("significant", "significant", "changes that are significant since this run"),
+             &SeriesRun::significant);
+}
+
+Description<SeriesChange> change_description() {
+  const auto place = Description<RunPlace>()
+                         .value(in_data("created", "time of the run, UTC"), &RunPlace::created)
+                         .value(in_data("git_commit", "commit of the program"), &RunPlace::git_commit);
+  return Description<SeriesChange>()
+      .value(in_data("before", "level before the change"), &SeriesChange::before)
+      .value(in_data("after", "level after the change"), &SeriesChange::after)
+      .value(in_data("since_baseline", "whether the change lies between the baseline and the first run"),
+             &SeriesChange::since_baseline)
+      .object(in_data("last_run_before", "last run, or the baseline, before the change"), place,
+              &SeriesChange::last_before)
+      .object(in_data("first_run_after", "first run after the change"), place, &SeriesChange::first_after)
+      .object(in_data("significant_since", "run at which the change was significant"), place,
+              &SeriesChange::significant_since)
+      .value(in_data("z", "signed root of the likelihood ratio statistic, of the test levels", "1"),
+             &SeriesChange::z)
+      .value(in_data("p", "two-sided p-value, of the test baseline", "1"), &SeriesChange::p)
+      .value(in_data("sentence", "the change in words"), &SeriesChange::sentence);
+}
+
+Description<Series> series_description() {
+  using Of = const Series&;
+  return Description<Series>()
+      .value(everywhere("study", "study", "name of the study"), &Series::study)
+      .value(in_data("series_sha256", "hash of the question, equal for all runs"), &Series::series_sha256)
+      .value(everywhere("point", "point", "label of the design point"), &Series::point)
+      .value(everywhere("measure", "measure", "name of the measure"), &Series::measure)
+      .value(in_data("unit", "unit of the values"), &Series::unit)
+      .value(document::with_words(in_data("test", "how the series is tested"), {"levels", "baseline"}),
+             [](Of s) { return s.test == SeriesTest::levels ? "levels" : "baseline"; })
+      .value(to_people("since"), [](Of s) { return s.runs.front().run->created.substr(0, 10); })
+      .value(to_people("runs"), [](Of s) { return s.runs.size(); })
+      .value(to_people("first"), [](Of s) { return value_text(s.runs[0].value, s.runs[0].value.value); })
+      .value(to_people("last"),
+             [](Of s) { return value_text(s.runs.back().value, s.runs.back().value.value); })
+      .value(to_people("95 % bounds"), [](Of s) { return bounds_text(s.runs.back().value); })
+      .value(to_people("changes"), [](Of s) { return s.changes.size(); })
+      .table(in_data("runs", "runs by time"), run_description(), &Series::runs)
+      .table(in_data("changes", "changes that are significant"), change_description(), &Series::changes);
+}
+
+std::string headline(const History& history) {
+  const auto changed =
+      std::ranges::count_if(history.series, [](const Series& s) { return !s.changes.empty(); });
+  if (changed == 0) return "No change is significant.";
+  return fmt::format("{} of {} series changed.", changed, history.series.size());
+}
+
+/// The changes in words, and what a false alarm costs.
+std::string sentences(const History& history) {
+  std::string text;
+  for (const Series& series : history.series)
+    for (const SeriesChange& change : series.changes)
+      text += text::printable(fmt::format("{}, {}, {}: {}", series.study, series.point, series.measure,
+                                          change.sentence)) +
+              "\n";
+  text += fmt::format(
+      "Where nothing changed, the probability that any of {} series shows a change within {:.0f} runs is at "
+      "most about {:.0f} %.",
+      history.series.size(), false_alarm_runs, 100.0 * false_alarm_probability);
+  if (!history.others.empty())
+    text += fmt::format("\nStudies with a goal are judged by it; with --measure also: {}",
+                        fmt::join(history.others, ", "));
+  return text;
 }
 
 }  // namespace
@@ -190,26 +335,29 @@ History history_of(const std::vector<RunRecord>& runs, const SeriesFilter& filte
     series.test = test_of(series);
     series.changes = series.test == SeriesTest::levels ? changes_of_levels(series, history.threshold)
                                                        : changes_since_baseline(series, history.max_p);
+    for (SeriesChange& change : series.changes) describe(series, change);
   }
   return history;
 }
 
-std::string change_sentence(const Series& series, const SeriesChange& change) {
-  const auto value = [&](double number) {
-    return comparison::value_text(number, series.measure, series.unit);
-  };
-  return fmt::format("{} from {} to {} between {} and {}; significant since {}",
-                     change.after > change.before ? "rose" : "fell", value(change.before),
-                     value(change.after), place_before(series, change),
-                     place_text(*series.runs[change.first].run),
-                     place_text(*series.runs[change.significant].run));
-}
-
-std::string false_alarm_sentence(const History& history) {
-  return fmt::format(
-      "Where nothing changed, the probability that any of {} series shows a change within {:.0f} runs is at "
-      "most about {:.0f} %.",
-      history.series.size(), false_alarm_runs, 100.0 * false_alarm_probability);
+document::AnswerDescription<History> history_answer() {
+  using Of = const History&;
+  document::AnswerDescription<History> answer{
+      {.name = "history", .meaning = "results over time, and when they changed", .csv_table = "series.runs"},
+      {}};
+  answer.items.headline(headline)
+      .sentence(sentences)
+      .value(in_data("false_alarm_probability", "probability of a change in any series without cause", "1"),
+             [](Of) { return false_alarm_probability; })
+      .value(in_data("false_alarm_runs", "runs within which it has this probability", "1"),
+             [](Of) { return false_alarm_runs; })
+      .value(in_data("threshold", "limit of |z| of the test levels", "1"), &History::threshold)
+      .value(in_data("max_p", "limit of p of the test baseline", "1"), &History::max_p)
+      .table(everywhere("series", "Series", "a measure at a point in all runs"), series_description(),
+             &History::series)
+      .table(to_people("Runs"), run_description(),
+             [](Of h) { return h.series.size() == 1 ? h.series.front().runs : std::vector<SeriesRun>(); });
+  return answer;
 }
 
 }  // namespace zerocount::history

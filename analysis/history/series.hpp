@@ -35,6 +35,14 @@ enum class SeriesTest {
 struct SeriesRun {
   std::shared_ptr<const RunIdentity> run{};  ///< which all series of the run share
   RunValue value{};
+  std::int64_t changed{0};      ///< changes after which this is the first run
+  std::int64_t significant{0};  ///< changes that are significant since this run
+};
+
+/// A run, or a baseline, by its time and its commit.
+struct RunPlace {
+  std::string created;
+  std::string git_commit;
 };
 
 /// A change that became significant. Indices are of SeriesRun.
@@ -46,6 +54,10 @@ struct SeriesChange {
   double after{statistics::unknown};  ///< mean over the runs from `first` to `significant`
   double z{statistics::unknown};  ///< of SeriesTest::levels: signed root of the likelihood ratio statistic
   double p{statistics::unknown};  ///< of SeriesTest::baseline: two-sided
+  RunPlace last_before{}, first_after{}, significant_since{};
+  /// "rose from 36.5 % to 41 % between 2026-01-01 (commit 1a2b3c4) and 2026-01-02 (commit …); significant
+  /// since …".
+  std::string sentence{};
 };
 
 /// The values of one measure at one point in all runs of one series.
@@ -73,13 +85,6 @@ struct History {
 /// @param runs by time
 /// @throws Failure (bad_input) that lists what there is where the filter leaves nothing.
 History history_of(const std::vector<RunRecord>& runs, const SeriesFilter& filter = {});
-
-/// "rose from 36.5 % to 41 % between 2026-01-01 (commit 1a2b3c4) and 2026-01-02 (commit …); significant since
-/// …".
-std::string change_sentence(const Series& series, const SeriesChange& change);
-
-/// A sentence with the assumptions of the tests and their rate of false alarms.
-std::string false_alarm_sentence(const History& history);
 
 /// The answer of `history show`: a row per series, the changes in words, and of a single series every run.
 document::AnswerDescription<History> history_answer();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -7,15 +8,67 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/iso230/point_statistics.hpp"
 #include "analysis/iso230/repeatability.hpp"
-#include "analysis/iso230/trial_values.hpp"
+#include "analysis/measures/measure_statistics.hpp"
+#include "analysis/measures/point_columns.hpp"
+#include "analysis/statistics/proportion.hpp"
+#include "analysis/statistics/sums/moments.hpp"
+#include "analysis/statistics/unknown.hpp"
+#include "analysis/text/report_field.hpp"
 #include "results/layout/layout.hpp"
 
-/// The columns of the tables of the group /repeatability of a results file: of values for every source in the
-/// order of deviation_sources() and axis_fields() or target_fields(), of points for every statistic of these
-/// in the order of value_statistic_fields(). The tables, the CSV summary and the export have them from here.
 namespace zerocount::iso230 {
+
+/// How a value is distributed over the trials of a design point for which it is defined: n, mean, max, median
+/// and p95 with order-statistic bounds.
+using ValueStatistics = measures::MeasureStatistics;
+
+/// @param values in any order; NaN is left out
+ValueStatistics statistics_of(std::vector<double> values, double confidence = statistics::summary_confidence);
+
+/// One number of ValueStatistics as it is reported, under "<value>_<name>" where there are no groups.
+struct ValueStatisticField {
+  std::string_view name;
+  std::string long_name;  ///< begins that of the number
+  bool of_targets;        ///< reported of the values of a target, too
+  double (*value)(const ValueStatistics&);
+};
+
+const std::vector<ValueStatisticField>& value_statistic_fields();
+
+/// The values of ISO 230-2 over the trials of a point, from one kind of deviation.
+struct SourceRepeatability {
+  std::vector<ValueStatistics> axis;                  ///< [axis_fields()]
+  std::vector<std::vector<ValueStatistics>> targets;  ///< [target][target_fields()]
+};
+
+/// The statistics of a design point of a study with a sequence of moves.
+struct PointRepeatability {
+  std::int64_t trials{0};
+  std::int64_t evaluated{0};  ///< trials whose motion was never lost: those that have values
+  /// Trials in which, by the encoder, all approaches of a target ended on the same count: R = 0, or R↑ or R↓
+  /// where there is one direction only. Nothing of a single cycle, which has no repeatability.
+  std::optional<std::int64_t> zero_repeatability{};
+  double zero_rate{statistics::unknown};                 ///< zero_repeatability / trials; NaN for n = 1
+  statistics::ConfidenceInterval zero_bounds{0.0, 1.0};  ///< of zero_rate; with rigs Korn–Graubard
+  std::vector<statistics::Moments> positions;            ///< [target], counts
+  std::vector<SourceRepeatability> sources;              ///< [deviation_sources()]
+};
+
+/// The numbers of a point that are neither of the axis nor of a target.
+const std::vector<text::ReportField<PointRepeatability>>& point_repeatability_fields();
+
+/// The repeatability part of the summary of a study with a sequence.
+struct RepeatabilitySummary {
+  double confidence{statistics::summary_confidence};  ///< of all bounds
+  SequenceShape shape;
+  std::vector<PointRepeatability> points;                   ///< [point]
+  parameters::AxisKind axis{parameters::AxisKind::rotary};  ///< whose units the deviations have
+};
+
+// The columns of the tables of the group /repeatability of a results file: of values for every source in the
+// order of deviation_sources() and axis_fields() or target_fields(), of points for every statistic of these
+// in the order of value_statistic_fields(). The tables, the CSV summary and the export have them from here.
 
 /// A column of numbers.
 template <typename Row>

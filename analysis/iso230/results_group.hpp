@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/iso230/point_statistics.hpp"
+#include "analysis/iso230/columns.hpp"
 #include "experiments/study/study.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/reading/all_trials_file.hpp"

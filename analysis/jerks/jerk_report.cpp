@@ -4,11 +4,15 @@
 #include <cstddef>
 #include <numeric>
 
+#include <fmt/format.h>
+
 #include "analysis/jerks/creep_comparison.hpp"
+#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
+#include "core/text/counted.hpp"
 #include "experiments/study/condition_study.hpp"
 
 namespace zerocount::jerks {
-
 namespace {
 
 /// @param file of the trials under `condition`
@@ -26,6 +30,187 @@ PointJerks jerks_at(const reading::AllTrialsFile& file, const std::string& condi
   return jerks;
 }
 
+using document::bounded;
+using document::Description;
+using document::everywhere;
+
+/// A value that people see by its meaning.
+document::Item fact(const char* key, const char* meaning, const char* unit = "") {
+  return everywhere(key, meaning, meaning, unit);
+}
+
+Description<JerkRate> rate_description() {
+  using Rate = const JerkRate&;
+  return Description<JerkRate>()
+      .value(everywhere("from", "from", "start of the range, since arrival", "s"), &JerkRate::from)
+      .value(everywhere("to", "to", "end of the range, since arrival; belongs to the next", "s"),
+             &JerkRate::to)
+      .value(everywhere("moves", "moves", "moves in which a jerk could have begun in the range"),
+             &JerkRate::moves)
+      .value(everywhere("exposure", "exposure",
+                        "time in which a jerk could have begun, summed over all moves", "s"),
+             &JerkRate::exposure)
+      .value(everywhere("jerks", "jerks", "jerks that began in the range"), &JerkRate::jerks)
+      .value(everywhere("rate", "rate",
+                        "jerks per exposure, with Garwood's bounds, widened by the dispersion", "1/s"),
+             [](Rate r) { return bounded(r.rate, r.bounds); })
+      .value(
+          document::in_data("poisson_low", "lower bound of the rate of independent jerks (Garwood)", "1/s"),
+          [](Rate r) { return r.poisson.low; })
+      .value(document::in_data("poisson_high", "its upper bound", "1/s"),
+             [](Rate r) { return r.poisson.high; })
+      .value(everywhere("dispersion", "dispersion",
+                        "variance of the jerks of a trial, divided by that of independent ones", "1"),
+             &JerkRate::dispersion);
+}
+
+Description<JerkIntervals> interval_description() {
+  using Intervals = const JerkIntervals&;
+  Description<JerkIntervals> description;
+  description.value(everywhere("n", "number", "intervals between the jerks of a move"), &JerkIntervals::n)
+      .value(everywhere("mean", "mean", "mean interval", "s"), &JerkIntervals::mean);
+  for (std::size_t i = 0; i < jerk_interval_probabilities.size(); ++i) {
+    const double percent = 100.0 * jerk_interval_probabilities[i];
+    description.value({.key = fmt::format("p{:02.0f}", percent),
+                       .heading = fmt::format("{:.0f} % below", percent),
+                       .meaning = fmt::format("quantile of {:.0f} % of the intervals", percent),
+                       .unit = "s"},
+                      [i](Intervals intervals) -> std::optional<document::Bounded> {
+                        if (intervals.quantiles.empty()) return {};
+                        const statistics::Quantile& quantile = intervals.quantiles[i];
+                        return document::Bounded{quantile.value, quantile.low, quantile.high};
+                      });
+  }
+  return description;
+}
+
+Description<TrendSummary> slowing_description() {
+  return Description<TrendSummary>()
+      .value(fact("moves", "moves with two or more intervals that differ"), &TrendSummary::moves)
+      .value(fact("tested", "moves with enough intervals for a test of their own"), &TrendSummary::tested)
+      .value(fact("slowing", "tested moves whose jerks slow down"), &TrendSummary::slowing)
+      .value(fact("quickening", "tested moves whose jerks quicken"), &TrendSummary::quickening)
+      .value(fact("score", "Laplace's score of all moves; negative if jerks slow down", "1"),
+             &TrendSummary::summed)
+      .value(fact("stouffer", "sum of the scores of the moves over the root of their number", "1"),
+             &TrendSummary::stouffer)
+      .value(fact("p_value", "probability of such a score without a trend", "1"), &TrendSummary::p_slowing)
+      .value(fact("permutations", "permutations of the p-value; 0: its normal limit"),
+             &TrendSummary::permutations);
+}
+
+Description<statistics::ClusteredProportion> proportion_description() {
+  using Proportion = statistics::ClusteredProportion;
+  return Description<Proportion>()
+      .value(fact("hits", "jerks that have the property"), &Proportion::hits)
+      .value(fact("jerks", "all jerks"), &Proportion::events)
+      .value(fact("proportion", "proportion of jerks, with Korn-Graubard bounds", "1"),
+             [](const Proportion& p) { return bounded(p.value, p.korn_graubard); })
+      .value(fact("independent", "number of independent jerks that tell as much", "1"),
+             &Proportion::effective_events);
+}
+
+Description<JerkMagnitudes> magnitude_description() {
+  return Description<JerkMagnitudes>()
+      .value(fact("counts", "jerks of 1, 2, ... counts; the last: or more"), &JerkMagnitudes::counts)
+      .value(fact("mean", "mean of the largest |error|", "counts"), &JerkMagnitudes::mean)
+      .value(fact("max", "largest |error|", "counts"), &JerkMagnitudes::max)
+      .value(fact("median_duration", "median duration of a jerk", "s"), &JerkMagnitudes::median_duration)
+      .value(fact("longest_duration", "longest duration of a jerk", "s"), &JerkMagnitudes::longest_duration)
+      .object(everywhere("one_count", "Of one count", "jerks of one count"), proportion_description(),
+              &JerkMagnitudes::one_count);
+}
+
+Description<CreepAgreement> agreement_description() {
+  return Description<CreepAgreement>()
+      .value(fact("ended", "waits that ended with a jerk"), &CreepAgreement::ended)
+      .value(fact("predicted", "of these, predicted to within two samples and 1 %"),
+             &CreepAgreement::predicted)
+      .value(fact("lasting", "waits without a jerk"), &CreepAgreement::lasting)
+      .value(fact("lasting_predicted", "of these, predicted to last as long"),
+             &CreepAgreement::lasting_predicted)
+      .value(fact("median_deviation", "median deviation of the onset from its prediction", "s"),
+             &CreepAgreement::median_deviation)
+      .value(fact("largest_deviation", "largest deviation of the onset", "s"),
+             &CreepAgreement::largest_deviation);
+}
+
+Description<PointJerks> creep_description() {
+  using Jerks = const PointJerks&;
+  const auto applies = [](Jerks j) { return j.creep.not_applicable.empty(); };
+  const auto waits =
+      Description<CreepComparison>()
+          .value(fact("too_short", "excluded waits: not longer than a dwell"), &CreepComparison::too_short)
+          .value(fact("unsteady", "excluded waits: the torque was not constant, or the hook slid"),
+                 &CreepComparison::unsteady);
+  return Description<PointJerks>()
+      .value(fact("trials", "trials simulated again"), [](Jerks j) { return j.creep.trials; })
+      .value(fact("not_applicable", "reason why the closed form does not apply"),
+             [applies](Jerks j) { return applies(j) ? std::nullopt : std::optional(j.creep.not_applicable); })
+      .include(agreement_description(),
+               [applies](Jerks j) { return applies(j) ? &j.creep_agreement : nullptr; })
+      .include(waits, [applies](Jerks j) { return applies(j) ? &j.creep : nullptr; });
+}
+
+Description<JerkStatistics> statistics_description() {
+  using Statistics = JerkStatistics;
+  return Description<Statistics>()
+      .value(fact("trials", "trials of the design point"), &Statistics::trials)
+      .value(fact("moves", "moves of all trials"), &Statistics::moves)
+      .value(fact("arrived", "moves that arrived; only these can jerk"), &Statistics::arrived)
+      .value(fact("lost", "moves that became non-finite after arrival; excluded"), &Statistics::lost)
+      .value(fact("trials_with_jerks", "trials with at least one jerk"), &Statistics::with_jerks)
+      .value(fact("jerks", "jerks of all trials"), &Statistics::jerks)
+      .table(everywhere("rates", "Rate of jerks since arrival", "rate by time"), rate_description(),
+             &Statistics::rates)
+      .object(everywhere("interval", "Intervals between the jerks of a move",
+                         "times between the onsets of successive jerks of a move"),
+              interval_description(), &Statistics::intervals)
+      .object(everywhere("slowing", "Trend of the intervals",
+                         "trend of the intervals between the jerks of a move"),
+              slowing_description(), &Statistics::slowing)
+      .object(everywhere("agreement", "Direction", "jerks in the direction of their holding torque"),
+              proportion_description(), &Statistics::agreement)
+      .object(everywhere("magnitude", "Magnitude", "largest |error| of the jerks"), magnitude_description(),
+              &Statistics::magnitudes);
+}
+
+Description<PointJerks> point_description() {
+  return Description<PointJerks>()
+      .title([](const PointJerks& p) { return text::printable(p.label); })
+      .value(document::in_data("point", "number of the design point"), &PointJerks::point)
+      .value(document::in_data("label", "label of the design point, with the condition"), &PointJerks::label)
+      .value({.key = "condition",
+              .meaning = "condition that the trials are under",
+              .shown = document::Shown::in_json,
+              .optional = true},
+             &PointJerks::condition)
+      .include(statistics_description(), &PointJerks::statistics)
+      .object(everywhere("creep", "Creep at constant torque",
+                         "comparison with the closed form of creep at constant torque"),
+              creep_description(), [](const PointJerks& p) -> const PointJerks& { return p; });
+}
+
+std::string headline(const JerkReport& report) {
+  if (!any_arrival(report))
+    return fmt::format("{}: no move arrived, so there are no jerks", text::printable(report.name));
+  JerkStatistics all;
+  for (const PointJerks& point : report.points) {
+    all.jerks += point.statistics.jerks;
+    all.with_jerks += point.statistics.with_jerks;
+    all.trials += point.statistics.trials;
+  }
+  return fmt::format("{}: {} in {} of {}", text::printable(report.name), text::counted(all.jerks, "jerk"),
+                     all.with_jerks, text::counted(all.trials, "trial"));
+}
+
+constexpr const char* legend =
+    "dispersion: above 1 where the jerks of a trial vary more than independent ones; the bounds of the rate "
+    "are "
+    "widened by it\n"
+    "trend: scores have mean 0 and standard deviation 1 without one, whatever the distribution of the "
+    "intervals. A trend does not tell its cause: creep, or noise that moves the rotor to where it is quieter";
+
 }  // namespace
 
 JerkReport jerk_report(const reading::AllTrialsFile& file, std::vector<std::int64_t> points,
@@ -35,7 +220,7 @@ JerkReport jerk_report(const reading::AllTrialsFile& file, std::vector<std::int6
     points.resize(static_cast<std::size_t>(study::point_count(study)));
     std::iota(points.begin(), points.end(), 0);
   }
-  JerkReport report{.name = study.name, .axis = study.units.axis, .confidence = confidence, .points = {}};
+  JerkReport report{.name = study.name, .confidence = confidence, .points = {}};
   reading::for_each_condition(file, [&](const reading::AllTrialsFile& one, const std::string& condition) {
     for (const std::int64_t point : points)
       report.points.push_back(jerks_at(one, condition, point, confidence, creep_trials));
@@ -50,6 +235,25 @@ bool any_arrival(const JerkReport& report) {
   return std::any_of(report.points.begin(), report.points.end(), [](const PointJerks& point) {
     return point.statistics.arrived > point.statistics.lost;
   });
+}
+
+document::AnswerDescription<JerkReport> jerk_answer() {
+  document::AnswerDescription<JerkReport> answer{
+      {.name = "jerks",
+       .meaning = "rate, intervals and trend of the jerks of each design point",
+       .csv_table = "points.rates"},
+      {}};
+  answer.items.headline(headline)
+      .value(document::in_data("name", "name of the study"), &JerkReport::name)
+      .value({.key = "confidence",
+              .heading = "confidence of all bounds",
+              .unit = "1",
+              .notation = document::Notation::given_percent},
+             &JerkReport::confidence)
+      .sections({.key = "points", .meaning = "the design points"}, point_description(), &JerkReport::points)
+      .title([](const JerkReport&) { return "Legend"; })
+      .sentence([](const JerkReport&) { return legend; });
+  return answer;
 }
 
 }  // namespace zerocount::jerks

@@ -13,7 +13,6 @@ namespace zerocount::jerks {
 /// The reported data of a study.
 struct JerkReport {
   std::string name;  ///< of the study
-  parameters::AxisKind axis{parameters::AxisKind::rotary};
   double confidence{statistics::summary_confidence};
   std::vector<PointJerks> points;
 };

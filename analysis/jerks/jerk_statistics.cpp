@@ -6,18 +6,96 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
+#include <span>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "analysis/jerks/jerk_rates.hpp"
-#include "analysis/jerks/observed_move.hpp"
 #include "analysis/statistics/clusters/trial_clusters.hpp"
+#include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/statistics/sums/histogram.hpp"
 #include "core/failure/failure.hpp"
+#include "core/numerics/sign.hpp"
+#include "core/trial/divergence.hpp"
+#include "results/layout/table_io.hpp"
 
 namespace zerocount::jerks {
 namespace {
+
+[[noreturn]] void fail(const reading::AllTrialsFile& file, std::int64_t row, const std::string& what) {
+  throw Failure(ExitCode::bad_data, fmt::format("{}: trial {}: {}", file.path().string(), row, what));
+}
+
+/// The timing parameters of the trials of a point. Drawn only once if they are the same in all trials.
+class Timings {
+ public:
+  Timings(const study::Study& study, std::int64_t point) : study_(study), point_(point) {
+    const std::vector<study::InputColumn>& inputs = study.columns.inputs;
+    vary_ = std::any_of(inputs.begin(), inputs.end(), [](const study::InputColumn& input) {
+      return input.name == "controller.sample_rate" || input.name == "command.hold" ||
+             input.name == "verdict.dwell";
+    });
+    parameters_ = study::study_trial(study, point, 0).parameters;
+  }
+
+  const trial::TrialParameters& of(std::int64_t index) {
+    if (vary_) parameters_ = study::study_trial(study_, point_, index).parameters;
+    return parameters_;
+  }
+
+ private:
+  const study::Study& study_;
+  std::int64_t point_;
+  bool vary_{false};
+  trial::TrialParameters parameters_;
+};
+
+SampledJerk sampled(const trial::Jerk& jerk, const trial::MoveOutcome& move, double sample_rate) {
+  return {std::llround(jerk.onset * sample_rate) - move.arrival, std::llround(jerk.duration * sample_rate),
+          jerk.magnitude, jerk.direction == numerics::sign_of(move.holding_torque)};
+}
+
+/// A move that was stopped early had diverged: it counts as a jerk that lasted to the end.
+std::int64_t observed_end(const ObservedMove& observed, const trial::MoveOutcome& move,
+                          std::int64_t samples) {
+  if (!move.stopped || observed.jerks.empty()) return samples - move.arrival;
+  return observed.jerks.back().onset + observed.jerks.back().length;
+}
+
+bool in_order(const ObservedMove& move) {
+  std::int64_t at_risk = move.dwell;
+  for (const SampledJerk& jerk : move.jerks) {
+    if (jerk.onset < at_risk || jerk.length < 1 || jerk.onset + jerk.length > move.end) return false;
+    at_risk = jerk.onset + jerk.length + 1;
+  }
+  return true;
+}
+
+ObservedMove observe(const trial::TrialParameters& parameters, std::size_t index,
+                     const trial::MoveOutcome& move, std::span<const layout::JerkRecord> jerks) {
+  const double rate = parameters.controller.sample_rate;
+  ObservedMove observed;
+  observed.arrived = move.arrived;
+  observed.lost = move.outcome == trial::Outcome::nonfinite;
+  observed.sample_time = 1.0 / rate;
+  observed.dwell = trial::samples_in(parameters.verdict.dwell, rate);
+  for (const layout::JerkRecord& jerk : jerks) observed.jerks.push_back(sampled(jerk, move, rate));
+  observed.end = observed_end(observed, move, trial::samples_of_move(parameters, index));
+  return observed;
+}
+
+constexpr double per_decade = 5.0;
+
+double range_begin(std::int64_t j) {
+  return std::pow(10.0, static_cast<double>(j) / per_decade);
+}
+
+/// The first sample in range j.
+std::int64_t first_sample(std::int64_t j, double sample_time) {
+  constexpr double rounding = 1e-12;
+  return static_cast<std::int64_t>(std::ceil(range_begin(j) / sample_time * (1.0 - rounding)));
+}
 
 constexpr std::size_t magnitude_classes = 3;  // one count, two, and more
 
@@ -167,6 +245,137 @@ void require_jerks(const reading::AllTrialsFile& file, const study::Study& study
 }
 
 }  // namespace
+
+void for_each_run_at_risk(const ObservedMove& move,
+                          const std::function<void(std::int64_t, std::int64_t)>& take) {
+  std::int64_t first = move.dwell;
+  for (const SampledJerk& jerk : move.jerks) {
+    take(first, jerk.onset + 1);
+    first = jerk.onset + jerk.length + 1;
+  }
+  if (first < move.end) take(first, move.end);
+}
+
+void for_each_move(const reading::AllTrialsFile& file, const study::Study& study, std::int64_t point,
+                   const std::function<void(const ObservedMove&)>& take) {
+  const std::int64_t moves = file.moves();
+  const std::int64_t trials = file.header().trials;
+  const std::int64_t begin = point * trials;
+  const std::int64_t end = begin + trials;
+  Timings timings(study, point);
+  for (std::int64_t first = begin; first < end; first += layout::chunk_rows(moves)) {
+    const layout::RowRange block{first, std::min(layout::chunk_rows(moves), end - first)};
+    const std::vector<trial::MoveOutcome> outcomes = file.outcomes(block);
+    const std::vector<layout::JerkRecord> jerks = file.jerks(block);
+    std::size_t next = 0;
+    for (std::int64_t i = 0; i < block.count * moves; ++i) {
+      const std::int64_t row = block.first + i / moves;
+      const trial::MoveOutcome& move = outcomes[static_cast<std::size_t>(i)];
+      const std::size_t start = next;
+      while (next < jerks.size() && jerks[next].trial == row && jerks[next].move == i % moves) ++next;
+      const std::span<const layout::JerkRecord> own = std::span(jerks).subspan(start, next - start);
+      if (std::ssize(own) != move.jerk_count) {
+        fail(file, row,
+             fmt::format("{} jerks recorded of a move that counted {}", own.size(), move.jerk_count));
+      }
+      ObservedMove observed =
+          observe(timings.of(row - begin), static_cast<std::size_t>(i % moves), move, own);
+      observed.trial = row;
+      observed.cluster = study.rigs > 0 ? study::rig_of(study, row - begin) : row;
+      if (observed.arrived && !observed.lost && !in_order(observed)) {
+        fail(file, row, "jerks that are not in order, or outside the time of their move");
+      }
+      take(observed);
+    }
+    if (next != jerks.size()) fail(file, jerks[next].trial, "jerks beyond those that its moves counted");
+  }
+}
+
+std::int64_t JerkRates::range_of(std::int64_t sample, double sample_time) {
+  if (sample_time != sample_time_) {
+    sample_time_ = sample_time;
+    first_range_ = static_cast<std::int64_t>(std::floor(per_decade * std::log10(sample_time)));
+    while (1 < first_sample(first_range_, sample_time)) --first_range_;
+    while (1 >= first_sample(first_range_ + 1, sample_time)) ++first_range_;
+    ends_.clear();
+  }
+  while (ends_.empty() || sample >= ends_.back())
+    ends_.push_back(first_sample(first_range_ + std::ssize(ends_) + 1, sample_time));
+  return first_range_ + (std::ranges::upper_bound(ends_, sample) - ends_.begin());
+}
+
+void JerkRates::Range::close_clusters() {
+  for (const auto& [number, cluster] : open) {
+    clusters += cluster.exposure > 0.0;
+    jerks_squared += cluster.jerks * cluster.jerks;
+    jerks_by_exposure += cluster.jerks * cluster.exposure;
+    exposure_squared += cluster.exposure * cluster.exposure;
+  }
+  open.clear();
+}
+
+JerkRates::Range& JerkRates::range_at(std::int64_t j, const ObservedMove& move) {
+  Range& range = ranges_[j];
+  if (!clusters_return_ && !range.open.contains(move.cluster)) range.close_clusters();
+  range.moves += range.move != moves_;
+  range.move = moves_;
+  return range;
+}
+
+void JerkRates::add_exposure(const ObservedMove& move, std::int64_t first, std::int64_t end) {
+  if (first >= end) return;
+  range_of(end - 1, move.sample_time);  // so that ends_ has all ranges
+  for (std::int64_t j = range_of(first, move.sample_time); first < end; ++j) {
+    const std::int64_t next = std::min(end, ends_[static_cast<std::size_t>(j - first_range_)]);
+    const double exposure = static_cast<double>(next - first) * move.sample_time;
+    Range& range = range_at(j, move);
+    range.exposure += exposure;
+    range.open[move.cluster].exposure += exposure;
+    first = next;
+  }
+}
+
+void JerkRates::add(const ObservedMove& move) {
+  ++moves_;
+  earliest_ = std::min(earliest_, static_cast<double>(move.dwell) * move.sample_time);
+  latest_ = std::max(latest_, static_cast<double>(move.end) * move.sample_time);
+  for_each_run_at_risk(move, [&](std::int64_t first, std::int64_t end) { add_exposure(move, first, end); });
+  for (const SampledJerk& jerk : move.jerks) {
+    Range& range = range_at(range_of(jerk.onset, move.sample_time), move);
+    ++range.jerks;
+    range.open[move.cluster].jerks += 1.0;
+  }
+}
+
+std::vector<JerkRate> JerkRates::rates(double confidence) const {
+  statistics::require_confidence(confidence);
+  std::vector<JerkRate> rates;
+  for (const auto& [j, counted] : ranges_) {
+    Range range = counted;
+    range.close_clusters();
+    const auto jerks = static_cast<double>(range.jerks);
+    const auto clusters = static_cast<double>(range.clusters);
+    JerkRate rate{.from = std::max(range_begin(j), earliest_), .to = std::min(range_begin(j + 1), latest_)};
+    rate.moves = range.moves;
+    rate.exposure = range.exposure;
+    rate.jerks = range.jerks;
+    rate.rate = jerks / range.exposure;
+    if (range.jerks > 0 && range.clusters > 1) {
+      const double squares = range.jerks_squared - 2.0 * rate.rate * range.jerks_by_exposure +
+                             rate.rate * rate.rate * range.exposure_squared;
+      rate.dispersion = clusters / (clusters - 1.0) * std::max(0.0, squares) / jerks;
+    }
+    const auto scaled_bounds = [&](double divisor) {
+      const statistics::ConfidenceInterval mean = statistics::poisson_bounds(jerks / divisor, confidence);
+      const double exposure = range.exposure / divisor;
+      return statistics::ConfidenceInterval{mean.low / exposure, mean.high / exposure};
+    };
+    rate.poisson = scaled_bounds(1.0);
+    rate.bounds = scaled_bounds(std::max(1.0, rate.dispersion));
+    rates.push_back(rate);
+  }
+  return rates;
+}
 
 JerkStatistics jerk_statistics(const reading::AllTrialsFile& file, const study::Study& study,
                                std::int64_t point, double confidence) {

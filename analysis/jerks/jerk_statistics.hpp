@@ -2,6 +2,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,12 +14,45 @@
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/unknown.hpp"
+#include "core/trial/outcome.hpp"
 #include "experiments/study/study.hpp"
 #include "results/reading/all_trials_file.hpp"
 
-/// Statistics of the jerks of a design point: rates, intervals, trend, direction and magnitude. README.md of
-/// this folder describes the method.
 namespace zerocount::jerks {
+
+/// A jerk in whole samples.
+struct SampledJerk {
+  std::int64_t onset{0};      ///< first sample with an error, counted from arrival
+  std::int64_t length{0};     ///< samples with an error
+  std::int64_t magnitude{0};  ///< counts
+  bool agrees{false};         ///< in the direction of the holding torque of the move
+};
+
+/// A move after its arrival. Samples are counted from the first of the arrival dwell.
+struct ObservedMove {
+  std::int64_t trial{0};    ///< global row
+  std::int64_t cluster{0};  ///< the independent unit: the trial, or with rigs the trial's rig
+  bool arrived{false};
+  bool lost{false};         ///< the state became non-finite at an unknown time; the fields below are unset
+  double sample_time{0.0};  ///< s
+  std::int64_t dwell{0};    ///< first sample at which a jerk could begin
+  std::int64_t end{0};      ///< number of observed samples
+  std::vector<SampledJerk> jerks;
+};
+
+/// Calls `take(first, end)` for each run of samples at which a jerk could begin: from the dwell on, samples
+/// whose predecessor has no error.
+void for_each_run_at_risk(const ObservedMove& move,
+                          const std::function<void(std::int64_t, std::int64_t)>& take);
+
+/// Calls `take` for each move of a point, in order of trial and move.
+/// @throws Failure (bad_data) if the jerks of a trial do not match the numbers that its moves counted, or are
+/// outside the time of the move.
+void for_each_move(const reading::AllTrialsFile& file, const study::Study& study, std::int64_t point,
+                   const std::function<void(const ObservedMove&)>& take);
+
+// Statistics of the jerks of a design point: rates, intervals, trend, direction and magnitude. README.md of
+// this folder describes the method.
 
 /// Rate of jerks in a range of the time since arrival.
 struct JerkRate {
@@ -86,6 +122,47 @@ struct PointJerks {
   JerkStatistics statistics{};
   CreepComparison creep;  ///< from trials simulated again
   CreepAgreement creep_agreement;
+};
+
+/// Counts jerks and exposure (the time in which jerks could begin) in ranges of the time since arrival. The
+/// ranges are bounded by 10^(j/5) s for integers j: five per decade.
+class JerkRates {
+ public:
+  /// @param clusters_return whether the moves of one cluster may be interleaved with those of others: true
+  /// for rigs, false for trials
+  explicit JerkRates(bool clusters_return = false) : clusters_return_(clusters_return) {}
+  /// @param move a move that arrived and was not lost. Moves must be added in order of their trials.
+  void add(const ObservedMove& move);
+  /// In order of time. The first range begins with the earliest possible jerk of any move; the last range
+  /// ends with the longest observation.
+  std::vector<JerkRate> rates(double confidence) const;
+
+ private:
+  struct Cluster {
+    double jerks{0.0}, exposure{0.0};  ///< exposure in s
+  };
+  /// One range: the clusters that may still receive moves, and sums over the completed clusters.
+  struct Range {
+    std::map<std::int64_t, Cluster> open;
+    std::int64_t move{-1};  ///< number of the last move added to this range
+    std::int64_t moves{0}, clusters{0}, jerks{0};
+    double exposure{0.0}, jerks_squared{0.0}, jerks_by_exposure{0.0}, exposure_squared{0.0};
+
+    void close_clusters();
+  };
+  /// The range that contains a sample.
+  std::int64_t range_of(std::int64_t sample, double sample_time);
+  Range& range_at(std::int64_t j, const ObservedMove& move);
+  void add_exposure(const ObservedMove& move, std::int64_t first, std::int64_t end);
+
+  bool clusters_return_;
+  std::map<std::int64_t, Range> ranges_;
+  double sample_time_{0.0};         ///< s, of the last move
+  std::int64_t first_range_{0};     ///< with this sample time, that of sample 1
+  std::vector<std::int64_t> ends_;  ///< of the ranges from that one on, in samples
+  std::int64_t moves_{0};
+  double earliest_{std::numeric_limits<double>::infinity()};  ///< s
+  double latest_{0.0};                                        ///< s
 };
 
 }  // namespace zerocount::jerks

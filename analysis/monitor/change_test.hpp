@@ -1,15 +1,86 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "analysis/monitor/change_martingale.hpp"
-#include "analysis/monitor/ranked_bag.hpp"
 #include "core/random/random_numbers.hpp"
 
 namespace zerocount::monitor {
+
+enum class Direction { higher, lower };
+
+/// The capital of a gambler who bets that a sequence of values changed at some time to higher or lower ones.
+///
+/// The value number t after n values of a baseline has the p-value
+///
+///     p_t = (a + u·(e + 1)) / (n + t)
+///
+/// of the `a` larger and `e` equal ones among the n + t − 1 values before it, u uniform in (0, 1). If all
+/// n + t values are exchangeable, p_1, p_2, … are independent and uniform (the smoothed conformal
+/// p-values of Vovk, Gammerman and Shafer, Algorithmic Learning in a Random World), however the values are
+/// distributed.
+///
+///     capital_t = r_t + Σ_b Σ_k W_{b,k}(t),          r_t = 1/log2(t + 2)
+///     W_{b,k}(t) = (W_{b,k}(t − 1) + stake_{b,k}(t)) · b(p_t; 2^k/(n + t − 1))
+///
+/// Each bet b(p; κ) has the mean 1 over uniform p. What r loses at t is staked in equal parts on changes at t
+/// of six sizes, κ = 2^k/(n + t − 1) between 1/32 and 2. So the capital is a martingale that begins at 1, and
+/// the probability that it ever reaches 1/α is at most α (Ville). The size of a bet falls as n + t − 1 grows,
+/// because the values after a change become part of what later ones are ranked among.
+///
+/// The bets, of both directions alike. Half of each stake: exp(κz − κ²/2) with z = Φ⁻¹(1 − p). The other half
+/// in equal parts on steps at the proportions q: 1 + κ·(1 − q)/√(q(1 − q)) for p < q, otherwise
+/// 1 − κ·q/√(q(1 − q)), κ at most 0.9 of what keeps it positive. Bets on lower values have 1 − p for p.
+class ChangeMartingale {
+ public:
+  /// @param baseline its number of values n, at least 1
+  explicit ChangeMartingale(std::int64_t baseline);
+
+  /// @param p in (0, 1)
+  void update(double p);
+
+  std::int64_t values() const { return values_; }  ///< t
+  double capital() const;
+  /// The direction on which the capital depends most.
+  Direction direction() const;
+  /// The most likely time of the change in that direction, from 1, by the bet that gained most.
+  /// @param p all p-values until now
+  std::int64_t since(std::span<const double> p) const;
+
+ private:
+  static constexpr std::size_t max_sizes = 64;
+  static constexpr std::size_t kinds = 12;  ///< of bets: by normal scores, and one by each step
+  using Capitals = std::array<double, max_sizes>;
+
+  std::int64_t baseline_;
+  std::int64_t values_{0};
+  int lowest_;                                             ///< k of sizes [0]
+  std::size_t sizes_;                                      ///< in use
+  std::array<std::array<Capitals, kinds>, 2> capitals_{};  ///< [direction][kind][size]
+};
+
+/// A growing multiset of values, none of them NaN, in which new values are ranked. Insertion takes amortised
+/// logarithmic time: the values lie in sorted runs, each at least twice as long as the next.
+class RankedBag {
+ public:
+  explicit RankedBag(std::vector<double> values);
+
+  struct Place {
+    std::int64_t above{0};  ///< values that are larger
+    std::int64_t equal{0};
+  };
+  Place place_of(double value) const;
+  void insert(double value);
+  std::int64_t size() const { return size_; }
+
+ private:
+  std::vector<std::vector<double>> runs_;
+  std::int64_t size_{0};
+};
 
 /// The values of one measure, one after the other, tested for a change since their baseline: p-values among
 /// all earlier values of the same class, on which a ChangeMartingale bets.
@@ -42,5 +113,35 @@ class ChangeTest {
   random::RandomKey ties_;
   std::uint64_t history_;  ///< h
 };
+
+/// Evidence in the order of values against their exchangeability.
+struct Dependence {
+  double p{1.0};         ///< probability of as much dependence in a random order
+  std::int64_t over{0};  ///< consecutive values that resemble each other most clearly
+  bool alternates{
+      false};  ///< consecutive values differ more than in a random order: `over` of them average out
+};
+
+/// Tests whether values are exchangeable within their classes, with power against what lasts long but weakly,
+/// such as days that differ a little.
+///
+/// Each value counts by its rank within its class, centred. For b = 2, 4, 8, … up to a third of the n values
+///
+///     T_b = Σ_i (x_i + … + x_{i+b−1})²   over all i,
+///
+/// which is large if neighbours within b values resemble each other, and small if they alternate. The
+/// statistic is the largest |z_b| of T_b, z_b by its mean and standard deviation over random orders of
+/// the values of each class; p is its rank among those of the random orders. So p is valid for any
+/// distribution. The first 100 000 values are tested; fewer than eight are not.
+/// @param classes [value]
+Dependence dependence_of(std::span<const double> values, std::span<const std::size_t> classes,
+                         const random::RandomKey& key);
+
+/// [value] its rank within its class, as a part of the class in (0, 1); equal values have the same.
+std::vector<double> ranks_within(std::span<const double> values, std::span<const std::size_t> classes);
+
+/// The part of the variance of the ranks of all values that lies between the classes. Two equal normal
+/// classes have two peaks from a distance of 2σ on, where it is one half.
+double part_between(std::span<const double> values, std::span<const std::size_t> classes);
 
 }  // namespace zerocount::monitor

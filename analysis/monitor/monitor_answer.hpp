@@ -4,7 +4,6 @@
 
 #include "analysis/document/answer.hpp"
 #include "analysis/monitor/machine_monitor.hpp"
-#include "analysis/monitor/monitor_baseline.hpp"
 #include "analysis/monitor/parameter_change.hpp"
 
 namespace zerocount::monitor {

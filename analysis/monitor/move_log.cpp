@@ -3,41 +3,72 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/statistics/quantile.hpp"
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "core/text/number_text.hpp"
+#include "core/text/unit.hpp"
+#include "experiments/parameters/study_units.hpp"
 
 namespace zerocount::monitor {
 namespace {
 
-constexpr double never = std::numeric_limits<double>::quiet_NaN();
+/// "band_settling_time" of "band_settling_time[1]", and the number in the brackets.
+struct Indexed {
+  std::string_view stem;
+  std::optional<double> index{};
+};
 
-std::string_view bare(std::string_view text) {
-  const auto is_around = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && is_around(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_around(text.back())) text.remove_suffix(1);
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
+std::string_view without_blanks_around(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
   return text;
 }
 
-std::vector<std::string_view> cells_in(std::string_view line, char separator) {
-  std::vector<std::string_view> cells;
-  bool quoted = false;
-  std::size_t begin = 0;
-  for (std::size_t at = 0; at <= line.size(); ++at) {
-    if (at < line.size() && line[at] == '"') quoted = !quoted;
-    if (at < line.size() && (quoted || line[at] != separator)) continue;
-    cells.push_back(bare(line.substr(begin, at - begin)));
-    begin = at + 1;
-  }
-  return cells;
+Indexed indexed(std::string_view name) {
+  const std::size_t bracket = name.find('[');
+  if (bracket == std::string_view::npos || !name.ends_with(']')) return {name};
+  return {name.substr(0, bracket),
+          text::parse_number<double>(name.substr(bracket + 1, name.size() - bracket - 2))};
 }
+
+/// A table with error bands and a tolerance, whose rows stand for those of all bands and tolerances.
+const layout::MeasureTable& table_with_both() {
+  study::StudyFeatures features;
+  features.tolerances.limits[0] = 1.0;
+  features.tolerances.count = 1;
+  return layout::measure_table(features);
+}
+
+/// The name of the row's measure of this band or tolerance; nothing if there is none.
+std::optional<std::string> name_with_index(const layout::Measure& row, std::string_view stem, double index) {
+  constexpr double largest = 1e15;  // below which all whole numbers are exact
+  if (!(std::abs(index) < largest)) return std::nullopt;
+  if (!row.band) return layout::name_of_tolerance(stem, index);
+  if (std::rint(index) != index) return std::nullopt;
+  return layout::name_of_band(stem, static_cast<std::int64_t>(index));
+}
+
+Scale scale_of(const layout::Measure& row, bool quality) {
+  if (quality || row.field.valid.high <= 1.0) return Scale::proportion;
+  const layout::ValidValues& valid = row.field.valid;
+  const bool is_whole = row.field.column.element == hdf5::Element::int64 && !valid.expected.empty();
+  const bool is_count = row.reduction == layout::MoveReduction::sum || (is_whole && valid.low == 0.0);
+  return is_count ? Scale::counts : Scale::plain;
+}
+
+using records::Separator;
+
+constexpr double never = std::numeric_limits<double>::quiet_NaN();
 
 std::string lower_case(std::string_view text) {
   std::string lower(text);
@@ -48,15 +79,16 @@ std::string lower_case(std::string_view text) {
 }
 
 /// The number in a cell; nothing if there is none.
-std::optional<double> number_in(std::string_view cell, char separator) {
+std::optional<double> number_in(std::string_view cell, Separator separator) {
   if (cell.starts_with('+')) cell.remove_prefix(1);
   std::string text = lower_case(cell);
-  if (separator != ',' && text.find('.') == std::string::npos) std::ranges::replace(text, ',', '.');
+  if (separator != Separator::comma && text.find('.') == std::string::npos)
+    std::ranges::replace(text, ',', '.');
   return text::parse_number<double>(text);
 }
 
 /// Likewise, or the value that a word stands for.
-std::optional<double> value_in(std::string_view cell, char separator, const MonitoredMeasure& measure) {
+std::optional<double> value_in(std::string_view cell, Separator separator, const MonitoredMeasure& measure) {
   const std::string text = lower_case(cell);
   if (text.empty() || text == "na" || text == "null" || text == "none") return never;
   for (const layout::FlagMeaning& flag : measure.row->field.column.flags)
@@ -92,6 +124,101 @@ std::string expected_of(const MonitoredMeasure& measure) {
 
 }  // namespace
 
+std::optional<MonitoredMeasure> measure_named(std::string_view name) {
+  const Indexed wanted = indexed(name);
+  const bool is_indexed = name.find('[') != std::string_view::npos;
+  if (is_indexed && !wanted.index) return std::nullopt;
+  for (const layout::Measure& row : table_with_both()) {
+    const bool has_index = row.band || row.tolerance;
+    if (has_index != is_indexed || indexed(row.field.column.name).stem != wanted.stem) continue;
+    const bool quality = layout::is_quality(row);
+    const std::optional<std::string> own_name =
+        wanted.index ? name_with_index(row, wanted.stem, *wanted.index) : std::string(name);
+    if (!own_name) return std::nullopt;
+    return MonitoredMeasure{.name = *own_name,
+                            .unit = row.field.column.unit,
+                            .row = &row,
+                            .quality = quality,
+                            .scale = scale_of(row, quality),
+                            .accumulates = name == "creep" || name == "reversal_depth"};
+  }
+  return std::nullopt;
+}
+
+ColumnHead column_head(std::string_view text) {
+  text = without_blanks_around(text);
+  for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
+    const std::size_t bracket = text.rfind(open);
+    if (bracket == std::string_view::npos || !text.ends_with(close) || bracket == 0) continue;
+    const std::string_view inside = text.substr(bracket + 1, text.size() - bracket - 2);
+    const bool is_index = open == '[' && text[bracket - 1] != ' ' && text::parse_number<double>(inside);
+    if (is_index) continue;
+    return {std::string(without_blanks_around(text.substr(0, bracket))),
+            std::string(without_blanks_around(inside))};
+  }
+  return {std::string(text), {}};
+}
+
+double si_factor(std::string_view unit) {
+  const std::optional<text::Unit> known = text::unit_named(unit);
+  return known ? known->si : 1.0;
+}
+
+bool have_same_dimension(std::string_view one, std::string_view other) {
+  if (one.empty() || other.empty() || one == other) return true;
+  using enum text::Dimension;
+  const std::optional<text::Unit> a = text::unit_named(one);
+  const std::optional<text::Unit> b = text::unit_named(other);
+  if (!a || !b) return false;
+  const auto is_number = [](const text::Unit& unit) {
+    return unit.dimension == count || unit.dimension == proportion;
+  };
+  return a->dimension == b->dimension || (is_number(*a) && is_number(*b));
+}
+
+std::string linear_unit(const MonitoredMeasure& measure) {
+  return parameters::unit_on(parameters::AxisKind::linear, measure.unit);
+}
+
+bool can_be_in(const MonitoredMeasure& measure, std::string_view unit) {
+  const bool is_counted =
+      measure.scale != Scale::proportion && (measure.unit == "count" || measure.unit == "1");
+  if (is_counted && si_factor(unit) != 1.0) return false;
+  return have_same_dimension(unit, measure.unit) || have_same_dimension(unit, linear_unit(measure));
+}
+
+double ranked_value(const MonitoredMeasure& measure, double number) {
+  if (std::isnan(number)) return std::numeric_limits<double>::infinity();
+  if (measure.name == "outcome") return number == 0.0 ? 1.0 : 0.0;
+  if (measure.name == "arrival" && number < 0.0) return std::numeric_limits<double>::infinity();
+  return measure.row->values.magnitude ? std::abs(number) : number;
+}
+
+double serial_correlation(std::span<const double> values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  std::ranges::sort(sorted);
+  const double middle = 0.5 * static_cast<double>(values.size());
+  std::vector<double> ranks;  // of the values, those of equal ones alike, minus their mean
+  for (const double value : values) {
+    const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), value);
+    ranks.push_back(0.5 * static_cast<double>((first - sorted.begin()) + (last - sorted.begin())) - middle);
+  }
+  double squares = 0.0;
+  double steps = 0.0;
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
+    squares += ranks[i] * ranks[i];
+    if (i > 0) steps += (ranks[i] - ranks[i - 1]) * (ranks[i] - ranks[i - 1]);
+  }
+  return squares > 0.0 ? 1.0 - 0.5 * steps / squares : 0.0;
+}
+
+double block_value(const MonitoredMeasure& measure, std::span<const double> moves) {
+  if (moves.size() == 1) return moves.front();
+  if (measure.quality)
+    return std::accumulate(moves.begin(), moves.end(), 0.0) / static_cast<double>(moves.size());
+  return statistics::upper_median({moves.begin(), moves.end()});
+}
+
 std::size_t MoveLog::read(std::string_view text) {
   std::size_t done = 0;
   for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n', done)) {
@@ -114,12 +241,6 @@ void MoveLog::require_header() const {
                     name_));
 }
 
-const MoveLog::Column* MoveLog::find(std::string_view measure) const {
-  const auto found =
-      std::ranges::find_if(columns_, [&](const Column& column) { return column.measure.name == measure; });
-  return found == columns_.end() ? nullptr : &*found;
-}
-
 void MoveLog::read_line(std::string_view line) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   ++line_;
@@ -127,13 +248,14 @@ void MoveLog::read_line(std::string_view line) {
   while (line.ends_with('\r')) line.remove_suffix(1);
   if (!has_header()) require_line_feeds(line);
   // A tab that separates cells is no blank: a line of such tabs is a row of empty cells.
-  const std::string_view blanks = has_header() && separator_ == '\t' ? " " : " \t";
+  const std::string_view blanks = has_header() && separator_ == Separator::tab ? " " : " \t";
   const std::size_t begin = line.find_first_not_of(blanks);
   if (begin == std::string_view::npos) {
     if (heads_.size() == 1) ++blank_lines_;
     return;
   }
-  const std::string_view shown = bare(line.substr(begin));
+  std::string_view shown = line.substr(begin);
+  if (shown.starts_with('"') && shown.ends_with('"')) shown.remove_prefix(1);
   if (shown.starts_with('#') || shown.starts_with('%')) return;
   if (!has_header()) return read_header(line);
   // In a log of one column a blank line is an empty cell, unless nothing follows.
@@ -154,13 +276,10 @@ void MoveLog::refuse_twice(std::string_view column) const {
 }
 
 void MoveLog::read_header(std::string_view line) {
-  separator_ = ',';
-  for (const char candidate : {'\t', ';', ','})
-    if (line.find(candidate) != std::string_view::npos) {
-      separator_ = candidate;
-      break;
-    }
-  for (const std::string_view cell : cells_in(line, separator_)) {
+  for (const auto& [mark, separator] :
+       {std::pair(',', Separator::comma), {';', Separator::semicolon}, {'\t', Separator::tab}})
+    if (line.find(mark) != std::string_view::npos) separator_ = separator;
+  for (const std::string_view cell : records::cells_of(line, separator_)) {
     const ColumnHead head = column_head(cell);
     const std::optional<MonitoredMeasure> measure = measure_named(head.name);
     if (!group_.empty() && (head.name == group_ || cell == group_)) {
@@ -197,7 +316,7 @@ void MoveLog::read_header(std::string_view line) {
 }
 
 void MoveLog::read_row(std::string_view line) {
-  std::vector<std::string_view> cells = cells_in(line, separator_);
+  std::vector<std::string_view> cells = records::cells_of(line, separator_);
   if (cells.size() == heads_.size() + 1 && cells.back().empty()) cells.pop_back();
   if (cells.size() != heads_.size())
     throw Failure(ExitCode::bad_data, fmt::format("{}:{}: a row of {} cells; expected {}, as the header has",

@@ -69,13 +69,6 @@ std::string_view next_cell(std::string_view& line, Separator separator, bool& mo
   return unquoted(cell);
 }
 
-std::vector<std::string_view> cells_of(std::string_view line, Separator separator) {
-  std::vector<std::string_view> cells;
-  if (separator == Separator::blanks) line = trimmed(line);
-  for (bool more = true; more;) cells.push_back(next_cell(line, separator, more));
-  return cells;
-}
-
 /// The cells of a header. Between blanks a unit in brackets belongs to the name before it.
 std::vector<std::string> header_cells(std::string_view line, Separator separator) {
   std::vector<std::string> cells;
@@ -187,6 +180,13 @@ std::string_view without_brackets(std::string_view unit) {
 }
 
 }  // namespace
+
+std::vector<std::string_view> cells_of(std::string_view line, Separator separator) {
+  std::vector<std::string_view> cells;
+  if (separator == Separator::blanks) line = trimmed(line);
+  for (bool more = true; more;) cells.push_back(next_cell(line, separator, more));
+  return cells;
+}
 
 std::vector<std::string> separator_names() {
   return {"comma", "semicolon", "tab", "blanks"};

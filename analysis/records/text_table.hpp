@@ -22,6 +22,9 @@ enum class Separator {
 /// Values of `--separator`, in the order of Separator.
 std::vector<std::string> separator_names();
 
+/// The cells of a line, without blanks and quotation marks around them.
+std::vector<std::string_view> cells_of(std::string_view line, Separator separator);
+
 /// A table as text: a header with the names of the columns, and rows of cells.
 ///
 /// - The separator is the first of tab, semicolon, comma and blanks that gives the first two lines the same

@@ -44,7 +44,7 @@ FigureData changes_data(const Series& series) {
       {{{"date", "", ""}, [&](const SeriesChange& one) { return series.runs[one.first].run->created; }},
        {{"commit", "", ""},
         [&](const SeriesChange& one) { return short_commit(series.runs[one.first].run->git_commit); }},
-       {{"sentence", "", ""}, [&](const SeriesChange& one) { return change_sentence(series, one); }}});
+       {{"sentence", "", ""}, [](const SeriesChange& one) { return one.sentence; }}});
 }
 
 std::string caption_of(const Series& series) {
@@ -55,8 +55,7 @@ std::string caption_of(const Series& series) {
             "comparison with the baseline"
           : "");
   if (series.changes.empty()) return caption + "No change is significant. ";
-  for (const SeriesChange& change : series.changes)
-    caption += fmt::format("It {}. ", change_sentence(series, change));
+  for (const SeriesChange& change : series.changes) caption += fmt::format("It {}. ", change.sentence);
   return caption + "A dashed line stands at the first run after a change, with its commit. ";
 }
 

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,30 @@
 
 namespace zerocount::sensitivity {
 namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  if (words.size() < 2) return words.empty() ? "" : words.front();
+  const std::vector<std::string> first(words.begin(), words.end() - 1);
+  return fmt::format("{} and {}", fmt::join(first, ", "), words.back());
+}
+
+/// "friction.k1 (23 %, at least 17.2 %)".
+std::string influential_text(const std::string& name, const BoundedNumber& index) {
+  return fmt::format("{} ({:.0f} %, at least {})", name, 100.0 * index.value,
+                     text::percent_at_least(index.low));
+}
+
+std::string why_nothing(const OutputSensitivity& sensitivity) {
+  if (sensitivity.trials == 0) return fmt::format("No trial has a value of {}.", sensitivity.output);
+  if (sensitivity.standard_deviation > 0.0) {
+    return fmt::format(
+        "There are too few trials, or nothing varies in them: nothing can be said of what influences {}.",
+        sensitivity.output);
+  }
+  return fmt::format(
+      "{} is {} in all {} trials: it has no variance, and nothing can be said of what influences it.",
+      sensitivity.output, text::short_number(sensitivity.mean), sensitivity.trials);
+}
 
 using document::Description;
 using document::everywhere;
@@ -47,12 +72,6 @@ Description<FactorSensitivity> factor_description() {
   return description;
 }
 
-std::string trials_sentence(const OutputSensitivity& output) {
-  return fmt::format("{}\n{} {}, mean {}, standard deviation {}", output.meaning, output.trials,
-                     output.of_worlds ? "worlds" : "trials", text::short_number(output.mean),
-                     text::short_number(output.standard_deviation));
-}
-
 std::string notes_sentences(const OutputSensitivity& output) {
   return output.notes.empty() ? "" : fmt::format("note: {}", fmt::join(output.notes, "\nnote: "));
 }
@@ -63,7 +82,7 @@ Description<OutputSensitivity> output_description() {
       .title([](Output o) { return o.unit == "1" ? o.output : fmt::format("{} ({})", o.output, o.unit); })
       .value(in_data("output", "name of the output"), &OutputSensitivity::output)
       .value(in_data("unit", "unit of the mean and the standard deviation"), &OutputSensitivity::unit)
-      .sentence(trials_sentence)
+      .sentence(&OutputSensitivity::meaning)
       .value({.key = "meaning", .meaning = "what the output is", .shown = Shown::in_json},
              &OutputSensitivity::meaning)
       .value(in_data("estimated", "whether the factors could be estimated"), &OutputSensitivity::estimated)
@@ -74,9 +93,11 @@ Description<OutputSensitivity> output_description() {
              &OutputSensitivity::conclusion)
       .sentence(notes_sentences)
       .value(in_data("notes", "what limits these numbers"), &OutputSensitivity::notes)
-      .value(in_data("trials", "trials, or worlds, that are used"), &OutputSensitivity::trials)
-      .value(in_data("mean", "mean of the output, in its unit"), &OutputSensitivity::mean)
-      .value(in_data("standard_deviation", "standard deviation of the output, in its unit"),
+      .value(everywhere("trials", "trials or worlds", "trials, or worlds, that are used"),
+             &OutputSensitivity::trials)
+      .value(everywhere("mean", "mean", "mean of the output, in its unit"), &OutputSensitivity::mean)
+      .value(everywhere("standard_deviation", "standard deviation",
+                        "standard deviation of the output, in its unit"),
              &OutputSensitivity::standard_deviation)
       .table({.key = "factors", .meaning = "what varies in the trials, strongest first"},
              factor_description(), &OutputSensitivity::factors)
@@ -136,27 +157,72 @@ std::string headline(const StudySensitivity& sensitivity) {
 }
 
 std::string legend(const StudySensitivity& sensitivity) {
-  const std::string matters =
-      sensitivity.from_saltelli
-          ? fmt::format("total are above {:g}", relevant_index)
-          : fmt::format("first order are above {:g}, or those of partial rank corr. beyond ±{:g}",
-                        relevant_index, relevant_correlation);
-  const char* const proportions =
-      sensitivity.from_saltelli
-          ? "total, first order: proportions of the variance (Sobol' indices) in which the factor has a "
-            "part, and that it explains alone. A part that several factors share counts in the total of "
-            "each: totals need not add up to 1."
-          : "first order: proportion of the variance that the factor explains alone (Sobol' index); what it "
-            "does only together with others does not show here, but does with design: saltelli.";
   return fmt::format(
-      "[,]: {} confidence bounds, each by itself. matters: those of {}.\n{}\n"
+      "[,]: {} confidence bounds, each by itself. matters: those of {}.\n"
+      "total, first order: proportions of the variance (Sobol' indices) in which the factor has a part, and "
+      "that "
+      "it explains alone. What several factors share counts in the total of each.\n"
       "rank corr.: whether the output rises (+) or falls (-) with the factor; partial rank corr.: with the "
       "part of the other factors taken out. log odds per sd: what a standard deviation of the factor adds to "
       "ln(p/(1 - p)), p the proportion of yes.",
-      text::percent(sensitivity.confidence), matters, proportions);
+      text::percent(sensitivity.confidence),
+      sensitivity.from_saltelli
+          ? fmt::format("total are above {:g}", relevant_index)
+          : fmt::format("first order are above {:g}, or those of partial rank corr. beyond ±{:g}",
+                        relevant_index, relevant_correlation));
 }
 
 }  // namespace
+
+std::string sensitivity_conclusion(const OutputSensitivity& sensitivity, bool from_saltelli,
+                                   double confidence, Subject subject) {
+  if (!sensitivity.estimated) return why_nothing(sensitivity);
+  std::vector<std::string> influential;  // the index is above relevant_index
+  std::vector<std::string> correlated;   // only the partial rank correlation shows it
+  std::vector<std::string> open;         // the bounds do not exclude relevant_index
+  std::vector<std::string> negligible;   // the index is below relevant_index
+  for (const FactorSensitivity& factor : sensitivity.factors) {
+    const BoundedNumber& index = from_saltelli ? factor.total : factor.first_order;
+    if (index.low > relevant_index)
+      influential.push_back(influential_text(factor.name, index));
+    else if (factor.matters)
+      correlated.push_back(fmt::format("{} ({:+.2f})", factor.name, factor.partial_rank_correlation.value));
+    else if (index.high < relevant_index)
+      negligible.push_back(factor.name);
+    else if (!std::isnan(index.high))
+      open.push_back(fmt::format("{} (at most {})", factor.name, text::percent_at_most(index.high)));
+    else if (!std::isnan(index.value))
+      open.push_back(factor.name);
+  }
+  const std::string& output = sensitivity.output;
+  const std::string part = text::percent(relevant_index);
+  std::vector<std::string> parts;
+  const auto add = [&](std::string_view begin, const std::vector<std::string>& names) {
+    if (!names.empty()) parts.push_back(fmt::format("{} {}", begin, joined(names)));
+  };
+  add(fmt::format("these parameters influence {}, with their {}:", output,
+                  from_saltelli
+                      ? "total Sobol' index, the proportion of its variance that they have a part in, "
+                        "alone or with others (shared parts count for each of them, so these need not "
+                        "add up to 100 %)"
+                      : "first-order Sobol' index, the proportion of its variance that they explain "
+                        "alone"),
+      influential);
+  add(fmt::format("by their partial rank correlation, beyond ±{:g}, these influence {}:",
+                  relevant_correlation, output),
+      correlated);
+  if (parts.empty())
+    parts.push_back(fmt::format("no parameter is shown to {} {} or more of the variance of {}{}",
+                                from_saltelli ? "have a part in" : "explain", part, output,
+                                from_saltelli ? "" : " alone"));
+  const std::string_view from = from_saltelli ? "comes from" : "is explained alone by";
+  add(fmt::format("the study leaves open whether {} or more {}", part, from), open);
+  add(fmt::format("less than {} {}", part, from), negligible);
+  if (!from_saltelli)
+    parts.push_back(fmt::format("what a parameter does only together with others these trials cannot show{}",
+                                subject == Subject::trials ? " (a study with design: saltelli can)" : ""));
+  return fmt::format("By {} bounds, each by itself: {}.", text::percent(confidence), fmt::join(parts, "; "));
+}
 
 document::AnswerDescription<StudySensitivity> sensitivity_answer() {
   document::AnswerDescription<StudySensitivity> answer{

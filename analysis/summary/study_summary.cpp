@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/iso230/point_statistics.hpp"
+#include "analysis/iso230/columns.hpp"
 #include "analysis/iso230/results_group.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/statistics/unknown.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/goal/question.hpp"
-#include "analysis/iso230/point_statistics.hpp"
+#include "analysis/iso230/columns.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "analysis/worlds/world_rule.hpp"

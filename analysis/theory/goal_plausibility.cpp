@@ -1,5 +1,3 @@
-#include "analysis/theory/goal_plausibility.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,10 +10,8 @@
 #include <fmt/format.h>
 
 #include "analysis/statistics/spread_over.hpp"
-#include "analysis/theory/goal_of_trial.hpp"
-#include "analysis/theory/loop_plausibility.hpp"
-#include "analysis/theory/move_plausibility.hpp"
-#include "analysis/theory/trial_loops.hpp"
+#include "analysis/theory/plausibility.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "core/friction/law.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/frozen_loop.hpp"

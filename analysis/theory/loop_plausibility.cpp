@@ -1,5 +1,3 @@
-#include "analysis/theory/loop_plausibility.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +8,8 @@
 #include <fmt/format.h>
 
 #include "analysis/statistics/spread_over.hpp"
-#include "analysis/theory/trial_loops.hpp"
+#include "analysis/theory/plausibility.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "core/friction/presliding/spring.hpp"
 #include "core/loop/controller/controller.hpp"
 #include "core/loop/encoder.hpp"

@@ -2,15 +2,26 @@
 
 #include <cstddef>
 #include <functional>
+#include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
 #include "analysis/text/text.hpp"
-#include "analysis/theory/trial_loops.hpp"
+#include "core/friction/law.hpp"
+#include "core/loop/controller/controller.hpp"
 
 namespace zerocount::theory {
+namespace {
+
+friction::LinearContacts linear_contacts(const trial::TrialParameters& p) {
+  return friction::traits_of(p.friction.model)
+      .linear_contacts(p.plant, p.friction, friction::friction_at(p.friction, p.initial.position));
+}
+
+}  // namespace
 
 TrialPrediction predict(const trial::TrialParameters& parameters) {
   TrialPrediction prediction;
@@ -76,6 +87,69 @@ std::string verdict(const PointPrediction& prediction) {
   return fmt::format("undecided: (6) holds in {}, (7) exceeded in {}",
                      text::percentage(prediction.stable, prediction.trials),
                      text::percentage(prediction.unstable, prediction.trials));
+}
+
+bool has_no_linear_loop(const trial::TrialParameters& parameters) {
+  return parameters.controller.user.plugin || !parameters.command.torque.levels.empty();
+}
+
+bool is_outside_theory(const trial::TrialParameters& parameters) {
+  return has_no_linear_loop(parameters) || !friction::has_spring(parameters.friction.model);
+}
+
+std::string why_outside_theory(const trial::TrialParameters& parameters) {
+  if (!is_outside_theory(parameters)) return "";
+  if (parameters.controller.user.plugin)
+    return "the controller is a plugin, whose transfer function is not known";
+  if (!parameters.command.torque.levels.empty()) return "the loop is open";
+  if (friction::traits_of(parameters.friction.model).has_presliding_motion)
+    return "the spring of this friction.model yields by degrees, from its full stiffness to none, not to k1";
+  return fmt::format("friction.model {} has no spring, which criteria (6) and (7) are about",
+                     friction::traits_of(parameters.friction.model).word);
+}
+
+LinearDrive drive_of(const trial::TrialParameters& parameters) {
+  return {1.0 + parameters.dac.gain_error, parameters.amplifier.bandwidth};
+}
+
+std::vector<TrialLoop> trial_loops(const trial::TrialParameters& parameters) {
+  std::vector<TrialLoop> loops;
+  if (has_no_linear_loop(parameters)) return loops;
+  const auto add_loop = [&](const friction::LinearContact& contact, const std::string& name,
+                            const loop::ControllerParameters& controller) {
+    loops.push_back({name, contact.slides, contact.stiffness,
+                     frozen_loop(contact.stiffness, contact.damping, parameters.plant, parameters.encoder,
+                                 controller, drive_of(parameters))});
+  };
+  const auto add = [&](const friction::LinearContact& contact, const std::string& name,
+                       loop::ControlPhase phase) {
+    const loop::ControllerParameters controller = loop::controller_in_phase(parameters.controller, phase);
+    add_loop(contact, name, controller);
+    const auto at_standstill = loop::controller_at_standstill(controller);
+    if (at_standstill && !contact.slides)
+      add_loop(contact, name + ", with the gains at standstill", *at_standstill);
+  };
+  const std::string with_phases = loop::has_coarse_phase(parameters.controller) ? ", the fine phase" : "";
+  for (const friction::LinearContact& contact : linear_contacts(parameters)) {
+    const std::string name(contact.name);
+    add(contact, contact.slides ? name + with_phases : name, loop::ControlPhase::fine);
+    if (contact.slides && !with_phases.empty())
+      add(contact, name + ", the coarse phase", loop::ControlPhase::coarse);
+  }
+  return loops;
+}
+
+motion::PlantParameters with_load_mode(motion::PlantParameters plant, double frequency) {
+  constexpr double load_part = 0.5;       // of the inertia
+  constexpr double damping_ratio = 0.01;  // of the mode
+  const double inertia = plant.inertia;
+  const double swinging = load_part * (1.0 - load_part) * inertia;  // of both masses against each other
+  const double rate = 2.0 * std::numbers::pi * frequency;
+  plant.inertia = (1.0 - load_part) * inertia;
+  plant.load = {.inertia = load_part * inertia,
+                .stiffness = swinging * rate * rate,
+                .damping = 2.0 * damping_ratio * swinging * rate};
+  return plant;
 }
 
 }  // namespace zerocount::theory

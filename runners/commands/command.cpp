@@ -1,7 +1,6 @@
 #include "runners/commands/command.hpp"
 
-#include "analysis/theory/goal_plausibility.hpp"
-#include "analysis/theory/loop_plausibility.hpp"
+#include "analysis/theory/plausibility.hpp"
 #include "runners/status/status.hpp"
 
 namespace zerocount::commands {

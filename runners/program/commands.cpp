@@ -10,7 +10,7 @@
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/parallel/processors.hpp"
 #include "analysis/text/fitted_text.hpp"
-#include "analysis/theory/loop_plausibility.hpp"
+#include "analysis/theory/plausibility.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 #include "results/layout/header.hpp"
 #include "runners/command_line/output_place.hpp"

@@ -1,10 +1,12 @@
 #include "runners/result_commands/machine_logs.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "experiments/yaml/text_file.hpp"
@@ -15,6 +17,22 @@ namespace {
 
 constexpr std::size_t max_log_size = std::size_t{1} << 31;  // bytes
 constexpr std::string_view expected_log = "a log of moves";
+
+constexpr std::size_t bytes_compared = 4096;  // bytes at each end of what was read
+
+std::string bytes_at(std::ifstream& file, std::size_t first, std::size_t count) {
+  std::string text(count, '\0');
+  file.clear();
+  file.seekg(static_cast<std::streamoff>(first));
+  file.read(text.data(), static_cast<std::streamsize>(count));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+std::string first_line(std::string_view text) {
+  constexpr std::size_t longest = 120;
+  return text::printable(text.substr(0, std::min(text.find_first_of("\r\n"), longest)));
+}
 
 }  // namespace
 
@@ -35,6 +53,47 @@ void require_log_size(const std::filesystem::path& path, std::size_t size) {
   if (size > max_log_size)
     throw Failure(ExitCode::bad_input, fmt::format("{}: the file is too large; expected at most {} bytes",
                                                    yaml::name_of_text(path), max_log_size));
+}
+
+bool GrowingLog::read() {
+  std::ifstream file(path_, std::ios::binary);
+  if (!file) throw Failure(ExitCode::bad_input, fmt::format("{}: cannot be read", path_.string()));
+  file.seekg(0, std::ios::end);
+  const auto end = static_cast<std::streamoff>(file.tellg());
+  if (end < 0) throw Failure(ExitCode::bad_input, fmt::format("{}: cannot be read", path_.string()));
+  const auto size = static_cast<std::size_t>(end);
+  require_log_size(path_, size);
+  require_same_beginning(file, size);
+  const std::int64_t before = log_.moves();
+  const std::string text = bytes_at(file, read_, size - read_);
+  remember(std::string_view(text).substr(0, log_.read(text)));
+  return log_.moves() > before;
+}
+
+void GrowingLog::require_same_beginning(std::ifstream& file, std::size_t size) const {
+  const std::string first = bytes_at(file, 0, first_.size());
+  if (size >= read_ && first == first_ && bytes_at(file, read_ - last_.size(), last_.size()) == last_) return;
+  if (first_line(first) != first_line(first_) && !first.empty()) refuse_replaced(first);
+  if (size < read_)
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: became shorter while it was followed; expected a file that only grows",
+                              path_.string()));
+  throw Failure(ExitCode::bad_data,
+                fmt::format("{}: another log took its place after {} moves; expected a file that only grows",
+                            path_.string(), log_.moves()));
+}
+
+void GrowingLog::refuse_replaced(std::string_view first) const {
+  throw Failure(ExitCode::bad_data,
+                fmt::format("{}:1: the line became '{}' while the log was followed; expected '{}', as it was",
+                            path_.string(), first_line(first), first_line(first_)));
+}
+
+void GrowingLog::remember(std::string_view text) {
+  read_ += text.size();
+  if (first_.size() < bytes_compared) first_ += text.substr(0, bytes_compared - first_.size());
+  last_ += text;
+  if (last_.size() > bytes_compared) last_.erase(0, last_.size() - bytes_compared);
 }
 
 reading::AllTrialsFile with_condition(const command_line::Arguments& arguments, reading::AllTrialsFile file) {

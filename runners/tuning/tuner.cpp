@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/parallel/parallel.hpp"
-#include "analysis/theory/goal_plausibility.hpp"
+#include "analysis/theory/plausibility.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
 #include "core/trial/trial.hpp"

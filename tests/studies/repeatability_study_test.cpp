@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "analysis/iso230/trial_values.hpp"
+#include "analysis/iso230/repeatability.hpp"
 #include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 

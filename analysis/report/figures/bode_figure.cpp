@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/figures/report_figures.hpp"
-#include "analysis/theory/bode_curve.hpp"
+#include "analysis/theory/curves.hpp"
 #include "analysis/theory/point_theory.hpp"
-#include "analysis/theory/trial_loops.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "core/theory/margins.hpp"
 #include "core/theory/stability.hpp"
 

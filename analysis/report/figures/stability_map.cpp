@@ -8,7 +8,7 @@
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/report/reported_study.hpp"
 #include "analysis/statistics/spread_over.hpp"
-#include "analysis/theory/criterion_curves.hpp"
+#include "analysis/theory/curves.hpp"
 
 namespace zerocount::report {
 namespace {

@@ -11,7 +11,7 @@
 #include "analysis/report/first_screen/quantity.hpp"
 #include "analysis/report/html.hpp"
 #include "analysis/theory/point_theory.hpp"
-#include "analysis/theory/trial_loops.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "experiments/rules/value_sources.hpp"
 
 namespace zerocount::report {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/theory/load_mode.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "experiments/rules/value_rules.hpp"
 
 namespace zerocount::tuning {

@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "analysis/parallel/parallel.hpp"
-#include "analysis/theory/load_mode.hpp"
-#include "analysis/theory/trial_loops.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "core/friction/law.hpp"
 #include "core/friction/parameters.hpp"
 #include "core/loop/controller/controller.hpp"

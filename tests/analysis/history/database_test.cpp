@@ -6,10 +6,10 @@
 #include <thread>
 #include <vector>
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "analysis/history/sqlite_failure.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/history/runs.hpp"
 #include "tests/support/temporary_folder.hpp"

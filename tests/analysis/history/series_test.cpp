@@ -53,7 +53,7 @@ TEST(HistorySeries, NameTheCommitOfAStep) {
   ASSERT_EQ(b.changes.size(), 1U);
   EXPECT_NEAR(static_cast<double>(b.changes[0].first), 40.0, 1.0);
   EXPECT_LE(b.changes[0].significant, 46U);
-  const std::string sentence = history::change_sentence(b, b.changes[0]);
+  const std::string sentence = b.changes[0].sentence;
   EXPECT_NE(sentence.find("rose from"), std::string::npos) << sentence;
   EXPECT_NE(sentence.find(runs[b.changes[0].first].created), std::string::npos) << sentence;
   EXPECT_NE(sentence.find(runs[b.changes[0].first].git_commit.substr(0, 10)), std::string::npos) << sentence;
@@ -138,8 +138,7 @@ TEST(HistorySeries, NameTheBaselineWhereTheFirstRunDiffersFromIt) {
   ASSERT_EQ(series.changes.size(), 1U);
   EXPECT_TRUE(series.changes[0].since_baseline);
   EXPECT_EQ(series.changes[0].first, 0U);
-  EXPECT_NE(history::change_sentence(series, series.changes[0]).find("between the baseline of 2025-12-31"),
-            std::string::npos);
+  EXPECT_NE(series.changes[0].sentence.find("between the baseline of 2025-12-31"), std::string::npos);
 }
 
 // A null history of one seed whose code changes every night at random: p-values are uniform.

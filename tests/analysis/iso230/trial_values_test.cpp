@@ -1,5 +1,3 @@
-#include "analysis/iso230/trial_values.hpp"
-
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -7,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/iso230/repeatability.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::iso230 {

@@ -11,7 +11,7 @@
 
 #include "analysis/comparison/point_judgements.hpp"
 #include "analysis/measures/point_columns.hpp"
-#include "analysis/sensitivity/trial_outputs.hpp"
+#include "analysis/sensitivity/sensitivity.hpp"
 #include "analysis/summary/study_statistics.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/fields.hpp"

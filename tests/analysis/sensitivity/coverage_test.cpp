@@ -11,8 +11,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "analysis/sensitivity/logistic_fit.hpp"
-#include "analysis/sensitivity/rank_correlation.hpp"
+#include "analysis/sensitivity/correlations.hpp"
 #include "core/random/variates.hpp"
 #include "experiments/designs/random_key.hpp"
 #include "tests/analysis/sensitivity/test_functions.hpp"

@@ -7,12 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/sensitivity/factor_matrix.hpp"
-#include "analysis/sensitivity/given_data_index.hpp"
-#include "analysis/sensitivity/logistic_fit.hpp"
-#include "analysis/sensitivity/pair_difference.hpp"
-#include "analysis/sensitivity/rank_correlation.hpp"
-#include "analysis/sensitivity/saltelli_indices.hpp"
+#include "analysis/sensitivity/correlations.hpp"
+#include "analysis/sensitivity/sobol_indices.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/sensitivity/test_functions.hpp"
 

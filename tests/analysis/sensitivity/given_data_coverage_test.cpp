@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "analysis/sensitivity/given_data_index.hpp"
+#include "analysis/sensitivity/sobol_indices.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "tests/analysis/sensitivity/test_functions.hpp"
 

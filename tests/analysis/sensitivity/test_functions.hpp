@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/sensitivity/saltelli_indices.hpp"
+#include "analysis/sensitivity/sobol_indices.hpp"
 
 /// Functions whose Sobol' indices are known, and saltelli designs of studies that they are computed on.
 namespace zerocount::testing {

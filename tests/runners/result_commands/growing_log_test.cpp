@@ -1,5 +1,5 @@
 // A log that another process writes, replaces, moves or cuts.
-#include "runners/result_commands/growing_log.hpp"
+#include "runners/result_commands/machine_logs.hpp"
 
 #include <filesystem>
 #include <string>

@@ -1,17 +1,101 @@
-#include "analysis/jerks/jerk_rates.hpp"
+
+#include "analysis/jerks/jerk_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "analysis/statistics/mean_bounds.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::jerks {
 namespace {
+
+using Runs = std::vector<std::pair<std::int64_t, std::int64_t>>;
+
+std::vector<std::pair<std::int64_t, std::int64_t>> runs_of(const ObservedMove& move) {
+  std::vector<std::pair<std::int64_t, std::int64_t>> runs;
+  for_each_run_at_risk(move, [&](std::int64_t first, std::int64_t end) { runs.emplace_back(first, end); });
+  return runs;
+}
+
+ObservedMove move_with(std::vector<SampledJerk> jerks) {
+  return {.trial = 0,
+          .cluster = 0,
+          .arrived = true,
+          .lost = false,
+          .sample_time = 5e-4,
+          .dwell = 100,
+          .end = 200,
+          .jerks = std::move(jerks)};
+}
+
+TEST(ObservedMove, IsAtRiskFromItsDwellToItsEnd) {
+  EXPECT_EQ(runs_of(move_with({})), (Runs{{100, 200}}));
+}
+
+TEST(ObservedMove, IsNotAtRiskDuringAJerkNorAtTheSampleThatEndsIt) {
+  // Samples 120 to 122 have errors, 123 is back at 0: the next jerk could begin at 124.
+  EXPECT_EQ(runs_of(move_with({{120, 3, 1, true}})), (Runs{{100, 121}, {124, 200}}));
+  EXPECT_EQ(runs_of(move_with({{100, 1, 1, true}, {102, 5, 1, true}})),
+            (Runs{{100, 101}, {102, 103}, {108, 200}}));
+}
+
+TEST(ObservedMove, IsNoLongerAtRiskAfterAJerkThatLastsToItsEnd) {
+  EXPECT_EQ(runs_of(move_with({{150, 50, 2, false}})), (Runs{{100, 151}}));
+  EXPECT_EQ(runs_of(move_with({{199, 1, 1, true}})), (Runs{{100, 200}}));
+}
+
+/// SciPy 1.10: chi2.ppf(tail, 2k)/2 and chi2.isf(tail, 2k + 2)/2.
+TEST(PoissonBounds, EqualSciPys) {
+  struct {
+    double events, confidence, low, high;
+  } const scipy[] = {
+      {0, 0.95, 0.0, 3.6888794541139354},
+      {0, 0.99, 0.0, 5.298317366548036},
+      {1, 0.9, 0.05129329438755053, 4.743864518390578},
+      {1, 0.95, 0.025317807984289897, 5.571643390938898},
+      {2, 0.99, 0.10349454674809108, 9.273792089255544},
+      {5, 0.9, 1.97014956805953, 10.513034908741536},
+      {5, 0.95, 1.623486390118421, 11.66833207932267},
+      {20, 0.95, 12.216519585403946, 30.8883779026746},
+      {100, 0.95, 81.36399125092315, 121.62679379242638},
+      {1000, 0.99, 920.4240461633592, 1084.3728680643892},
+  };
+  for (const auto& [events, confidence, low, high] : scipy) {
+    const statistics::ConfidenceInterval bounds = statistics::poisson_bounds(events, confidence);
+    EXPECT_NEAR(bounds.low, low, 1e-10 * high) << events;
+    EXPECT_NEAR(bounds.high, high, 1e-10 * high) << events;
+  }
+}
+
+TEST(PoissonBounds, CoverEveryMeanWithAtLeastTheirConfidence) {
+  for (double mean = 0.05; mean < 40.0; mean *= 1.13) {
+    double covered = 0.0;
+    for (int events = 0; events < 150; ++events) {
+      const statistics::ConfidenceInterval bounds = statistics::poisson_bounds(events);
+      if (mean < bounds.low || mean > bounds.high) continue;
+      covered += std::exp(events * std::log(mean) - mean - std::lgamma(events + 1.0));
+    }
+    EXPECT_GE(covered, 0.95 - 1e-9) << mean;
+  }
+}
+
+TEST(PoissonBounds, OfFractionsLieBetweenThoseOfWholeNumbers) {
+  EXPECT_GT(statistics::poisson_bounds(2.5).low, statistics::poisson_bounds(2).low);
+  EXPECT_LT(statistics::poisson_bounds(2.5).high, statistics::poisson_bounds(3).high);
+}
+
+TEST(PoissonBounds, ImpossibleNumbersAreRefused) {
+  EXPECT_THROW(statistics::poisson_bounds(-1.0), Failure);
+  EXPECT_THROW(statistics::poisson_bounds(std::nan("")), Failure);
+  EXPECT_THROW(statistics::poisson_bounds(1.0, 1.0), Failure);
+}
 
 /// A move in which each sample at risk begins a jerk with the chance rate(s since arrival)·T.
 template <typename Rate>

@@ -5,9 +5,21 @@
 
 #include <Eigen/Core>
 
-#include "analysis/sensitivity/bounded_number.hpp"
+#include "analysis/sensitivity/sobol_indices.hpp"
 
 namespace zerocount::sensitivity {
+
+/// The columns of x less their means, over their standard deviations (divisor n).
+/// @param x none of its columns is constant.
+Eigen::MatrixXd standardised(const Eigen::MatrixXd& x);
+
+/// Marks the columns that are not linear combinations of earlier columns, [column]. The residual of a
+/// regression on the earlier columns must have at least 10⁻⁸ of the column's variance.
+/// @param x standardised.
+std::vector<bool> independent_columns(const Eigen::MatrixXd& x);
+
+/// The columns of x that are marked.
+Eigen::MatrixXd marked_columns(const Eigen::MatrixXd& x, const std::vector<bool>& marks);
 
 /// The empirical mid-distribution function at each value: (number below + ½ number equal, itself included)/n,
 /// which is (rank − ½)/n with the mean rank of values that are equal. The mean is exactly ½. The values are
@@ -45,5 +57,27 @@ bool is_constant(std::span<const double> values);
 /// @param x n × k, finite, no column constant. @param y n values.
 std::vector<BoundedNumber> partial_rank_correlations(const Eigen::MatrixXd& x, std::span<const double> y,
                                                      double confidence);
+
+/// A logistic regression of a yes or no on factors.
+struct LogisticFit {
+  enum class Status {
+    fitted,
+    separated,  ///< a combination of the factors parts yes from no: the best coefficients are infinite
+    too_few     ///< all trials say the same, or there are fewer than ten beyond the coefficients
+  };
+  Status status{Status::too_few};
+  BoundedNumber intercept;
+  /// [column] change of the log odds over one standard deviation of the column. NaN of a column that is a
+  /// linear combination of those before it, and unless the status is fitted.
+  std::vector<BoundedNumber> slopes;
+};
+
+/// ln(p/(1 − p)) = b₀ + Σ b_j z_j, z_j the columns of x standardised: the maximum of the likelihood, by
+/// iteratively reweighted least squares (McCullagh & Nelder, Generalized Linear Models, section 4.4). The
+/// bounds are Wald's, b ± q·s with s² from the inverse of ZᵀWZ. Where yes and no are separated, completely or
+/// but for trials on the border, there is no maximum at a finite place (Albert & Anderson 1984): the steps
+/// then do not become smaller.
+/// @param x n × k, finite, no column constant. @param yes n values, 0 or 1.
+LogisticFit logistic_fit(const Eigen::MatrixXd& x, const Eigen::VectorXd& yes, double confidence);
 
 }  // namespace zerocount::sensitivity

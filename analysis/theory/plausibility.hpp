@@ -1,0 +1,146 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/trial/parameters.hpp"
+#include "experiments/study/study.hpp"
+
+namespace zerocount::theory {
+
+/// A goal and a trial that is to meet it.
+struct GoalOfTrial {
+  const study::Study& study;
+  const study::Goal& goal;  ///< of a study without one: zero counts at the end of the move
+  const trial::TrialParameters& trial;
+
+  bool feeds_back_coarse() const { return trial.controller.encoder == loop::EncoderChoice::coarse; }
+  double count() const;  ///< of the encoder that closes the loop, rad
+  const loop::EncoderErrors& errors() const {
+    return feeds_back_coarse() ? trial.encoder.coarse_errors : trial.encoder.fine_errors;
+  }
+  /// From one end of the band or tolerance to the other, rad.
+  double width() const;
+  /// Samples of the shortest move of the goal at which it must be within the band.
+  double samples_within() const;
+
+  std::string unit(const char* rotary) const;
+  std::string length(double value) const;
+  std::string torque(double value) const;
+  std::string band_text() const;
+};
+
+/// A move of the trial that the goal asks.
+struct MoveOfTrial {
+  const GoalOfTrial& of;
+  std::size_t number;
+  double from, to;  ///< targets from the start of the trial, before rounding to counts, rad
+
+  double distance() const;
+  double direction() const { return to < from ? -1.0 : 1.0; }
+  double within() const;  ///< s from its start, by goal and hold
+  std::string name() const { return "move " + std::to_string(number); }
+};
+
+/// The moves that the goal asks, without those of no length; of very many the first ones. Empty without
+/// targets, and where the reference does not end.
+std::vector<MoveOfTrial> moves_of(const GoalOfTrial& of);
+
+/// Result of a test: a factor that is above 1 where the goal is out of reach, and the reason.
+struct Doubt {
+  double ratio{0.0};
+  std::string text{};
+};
+
+// Moves that the drive, the reference or the encoder keeps from their goal.
+
+/// A tolerance or band of half of a step or more: the move is within it on its way.
+Doubt band_is_half_a_step(const GoalOfTrial& of);
+
+/// At `within` the reference of the move is still farther from its end than the band or tolerance.
+Doubt reference_is_on_its_way(const MoveOfTrial& move);
+
+/// The move takes longer than it may, even at the largest torque (shortest_move): with the inertia that it
+/// has to move (of a second mass unless the motor can move without it), the
+/// constant disturbance, and with ripple and vibration always in its favour. Before it slides, a law with
+/// presliding motion is taken to have no friction; over what travel is five times breakaway over its softest
+/// stiffness. Not said of an axis with a random vibration, which has no largest torque.
+Doubt torque_is_too_small_for_the_move(const MoveOfTrial& move);
+
+/// Constant disturbance and ripple at the target exceed the largest torque.
+Doubt torque_is_too_small_at_the_target(const MoveOfTrial& move);
+
+/// The systematic errors of the encoder (eccentricity, interpolation): nowhere within the tolerance does it
+/// read the target.
+Doubt encoder_misplaces_the_target(const MoveOfTrial& move);
+
+// Goals that are allowed but that the encoder, its noise or the converter keeps an axis from meeting.
+
+struct FrozenLoop;
+
+/// A warning for each test that fails, at the design point and under the condition where it fails worst:
+///
+///   - a tolerance below what zero counts hold: half a count, and half of one more where targets in SI units
+///     are rounded
+///   - a band or tolerance that the encoder's noise leaves too often, over all samples that must be within
+///   it:
+///     by an axis that stands in the middle of its count, or by the linear loop of trial_loops()
+///   - a code of the converter that moves the axis by more than the whole band or tolerance even where its
+///     friction is stiffest, Δu/(k1 + k2). The rule of the paper (issue 4 of its section 3), with k1, is
+///     stricter than zero counts need (docs/hardware.md, dac-resolution)
+///   - those of moves (move_plausibility.hpp); those of the torque range without a goal too
+///
+/// A test of whole trials fails at a point under a condition if it fails in each of the trials examined
+/// there, the first ones: few of very many points are examined, evenly spread. One of moves fails if it fails
+/// for more of their moves than the goal permits, by more than chance.
+std::vector<std::string> doubtful_goals(const study::Study& study);
+
+/// Those of the tests that no value of the controller changes: the torque is too small for a move, its
+/// reference is still on its way at `within`, or the encoder misplaces its target.
+std::vector<std::string> goals_out_of_reach(const study::Study& study);
+
+/// Largest proportion of moves whose |count error| is within the band at all of `samples` sampling instants:
+/// the axis stands in the middle of its count, and the encoder has Gaussian noise.
+///
+///     proportion = (1 − 2·Q((band + ½)/noise))^samples,   Q the upper tail of the normal distribution
+///
+/// @param band counts @param noise rms, counts
+double highest_rate_within_band(double band, double noise, double samples);
+
+enum class NoiseAt {
+  axis,  ///< L/(1 + L): how the noise moves the axis
+  error  ///< 1/(1 + L): the error that the loop reads
+};
+
+struct NoiseResponse {
+  double gain;                ///< standard deviation by that of the noise
+  double correlated_samples;  ///< after which values are nearly independent (correlation at most 0.1)
+};
+
+/// The response G of a linear loop to noise of the encoder with the spectrum S, of mean 1:
+///
+///     gain² = R(0),   R(k) = 1/π·∫ |G|²·S·cos kα dα over 0 … π.
+///
+/// @param bandwidth of the noise, Hz
+NoiseResponse response_to_noise(const FrozenLoop& loop, NoiseAt at, double bandwidth);
+
+// Loops that are allowed but that nobody would build on purpose.
+
+/// Trials whose loops are examined at most, over all design points.
+inline constexpr std::int64_t max_trials_doubted = 100;
+
+/// A warning for each test that fails, at the design point where it fails worst:
+///
+///   - a phase margin below 20°
+///   - a delay margin (phase margin over crossover frequency) below one sample
+///   - a move beyond the pre-sliding range, by a step or a profile, by a loop that is unstable while it
+///   slides
+///
+/// The margins are those of trial_loops(), at rest and, where moves reach it, while sliding; of integral
+/// control alone those at k1 + k2, because it is meant to work up to criterion (6) or beyond. They come from
+/// the first trials of each point; of very many points some are examined, evenly spread.
+std::vector<std::string> doubtful_loops(const study::Study& study);
+
+}  // namespace zerocount::theory

@@ -1,0 +1,579 @@
+// Goals that no loop can meet are told, with the bound that keeps them from it.
+#include "analysis/theory/plausibility.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "analysis/theory/theory_prediction.hpp"
+#include "core/theory/margins.hpp"
+#include "core/trial/trial.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "tests/core/loop/random_blocks.hpp"
+
+namespace zerocount::theory {
+namespace {
+
+constexpr double count = 1e-8;  // m
+
+/// A linear axis with k1 = 1e6 N/m and counts of 10 nm.
+study::Study study_asking(const std::string& goal, const std::string& more = "",
+                          const std::string& encoder = "resolution: 1.0e-8") {
+  return manifest::parse_study(
+      fmt::format(
+          "zerocount: 1\nname: goals\naxis: linear\nseed: 1\ntrials: 2\n{}\n"
+          "plant: {{inertia: 2, sliding_damping: 10, presliding_damping: 300}}\n"
+          "friction: {{k1: 1.0e+6, k2: 4.0e+6, beta: 1.0e+6, breakaway: 10, alpha: 0, coulomb_ratio: 1, "
+          "lambda: 1.0e+7, stribeck_velocity: 1.0e-3}}\n"
+          "encoder: {{{}}}\ncommand: {{targets: [20], hold: 0.2}}\n"
+          "controller: {{units: si, sample_rate: 4000, ki: 1.0e+7, kp: 1.0e+5, kd: 100}}\n{}",
+          goal, encoder, more),
+      "m.yaml", {});
+}
+
+std::vector<std::string> doubts(const std::string& goal, const std::string& dac = "bits: 20, range: 50",
+                                const std::string& encoder = "resolution: 1.0e-8") {
+  const std::string moves = goal.find("moves:") == std::string::npos ? ", moves: 0.5" : "";
+  return doubtful_goals(study_asking("goal: {" + goal + moves + "}", "dac: {" + dac + "}\n", encoder));
+}
+
+class GoalPlausibility : public ::testing::Test {
+ protected:
+  double log_uniform(double low, double high) {
+    return std::exp(std::uniform_real_distribution(std::log(low), std::log(high))(random_));
+  }
+  /// Just inside or outside of 1.
+  double near_one() { return std::bernoulli_distribution()(random_) ? 1.02 : 0.98; }
+  std::mt19937_64& random() { return random_; }
+  static constexpr int rounds = 40;
+
+ private:
+  std::mt19937_64 random_{7};
+};
+
+TEST_F(GoalPlausibility, AToleranceIsAtLeastHalfACount) {
+  for (int i = 0; i < rounds; ++i) {
+    const double resolution = log_uniform(1e-9, 1e-7);
+    const double ratio = near_one();
+    const auto told = doubts(fmt::format("tolerance: {:.17g}, within: 0.1", ratio * 0.5 * resolution),
+                             "bits: 24, range: 50", fmt::format("resolution: {:.17g}", resolution));
+    if (ratio > 1.0) {
+      EXPECT_TRUE(told.empty()) << told.front();
+      continue;
+    }
+    ASSERT_EQ(told.size(), 1U) << resolution;
+    EXPECT_TRUE(told.front().starts_with("point 0 (all): a tolerance of ")) << told.front();
+    EXPECT_NE(told.front().find(fmt::format("expected at least {:.3g} m", 0.5 * resolution)),
+              std::string::npos)
+        << told.front();
+  }
+}
+
+// (1 - 2 Q((b + 1/2)/noise))^n, n the samples from `within` on.
+TEST_F(GoalPlausibility, ABandHoldsTheNoiseOfAnAxisThatStandsStill) {
+  int told = 0;
+  for (int i = 0; i < rounds; ++i) {
+    const int band = std::uniform_int_distribution(0, 3)(random());
+    const double noise = log_uniform(0.1, 0.4) * (band + 0.5);
+    const double within = log_uniform(0.01, 0.19);
+    const int samples = 800 - static_cast<int>(std::floor(within * 4000.0));
+    const double inside = std::erf((band + 0.5) / noise / std::numbers::sqrt2);
+    const double rate = std::pow(inside, samples);
+    const double moves = std::clamp(rate * near_one(), 0.001, 0.999);
+    const auto lines = doubts(fmt::format("band: {}, within: {:.17g}, moves: {:.17g}", band, within, moves),
+                              "bits: 20, range: 50",
+                              fmt::format("resolution: 1.0e-8, fine_errors: {{noise: {:.17g}}}", noise));
+    ASSERT_EQ(lines.size(), moves > rate ? 1U : 0U) << rate << " " << moves;
+    if (lines.empty()) continue;
+    ++told;
+    EXPECT_NE(lines.front().find(fmt::format("at most {:.3g} % of the moves", 100.0 * rate)),
+              std::string::npos)
+        << lines.front();
+  }
+  EXPECT_GT(told, rounds / 5);
+  EXPECT_LT(told, rounds * 4 / 5);
+}
+
+// The bound is one: no trial of a loop, stable and ideal but for its noise, does better by more than chance.
+TEST_F(GoalPlausibility, MovesMeetABandNoOftenerThanTold) {
+  constexpr int trials = 400;
+  for (const double noise : {0.14, 0.15, 0.16}) {
+    const study::Study study = manifest::parse_study(
+        fmt::format("zerocount: 1\nname: noise\nseed: 3\ntrials: {}\n"
+                    "encoder: {{fine_errors: {{noise: {}}}}}\ncommand: {{targets: [5], hold: 0.2}}\n"
+                    "friction: {{alpha: 0}}\ncontroller: {{ki: 2.0e-5}}\n",
+                    trials, noise),
+        "m.yaml", {});
+    int met = 0;
+    for (int i = 0; i < trials; ++i) {
+      const trial::TrialOutcome outcome = trial::run_trial(study::study_trial(study, 0, i).parameters);
+      met += outcome.moves[0].bands[0].settling_time <= 0.1 ? 1 : 0;
+    }
+    const double bound = highest_rate_within_band(0.0, noise, 200.0);
+    EXPECT_LE(met, trials * bound + 4.0 * std::sqrt(trials * bound * (1.0 - bound))) << noise;
+  }
+}
+
+TEST_F(GoalPlausibility, OneCodeMovesTheAxisByLessThanTheBand) {
+  for (int i = 0; i < rounds; ++i) {
+    const int band = std::uniform_int_distribution(0, 3)(random());
+    const bool tolerance = std::bernoulli_distribution()(random());
+    const double ratio = near_one();
+    const double width = (2.0 * band + 1.0) * count;
+    const std::string goal = tolerance ? fmt::format("tolerance: {:.17g}, within: 0.1", 0.5 * width)
+                                       : fmt::format("band: {}, within: 0.1", band);
+    const std::string dac = fmt::format("bits: 24, resolution: {:.17g}", ratio * 5e6 * width);
+    const auto lines = doubts(goal, dac);
+    ASSERT_EQ(lines.size(), ratio > 1.0 ? 1U : 0U) << goal << (lines.empty() ? "" : lines.front());
+    if (!lines.empty()) {
+      EXPECT_NE(lines.front().find(fmt::format("a code of at most {:.3g} N", 5e6 * width)), std::string::npos)
+          << lines.front();
+    }
+    EXPECT_TRUE(doubts(goal, dac + ", sigma_delta: true").empty());
+  }
+}
+
+// Of a spring that does not soften, so that the loop is linear but for its rounding.
+TEST_F(GoalPlausibility, NoiseMovesTheAxisByTheLinearLoop) {
+  for (const double bandwidth : {std::numeric_limits<double>::infinity(), 100.0}) {
+    for (const double noise : {5.0, 20.0}) {
+      const std::string of_bandwidth =
+          std::isfinite(bandwidth) ? fmt::format(", noise_bandwidth: {}", bandwidth) : "";
+      const study::Study study =
+          study_asking("", "dac: {bits: 24, range: 50}\n",
+                       fmt::format("resolution: 1.0e-8, fine_errors: {{noise: {}{}}}", noise, of_bandwidth));
+      trial::TrialParameters p = study::study_trial(study, 0, 0).parameters;
+      p.friction.uniform.k2 = 0.0;
+      p.command.hold = 5.0;
+      const double predicted =
+          noise * count * response_to_noise(trial_loops(p).front().loop, NoiseAt::axis, bandwidth).gain;
+      double sum = 0.0;
+      double squares = 0.0;
+      int samples = 0;
+      trial::TrialObservers observers;
+      observers.sample = [&](const trial::SampleRecord& sample) {
+        if (sample.t < 0.5) return;
+        sum += sample.theta;
+        squares += sample.theta * sample.theta;
+        ++samples;
+      };
+      trial::run_trial(p, observers);
+      const double mean = sum / samples;
+      EXPECT_NEAR(std::sqrt(squares / samples - mean * mean) / predicted, 1.0, 0.1)
+          << noise << " " << bandwidth;
+    }
+  }
+}
+
+bool is_told(const std::vector<std::string>& lines, const std::string& what) {
+  return std::ranges::any_of(lines,
+                             [&](const std::string& line) { return line.find(what) != std::string::npos; });
+}
+
+/// The best proportion of moves whose last `samples` are within the tolerance, of the loops at rest.
+double rate_within_tolerance(const trial::TrialParameters& p, double noise, double tolerance,
+                             double samples) {
+  double best = 0.0;
+  for (const TrialLoop& loop : trial_loops(p)) {
+    if (loop.slides) continue;
+    const NoiseResponse response =
+        response_to_noise(loop.loop, NoiseAt::axis, std::numeric_limits<double>::infinity());
+    const double inside = std::erf(tolerance / (noise * count * response.gain) / std::numbers::sqrt2);
+    best = std::max(best, std::pow(inside, std::max(samples / response.correlated_samples, 1.0)));
+  }
+  return best;
+}
+
+TEST_F(GoalPlausibility, AToleranceHoldsTheMotionByNoiseAtAllSamples) {
+  for (int i = 0; i < rounds; ++i) {
+    const double noise = log_uniform(2, 20);
+    const std::string encoder = fmt::format("resolution: 1.0e-8, fine_errors: {{noise: {:.17g}}}", noise);
+    const trial::TrialParameters p =
+        study::study_trial(study_asking("", "dac: {bits: 20, range: 50}\n", encoder), 0, 0).parameters;
+    const double tolerance = log_uniform(1.5, 6) * count * noise * 0.1;
+    const double rate = rate_within_tolerance(p, noise, tolerance, 400.0);
+    const double moves = std::clamp(rate * near_one(), 0.001, 0.999);
+    const auto lines =
+        doubts(fmt::format("tolerance: {:.17g}, within: 0.1, moves: {:.17g}", tolerance, moves),
+               "bits: 24, range: 50", encoder);
+    EXPECT_EQ(is_told(lines, "rms moves the axis by"), moves > rate) << tolerance << " " << moves;
+  }
+}
+
+// No trial does better than told, whatever the law: of an air bearing too, which has no loop at rest.
+TEST_F(GoalPlausibility, MovesMeetAToleranceNoOftenerThanTold) {
+  constexpr int trials = 60;
+  for (const double tolerance : {1.0e-11, 2.0e-8, 2.5e-8, 3.0e-8}) {
+    const study::Study study = manifest::parse_study(
+        fmt::format(
+            "zerocount: 1\nname: air\naxis: linear\nseed: 5\ntrials: {}\n"
+            "plant: {{inertia: 1, presliding_damping: 5}}\nfriction: {{model: none}}\n"
+            "encoder: {{resolution: 1.0e-9, fine_errors: {{noise: 40}}}}\n"
+            "dac: {{bits: 24, resolution: 1.0e-6}}\n"
+            "controller: {{units: si, sample_rate: 10000, delay: 1, kp: 4.0e+4, ki: 2.0e+6, kd: 300}}\n"
+            "command: {{targets: [1000], hold: 1}}\n"
+            "goal: {{tolerance: {:.17g}, within: 0.5, moves: 0.99}}\n",
+            trials, tolerance),
+        "m.yaml", {});
+    const trial::TrialParameters p = study::study_trial(study, 0, 0).parameters;
+    const NoiseResponse response = response_to_noise(trial_loops(p).front().loop, NoiseAt::axis,
+                                                     std::numeric_limits<double>::infinity());
+    const double inside = std::erf(tolerance / (40e-9 * response.gain) / std::numbers::sqrt2);
+    const double bound = std::pow(inside, 5000.0 / response.correlated_samples);
+    EXPECT_EQ(is_told(doubtful_goals(study), "rms moves the axis by"), bound < 0.99);
+    int met = 0;
+    for (int i = 0; i < trials; ++i) {
+      const trial::TrialOutcome outcome = trial::run_trial(study::study_trial(study, 0, i).parameters);
+      met += outcome.moves[0].tolerance_settling_times[0] <= 0.5 ? 1 : 0;
+    }
+    EXPECT_LE(met, trials * bound + 4.0 * std::sqrt(trials * bound * (1.0 - bound))) << tolerance;
+  }
+}
+
+// A target in SI units may lie half a count beside the middle of its count.
+TEST_F(GoalPlausibility, ZeroCountsHoldACountWhereTargetsAreRounded) {
+  const auto told = [](const std::string& target, const std::string& goal) {
+    return doubtful_goals(manifest::parse_study(
+        fmt::format(
+            "zerocount: 1\nname: si\naxis: linear\nseed: 1\ntrials: 20\n"
+            "plant: {{inertia: 5, presliding_damping: 1500, sliding_damping: 50}}\n"
+            "friction: {{k1: 1.0e+6, k2: 2.0e+7, beta: 2.0e+6, alpha: 0, breakaway: 12, coulomb_ratio: "
+            "0.8, stribeck_velocity: 1.0e-3}}\n"
+            "encoder: {{resolution: 1.0e-8}}\ndac: {{bits: 20, resolution: 5.0e-5}}\n"
+            "controller: {{units: si, sample_rate: 10000, kp: 2.0e+6, ki: 5.0e+8}}\n"
+            "command: {{units: si, targets: [{}], hold: 0.5}}\ngoal: {{within: 0.4, {}}}\n",
+            target, goal),
+        "m.yaml", {}));
+  };
+  const std::string drawn = "{uniform: [5.0e-7, 2.0e-6]}";
+  const auto lines = told(drawn, "tolerance: 4.0e-9, moves: 0.9");
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_NE(lines[0].find("expected at least 1e-08 m, which zero counts hold"), std::string::npos)
+      << lines[0];
+  // At 0.5 counts 75 % of the moves at zero counts are within it, at 0.9 counts 99 %.
+  EXPECT_TRUE(is_told(told(drawn, "tolerance: 5.0e-9, moves: 0.9"), "which zero counts hold"));
+  EXPECT_FALSE(is_told(told(drawn, "tolerance: 5.0e-9, moves: 0.7"), "which zero counts hold"));
+  EXPECT_FALSE(is_told(told(drawn, "tolerance: 9.0e-9, moves: 0.98"), "which zero counts hold"));
+  EXPECT_FALSE(is_told(told("1.23e-6", "tolerance: 5.0e-9, moves: 0.9"), "which zero counts hold"));
+  EXPECT_TRUE(is_told(told("1.234e-6", "tolerance: 5.0e-9, moves: 0.9"), "which zero counts hold"));
+}
+
+TEST_F(GoalPlausibility, TheGoalAndItsConditionAreNamed) {
+  const study::Study study = study_asking(
+      "goals: {coarse: {band: 2, within: 0.1, moves: 0.5}, fine: {tolerance: 1.0e-8, within: 0.1, moves: "
+      "0.5}}\n"
+      "conditions: {cold: {dac.resolution: 1.0e-5}, warm: {dac.resolution: 0.15}}",
+      "dac: {bits: 20, resolution: 1.0e-5}\n");
+  const auto lines = doubtful_goals(study);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_TRUE(lines.front().starts_with("point 0 (all) under condition warm: goal fine: one code of the DAC"))
+      << lines.front();
+  EXPECT_TRUE(doubtful_goals(study_asking("", "dac: {bits: 20, range: 50}\n")).empty());
+}
+
+// Moves that are said to be out of reach are: no trial of a random loop makes one.
+
+/// A slide of 1 kg with a fast PID, which a manifest's other sections complete.
+study::Study slide(const std::string& rest, const std::string& model, double breakaway,
+                   const std::string& encoder = "resolution: 1.0e-7") {
+  return manifest::parse_study(
+      fmt::format(
+          "zerocount: 1\nname: slide\naxis: linear\nseed: 1\ntrials: 4\n"
+          "plant: {{inertia: 1, presliding_damping: 200, sliding_damping: 5}}\n"
+          "friction: {{model: {0}, breakaway: {1:.6g}, coulomb_ratio: 0.8, stribeck_velocity: 1.0e-3, k1: "
+          "{2:.6g}, k2: {2:.6g}, beta: 1.0e+5, lambda: 1.0e+7, sigma0: {2:.6g}, sigma1: 300, gms: "
+          "{{stiffness: [{2:.6g}, {3:.6g}], weight: [0.6, 0.4], attraction: 500}}}}\n"
+          "encoder: {{{4}}}\n"
+          "controller: {{units: si, sample_rate: 4000, kp: 2.0e+4, ki: 4.0e+5, kd: 200}}\n{5}",
+          model, breakaway, 1e4 * breakaway, 3e4 * breakaway, encoder, rest),
+      "m.yaml", {});
+}
+
+bool is_told(const study::Study& study, const std::string& what) {
+  const std::vector<std::string> lines = doubtful_goals(study);
+  return std::ranges::any_of(lines,
+                             [&](const std::string& line) { return line.find(what) != std::string::npos; });
+}
+
+/// Whether the last move of a trial is within the tolerance for good in time.
+bool meets(const study::Study& study, std::int64_t trial = 0) {
+  const trial::TrialOutcome outcome = trial::run_trial(study::study_trial(study, 0, trial).parameters);
+  return outcome.moves.back().tolerance_settling_times[0] <= study.goals.front().within;
+}
+
+constexpr std::array<const char*, 7> words_of_laws{"none", "coulomb", "presliding", "spring",
+                                                   "dahl", "lugre",   "gms"};
+
+TEST(MovePlausibility, NoTrialMakesAMoveForWhichTheTorqueIsTooSmall) {
+  testing::RandomBlocks draw(11);
+  int told = 0;
+  int made = 0;
+  for (int i = 0; i < 140; ++i) {
+    const char* const law = words_of_laws[static_cast<std::size_t>(i) % words_of_laws.size()];
+    const double distance = draw.log_uniform(1e-4, 0.1);
+    const double range = draw.log_uniform(3.0, 100.0);
+    const double breakaway = range * draw.log_uniform(0.02, 1.5);
+    const double torque = draw.chance(0.5) ? 0.0 : range * draw.uniform(-0.9, 0.9);
+    const double within = 2.0 * std::sqrt(distance / range) * draw.log_uniform(0.5, 30.0);
+    const study::Study study = slide(
+        fmt::format("dac: {{bits: 20, range: {:.6g}}}\ndisturbance: {{torque: {:.6g}}}\n"
+                    "command: {{targets: [{}], hold: {:.6g}}}\n"
+                    "goal: {{tolerance: {:.6g}, within: {:.6g}, moves: 0.9}}\n",
+                    range, torque, std::llround(distance / 1e-7), within + 0.3, 0.01 * distance, within),
+        law, breakaway);
+    const bool is_impossible = is_told(study, " s at least") || is_told(study, "never ends");
+    const bool is_made = meets(study);
+    EXPECT_FALSE(is_impossible && is_made) << law << " " << distance << " " << range << " " << breakaway;
+    told += is_impossible ? 1 : 0;
+    made += is_made ? 1 : 0;
+  }
+  EXPECT_GT(told, 30);
+  EXPECT_GT(made, 15);
+}
+
+// Of bang-bang: a range of 10 N moves 1 kg by 25 mm in 0.1 s.
+TEST(MovePlausibility, TheTimeCountsInertiaLoadAndRange) {
+  const auto told = [](const std::string& plant, double range, double within) {
+    study::Study study = manifest::parse_study(
+        fmt::format(
+            "zerocount: 1\nname: s\naxis: linear\nseed: 1\ntrials: 2\nplant: {{presliding_damping: 0, "
+            "{}}}\nfriction: {{model: none}}\nencoder: {{resolution: 1.0e-7}}\n"
+            "dac: {{bits: 24, range: {:.6g}}}\ncontroller: {{units: si, delay: 0, kp: 100, ki: 0}}\n"
+            "command: {{units: si, targets: [0.025], hold: 1}}\n"
+            "goal: {{tolerance: 1.0e-6, within: {:.6g}, moves: 0.9}}\n",
+            plant, range, within),
+        "m.yaml", {});
+    return is_told(study, " s at least");
+  };
+  EXPECT_TRUE(told("inertia: 1", 10.0, 0.099));
+  EXPECT_FALSE(told("inertia: 1", 10.0, 0.101));
+  EXPECT_FALSE(told("inertia: 1", 10.3, 0.099));
+  EXPECT_TRUE(told("inertia: 0.7, load: {inertia: 0.3, stiffness: 1.0e+5, damping: 5}", 10.0, 0.099));
+  EXPECT_FALSE(told("inertia: 0.7, load: {inertia: 0.3, stiffness: 1.0e+5, damping: 5}", 10.0, 0.101));
+}
+
+TEST(MovePlausibility, ATorqueAboveTheRangeIsToldWithAndWithoutAGoal) {
+  const std::string command = "command: {targets: [1000], hold: 0.3}\n";
+  const std::string goal = "goal: {tolerance: 1.0e-6, within: 0.2, moves: 0.9}\n";
+  for (const double torque : {-9.0, 9.0}) {
+    for (const std::string& judged : {goal, std::string()}) {
+      const auto with = [&](double range) {
+        return slide(fmt::format("dac: {{bits: 20, range: {}}}\ndisturbance: {{torque: {}}}\n{}{}", range,
+                                 torque, command, judged),
+                     "lugre", 2.0);
+      };
+      EXPECT_TRUE(is_told(with(6.0), "nothing holds the axis"));
+      EXPECT_TRUE(is_told(with(8.0), "only friction"));
+      EXPECT_FALSE(is_told(with(9.5), "the disturbance (torque and ripple)"));
+      if (!judged.empty()) {
+        EXPECT_FALSE(meets(with(6.0)));
+      }
+    }
+  }
+}
+
+// Gravity is a ripple of one period, and its phase may be drawn: for some machines it is too much.
+TEST(MovePlausibility, ARippleIsJudgedAtTheTargetUnderEachCondition) {
+  const auto with = [](const std::string& phase, const std::string& moves) {
+    return manifest::parse_study(
+        fmt::format(
+            "zerocount: 1\nname: joint\nseed: 1\ntrials: 40\n"
+            "plant: {{inertia: 0.5, sliding_damping: 12}}\n"
+            "friction: {{model: lugre, sigma0: 3.0e+4, sigma1: 70, breakaway: 2}}\n"
+            "encoder: {{fine: 1000000, coarse: 1000000}}\ndac: {{bits: 16, range: 30}}\n"
+            "controller: {{structure: cascade, sample_rate: 4000, cascade: {{kv: 30, kp: 100, ki: 3000}}}}\n"
+            "disturbance: {{ripple: [{{amplitude: 8, periods: 1, phase: {}}}]}}\n"
+            "conditions: {{empty: {{}}, loaded: {{disturbance.ripple.0.amplitude: 45}}}}\n"
+            "command: {{units: si, targets: [0.1], hold: 1}}\n"
+            "goal: {{tolerance: 1.0e-4, within: 0.8, moves: {}}}\n",
+            phase, moves),
+        "m.yaml", {});
+  };
+  EXPECT_TRUE(is_told(with("1.5", "0.9"), "under condition loaded: at the target of move 0 the disturbance"));
+  EXPECT_FALSE(is_told(with("0", "0.9"), "at the target"));
+  EXPECT_TRUE(is_told(with("{uniform: [0, 6.283]}", "0.9"), "moves examined)"));
+  EXPECT_FALSE(is_told(with("{uniform: [0, 6.283]}", "0.1"), "at the target"));
+}
+
+TEST(MovePlausibility, AGoalLeavesTheProfileItsTime) {
+  testing::RandomBlocks draw(12);
+  int told = 0;
+  for (int i = 0; i < 40; ++i) {
+    const double within = draw.uniform(0.05, 0.4);
+    const char* const shape = draw.chance(0.5) ? "s_curve, jerk_limit: 200" : "trapezoidal";
+    const study::Study study =
+        slide(fmt::format("dac: {{bits: 24, range: 500}}\n"
+                          "command: {{units: si, targets: [0.02, 0.05], hold: 0.6, profile: {{shape: {}, "
+                          "velocity_limit: 0.2, acceleration_limit: 5}}}}\n"
+                          "goal: {{tolerance: 2.0e-5, within: {:.6g}, moves: 0.9, \"on\": [1]}}\n",
+                          shape, within),
+              "lugre", 5.0);
+    const bool is_short = is_told(study, "by its profile");
+    EXPECT_FALSE(is_short && meets(study)) << within;
+    told += is_short ? 1 : 0;
+    // 0.03 m at 0.2 m/s at most.
+    if (within < 0.15 || within > 0.24) {
+      EXPECT_EQ(is_short, within < 0.15) << within;
+    }
+  }
+  EXPECT_GT(told, 10);
+}
+
+TEST(MovePlausibility, ABandIsLessThanHalfAStep) {
+  const auto told = [](const std::string& goal) {
+    return is_told(
+        slide("dac: {bits: 24, range: 500}\ncommand: {units: si, targets: [0, 1.0e-3, 1.02e-3], hold: "
+              "0.3}\ngoals: {small: {\"on\": [2], " +
+                  goal + ", within: 0.2, moves: 0.9}}\n",
+              "lugre", 5.0),
+        "half of the step of move 2");
+  };
+  EXPECT_TRUE(told("tolerance: 1.0e-5"));
+  EXPECT_TRUE(told("tolerance: 5.0e-5"));
+  EXPECT_FALSE(told("tolerance: 0.99e-5"));
+  EXPECT_TRUE(told("band: 100"));
+  EXPECT_FALSE(told("band: 99"));
+}
+
+TEST(MovePlausibility, NoTrialMeetsATargetThatTheEncoderMisplaces) {
+  testing::RandomBlocks draw(13);
+  int told = 0;
+  int met = 0;
+  for (int i = 0; i < 30; ++i) {
+    const double tolerance = draw.log_uniform(3e-7, 3e-6);
+    const study::Study study = slide(
+        fmt::format("dac: {{bits: 24, range: 500}}\ncommand: {{targets: [{}], hold: 0.5}}\n"
+                    "goal: {{tolerance: {:.6g}, within: 0.4, moves: 0.9}}\n",
+                    static_cast<int>(draw.uniform(200, 3000)), tolerance),
+        "lugre", 5.0, "resolution: 1.0e-7, fine_errors: {interpolation: 10, interpolation_period: 400}");
+    const bool is_misplaced = is_told(study, "misplace the target");
+    const bool is_met = meets(study);
+    EXPECT_FALSE(is_misplaced && is_met) << tolerance;
+    told += is_misplaced ? 1 : 0;
+    met += is_met ? 1 : 0;
+  }
+  EXPECT_GT(told, 5);
+  EXPECT_GT(met, 5);
+}
+
+// Loops that nobody would build on purpose are told at the worst point, with the margins of trial_loops().
+
+study::Study study_with(const std::string& target, const std::string& controller,
+                        const std::string& more = "") {
+  return manifest::parse_study(
+      fmt::format("zerocount: 1\nname: doubt\nseed: 1\ntrials: 2\ncommand: {{targets: "
+                  "[{}]}}\ncontroller: {{{}}}\n{}",
+                  target, controller, more),
+      "m.yaml", {});
+}
+
+bool contains(const std::vector<std::string>& lines, const std::string& text) {
+  return std::any_of(lines.begin(), lines.end(),
+                     [&](const std::string& line) { return line.find(text) != std::string::npos; });
+}
+
+/// The smallest phase margin at rest of stable loops, °; NaN if a loop is unstable or has none.
+double smallest_phase_margin(const study::Study& study) {
+  double smallest = std::numeric_limits<double>::infinity();
+  const trial::TrialParameters p = study::study_trial(study, 0, 0).parameters;
+  for (const TrialLoop& loop : trial_loops(p)) {
+    if (loop.slides) continue;
+    if (stability_of(loop.loop, p.command.hold) != LoopStability::stable)
+      return std::numeric_limits<double>::quiet_NaN();
+    const double margin = stability_margins(loop.loop).phase.value;
+    if (!std::isnan(margin)) smallest = std::min(smallest, std::abs(margin));
+  }
+  return smallest;
+}
+
+// Random PID loops with delays.
+TEST(LoopPlausibility, APhaseMarginIsAtLeastTwentyDegrees) {
+  std::mt19937_64 random(17);
+  const auto between = [&](double low, double high) {
+    return std::exp(std::uniform_real_distribution(std::log(low), std::log(high))(random));
+  };
+  int doubtful = 0;
+  int sound = 0;
+  for (int i = 0; i < 150; ++i) {
+    const study::Study study = study_with(
+        "5", fmt::format("kp: {}, ki: {}, kd: {}, delay: {}", between(1e-4, 5e-3), between(1e-6, 1e-4),
+                         between(1e-3, 2e-2), std::uniform_int_distribution(0, 2)(random)));
+    const double margin = smallest_phase_margin(study);
+    if (!std::isfinite(margin)) continue;
+    const std::vector<std::string> lines = doubtful_loops(study);
+    EXPECT_EQ(contains(lines, "phase margin is"), margin < 20.0) << margin;
+    if (margin < 20.0) {
+      EXPECT_TRUE(contains(lines, "point 0 (all): at k1")) << lines.front();
+    }
+    ++(margin < 20.0 ? doubtful : sound);
+  }
+  EXPECT_GT(doubtful, 5);
+  EXPECT_GT(sound, 5);
+}
+
+TEST(LoopPlausibility, TheWorstPointIsTold) {
+  const study::Study study =
+      study_with("5", "kp: 6.21e-4", "sweep: {grid: {controller.ki: [2.0e-5, 9.45e-5, 3.0e-4, 5.0e-5]}}\n");
+  const std::vector<std::string> lines = doubtful_loops(study);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_TRUE(lines.front().starts_with("point 2 (controller.ki=0.0003): at k1 the phase margin is -"))
+      << lines.front();
+  EXPECT_TRUE(contains(lines, "the loop is unstable"));
+}
+
+// The paper's: between criteria (6) and (7) some histories are stable; beyond (7) none.
+TEST(LoopPlausibility, IntegralControlAloneIsDoubtedBeyondCriterionSeven) {
+  for (const double ki : {1e-5, 3.85e-5, 9.45e-5, 2.08e-4})
+    EXPECT_TRUE(doubtful_loops(study_with("30", fmt::format("ki: {}", ki))).empty()) << ki;
+  EXPECT_TRUE(contains(doubtful_loops(study_with("30", "ki: 4.0e-4")), "at k1 + k2 the phase margin"));
+}
+
+// The pre-sliding range is 694 counts: the loop with integral control alone is unstable while it slides.
+TEST(LoopPlausibility, AMoveBeyondThePreslidingRangeNeedsALoopThatIsStableWhileItSlides) {
+  const char* const text = "longer than the pre-sliding range of 694.4 counts";
+  for (const char* const shape : {"step", "trapezoidal", "s_curve"}) {
+    const auto told = [shape](const std::string& targets, const std::string& controller,
+                              const std::string& what) {
+      return contains(
+          doubtful_loops(manifest::parse_study(
+              fmt::format("zerocount: 1\nname: doubt\nseed: 1\ntrials: 2\ncommand: {{targets: [{}], "
+                          "profile: {{shape: {}}}}}\ncontroller: {{{}}}\n",
+                          targets, shape, controller),
+              "m.yaml", {})),
+          what);
+    };
+    EXPECT_FALSE(told("694", "ki: 3.85e-5", text)) << shape;
+    EXPECT_TRUE(told("695", "ki: 3.85e-5", text)) << shape;
+    EXPECT_TRUE(told("500, -300", "ki: 3.85e-5", "a move of 800 counts")) << shape;
+    EXPECT_FALSE(told("695", "kp: 6.0e-4, ki: 1.0e-6, kd: 1.0e-2", text)) << shape;
+    // A coarse phase makes the long moves.
+    EXPECT_FALSE(told("5000", "ki: 3.85e-5, coarse: {coarse_beyond: 300, kp: 6.0e-4, kd: 1.0e-2}", text))
+        << shape;
+  }
+}
+
+TEST(LoopPlausibility, ADelayOfASampleMoreIsEndured) {
+  // Far above the resonance the crossover is so fast that one sample costs more than the margin.
+  const study::Study study = study_with("5", "kd: 1.28e-2, ki: 3.85e-5");
+  const std::vector<std::string> lines = doubtful_loops(study);
+  EXPECT_TRUE(contains(lines, "samples more makes the loop unstable")) << lines.size();
+}
+
+TEST(LoopPlausibility, AnOpenLoopHasNone) {
+  EXPECT_TRUE(
+      doubtful_loops(manifest::parse_study(
+                         "zerocount: 1\nname: open\nseed: 1\ntrials: 1\ncommand: {torque: {levels: [0.1]}}\n",
+                         "m.yaml", {}))
+          .empty());
+}
+
+}  // namespace
+}  // namespace zerocount::theory

@@ -175,8 +175,10 @@ std::string value_text(const RunValue& of, double value) {
   return comparison::value_text(value, of.measure, of.unit);
 }
 
-std::string bounds_text(const RunValue& value) {
-  return fmt::format("[{}, {}]", value_text(value, value.bounds.low), value_text(value, value.bounds.high));
+/// "36.5 % [30 %, 43 %]".
+std::string bounded_text(const RunValue& value) {
+  return fmt::format("{} [{}, {}]", value_text(value, value.value), value_text(value, value.bounds.low),
+                     value_text(value, value.bounds.high));
 }
 
 /// Names the runs of a change, and notes it at them.
@@ -233,18 +235,19 @@ Description<SeriesRun> comparison_description() {
 Description<SeriesRun> run_description() {
   return Description<SeriesRun>()
       .value(everywhere("created", "run", "time of the run, UTC"), [](Run r) { return r.run->created; })
-      .value(in_data("git_commit", "commit of the program"), [](Run r) { return r.run->git_commit; })
-      .value(to_people("commit"), [](Run r) { return r.run->git_commit.substr(0, 10); })
+      .value(everywhere("git_commit", "commit", "commit of the program"),
+             [](Run r) { return r.run->git_commit; })
+      .shown_as([](Run r) { return r.run->git_commit.substr(0, 10); })
       .value(in_data("zerocount_version", "version of the program"),
              [](Run r) { return r.run->zerocount_version; })
       .value(in_data("study_sha256", "hash of the study"), [](Run r) { return r.run->study_sha256; })
       .value(everywhere("seed", "seed", "seed of the study, decimal"), [](Run r) { return r.run->seed; })
       .value(everywhere("trials", "trials", "trials per design point"), [](Run r) { return r.run->trials; })
       .value(in_data("n", "trials or values that the value is of"), [](Run r) { return r.value.n; })
-      .value(in_data("value", "value of the measure, in its unit, with 95 % bounds"),
-             [](Run r) { return document::bounded(r.value.value, r.value.bounds); })
-      .value(to_people("value"), [](Run r) { return value_text(r.value, r.value.value); })
-      .value(to_people("95 % bounds"), [](Run r) { return bounds_text(r.value); })
+      .value(
+          everywhere("value", "value and 95 % bounds", "value of the measure, in its unit, with 95 % bounds"),
+          [](Run r) { return document::bounded(r.value.value, r.value.bounds); })
+      .shown_as([](Run r) { return bounded_text(r.value); })
       .object(in_data("comparison", "comparison with the baseline"), comparison_description(),
               [](Run r) { return r.value.comparison ? &r : nullptr; })
       .value(to_people("verdict"),
@@ -288,9 +291,7 @@ Description<Series> series_description() {
       .value(to_people("since"), [](Of s) { return s.runs.front().run->created.substr(0, 10); })
       .value(to_people("runs"), [](Of s) { return s.runs.size(); })
       .value(to_people("first"), [](Of s) { return value_text(s.runs[0].value, s.runs[0].value.value); })
-      .value(to_people("last"),
-             [](Of s) { return value_text(s.runs.back().value, s.runs.back().value.value); })
-      .value(to_people("95 % bounds"), [](Of s) { return bounds_text(s.runs.back().value); })
+      .value(to_people("last, with 95 % bounds"), [](Of s) { return bounded_text(s.runs.back().value); })
       .value(to_people("changes"), [](Of s) { return s.changes.size(); })
       .table(in_data("runs", "runs by time"), run_description(), &Series::runs)
       .table(in_data("changes", "changes that are significant"), change_description(), &Series::changes);

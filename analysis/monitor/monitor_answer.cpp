@@ -218,22 +218,19 @@ Description<MeasureState> measure_description() {
       return s.measure.quality ? text::percent_near(*(s.*member)) : text::short_number(*(s.*member));
     };
   };
-  const auto to_people = [](const char* heading) {
-    return document::Item{.heading = heading, .shown = document::Shown::to_people, .numeric = true};
-  };
   return Description<MeasureState>()
       .value(everywhere("measure", "measure", "name of the measure"), [](State s) { return s.measure.name; })
       .value(everywhere("unit", "unit", "its unit"), &MeasureState::unit)
-      .value(
-          in_data("baseline",
-                  "median of the baseline, of a quality its proportion; null: never, or one for each like: "
-                  "see `likes`"),
-          &MeasureState::baseline_median)
-      .value(
-          in_data("moves", "likewise of the moves, since the change if there is one; null: none, or never"),
-          &MeasureState::median)
-      .value(to_people("baseline"), shown(&MeasureState::baseline_median))
-      .value(to_people("moves"), shown(&MeasureState::median))
+      .value(everywhere(
+                 "baseline", "baseline",
+                 "median of the baseline, of a quality its proportion; null: never, or one for each like: "
+                 "see `likes`"),
+             &MeasureState::baseline_median)
+      .shown_as(shown(&MeasureState::baseline_median))
+      .value(everywhere("moves", "moves",
+                        "likewise of the moves, since the change if there is one; null: none, or never"),
+             &MeasureState::median)
+      .shown_as(shown(&MeasureState::median))
       .value(number("evidence", "evidence",
                     "largest capital of the bets on a change of the measure, as a part of the alarm's scale",
                     Notation::three_digits, "1"),

@@ -54,36 +54,6 @@ FactorSensitivity& row_of(OutputSensitivity& result, const std::string& name) {
   return result.factors.back();
 }
 
-// Of which factors the rows say nothing, or leave more than half of what is possible open.
-void note_uncertain_totals(OutputSensitivity& result) {
-  std::vector<std::string> without;
-  std::vector<std::string> open;
-  bool unbounded = false;
-  for (const FactorSensitivity& factor : result.factors) {
-    if (std::isnan(factor.total.value) || std::isnan(factor.first_order.value)) {
-      without.push_back(factor.name);
-    }
-    unbounded = unbounded || (std::isnan(factor.total.low) && !std::isnan(factor.total.value));
-    if (factor.total.high - factor.total.low > 0.5) open.push_back(factor.name);
-  }
-  if (!without.empty()) {
-    result.notes.push_back(
-        fmt::format("not both indices of {}: {} is the same in all trials that one would come from",
-                    fmt::join(without, ", "), result.output));
-  }
-  if (unbounded) {
-    result.notes.push_back(fmt::format(
-        "the variance of {} comes from fewer than twenty trials: the Sobol' indices have no bounds",
-        result.output));
-  }
-  if (!open.empty()) {
-    result.notes.push_back(fmt::format(
-        "the rows are too few to say how large the influence is: the bounds of total are wider than 0.5 for "
-        "{}",
-        fmt::join(open, ", ")));
-  }
-}
-
 // About how many values the variance comes from: of normal ones a third, of skewed ones the largest few.
 double values_of_variance(const std::vector<double>& y) {
   statistics::Moments moments;
@@ -93,21 +63,38 @@ double values_of_variance(const std::vector<double>& y) {
   return moments.squares * moments.squares / fourths;
 }
 
-// Of which factors the trials leave more than half of what is possible open.
-void note_uncertain_first_orders(const std::vector<double>& y, OutputSensitivity& result) {
-  constexpr double few = 30.0;
+// Names the factors of which the bounds leave more than half of what is possible open. @returns whether there
+// are any
+bool note_open(OutputSensitivity& result, BoundedNumber FactorSensitivity::*index, std::string_view name) {
   std::vector<std::string> open;
   for (const FactorSensitivity& factor : result.factors)
-    if (factor.first_order.high - factor.first_order.low > 0.5) open.push_back(factor.name);
-  if (open.empty()) return;
-  const double carrying = values_of_variance(y);
+    if ((factor.*index).high - (factor.*index).low > 0.5) open.push_back(factor.name);
+  if (open.empty()) return false;
   result.notes.push_back(fmt::format(
-      "the trials are too few to say how much is explained alone: the bounds of first order are wider than "
-      "0.5 for {}{}",
-      fmt::join(open, ", "),
-      carrying < few ? fmt::format("; most of the variance of {} comes from about {:.0f} of the {} trials",
-                                   result.output, std::ceil(carrying), y.size())
-                     : ""));
+      "there are too few trials to say how large the influence is: the bounds of {} are wider than "
+      "0.5 for {}",
+      name, fmt::join(open, ", ")));
+  return true;
+}
+
+void note_uncertain_totals(OutputSensitivity& result) {
+  const bool unbounded = std::ranges::any_of(result.factors, [](const FactorSensitivity& factor) {
+    return std::isnan(factor.total.low) && !std::isnan(factor.total.value);
+  });
+  if (unbounded)
+    result.notes.push_back(fmt::format(
+        "the variance of {} comes from fewer than twenty trials: the Sobol' indices have no bounds",
+        result.output));
+  note_open(result, &FactorSensitivity::total, "total");
+}
+
+void note_uncertain_first_orders(const std::vector<double>& y, OutputSensitivity& result) {
+  constexpr double few = 30.0;
+  if (!note_open(result, &FactorSensitivity::first_order, "first order")) return;
+  const double carrying = values_of_variance(y);
+  if (carrying < few)
+    result.notes.push_back(fmt::format("most of the variance of {} comes from about {:.0f} of the {} trials",
+                                       result.output, std::ceil(carrying), y.size()));
 }
 
 void add_design_indices(const PointInputs& point, const std::vector<double>& values, const UsedTrials& used,

@@ -82,14 +82,16 @@ Description<OutputSensitivity> output_description() {
       .title([](Output o) { return o.unit == "1" ? o.output : fmt::format("{} ({})", o.output, o.unit); })
       .value(in_data("output", "name of the output"), &OutputSensitivity::output)
       .value(in_data("unit", "unit of the mean and the standard deviation"), &OutputSensitivity::unit)
-      .sentence(&OutputSensitivity::meaning)
-      .value({.key = "meaning", .meaning = "what the output is", .shown = Shown::in_json},
+      .value({.key = "meaning",
+              .heading = "meaning",
+              .meaning = "what the output is",
+              .shown = Shown::not_in_csv},
              &OutputSensitivity::meaning)
       .value(in_data("estimated", "whether the factors could be estimated"), &OutputSensitivity::estimated)
-      .sentence(&OutputSensitivity::conclusion)
       .value({.key = "conclusion",
+              .heading = "conclusion",
               .meaning = "which factors matter, which do not, and what stays open",
-              .shown = Shown::in_json},
+              .shown = Shown::not_in_csv},
              &OutputSensitivity::conclusion)
       .sentence(notes_sentences)
       .value(in_data("notes", "what limits these numbers"), &OutputSensitivity::notes)

@@ -226,12 +226,8 @@ class DoubtOfTrials {
   std::int64_t failing_{0};
 };
 
-/// The worst doubt of a test so far, as a line.
-struct WorstLine {
-  double ratio{1.0};
-  std::string text;
-};
-using WorstLines = std::array<WorstLine, goal_tests.size()>;
+/// The worst doubt of each test so far, with its place.
+using WorstLines = std::array<Doubt, goal_tests.size()>;
 
 void examine_goals(const study::Study& study, std::span<const study::Goal> goals, std::int64_t point,
                    std::int64_t condition, std::int64_t draws, WorstLines& worst) {
@@ -249,7 +245,7 @@ void examine_goals(const study::Study& study, std::span<const study::Goal> goals
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::optional<Doubt> doubt = all[i].second.doubt();
-    WorstLine& line = worst[all[i].first];
+    Doubt& line = worst[all[i].first];
     if (!doubt || !(doubt->ratio > line.ratio)) continue;
     const std::string& name = goals[i / (all.size() / goals.size())].name;
     line = {doubt->ratio,
@@ -322,7 +318,7 @@ WorstLines worst_lines(const study::Study& study) {
 
 std::vector<std::string> doubtful_goals(const study::Study& study) {
   std::vector<std::string> lines;
-  for (WorstLine& line : worst_lines(study))
+  for (Doubt& line : worst_lines(study))
     if (!line.text.empty()) lines.push_back(std::move(line.text));
   return lines;
 }

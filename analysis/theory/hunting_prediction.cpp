@@ -129,12 +129,25 @@ document::Description<HuntingPrediction> hunting_description() {
       return hunting.*number;
     };
   };
-  document::Item state = in_data("hunting", "what the longest move of trial 0 comes to");
-  state.words = {"rests", "hunts", "diverges", "undecided"};
-  document::Description<HuntingPrediction> description;
-  description
-      .value(state,
-             [words = state.words](Of hunting) { return words[static_cast<std::size_t>(hunting.state)]; })
+  static const std::vector<std::string> words{"rests", "hunts", "diverges", "undecided"};
+  return document::Description<HuntingPrediction>()
+      .value(document::with_words(document::everywhere("hunting", "hunting of trial 0",
+                                                       "what the longest move of trial 0 comes to"),
+                                  words),
+             [](Of hunting) { return words[static_cast<std::size_t>(hunting.state)]; })
+      .shown_as([](Of hunting) -> std::string {
+        switch (hunting.state) {
+          case Hunting::rests:
+            return "none, it comes to rest";
+          case Hunting::hunts:
+            return fmt::format("amplitude {:.4g} counts, period {:.4g} s", hunting.amplitude, hunting.period);
+          case Hunting::diverges:
+            return "the motion grows without bound";
+          case Hunting::undecided:
+            break;
+        }
+        return fmt::format("not decided: neither a cycle nor rest within {:.3g} s", hunting.duration);
+      })
       .value(in_data("hunting_step", "length of that move", "count"), &HuntingPrediction::step)
       .value(in_data("hunting_amplitude", "half of the range of its oscillation; null: it does not hunt",
                      "count"),
@@ -142,23 +155,7 @@ document::Description<HuntingPrediction> hunting_description() {
       .value(in_data("hunting_period", "period of the oscillation", "s"),
              if_hunts(&HuntingPrediction::period))
       .value(in_data("hunting_duration", "time that the move was held to see it", "s"),
-             &HuntingPrediction::duration)
-      .value({.key = "hunting_text", .heading = "hunting of trial 0", .shown = document::Shown::to_people},
-             [](Of hunting) -> std::string {
-               switch (hunting.state) {
-                 case Hunting::rests:
-                   return "none, it comes to rest";
-                 case Hunting::hunts:
-                   return fmt::format("amplitude {:.4g} counts, period {:.4g} s", hunting.amplitude,
-                                      hunting.period);
-                 case Hunting::diverges:
-                   return "the motion grows without bound";
-                 case Hunting::undecided:
-                   break;
-               }
-               return fmt::format("not decided: neither a cycle nor rest within {:.3g} s", hunting.duration);
-             });
-  return description;
+             &HuntingPrediction::duration);
 }
 
 }  // namespace zerocount::theory

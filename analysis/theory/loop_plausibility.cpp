@@ -124,28 +124,12 @@ constexpr std::array<LoopTest, 3> tests{{{phase_margin, min_phase_margin, phase_
                                          {delay_margin, min_delay_margin, delay_text},
                                          {presliding_range_over_move, 1.0, move_text}}};
 
-/// The worst value of a test so far.
-struct Worst {
-  double value{std::numeric_limits<double>::infinity()};
-  std::int64_t point{0};
-  std::int64_t condition{0};
-  std::string text;
-};
-
-using WorstValues = std::array<Worst, tests.size()>;
-
-void examine_loop(const ExaminedLoop& loop, std::int64_t point, std::int64_t condition, WorstValues& worst) {
-  for (std::size_t i = 0; i < tests.size(); ++i) {
-    const double value = tests[i].measure(loop);
-    if (!(value < tests[i].least) || !(value < worst[i].value)) continue;
-    worst[i] = {value, point, condition, tests[i].text(loop, value)};
-  }
-}
-
 }  // namespace
 
 std::vector<std::string> doubtful_loops(const study::Study& study) {
-  WorstValues worst;
+  std::vector<std::string> lines(tests.size());  // [test] of its worst value; empty where it does not fail
+  std::array<double, tests.size()> worst{};
+  worst.fill(std::numeric_limits<double>::infinity());
   const std::vector<std::int64_t> points =
       statistics::spread_over(study::point_count(study), max_trials_doubted);
   const study::TrialTurns turns = study::turns_of(study);
@@ -161,17 +145,18 @@ std::vector<std::string> doubtful_loops(const study::Study& study) {
       for (const TrialLoop& loop : trial_loops(p)) {
         ExaminedLoop examined{p, loop, travel, stability_of(loop.loop, p.command.hold)};
         if (is_used(examined)) examined.phase = stability_margins(loop.loop).phase;
-        examine_loop(examined, point, condition, worst);
+        for (std::size_t test = 0; test < tests.size(); ++test) {
+          const double value = tests[test].measure(examined);
+          if (!(value < tests[test].least) || !(value < worst[test])) continue;
+          worst[test] = value;
+          lines[test] =
+              fmt::format("point {} ({}){}: {}", point, study.points.labels[static_cast<std::size_t>(point)],
+                          study::condition_text(study, condition), tests[test].text(examined, value));
+        }
       }
     }
   }
-  std::vector<std::string> lines;
-  for (const Worst& one : worst) {
-    if (one.text.empty()) continue;
-    lines.push_back(fmt::format("point {} ({}){}: {}", one.point,
-                                study.points.labels[static_cast<std::size_t>(one.point)],
-                                study::condition_text(study, one.condition), one.text));
-  }
+  std::erase_if(lines, [](const std::string& line) { return line.empty(); });
   return lines;
 }
 

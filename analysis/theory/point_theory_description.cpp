@@ -13,7 +13,6 @@ namespace {
 using document::Description;
 using document::everywhere;
 using document::in_data;
-using document::Shown;
 using std::optional;
 using std::string;
 
@@ -31,16 +30,16 @@ void add_range(Description<Row>& description, const char* key, const string& hea
     return range.empty() ? nullptr : &range;
   };
   description
-      .object(in_data(key, meaning + ", over the trials", unit),
+      .object(everywhere(key, heading, meaning + ", over the trials", unit),
               Description<Range>()
                   .value(in_data("low", "smallest", unit), &Range::low)
                   .value(in_data("high", "largest", unit), &Range::high),
               found)
-      .value({.key = key + string("_text"), .heading = heading, .unit = unit, .shown = Shown::to_people},
-             [found](const Row& row) {
-               const Range* const range = found(row);
-               return range == nullptr ? std::nullopt : optional(range_text(*range));
-             });
+      .shown_as([found, unit](const Row& row) -> optional<string> {
+        const Range* const range = found(row);
+        if (range == nullptr) return {};
+        return range_text(*range) + (unit.empty() ? "" : " " + unit);
+      });
 }
 
 std::string_view to_string(LoopStability stability) {
@@ -209,8 +208,9 @@ Description<LoopRanges> loop_description() {
   Description<LoopRanges> description;
   description.value(everywhere("loop", "loop", "where the rotor is"), &LoopRanges::name)
       .value(in_data("slides", "whether the rotor slides"), &LoopRanges::slides)
-      .value(in_data("stability", "stable, marginal or unstable: all that occur in the trials"), stabilities)
-      .value({.key = "stability_text", .heading = "verdict", .shown = Shown::to_people}, stability_text);
+      .value(everywhere("stability", "verdict", "stable, marginal or unstable: all that occur in the trials"),
+             stabilities)
+      .shown_as(stability_text);
   add_range(description, "slow", "slowest time constant", "slowest time constants longer than the hold",
             &LoopRanges::slow, "s");
   add_range(description, "bandwidth", "crosses gain 1 at", "bandwidth while it slides",

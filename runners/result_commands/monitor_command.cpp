@@ -126,19 +126,21 @@ monitor::MonitorSettings settings_from(const command_line::Arguments& arguments)
   return settings;
 }
 
-/// Prints the state after all moves of the log as one line. @returns its exit code
-ExitCode print_state(monitor::MachineMonitor& machine, const monitor::MoveLog& log,
-                     const LoadedBaseline& baseline, const std::stop_token& stop) {
+/// Prints the state after all moves of the log, of a log that is followed as one line. @returns its exit code
+ExitCode print_state(const command_line::Arguments& arguments, monitor::MachineMonitor& machine,
+                     const monitor::MoveLog& log, const LoadedBaseline& baseline,
+                     const std::stop_token& stop) {
   machine.update(log);
   const monitor::MonitorState state = machine.state();
   const auto explanation = explanation_of(baseline, machine, state, log, stop);
   const monitor::MonitorReading reading{machine, baseline.moves, state, log.name(),
                                         explanation ? &*explanation : nullptr};
-  const document::Answer answer = monitor::monitor_answer().of(
-      reading, monitor::exit_code_of(reading.state.status), document::Audience::json);
+  const ExitCode code = monitor::exit_code_of(state.status);
+  if (!arguments.has("follow")) return answers::print(arguments, monitor::monitor_answer(), reading, code);
+  const document::Answer answer = monitor::monitor_answer().of(reading, code, document::Audience::json);
   standard_output::write(answers::rendered(answer, answers::json_line));
   standard_output::flush();
-  return answer.exit_code;
+  return code;
 }
 
 /// Follows the log until the alarm, an interruption, or so many seconds without new moves.
@@ -160,7 +162,7 @@ ExitCode follow(const command_line::Arguments& arguments) {
     const bool has_moves = growing.read();
     if (!machine && growing.log().has_header()) machine.emplace(baseline.moves, growing.log(), settings);
     if (machine && has_moves) {
-      code = print_state(*machine, growing.log(), baseline, interruption.token());
+      code = print_state(arguments, *machine, growing.log(), baseline, interruption.token());
       if (code == ExitCode::regression) return *code;
       last = Clock::now();
     } else if (idle && Clock::now() - last >= std::chrono::seconds(*idle)) {
@@ -171,7 +173,7 @@ ExitCode follow(const command_line::Arguments& arguments) {
   }
   if (code) return *code;
   growing.log().require_header();
-  return print_state(machine.value(), growing.log(), baseline, interruption.token());
+  return print_state(arguments, machine.value(), growing.log(), baseline, interruption.token());
 }
 
 ExitCode monitor_machine(const command_line::Arguments& arguments) {
@@ -181,13 +183,7 @@ ExitCode monitor_machine(const command_line::Arguments& arguments) {
   const monitor::MonitorSettings settings = settings_from(arguments);
   const monitor::MoveLog log = read_log(arguments.operands()[1], settings.group);
   monitor::MachineMonitor machine(baseline.moves, log, settings);
-  machine.update(log);
-  const monitor::MonitorState state = machine.state();
-  const auto explanation = explanation_of(baseline, machine, state, log, interruption.token());
-  const monitor::MonitorReading reading{machine, baseline.moves, state, log.name(),
-                                        explanation ? &*explanation : nullptr};
-  return answers::print(arguments, monitor::monitor_answer(), reading,
-                        monitor::exit_code_of(reading.state.status));
+  return print_state(arguments, machine, log, baseline, interruption.token());
 }
 
 }  // namespace

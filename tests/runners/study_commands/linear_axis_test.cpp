@@ -49,7 +49,7 @@ void expect_parts(const std::string& text, const std::vector<std::string>& parts
 TEST_F(LinearAxis, IsCheckedInItsOwnUnits) {
   const ProgramResult result = run({"check", "stage.yaml"});
   EXPECT_EQ(result.code, 0) << result.err;
-  expect_parts(result.out, {"1.5e+09 N/(m s)", "N, below k1·Δx = ", "the lowest along the profiles"});
+  expect_parts(result.out, {"1.5e+09", "N/(m s)", "k1·Δx", "the lowest along the profiles"});
   EXPECT_EQ(result.out.find("N m"), std::string::npos) << result.out;
 }
 

@@ -2173,7 +2173,7 @@ class JerksAnswer(Answer):
           intervals between the jerks of a move
         - ``agreement``.* (hits, jerks, proportion, proportion_low, proportion_high, independent): jerks in the
           direction of their holding torque
-        - ``magnitude``.* (one_count, counts, mean, max, median_duration, longest_duration): largest |error| of the
+        - ``magnitude``.* (counts, mean, max, median_duration, longest_duration, one_count): largest |error| of the
           jerks
         - ``creep``.* (trials, not_applicable, ended, predicted, lasting, lasting_predicted, median_deviation,
           largest_deviation, too_short, unsteady): comparison with the closed form of creep at constant torque

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -53,6 +55,9 @@ std::vector<Block> blocks(const Answer& answer);
 
 /// The block as a fragment of HTML.
 std::string html(const Block& block);
+
+/// text() of an answer, fitted to a terminal. @param width its columns, at least 20; nothing: no limit
+std::string text(const Answer& answer, std::optional<std::size_t> width);
 
 /// A value as people read it, without its unit; "–" where it is unknown.
 std::string shown_value(const Item& item, const Content& content);

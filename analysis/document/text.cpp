@@ -1,11 +1,15 @@
 #include "analysis/text/text.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "analysis/document/answer.hpp"
 #include "analysis/document/blocks.hpp"
+#include "analysis/text/fitted_text.hpp"
+#include "core/text/utf8.hpp"
 
 namespace zerocount::document {
 namespace {
@@ -26,7 +30,7 @@ std::string facts_text(const std::vector<Fact>& facts) {
   return lines;
 }
 
-std::string table_text(const TableBlock& table) {
+std::string table_text(const TableBlock& table, std::optional<std::size_t> width) {
   std::vector<text::TextColumn> columns;
   for (const BlockColumn& column : table.columns) {
     std::vector<std::string> cells;
@@ -34,19 +38,27 @@ std::string table_text(const TableBlock& table) {
     columns.push_back({column.unit.empty() ? column.head : fmt::format("{} ({})", column.head, column.unit),
                        column.numeric, std::move(cells)});
   }
-  const std::string title = table.title.empty() ? "" : fmt::format("{}:\n\n", table.title);
-  return title + text::aligned_table(columns);
+  const std::string title =
+      table.title.empty() ? "" : text::fitted(fmt::format("{}:\n\n", table.title), width);
+  return title + text::aligned_table(columns, width);
 }
 
 /// The text of each kind of block.
 struct BlockText {
-  std::string operator()(const HeadlineBlock& block) const { return with_line_end(block.sentence); }
-  std::string operator()(const SentenceBlock& block) const { return with_line_end(block.sentence); }
-  std::string operator()(const FactsBlock& block) const { return facts_text(block.facts); }
-  std::string operator()(const TableBlock& block) const { return table_text(block); }
-  std::string operator()(const SectionBlock& block) const { return with_line_end(block.title + ":"); }
+  std::optional<std::size_t> width;
+
+  std::string operator()(const HeadlineBlock& block) const { return lines(block.sentence); }
+  std::string operator()(const SentenceBlock& block) const { return lines(block.sentence); }
+  std::string operator()(const FactsBlock& block) const { return lines(facts_text(block.facts)); }
+  std::string operator()(const TableBlock& block) const { return table_text(block, width); }
+  std::string operator()(const SectionBlock& block) const { return lines(block.title + ":"); }
   std::string operator()(const VerbatimBlock& block) const {
-    return (block.title.empty() ? "" : fmt::format("{}:\n\n", block.title)) + with_line_end(block.lines);
+    return (block.title.empty() ? "" : fmt::format("{}:\n\n", block.title)) + lines(block.lines);
+  }
+
+ private:
+  std::string lines(const std::string& sentences) const {
+    return text::fitted(text::printable_lines(with_line_end(sentences)), width);
   }
 };
 
@@ -61,11 +73,15 @@ bool apart(const Block& above, const Block& below) {
 }  // namespace
 
 std::string text(const Answer& answer) {
+  return text(answer, std::nullopt);
+}
+
+std::string text(const Answer& answer, std::optional<std::size_t> width) {
   std::string text;
   const std::vector<Block> all = blocks(answer);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i > 0 && apart(all[i - 1], all[i])) text += '\n';
-    text += std::visit(BlockText{}, all[i]);
+    text += std::visit(BlockText{width}, all[i]);
   }
   return text;
 }

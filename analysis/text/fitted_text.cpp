@@ -1,6 +1,7 @@
 #include "analysis/text/fitted_text.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,14 +16,6 @@ namespace {
 constexpr std::size_t gap = 2;  ///< columns of the terminal between the columns of a table
 constexpr std::string_view rule = "─";
 
-/// Where a column of a table stands in its lines, in columns of the terminal.
-struct Span {
-  std::size_t first{0};
-  std::size_t width{0};
-
-  std::size_t end() const { return first + width; }
-};
-
 std::vector<std::string_view> lines_of(std::string_view text) {
   std::vector<std::string_view> lines;
   while (!text.empty()) {
@@ -31,54 +24,6 @@ std::vector<std::string_view> lines_of(std::string_view text) {
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return lines;
-}
-
-/// The part of a line that stands in the span.
-std::string_view part_of(std::string_view line, const Span& span) {
-  std::size_t at = 0;
-  std::size_t begin = line.size();
-  for (std::string_view rest = line; !rest.empty();) {
-    if (at >= span.first) begin = std::min(begin, line.size() - rest.size());
-    if (at >= span.end()) return line.substr(begin, line.size() - rest.size() - begin);
-    const CodePoint point = decode(rest);
-    at += display_width(rest.substr(0, point.bytes));
-    rest.remove_prefix(point.bytes);
-  }
-  return line.substr(begin);
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(' ');
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(' ') + 1 - first);
-}
-
-/// The columns of a table from the line below its head; none where the line is another.
-std::vector<Span> columns_of(std::string_view line) {
-  std::vector<Span> columns;
-  std::size_t at = 0;
-  bool in_column = false;
-  while (!line.empty()) {
-    const bool ruled = line.substr(0, rule.size()) == rule;
-    if (!ruled && line.front() != ' ') return {};
-    if (ruled && !in_column) columns.push_back({at, 0});
-    if (ruled) ++columns.back().width;
-    in_column = ruled;
-    line.remove_prefix(ruled ? rule.size() : 1);
-    ++at;
-  }
-  return columns;
-}
-
-/// Whether the line can be a row of a table: between its columns there is nothing.
-bool is_row(std::string_view line, const std::vector<Span>& columns) {
-  if (trimmed(line).empty()) return false;
-  if (display_width(line) > columns.back().end()) return false;
-  for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
-    const Span between{columns[i].end(), columns[i + 1].first - columns[i].end()};
-    if (!trimmed(part_of(line, between)).empty()) return false;
-  }
-  return true;
 }
 
 /// The first characters of a word that fit into the width.
@@ -153,75 +98,44 @@ void append_prose(std::string& text, std::string_view line, std::size_t width) {
     append_line(text, std::string(i == 0 ? indent : later, ' ') + lines[i]);
 }
 
-/// A column as wide as it is shown.
+/// A column as wide as it is shown: narrower than its cells where they are wrapped.
 struct ShownColumn {
-  Span span;
-  std::size_t width{0};
+  const TextColumn* column;
+  std::size_t wide;   ///< its widest cell
+  std::size_t width;  ///< that it is shown with
 };
 
-/// A row of a table: its cells, wrapped to their widths, side by side.
-void append_row(std::string& text, std::string_view line, const std::vector<ShownColumn>& columns) {
+/// A row of a table: its cells side by side. @param row nothing: the heads
+void append_row(std::string& text, const std::vector<ShownColumn>& columns, std::optional<std::size_t> row) {
   std::vector<std::vector<std::string>> cells;
   std::size_t height = 1;
-  for (const ShownColumn& column : columns) {
-    const std::string_view cell = part_of(line, column.span);
-    // Cells that fit keep their place in the column: they may be aligned to the right.
-    cells.push_back(column.width == column.span.width
-                        ? std::vector<std::string>{std::string(cell)}
-                        : wrapped(trimmed(cell), column.width, column.width, true));
+  for (const auto& [column, wide, width] : columns) {
+    const std::string& cell = row ? column->cells[*row] : column->head;
+    const std::string padding(wide - display_width(cell), ' ');
+    cells.push_back(width < wide ? wrapped(cell, width, width, true)
+                                 : std::vector{column->numeric ? padding + cell : cell});
     height = std::max(height, cells.back().size());
   }
   for (std::size_t i = 0; i < height; ++i) {
-    std::string shown;
+    std::string line;
     for (std::size_t column = 0; column < columns.size(); ++column) {
       const std::string cell = i < cells[column].size() ? cells[column][i] : "";
-      shown += cell + std::string(columns[column].width - display_width(cell) + gap, ' ');
+      line += cell + std::string(columns[column].width - display_width(cell) + gap, ' ');
     }
-    append_line(text, std::move(shown));
+    append_line(text, std::move(line));
   }
 }
 
-void append_table(std::string& text, const std::vector<std::string_view>& lines,
-                  const std::vector<ShownColumn>& columns) {
-  for (std::size_t row = 0; row < lines.size(); ++row) {
-    if (row != 1) {
-      append_row(text, lines[row], columns);
-      continue;
-    }
-    std::string ruled;
-    for (const ShownColumn& column : columns) {
-      for (std::size_t i = 0; i < column.width; ++i) ruled += rule;
-      ruled += std::string(gap, ' ');
-    }
-    append_line(text, std::move(ruled));
+void append_table(std::string& text, const std::vector<ShownColumn>& columns) {
+  if (!text.empty()) text += '\n';
+  append_row(text, columns, std::nullopt);
+  std::string ruled;
+  for (const ShownColumn& column : columns) {
+    for (std::size_t i = 0; i < column.width; ++i) ruled += rule;
+    ruled += std::string(gap, ' ');
   }
-}
-
-/// Divides a table that is wider than `width`.
-void append_divided(std::string& text, const std::vector<std::string_view>& lines,
-                    const std::vector<Span>& columns, std::size_t width) {
-  const std::size_t of_key = columns.size() == 1 ? width : width / 3;
-  const ShownColumn key{columns.front(), std::min(columns.front().width, of_key)};
-  const std::size_t room = width - key.width - gap;
-  std::vector<ShownColumn> shown{key};
-  std::size_t used = 0;
-  bool first = true;
-  const auto finish = [&] {
-    if (!first) text += "\n";
-    first = false;
-    append_table(text, lines, shown);
-  };
-  for (std::size_t i = 1; i < columns.size(); ++i) {
-    const std::size_t wide = std::min(columns[i].width, room);
-    if (used > 0 && used + gap + wide > room) {
-      finish();
-      shown = {key};
-      used = 0;
-    }
-    used += (used > 0 ? gap : 0) + wide;
-    shown.push_back({columns[i], wide});
-  }
-  finish();
+  append_line(text, std::move(ruled));
+  for (std::size_t row = 0; row < columns.front().column->cells.size(); ++row) append_row(text, columns, row);
 }
 
 }  // namespace
@@ -266,26 +180,45 @@ std::string unwrapped(std::string_view text, std::size_t width) {
 
 std::string fitted(std::string_view text, std::optional<std::size_t> width) {
   if (!width) return std::string(text);
-  const std::size_t of_prose = std::min(*width, width_of_prose);
-  const std::vector<std::string_view> lines = lines_of(text);
   std::string result;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::vector<Span> columns = i + 1 < lines.size() ? columns_of(lines[i + 1]) : std::vector<Span>{};
-    if (columns.empty()) {
-      append_prose(result, lines[i], of_prose);
-      continue;
-    }
-    std::vector<std::string_view> table{lines[i], lines[i + 1]};
-    for (i += 2; i < lines.size() && is_row(lines[i], columns); ++i) table.push_back(lines[i]);
-    --i;
-    if (columns.back().end() <= *width) {
-      for (const std::string_view line : table) append_line(result, std::string(line));
-    } else {
-      append_divided(result, table, columns, *width);
-    }
-  }
+  for (const std::string_view line : lines_of(text))
+    append_prose(result, line, std::min(*width, width_of_prose));
   if (!text.empty() && text.back() != '\n') result.pop_back();
   return result;
+}
+
+std::string aligned_table(const std::vector<TextColumn>& columns, std::optional<std::size_t> width) {
+  std::string table;
+  std::vector<ShownColumn> all;
+  std::size_t used = 0;
+  for (const TextColumn& column : columns) {
+    std::size_t wide = display_width(column.head);
+    for (const std::string& cell : column.cells) wide = std::max(wide, display_width(cell));
+    all.push_back({&column, wide, wide});
+    used += wide + gap;
+  }
+  if (all.empty()) return table;
+  if (!width || used - gap <= *width) {
+    append_table(table, all);
+    return table;
+  }
+  ShownColumn key = all.front();
+  key.width = std::min(key.wide, all.size() == 1 ? *width : *width / 3);
+  const std::size_t room = *width - key.width - std::min(gap, *width - key.width);
+  std::vector<ShownColumn> shown{key};
+  used = 0;
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    all[i].width = std::min(all[i].wide, room);
+    if (used > 0 && used + gap + all[i].width > room) {
+      append_table(table, shown);
+      shown = {key};
+      used = 0;
+    }
+    used += (used > 0 ? gap : 0) + all[i].width;
+    shown.push_back(all[i]);
+  }
+  append_table(table, shown);
+  return table;
 }
 
 }  // namespace zerocount::text

@@ -7,14 +7,9 @@
 
 namespace zerocount::text {
 
-/// Fits a text to the width of a terminal.
-///
-/// A table of aligned_table that is too wide is divided into tables one below the other. Each repeats the
-/// first column, which names the rows, and takes as many of the other columns as fit; words of a column that
-/// does not fit by itself are wrapped within its cells. All other lines are wrapped between words, and
-/// continue two columns further in, or below the text of an entry that follows its name after two spaces or
-/// more. Words are only broken in tables, where they are wider than their cell.
-///
+/// Fits sentences to the width of a terminal: lines are wrapped between words, and continue two columns
+/// further in, or below the text of an entry that follows its name after two spaces or more. Tables are made
+/// for a width (aligned_table).
 /// @param width columns of the terminal, at least 20; nothing: the text stays as it is
 std::string fitted(std::string_view text, std::optional<std::size_t> width);
 

@@ -44,17 +44,6 @@ std::size_t columns(char32_t value) {
   return in_any(value, wide) ? 2 : 1;
 }
 
-void append_padded(std::string& line, std::string_view cell, std::size_t width, bool to_the_right) {
-  const std::string padding(width - display_width(cell), ' ');
-  if (to_the_right) line += padding;
-  line += cell;
-  if (!to_the_right) line += padding;
-}
-
-void trim_right(std::string& line) {
-  line.erase(line.find_last_not_of(' ') + 1);
-}
-
 }  // namespace
 
 std::string percentage(std::int64_t successes, std::int64_t trials) {
@@ -90,41 +79,6 @@ std::string printable(std::string_view text) {
     text.remove_prefix(point.bytes);
   }
   return result;
-}
-
-std::string aligned_table(const std::vector<TextColumn>& columns) {
-  const std::size_t rows = columns.empty() ? 0 : columns.front().cells.size();
-  std::vector<std::vector<std::string>> cells(rows + 1);
-  std::vector<bool> numeric;
-  for (const TextColumn& column : columns) {
-    numeric.push_back(column.numeric);
-    cells[0].push_back(column.head);
-    for (std::size_t row = 0; row < rows; ++row) cells[row + 1].push_back(column.cells[row]);
-  }
-  return aligned_table(cells, numeric);
-}
-
-std::string aligned_table(const std::vector<std::vector<std::string>>& cells,
-                          const std::vector<bool>& numeric) {
-  std::vector<std::size_t> widths(numeric.size(), 0);
-  for (const auto& row : cells) {
-    for (std::size_t column = 0; column < widths.size(); ++column) {
-      widths[column] = std::max(widths[column], display_width(row[column]));
-    }
-  }
-  std::string table;
-  for (std::size_t row = 0; row < cells.size(); ++row) {
-    std::string line, rule;
-    for (std::size_t column = 0; column < widths.size(); ++column) {
-      if (column > 0) line += "  ", rule += "  ";
-      append_padded(line, cells[row][column], widths[column], numeric[column]);
-      for (std::size_t i = 0; i < widths[column]; ++i) rule += "─";
-    }
-    trim_right(line);
-    table += line + "\n";
-    if (row == 0) table += rule + "\n";
-  }
-  return table;
 }
 
 std::string escaped_markup(std::string_view text) {

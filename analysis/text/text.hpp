@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,12 +33,12 @@ struct TextColumn {
 };
 
 /// A table as text: columns of equal length, two spaces apart, with underlined headers.
-std::string aligned_table(const std::vector<TextColumn>& columns);
-
-/// A table as text: cells[row][column] in aligned columns two spaces apart, the first row underlined;
-/// `numeric` columns are aligned to the right. All rows must have the length of `numeric`.
-std::string aligned_table(const std::vector<std::vector<std::string>>& cells,
-                          const std::vector<bool>& numeric);
+///
+/// One that is wider than `width` is divided into tables one below the other. Each repeats the first column,
+/// which names the rows, and takes as many of the other columns as fit; a column that does not fit by itself
+/// is wrapped within its cells, where words that are wider are broken.
+/// @param width columns of the terminal, at least 20; nothing: no limit
+std::string aligned_table(const std::vector<TextColumn>& columns, std::optional<std::size_t> width = {});
 
 /// Escapes & < > " ' for text and quoted attributes of HTML or XML.
 std::string escaped_markup(std::string_view text);

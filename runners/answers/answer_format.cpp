@@ -1,10 +1,13 @@
 #include "runners/answers/answer_format.hpp"
 
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
+#include "analysis/document/blocks.hpp"
 #include "analysis/report/answer_page.hpp"
 #include "analysis/text/report_json.hpp"
 #include "runners/standard_output/standard_output.hpp"
+#include "runners/terminal/terminal.hpp"
 
 namespace zerocount::answers {
 namespace {
@@ -48,7 +51,7 @@ ExitCode print(const command_line::Arguments& arguments, const document::Answer&
   if (format == "json") {
     document::write_json(answer, 2, [](std::string_view piece) { standard_output::write(piece); });
   } else if (format == "text") {
-    standard_output::write_fitted(rendered(answer, format));
+    standard_output::write(document::text(answer, terminal::width_of(STDOUT_FILENO)));
   } else {
     standard_output::write(rendered(answer, format));
   }

@@ -55,30 +55,30 @@ std::vector<TextColumn> random_table(std::mt19937_64& random, std::size_t rows) 
   return table;
 }
 
-TEST(FittedText, HasTheWidthAndEveryWordOfATable) {
+TEST(AlignedTable, HasTheWidthAndEveryWordOfATable) {
   std::mt19937_64 random(2002);
   for (int round = 0; round < 500; ++round) {
     const std::vector<TextColumn> columns = random_table(random, 1 + random() % 5);
     const std::string table = aligned_table(columns);
     const std::size_t width = 45 + random() % 100;
-    const std::string shown = fitted(table + "\nits meaning\n", width);
+    const std::string shown = aligned_table(columns, width);
     EXPECT_LE(width_of(shown), width);
     if (width_of(table) <= width) {
-      EXPECT_EQ(shown, table + "\nits meaning\n");
+      EXPECT_EQ(shown, table);
     }
     // The first column stands in every part.
-    std::vector<std::string> words = words_of(shown), expected = words_of(table + "its meaning");
+    std::vector<std::string> words = words_of(shown), expected = words_of(table);
     words.erase(std::unique(words.begin(), words.end()), words.end());
     EXPECT_EQ(words, expected);
   }
 }
 
-TEST(FittedText, RepeatsTheNamesOfTheRows) {
-  const std::string table = aligned_table({{"point", true, {"0", "1"}},
-                                           {"zero-count", true, {"98.0 %", "7 %"}},
-                                           {"bounds", true, {"[97, 99]", "[6, 8]"}},
-                                           {"observed", false, {"stable in all tests", "unstable"}}});
-  EXPECT_EQ(fitted(table, 32),
+TEST(AlignedTable, RepeatsTheNamesOfTheRows) {
+  const std::vector<TextColumn> columns{{"point", true, {"0", "1"}},
+                                        {"zero-count", true, {"98.0 %", "7 %"}},
+                                        {"bounds", true, {"[97, 99]", "[6, 8]"}},
+                                        {"observed", false, {"stable in all tests", "unstable"}}};
+  EXPECT_EQ(aligned_table(columns, 32),
             "point  zero-count    bounds\n"
             "─────  ──────────  ────────\n"
             "    0      98.0 %  [97, 99]\n"
@@ -88,7 +88,6 @@ TEST(FittedText, RepeatsTheNamesOfTheRows) {
             "─────  ───────────────────\n"
             "    0  stable in all tests\n"
             "    1  unstable\n");
-  EXPECT_EQ(fitted(table, std::nullopt), table);
 }
 
 TEST(FittedText, WrapsSentencesBetweenWords) {

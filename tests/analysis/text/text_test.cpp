@@ -45,7 +45,7 @@ TEST(Text, PrintableTextStaysOnOneLine) {
 }
 
 TEST(Text, ColumnsOfATableAlignWhateverTheScript) {
-  EXPECT_EQ(aligned_table({{"name", "n"}, {"位置", "7"}, {"β", "12"}}, {false, true}),
+  EXPECT_EQ(aligned_table({{"name", false, {"位置", "β"}}, {"n", true, {"7", "12"}}}),
             "name   n\n"
             "────  ──\n"
             "位置   7\n"

@@ -125,7 +125,7 @@ comparison::PointTrials run_point(const study::Study& study, std::int64_t point,
   const std::vector<measures::CountedGoal> counted = measures::counted_goals(study);
   for (std::size_t i = 0; i < study.goals.size(); ++i) {
     also.judged.push_back({study.goals[i], counted[i], study.rigs});
-    also.judged.back().counts.worlds = study.worlds;
+    also.judged.back().counts = measures::CellCounts({study.rigs, study.worlds, 0});
   }
   return comparison::gather_trials(outcomes, std::ssize(outcomes) / trials, also);
 }

@@ -140,7 +140,6 @@ tune: {free: {controller.ki: {log: [1.0e-5, 1.0e-4]}, controller.kp: [0, 1.0e-3]
 )",
                                                    "axis.yaml");
   TuneAnswer answer = answer_for(study, goal::Status::undecided);
-  answer.proof->verdict.conditions.resize(2);
   EXPECT_THAT(text_of(answer, study),
               HasSubstr("\n20 moves cannot show 90 % of one machine: 29 without a miss are needed; one just "
                         "below it has no miss with a probability of 12.2 %\n"));

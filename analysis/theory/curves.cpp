@@ -10,6 +10,7 @@
 
 #include "analysis/statistics/spread_over.hpp"
 #include "analysis/theory/theory_prediction.hpp"
+#include "analysis/theory/trial_loops.hpp"
 #include "core/numerics/bisection.hpp"
 #include "core/theory/crossovers.hpp"
 #include "experiments/parameters/parameter_table.hpp"

@@ -12,6 +12,7 @@
 #include "analysis/statistics/spread_over.hpp"
 #include "analysis/theory/plausibility.hpp"
 #include "analysis/theory/theory_prediction.hpp"
+#include "analysis/theory/trial_loops.hpp"
 #include "core/friction/law.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/frozen_loop.hpp"

@@ -10,6 +10,7 @@
 #include "analysis/statistics/spread_over.hpp"
 #include "analysis/theory/plausibility.hpp"
 #include "analysis/theory/theory_prediction.hpp"
+#include "analysis/theory/trial_loops.hpp"
 #include "core/friction/presliding/spring.hpp"
 #include "core/loop/controller/controller.hpp"
 #include "core/loop/encoder.hpp"

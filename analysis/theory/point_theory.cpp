@@ -7,6 +7,7 @@
 
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/theory/theory_prediction.hpp"
+#include "analysis/theory/trial_loops.hpp"
 #include "core/loop/controller/controller.hpp"
 #include "core/theory/gains.hpp"
 #include "core/theory/margins.hpp"

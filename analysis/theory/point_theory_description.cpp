@@ -21,25 +21,52 @@ string range_text(const Range& range) {
   return fmt::format("{:.3g} … {:.3g}", range.low, range.high);
 }
 
-/// A range: in JSON an object, for people a text; nothing where it is empty.
+/// A range as data; nothing where it is empty. @param heading empty: people are not shown it
+template <class Row, class Get>
+Description<Row>& add_range_data(Description<Row>& description, const char* key, const string& heading,
+                                 const string& meaning, Get get, const string& unit = {}) {
+  return description.object(everywhere(key, heading, meaning + ", over the trials", unit),
+                            Description<Range>()
+                                .value(in_data("low", "smallest", unit), &Range::low)
+                                .value(in_data("high", "largest", unit), &Range::high),
+                            [get](const Row& row) -> const Range* {
+                              const Range& range = std::invoke(get, row);
+                              return range.empty() ? nullptr : &range;
+                            });
+}
+
+/// A range: in JSON an object, for people a text with its unit. @param unit of a row
+template <class Row, class Get, class Unit>
+void add_range_with(Description<Row>& description, const char* key, const string& heading,
+                    const string& meaning, Get get, Unit unit) {
+  add_range_data(description, key, heading, meaning, get)
+      .shown_as([get, unit](const Row& row) -> optional<string> {
+        const Range& range = std::invoke(get, row);
+        if (range.empty()) return {};
+        return range_text(range) + " " + unit(row);
+      });
+}
+
+/// A range with a unit that all rows share.
 template <class Row, class Get>
 void add_range(Description<Row>& description, const char* key, const string& heading, const string& meaning,
-               Get get, const string& unit = {}) {
-  const auto found = [get](const Row& row) -> const Range* {
-    const Range& range = std::invoke(get, row);
-    return range.empty() ? nullptr : &range;
-  };
-  description
-      .object(everywhere(key, heading, meaning + ", over the trials", unit),
-              Description<Range>()
-                  .value(in_data("low", "smallest", unit), &Range::low)
-                  .value(in_data("high", "largest", unit), &Range::high),
-              found)
-      .shown_as([found, unit](const Row& row) -> optional<string> {
-        const Range* const range = found(row);
-        if (range == nullptr) return {};
-        return range_text(*range) + (unit.empty() ? "" : " " + unit);
+               Get get, const string& unit) {
+  add_range_data(description, key, heading, meaning, get, unit)
+      .shown_as([get, unit](const Row& row) -> optional<string> {
+        const Range& range = std::invoke(get, row);
+        if (range.empty()) return {};
+        return range_text(range) + " " + unit;
       });
+}
+
+/// A margin with its frequency. @param none what people see where no trial has a crossover
+void add_margin(Description<LoopRanges>& description, const char* key, const string& name, const char* unit,
+                Range LoopRanges::*margin, Range LoopRanges::*frequency, const char* none) {
+  add_range_data(description, key, name, name, margin, unit).shown_as([=](const LoopRanges& loop) -> string {
+    if ((loop.*margin).empty()) return none;
+    return fmt::format("{} {} at {} Hz", range_text(loop.*margin), unit, range_text(loop.*frequency));
+  });
+  add_range_data(description, (string(key) + "_at").c_str(), "", "frequency of the " + name, frequency, "Hz");
 }
 
 std::string_view to_string(LoopStability stability) {
@@ -65,8 +92,12 @@ Description<GainTheory> gain_description() {
   const auto is_zero = [](Of gain) { return gain.value.low == 0.0 && gain.value.high == 0.0; };
   Description<GainTheory> description;
   description.value(in_data("gain_name", "name of the integral gain"), &GainTheory::name)
-      .value(everywhere("gain_unit", "unit of gains", "unit of the gain and its bounds"), &GainTheory::unit);
-  add_range(description, "gain", "integral gain", "integral gain", &GainTheory::value);
+      .value(in_data("gain_unit", "unit of the gain and its bounds"), &GainTheory::unit);
+  const auto add_gain = [&](const char* key, const char* heading, const char* meaning,
+                            Range GainTheory::*gain) {
+    add_range_with(description, key, heading, meaning, gain, [](Of of) { return of.unit; });
+  };
+  add_gain("gain", "integral gain", "integral gain", &GainTheory::value);
   description
       .value(everywhere("integral", "integral", "why there is no integral; null: there is one"),
              [=](Of gain) -> optional<string> {
@@ -94,37 +125,48 @@ Description<GainTheory> gain_description() {
                if (gain.sampled_stable == std::set{true}) return "stable";
                return gain.sampled_stable == std::set{false} ? "unstable" : "unstable in some trials";
              });
-  add_range(description, "stable_below", "(6) stable below", "bound of criterion (6)",
-            &GainTheory::stable_below);
-  add_range(description, "sampled_below", "sampled loop, stable below", "bound of the sampled loop",
-            &GainTheory::sampled_below);
-  add_range(description, "unstable_above", "(7) unstable above", "bound of criterion (7)",
-            &GainTheory::unstable_above);
+  add_gain("stable_below", "(6) stable below", "bound of criterion (6)", &GainTheory::stable_below);
+  add_gain("sampled_below", "sampled loop, stable below", "bound of the sampled loop",
+           &GainTheory::sampled_below);
+  add_gain("unstable_above", "(7) unstable above", "bound of criterion (7)", &GainTheory::unstable_above);
   return description;
 }
 
+/// "holds", "holds in 3 of 200 trials", "holds in no trial".
+string holds_text(std::int64_t holding, std::int64_t trials) {
+  if (holding == trials) return "holds";
+  return holding == 0 ? "holds in no trial" : fmt::format("holds in {} of {} trials", holding, trials);
+}
+
 Description<DesignRules> rules_description() {
+  using Of = const DesignRules&;
   Description<DesignRules> description;
-  add_range(description, "dac_resolution", "code of the DAC", "torque of a code of the DAC",
-            &DesignRules::dac_resolution);
-  add_range(description, "dac_bound", "k1·Δx, above a code (paper, issue 4)", "bound of the rule for the DAC",
-            &DesignRules::dac_bound);
-  description.value(everywhere("torque_unit", "unit of both", "unit of both"), &DesignRules::torque_unit)
+  add_range_data(description, "dac_resolution", "DAC resolution", "torque of a code of the DAC",
+                 &DesignRules::dac_resolution)
+      .shown_as([](Of rules) {
+        return fmt::format("{} {}, below k1·Δx = {} {}{} (paper, issue 4): {}",
+                           range_text(rules.dac_resolution), rules.torque_unit, range_text(rules.dac_bound),
+                           rules.torque_unit,
+                           rules.coarse_feedback ? " with the Δx of the coarse encoder" : "",
+                           holds_text(rules.fine_enough, rules.trials));
+      });
+  add_range_data(description, "dac_bound", "", "bound of the rule for the DAC", &DesignRules::dac_bound)
+      .value(in_data("torque_unit", "unit of both"), &DesignRules::torque_unit)
       .value(in_data("coarse_feedback", "whether the bound is of the coarse encoder"),
              &DesignRules::coarse_feedback)
-      .value(everywhere("rule_trials", "trials tried", "trials that the rules were tried in"),
-             &DesignRules::trials)
-      .value(everywhere("fine_enough", "trials with a code below it",
-                        "trials in which the DAC satisfies its rule"),
-             &DesignRules::fine_enough)
-      .value(everywhere("fast_enough", "trials sampled fast enough",
-                        "trials in which the sample rate satisfies its rule"),
+      .value(in_data("rule_trials", "trials that the rules were tried in"), &DesignRules::trials)
+      .value(in_data("fine_enough", "trials in which the DAC satisfies its rule"), &DesignRules::fine_enough)
+      .value(in_data("fast_enough", "trials in which the sample rate satisfies its rule"),
              &DesignRules::fast_enough);
   add_range(description, "natural_frequency", "natural frequency", "natural frequency on k1 + k2",
             &DesignRules::frequency, "Hz");
-  add_range(description, "sample_rate", "sample rate, 10 times that (paper)", "sample rate",
-            &DesignRules::sample_rate, "Hz");
-  return description;
+  return add_range_data(description, "sample_rate", "sample rate", "sample rate", &DesignRules::sample_rate,
+                        "Hz")
+      .shown_as([](Of rules) {
+        return fmt::format("{} Hz, at least {:.3g} times the natural frequency (paper: 10): {}",
+                           range_text(rules.sample_rate), rules.sample_rate.low / rules.frequency.high,
+                           holds_text(rules.fast_enough, rules.trials));
+      });
 }
 
 string source_text(const LowestStiffness& lowest) {
@@ -142,18 +184,24 @@ string source_text(const LowestStiffness& lowest) {
   return fmt::format("the lowest along the profiles of {} rigs", lowest.rigs);
 }
 
-Description<LowestStiffness> lowest_description() {
-  using Of = const LowestStiffness&;
-  return Description<LowestStiffness>()
+Description<PointTheory> lowest_description() {
+  using Of = const PointTheory&;
+  const auto in_unit = [](Of theory, double bound) {
+    return fmt::format("{:.3g} {}", bound, theory.gain.unit);
+  };
+  return Description<PointTheory>()
       .value(everywhere("lowest_k1", "lowest k1", "lowest stiffness k1 of the study"),
-             [](Of l) { return l.k1.low; })
-      .value(everywhere("lowest_k1_source", "source of the lowest k1", "where it is from"), source_text)
+             [](Of t) { return t.lowest.k1.low; })
+      .shown_as([](Of t) { return fmt::format("{:.3g}, {}", t.lowest.k1.low, source_text(t.lowest)); })
+      .value(in_data("lowest_k1_source", "where it is from"), [](Of t) { return source_text(t.lowest); })
       .value(everywhere("lowest_stable_below", "at the lowest k1: (6) stable below",
                         "bound of criterion (6) there, in the unit of the gain"),
-             [](Of l) { return l.stable_below.low; })
+             [](Of t) { return t.lowest.stable_below.low; })
+      .shown_as([=](Of t) { return in_unit(t, t.lowest.stable_below.low); })
       .value(everywhere("lowest_sampled_below", "at the lowest k1: sampled loop below",
                         "bound of the sampled loop there, in the unit of the gain"),
-             [](Of l) { return l.sampled_below.low; });
+             [](Of t) { return t.lowest.sampled_below.low; })
+      .shown_as([=](Of t) { return in_unit(t, t.lowest.sampled_below.low); });
 }
 
 /// "a move of 30 counts needs about 1 s"; nothing where no move is a step.
@@ -171,12 +219,14 @@ Description<Approach> approach_description() {
       .value(everywhere("hold", "hold", "time that the shortest move is held", "s"), &Approach::hold)
       .value(everywhere("longest_step", "slowest move", "length of the slowest move; 0: no step", "count"),
              &Approach::longest_step)
-      .value(
-          everywhere("longest_time", "time of the slowest move", "time that it needs, with the dwell", "s"),
-          &Approach::longest_time)
-      .value(everywhere("exceeds_hold", "moves may end before they arrive",
-                        "whether moves may end before they arrive"),
-             &Approach::exceeds_hold);
+      .shown_as(arrival_text)
+      .value(in_data("longest_time", "time that it needs, with the dwell", "s"), &Approach::longest_time)
+      .value(everywhere("exceeds_hold", "warning", "whether moves may end before they arrive"),
+             &Approach::exceeds_hold)
+      .shown_as([](const Approach& approach) -> optional<string> {
+        if (!approach.exceeds_hold()) return {};
+        return "moves may end before they arrive";
+      });
 }
 
 }  // namespace
@@ -211,15 +261,14 @@ Description<LoopRanges> loop_description() {
       .value(everywhere("stability", "verdict", "stable, marginal or unstable: all that occur in the trials"),
              stabilities)
       .shown_as(stability_text);
-  add_range(description, "slow", "slowest time constant", "slowest time constants longer than the hold",
-            &LoopRanges::slow, "s");
+  add_range_data(description, "slow", "", "slowest time constants longer than the hold", &LoopRanges::slow,
+                 "s");
   add_range(description, "bandwidth", "crosses gain 1 at", "bandwidth while it slides",
             &LoopRanges::bandwidth, "Hz");
-  add_range(description, "gain_margin", "gain margin", "gain margin", &LoopRanges::gain, "dB");
-  add_range(description, "gain_margin_at", "at", "frequency of the gain margin", &LoopRanges::gain_at, "Hz");
-  add_range(description, "phase_margin", "phase margin", "phase margin", &LoopRanges::phase, "°");
-  add_range(description, "phase_margin_at", "at", "frequency of the phase margin", &LoopRanges::phase_at,
-            "Hz");
+  add_margin(description, "gain_margin", "gain margin", "dB", &LoopRanges::gain, &LoopRanges::gain_at,
+             "no phase crossover");
+  add_margin(description, "phase_margin", "phase margin", "°", &LoopRanges::phase, &LoopRanges::phase_at,
+             "no gain crossover");
   return description;
 }
 
@@ -232,7 +281,7 @@ Description<PointTheory> point_theory_description() {
           [=](Of t) { return applies(t) ? std::nullopt : optional(t.outside); })
       .include(gain_description(), [=](Of t) { return applies(t) || t.free ? &t.gain : nullptr; })
       .include(rules_description(), [=](Of t) { return applies(t) ? &t.rules : nullptr; })
-      .include(lowest_description(), [=](Of t) { return applies(t) ? &t.lowest : nullptr; })
+      .include(lowest_description(), [=](Of t) { return applies(t) ? &t : nullptr; })
       .include(approach_description(),
                [=](Of t) {
                  return (applies(t) || t.free) && !t.approach.time_constant.empty() ? &t.approach : nullptr;

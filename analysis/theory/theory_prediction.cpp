@@ -10,6 +10,7 @@
 #include <oneapi/tbb/parallel_reduce.h>
 
 #include "analysis/text/text.hpp"
+#include "analysis/theory/trial_loops.hpp"
 #include "core/friction/law.hpp"
 #include "core/loop/controller/controller.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/motion/parameters.hpp"
-#include "core/theory/frozen_loop.hpp"
+#include "core/theory/sampled_stability.hpp"
 #include "core/theory/stability.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/study/study.hpp"
@@ -76,18 +76,6 @@ std::string why_outside_theory(const trial::TrialParameters& parameters);
 
 /// The linear model of the trial's converter and amplifier.
 LinearDrive drive_of(const trial::TrialParameters& parameters);
-
-/// A loop of a trial with its friction frozen.
-struct TrialLoop {
-  std::string name;       ///< "at k1", "at k1 + k2", "while sliding", "while sliding, the fine phase", …
-  bool slides{false};     ///< there is no spring
-  double stiffness{0.0};  ///< of the spring, N m/rad
-  FrozenLoop loop;
-};
-
-/// The loop in the fine phase about each stiffness of the contact at the start, then each phase of the
-/// control while the rotor slides. Empty if has_no_linear_loop().
-std::vector<TrialLoop> trial_loops(const trial::TrialParameters& parameters);
 
 /// The plant with its inertia in two halves, motor and load, that swing against each other; the encoder is on
 /// the motor, and the coupling's damping is 1 % of the critical one. The sum of the inertias is kept.

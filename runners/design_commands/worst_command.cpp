@@ -83,7 +83,7 @@ document::Description<JudgedMachine> judged_description() {
       .value(std::move(goal), &JudgedMachine::goal)
       .value(everywhere("moves", "moves", "moves by which the machine is judged"), &JudgedMachine::moves)
       .value({.key = "met",
-              .heading = "moves that meet the goal",
+              .heading = "moves that do as asked",
               .meaning = "proportion of these moves that meet the goal",
               .unit = "1",
               .notation = document::Notation::percent},

@@ -106,6 +106,22 @@ std::string plan_headline(const Plan& plan) {
                      status::duration_text(plan.cost.seconds()));
 }
 
+/// "12, 16 trials of each"; nothing without rigs.
+std::optional<std::string> rigs_text(const Plan& plan) {
+  if (plan.study.rigs == 0) return {};
+  return fmt::format("{}, {} of each", plan.study.rigs,
+                     text::counted(plan.study.trials / plan.study.rigs, "trial"));
+}
+
+/// "3, 4 rigs in each", "3, about 40 trials in each"; nothing without worlds.
+std::optional<std::string> worlds_text(const Plan& plan) {
+  const study::Study& study = plan.study;
+  if (study.worlds == 0) return {};
+  if (study.rigs == 0)
+    return fmt::format("{}, about {} trials in each", study.worlds, study.trials / study.worlds);
+  return fmt::format("{}, {} in each", study.worlds, text::counted(study.rigs / study.worlds, "rig"));
+}
+
 std::vector<std::string> ages_of(const Plan& plan) {
   std::vector<std::string> texts;
   for (const double age : plan.study.ages.at) texts.push_back(study::age_text(plan.study.ages, age));
@@ -134,14 +150,20 @@ std::string cost_text(const Plan& plan) {
 
 /// Over what the theory is.
 std::string theory_text(const Plan& plan) {
-  return fmt::format(
-      "The theory is of {} of {} (--all-points shows all): of the first {} trials of each, each with the "
-      "friction it starts on; the sampled loop, time constants and margins of the first {}, and of the "
-      "trials "
-      "with the lowest and the highest k1",
-      plan.points_shown(), text::counted(plan.all_points(), "design point"),
-      std::min(study::draw_count(plan.study), theory::max_trials_examined),
-      std::min(study::draw_count(plan.study), theory::max_trials_examined_closely));
+  const std::int64_t trials = study::draw_count(plan.study);
+  const std::string points = plan.points_left_out() == 0
+                                 ? "each point"
+                                 : fmt::format("the first {} of {} points (--all-points shows all)",
+                                               plan.points_shown(), plan.all_points());
+  const std::string close =
+      trials <= theory::max_trials_examined_closely
+          ? ""
+          : fmt::format(
+                "; the sampled loop, time constants and margins over the first {}, and the trials with the "
+                "lowest and the highest k1",
+                theory::max_trials_examined_closely);
+  return fmt::format("The theory is of {}, over the first {} trials, each with the friction it starts on{}",
+                     points, std::min(trials, theory::max_trials_examined), close);
 }
 
 /// Trials that the rule takes against a number fixed beforehand, at three success rates.
@@ -223,7 +245,9 @@ document::Description<Plan> plan_description() {
              [](Of p) { return p.study.trials; })
       .value(in_data("moves", "moves of a trial"), [](Of p) { return p.study.moves; })
       .value({"rigs", "rigs at each point", "rigs at each point; 0: none"}, [](Of p) { return p.study.rigs; })
+      .shown_as(rigs_text)
       .value({"worlds", "worlds", "worlds; 0: none"}, [](Of p) { return p.study.worlds; })
+      .shown_as(worlds_text)
       .value(
           {"conditions", "under the conditions", "names of the conditions that every rig bears; empty: none"},
           [](Of p) { return p.study.conditions; })

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -72,6 +73,22 @@ void check_records(const reading::ResultsFile& file, const study::Study& study, 
   problems.add(
       fmt::format("/trace/trial: it has records of {} trials; expected those of the {} retained ones", traced,
                   expected.size()));
+}
+
+/// A file of failures alone keeps no trial that succeeded.
+void check_failures(const reading::ResultsFile& file, const study::Study& study, ProblemList& problems) {
+  if (!file.trials() || !layout::has_sums(study.retention)) return;
+  const reading::TrialTables& trials = *file.trials();
+  const auto moves = static_cast<std::size_t>(trials.moves());
+  trials.for_each_block([&](layout::RowRange positions) {
+    const std::vector<trial::MoveOutcome> outcomes = trials.outcomes(positions);
+    std::span<const trial::MoveOutcome> rest = outcomes;
+    for (const std::int64_t row : trials.rows(positions)) {
+      if (trial::succeeded(rest.first(moves)))
+        problems.add(fmt::format("trial {}: kept as a failure; all its moves ended at zero", row));
+      rest = rest.subspan(moves);
+    }
+  });
 }
 
 /// The sentence for a difference between the file and the rebuilt one.
@@ -163,6 +180,7 @@ std::optional<Described> check_statistics(CheckReport& report,
     };
     work_on([&] { study_run::check_contents(file, described->study); });
     work_on([&] { check_records(file, described->study, problems); });
+    work_on([&] { check_failures(file, described->study, problems); });
     work_on([&] { compare_rebuilt(file, described->study, report.stop, problems); });
   });
   return described;

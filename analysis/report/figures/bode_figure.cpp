@@ -14,6 +14,7 @@
 #include "analysis/theory/curves.hpp"
 #include "analysis/theory/point_theory.hpp"
 #include "analysis/theory/theory_prediction.hpp"
+#include "analysis/theory/trial_loops.hpp"
 #include "core/theory/margins.hpp"
 #include "core/theory/stability.hpp"
 

@@ -9,6 +9,7 @@
 
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/theory/theory_prediction.hpp"
+#include "analysis/theory/trial_loops.hpp"
 #include "core/friction/law.hpp"
 #include "core/friction/parameters.hpp"
 #include "core/loop/controller/controller.hpp"

@@ -156,7 +156,8 @@ void expect_the_detectable_to_be_found(bool paired, int comparisons) {
   constexpr std::int64_t count = 400;
   double detectable = 0.0;
   for (int i = 0; i < 20; ++i)
-    detectable += compare_once(random, paired, {}, unchanged, count)[1].judgements[0].detectable_change / 20.0;
+    detectable +=
+        compare_once(random, paired, {}, unchanged, count)[1].judgements[0].detectable_change / 20.0;
   EXPECT_GT(detectable, 0.02);
   int found = 0;
   for (int i = 0; i < comparisons; ++i) {

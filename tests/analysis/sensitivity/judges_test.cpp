@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/sensitivity/sobol_indices.hpp"
 #include "analysis/sensitivity/correlations.hpp"
+#include "analysis/sensitivity/sobol_indices.hpp"
 #include "experiments/designs/random_key.hpp"
 #include "tests/analysis/sensitivity/test_functions.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,5 +1,3 @@
-#include "analysis/summary/chosen_point.hpp"
-
 #include <random>
 #include <vector>
 
@@ -7,6 +5,7 @@
 
 #include "analysis/goal/success_bounds.hpp"
 #include "analysis/measures/point_accumulator.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "tests/analysis/summary/swept_study.hpp"
 
 namespace zerocount::summary {

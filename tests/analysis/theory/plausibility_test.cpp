@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/theory/theory_prediction.hpp"
+#include "analysis/theory/trial_loops.hpp"
 #include "core/theory/margins.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"

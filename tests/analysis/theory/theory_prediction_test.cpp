@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/theory/trial_loops.hpp"
 #include "core/loop/controller/controller.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/plant/plant.hpp"

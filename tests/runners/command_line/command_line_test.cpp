@@ -329,7 +329,8 @@ TEST(OptionsWithoutEffect, AreErrorsOfEveryVerb) {
       for (const std::string& excluded : option.excludes) {
         ++conditions;
         std::vector<const command_line::OptionSpec*> all{&option, &option_of(spec, excluded)};
-        for (const std::string& need : option.needs) all.push_back(&option_of(spec, need));
+        for (const command_line::OptionSpec* one = &option; !one->needs.empty(); all.push_back(one))
+          one = &option_of(spec, one->needs.front());
         EXPECT_NE(refusal_of(spec, operand, all).find("exclude each other"), std::string::npos)
             << spec.name << own << excluded;
       }

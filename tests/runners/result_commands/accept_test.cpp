@@ -118,8 +118,7 @@ TEST_F(Accept, RejectsFewerThanPredicted) {
   const Json worse = json_of({"worse.csv"}, 1);
   EXPECT_EQ(worse["goals"][0]["goal_status"], "undecided");
   const std::string text = program({"accept", "study.h5", "worse.csv"}).out;
-  EXPECT_EQ(text.find("rejected by 60 moves of 1 machine: met less often than predicted: goal (90 % of"),
-            0u)
+  EXPECT_EQ(text.find("rejected by 60 moves of 1 machine: met less often than predicted: goal (90 % of"), 0u)
       << text;
   EXPECT_GT(worse["goals"][0]["measured_high"], 0.9);
   EXPECT_EQ(worse["goals"][0]["agreement"], "differs");
@@ -213,7 +212,8 @@ goals: {back: {on: [1], band: 1, within: 0.03, moves: 0.9}}
   EXPECT_EQ(numbered["machines"][0]["moves"], Json({100}));
   EXPECT_EQ(numbered["machines"][0]["met"], Json({100}));
   const std::string page = program({"accept", "study.h5", "numbered.csv", "--these"}).out;
-  EXPECT_NE(page.find("accepted: 100 moves of 1 machine show that these machines meet the goal"), std::string::npos)
+  EXPECT_NE(page.find("accepted: 100 moves of 1 machine show that these machines meet the goal"),
+            std::string::npos)
       << page;
   EXPECT_NE(page.find("100 of 100"), std::string::npos) << page;
   EXPECT_EQ(page.find("200"), std::string::npos) << page;

@@ -1,6 +1,4 @@
 // A log that another process writes, replaces, moves or cuts.
-#include "runners/result_commands/machine_logs.hpp"
-
 #include <filesystem>
 #include <string>
 
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/failure/failure.hpp"
+#include "runners/result_commands/machine_logs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::testing {

@@ -82,7 +82,7 @@ struct Answer {
 };
 
 const std::vector<Answer> answers{
-    {{"check", "@.yaml"}, {"judged by the goal: |error| ≤ 2 counts"}, {"judged by success: all moves"}},
+    {{"check", "@.yaml"}, {" the goal: |error| ≤ 2 counts"}, {" success: all moves"}},
     {{"judge", "@.h5"}, {"goal: |error| ≤ 2 counts"}, {}},
     {{"plan", "@.h5"}, {"goal: |error| ≤ 2 counts"}, {}},
     {{"plan", "@.yaml"}, {"goal: |error| ≤ 2 counts"}, {}},

@@ -74,9 +74,10 @@ std::string reasons_to_reject(Of a) {
 std::string headline_of(Of a) {
   const std::string of = judged_text(a);
   const char* const whose = a.judged == Judged::all_machines ? "all such machines" : "these machines";
+  const char* const goals = a.claims.size() > 1 ? "every goal" : "the goal";
   switch (status_of(a)) {
     case Status::accepted:
-      return fmt::format("accepted: {} show that {} meet the goal, as often as predicted", of, whose);
+      return fmt::format("accepted: {} show {} of {} met, as often as predicted", of, goals, whose);
     case Status::rejected:
       return fmt::format("rejected by {}: {}", of, reasons_to_reject(a));
     case Status::undecided:
@@ -84,7 +85,7 @@ std::string headline_of(Of a) {
   }
   const std::string needed =
       a.needed_machines == 0 ? "" : fmt::format("; about {} machines would decide", a.needed_machines);
-  return fmt::format("undecided: {} are too few to show that {} meet the goal{}", of, whose, needed);
+  return fmt::format("undecided: {} are too few to show {} of {} met{}", of, goals, whose, needed);
 }
 
 std::string sentences_of_goals(Of a) {

@@ -87,7 +87,8 @@ Description<JerkIntervals> interval_description() {
 Description<TrendSummary> slowing_description() {
   return Description<TrendSummary>()
       .value(fact("moves", "moves with two or more intervals that differ"), &TrendSummary::moves)
-      .value(fact("tested", "moves with enough intervals for a test of their own"), &TrendSummary::tested)
+      .value(fact("tested", "moves with 4 or more intervals, each tested (95 %, one-sided)"),
+             &TrendSummary::tested)
       .value(fact("slowing", "tested moves whose jerks slow down"), &TrendSummary::slowing)
       .value(fact("quickening", "tested moves whose jerks quicken"), &TrendSummary::quickening)
       .value(fact("score", "Laplace's score of all moves; negative if jerks slow down", "1"),
@@ -95,24 +96,34 @@ Description<TrendSummary> slowing_description() {
       .value(fact("stouffer", "sum of the scores of the moves over the root of their number", "1"),
              &TrendSummary::stouffer)
       .value(fact("p_value", "probability of such a score without a trend", "1"), &TrendSummary::p_slowing)
-      .value(fact("permutations", "permutations of the p-value; 0: its normal limit"),
+      .shown_as([](const TrendSummary& trend) -> std::optional<std::string> {
+        if (std::isnan(trend.p_slowing)) return {};
+        const bool least =
+            trend.permutations > 0 && trend.p_slowing * static_cast<double>(trend.permutations + 1) < 1.5;
+        return fmt::format("{}{:.2g}", least ? "at most " : "", trend.p_slowing);
+      })
+      .value(document::in_data("permutations", "permutations of the p-value; 0: its normal limit"),
              &TrendSummary::permutations);
 }
 
 Description<statistics::ClusteredProportion> proportion_description() {
   using Proportion = statistics::ClusteredProportion;
   return Description<Proportion>()
-      .value(fact("hits", "jerks that have the property"), &Proportion::hits)
-      .value(fact("jerks", "all jerks"), &Proportion::events)
-      .value(fact("proportion", "proportion of jerks, with Korn-Graubard bounds", "1"),
+      .value(fact("hits", "jerks of this kind"), &Proportion::hits)
+      .value(document::in_data("jerks", "all jerks"), &Proportion::events)
+      .value({.key = "proportion",
+              .heading = "proportion of all jerks [Korn-Graubard bounds]",
+              .meaning = "proportion of jerks, with Korn-Graubard bounds",
+              .unit = "1",
+              .notation = document::Notation::percent},
              [](const Proportion& p) { return bounded(p.value, p.korn_graubard); })
-      .value(fact("independent", "number of independent jerks that tell as much", "1"),
+      .value(document::in_data("independent", "number of independent jerks that tell as much", "1"),
              &Proportion::effective_events);
 }
 
 Description<JerkMagnitudes> magnitude_description() {
   return Description<JerkMagnitudes>()
-      .value(fact("counts", "jerks of 1, 2, ... counts; the last: or more"), &JerkMagnitudes::counts)
+      .value(fact("counts", "jerks of 1, of 2, of 3 or more counts"), &JerkMagnitudes::counts)
       .value(fact("mean", "mean of the largest |error|", "counts"), &JerkMagnitudes::mean)
       .value(fact("max", "largest |error|", "counts"), &JerkMagnitudes::max)
       .value(fact("median_duration", "median duration of a jerk", "s"), &JerkMagnitudes::median_duration)
@@ -169,7 +180,8 @@ Description<JerkStatistics> statistics_description() {
       .object(everywhere("slowing", "Trend of the intervals",
                          "trend of the intervals between the jerks of a move"),
               slowing_description(), &Statistics::slowing)
-      .object(everywhere("agreement", "Direction", "jerks in the direction of their holding torque"),
+      .object(everywhere("agreement", "In the direction of the holding torque",
+                         "jerks in the direction of their holding torque"),
               proportion_description(), &Statistics::agreement)
       .object(everywhere("magnitude", "Magnitude", "largest |error| of the jerks"), magnitude_description(),
               &Statistics::magnitudes);

@@ -173,8 +173,7 @@ std::string notes_of(Of r) {
                                                    : fmt::format("blocks of {} moves", settings.block);
   notes.push_back(fmt::format(
       "a false alarm within any number of moves has at most the probability {}, where the {} are "
-      "exchangeable "
-      "with those of the baseline ({})",
+      "exchangeable with those of the baseline ({}) that are like them",
       text::percent(settings.alarm), values, grouped ? monitor.baseline_values() : r.baseline.moves));
   std::int64_t over = 0;
   std::vector<std::string> resembling, alternating;

@@ -176,6 +176,10 @@ void add_claims(SummaryDescription& answer, const summary::StudySummary& summary
   answer.table({.heading = summary.points.size() > 1 ? "by claim, at the chosen point" : "by claim"},
                summary::cell_description({}, summary::CellsBy::claim),
                [](const SummaryReading& s) { return summary::claims_of_point(s.summary, s.chosen.point); });
+  answer.sentence([](const SummaryReading& s) {
+    return fmt::format("bounds of one side each with {} confidence",
+                       text::percent(s.summary.question.claim()->confidence));
+  });
 }
 
 }  // namespace zerocount::summary_answer

@@ -324,7 +324,7 @@ document::AnswerDescription<Plans> answer_to(std::string_view question) {
     answer.items.table({.key = "rig_plans", .meaning = "rigs and trials, if no trial fails"}, rig_columns(),
                        &Plans::tolerance);
   if (of_claim || of_rigs) answer.items.sentence(halfwidth_headline);
-  answer.items.object(everywhere("halfwidth", "bounds of the rate", "plan of the bounds of a rate"),
+  answer.items.object(everywhere("halfwidth", "trials for these bounds", "plan of the bounds of a rate"),
                       halfwidth_description(),
                       [](const Plans& plans) { return plans.request.halfwidth ? &plans : nullptr; });
   return answer;

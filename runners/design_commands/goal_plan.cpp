@@ -81,8 +81,10 @@ std::string smallest_headline(const GoalPlans& plans) {
   if (plans.smallest.empty()) return "no study of up to 10⁹ trials can meet the goal";
   const goal::Needs& first = plans.smallest.front().needs;
   const bool on_rigs = plans.study.rigs > 0;
-  return fmt::format("the goal can be met from {} {} on, if no move misses it",
-                     on_rigs ? first.rigs : first.trials, on_rigs ? "rigs" : "trials");
+  return fmt::format("{} can be met from {} {} on, if no move misses {}",
+                     plans.study.goals.size() > 1 ? "the goals" : "the goal",
+                     on_rigs ? first.rigs : first.trials, on_rigs ? "rigs" : "trials",
+                     plans.study.goals.size() > 1 ? "them" : "it");
 }
 
 /// What the numbers are of.

@@ -108,7 +108,7 @@ document::Description<Limit> limit_columns(const document::Item& effect) {
               .shown = Shown::in_json,
               .optional = true},
              gain_of(&tuning::PairedGain::shown))
-      .value(document::to_people("shown to raise it"),
+      .value(document::to_people("shown to raise the rate"),
              [](const Limit& limit) { return limit.is_shown_cause() ? "yes" : ""; })
       .value(
           everywhere("note", "remark", "what the rate does not show, what is assumed, or why there is none"),
@@ -183,12 +183,12 @@ struct PointLimits {
 /// Tells what was simulated.
 std::string simulated_sentence(const PointLimits& found) {
   const std::int64_t all = trials::replicates_of(found.study, found.units.point).count;
-  const char* const units = found.study.rigs > 0 ? "machines" : "trials";
+  const std::string units = std::string(found.study.rigs > 0 ? "machines" : "trials") + " of the study" +
+                            (found.study.conditions.empty() ? "" : " under each condition");
   return (found.units.count < all
-              ? fmt::format(
-                    "simulated: the first {} of {} {} of the study, as many as the budget is enough for",
-                    found.units.count, all, units)
-              : fmt::format("simulated: the {} {} of the study", all, units)) +
+              ? fmt::format("simulated: the first {} of {} {}, as many as the budget is enough for",
+                            found.units.count, all, units)
+              : fmt::format("simulated: the {} {}", all, units)) +
          ", in each row with the same random numbers; pairs of causes first on some of them";
 }
 

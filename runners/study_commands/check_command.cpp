@@ -122,10 +122,22 @@ std::optional<std::string> worlds_text(const Plan& plan) {
   return fmt::format("{}, {} in each", study.worlds, text::counted(study.rigs / study.worlds, "rig"));
 }
 
-std::vector<std::string> ages_of(const Plan& plan) {
+/// "2, 8000 trials under each: warm, cold"; nothing without conditions.
+std::optional<std::string> conditions_text(const Plan& plan) {
+  const std::vector<std::string>& names = plan.study.condition_names;
+  if (names.empty()) return {};
+  return fmt::format("{}, {} trials under each: {}", names.size(), plan.study.trials / std::ssize(names),
+                     fmt::join(names, ", "));
+}
+
+/// "4, 4000 trials at each: 0 cycles, 100000 cycles, …"; nothing without ages.
+std::optional<std::string> ages_text(const Plan& plan) {
+  const study::Ages& ages = plan.study.ages;
+  if (ages.at.empty()) return {};
   std::vector<std::string> texts;
-  for (const double age : plan.study.ages.at) texts.push_back(study::age_text(plan.study.ages, age));
-  return texts;
+  for (const double age : ages.at) texts.push_back(study::age_text(ages, age));
+  return fmt::format("{}, {} trials at each: {}", texts.size(), plan.study.trials / std::ssize(texts),
+                     fmt::join(texts, ", "));
 }
 
 std::string stop_text(const Plan& plan) {
@@ -153,7 +165,7 @@ std::string theory_text(const Plan& plan) {
   const std::int64_t trials = study::draw_count(plan.study);
   const std::string points = plan.points_left_out() == 0
                                  ? "each point"
-                                 : fmt::format("the first {} of {} points (--all-points shows all)",
+                                 : fmt::format("each of the first {} of {} points (--all-points shows all)",
                                                plan.points_shown(), plan.all_points());
   const std::string close =
       trials <= theory::max_trials_examined_closely
@@ -162,8 +174,9 @@ std::string theory_text(const Plan& plan) {
                 "; the sampled loop, time constants and margins over the first {}, and the trials with the "
                 "lowest and the highest k1",
                 theory::max_trials_examined_closely);
-  return fmt::format("The theory is of {}, over the first {} trials, each with the friction it starts on{}",
-                     points, std::min(trials, theory::max_trials_examined), close);
+  return fmt::format("The theory is of the first {} trials of {}{}, each with the friction it starts on{}",
+                     std::min(trials, theory::max_trials_examined), points,
+                     plan.study.conditions.empty() ? "" : " under each condition", close);
 }
 
 /// Trials that the rule takes against a number fixed beforehand, at three success rates.
@@ -251,7 +264,8 @@ document::Description<Plan> plan_description() {
       .value(
           {"conditions", "under the conditions", "names of the conditions that every rig bears; empty: none"},
           [](Of p) { return p.study.conditions; })
-      .value({.heading = "at the ages", .shown = document::Shown::to_people}, ages_of)
+      .shown_as(conditions_text)
+      .value({.heading = "at the ages", .shown = document::Shown::to_people}, ages_text)
       .sentence(stop_text)
       .value({"judged_by", "judged by", "what the moves are judged by; null without targets"}, judged_by)
       .table({"stopping", "Trials that the stopping rule takes", "trials that the stopping rule takes"},

@@ -77,7 +77,7 @@ std::string headline_of(Of a) {
   const char* const goals = a.claims.size() > 1 ? "every goal" : "the goal";
   switch (status_of(a)) {
     case Status::accepted:
-      return fmt::format("accepted: {} show {} of {} met, as often as predicted", of, goals, whose);
+      return fmt::format("accepted: {} show that {} meet {}, as often as predicted", of, whose, goals);
     case Status::rejected:
       return fmt::format("rejected by {}: {}", of, reasons_to_reject(a));
     case Status::undecided:
@@ -85,7 +85,7 @@ std::string headline_of(Of a) {
   }
   const std::string needed =
       a.needed_machines == 0 ? "" : fmt::format("; about {} machines would decide", a.needed_machines);
-  return fmt::format("undecided: {} are too few to show {} of {} met{}", of, goals, whose, needed);
+  return fmt::format("undecided: {} are too few to show {} for {}{}", of, goals, whose, needed);
 }
 
 std::string sentences_of_goals(Of a) {

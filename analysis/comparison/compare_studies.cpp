@@ -70,7 +70,8 @@ PointPair read_trials(const StudyPair& pair, const MatchedPoint& point) {
   return {read(pair.baseline, point.baseline), read(pair.current, point.current)};
 }
 
-/// What `use` makes of the trials that are compared: of pairs, those that both files have.
+/// Calls `use` with the trials that are compared. Where trials are paired, these are the ones that both files
+/// have.
 template <class Use>
 auto of_compared(const PointPair& trials, bool paired, const Use& use) {
   if (!paired) return use(BothTrials{trials.baseline, trials.current, false});

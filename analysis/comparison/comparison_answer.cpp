@@ -217,7 +217,7 @@ struct Row {
   }
 };
 
-/// Of a quantile's requirement those of the proportion within its limit.
+/// A requirement on a quantile has the bounds of the proportion within its limit.
 std::string Row::bounds() const {
   if (std::isnan(one.bounds.low)) return "–";
   if (one.is_measure() || one.measure.find('.') == std::string::npos)
@@ -435,7 +435,7 @@ document::AnswerDescription<StudyComparison> comparison_answer() {
 }
 
 std::string comparison_junit(const StudyComparison& comparison) {
-  // What XML cannot hold is replaced.
+  // XML cannot hold control characters: text::printable replaces them.
   const auto xml = [](std::string_view text) { return text::escaped_markup(text::printable(text)); };
   const std::string suite = xml(comparison.current.header.name);
   std::map<std::string, std::int64_t> elements;

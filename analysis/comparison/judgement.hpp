@@ -11,7 +11,7 @@
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/two_samples/sample.hpp"
 
-/// What a comparison judges at a design point, and how its verdict follows from numbers.
+/// The judgements of a comparison at a design point, and the rules by which numbers give a verdict.
 namespace zerocount::comparison {
 
 /// Probability with which the number of trials that would decide does decide, and with which the smallest

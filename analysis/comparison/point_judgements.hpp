@@ -59,7 +59,8 @@ struct RequirementSample {
 };
 RequirementSample requirement_sample(const Requirement& requirement, const PointTrials& trials);
 
-/// Of a unit: 1, its hits h and events e, h², h·e, e². Their sums over the units are what the verdict needs.
+/// The terms 1, h, e, h², h·e, e² of a unit with h hits in e events. The verdict needs their sums over the
+/// units.
 two_samples::Sums sums_of_unit(double hits, double events);
 
 /// The verdict of judge_requirement() on a sample with these sums.

@@ -30,7 +30,7 @@ struct GoalTrials {
   std::string settling_time() const { return name_of_goal_measure("goal_settling_time", goal.name); }
 };
 
-/// What is gathered of trials beside the gate measures.
+/// The values of trials that are read beside the gate measures.
 struct AlsoRead {
   std::vector<GateMeasure> bands{};    ///< measures of error bands, which the file has
   std::vector<GoalTrials> required{};  ///< by the goals that a requirement asks for

@@ -9,7 +9,7 @@
 #include "experiments/manifest_text/manifest_values.hpp"
 #include "results/reading/all_trials_file.hpp"
 
-/// What of two files is compared: which points, how many trials of each, and by which goal.
+/// Matches two files: the points that both have, how many trials of each are compared, and the goal.
 namespace zerocount::comparison {
 
 /// A design point that both files have, under one condition where they have any.

@@ -19,7 +19,7 @@ bool is_for_people(const Item& item) {
   return is_shown(item.shown, Audience::people);
 }
 
-/// What people are shown of an item.
+/// The content that people see in place of the data.
 const Content& shown_content(const Content& content) {
   return content.for_people ? *content.for_people : content;
 }

@@ -87,10 +87,10 @@ struct Item {
   bool free_keys{false};             ///< of an object: its members are alike, and a study gives their keys
   bool common_above{false};          ///< of a table: what all its rows say alike is said once, above it
 
-  /// Of a member of a row: for people it stands in a table with this title below that of the rows, beside
-  /// others of the same title. An object has its members as columns there, a table its rows, and both their
-  /// sentences below it, each behind the name of the row. Empty: in the table of the rows, where an object
-  /// without heading has its members as columns.
+  /// For a member of a row: people see it in a table with this title, which stands below the table of the
+  /// rows. Members with the same title share the table. There an object gives its members as columns, and a
+  /// table gives its rows; their sentences follow, each behind the name of its row. Empty: the member stays
+  /// in the table of the rows, where an object without heading gives its members as columns.
   std::string own_table{};
   std::string note{};     ///< for people: sentences below its table
   bool names_row{false};  ///< of a member of a row: it is the first column of those tables, and of no other

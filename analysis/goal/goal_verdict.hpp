@@ -77,7 +77,8 @@ inline Verdict judge_goal(const study::Goal& goal, const measures::CellCounts& c
 ClaimVerdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
                         std::size_t parts = 1);
 
-/// The worst of the claims on one goal; of those under one condition; of those in some other group.
+/// The worst of the claims on one goal; of those under one condition; of those in some other group. The
+/// verdict has such a claim.
 const ClaimVerdict& worst_of_goal(const Verdict& verdict, std::size_t goal);
 const ClaimVerdict& worst_under(const Verdict& verdict, std::size_t condition);
 const ClaimVerdict& worst_where(const Verdict& verdict,

@@ -210,7 +210,7 @@ using document::in_data;
 using document::to_people;
 using Run = const SeriesRun&;
 
-/// Of a run whose value has a comparison.
+/// How the value of a run compares with its baseline, for a run that was compared.
 Description<SeriesRun> comparison_description() {
   const auto compared = [](auto ValueComparison::*member) {
     return [member](Run r) { return (*r.value.comparison).*member; };

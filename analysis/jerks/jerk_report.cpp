@@ -218,8 +218,7 @@ std::string headline(const JerkReport& report) {
 
 constexpr const char* legend =
     "dispersion: above 1 where the jerks of a trial vary more than independent ones; the bounds of the rate "
-    "are "
-    "widened by it\n"
+    "are widened by it\n"
     "trend: scores have mean 0 and standard deviation 1 without one, whatever the distribution of the "
     "intervals. A trend does not tell its cause: creep, or noise that moves the rotor to where it is quieter";
 

@@ -72,7 +72,8 @@ class CellCounts {
   /// [world] and [condition] the moves of each; empty without worlds, conditions.
   std::vector<MoveCounts> by_world() const { return by_world(std::nullopt); }
   std::vector<MoveCounts> by_condition() const;
-  /// What must hold everywhere under a condition: [world], or without worlds all moves under it.
+  /// The moves under a condition by world, [world]; without worlds all of them as one. A claim must hold in
+  /// each.
   std::vector<MoveCounts> worlds_under(std::size_t condition) const;
   /// The cells under one condition.
   CellCounts under(std::size_t condition) const;
@@ -99,7 +100,7 @@ class CellCounts {
  private:
   using Condition = std::optional<std::size_t>;  ///< nothing: all
 
-  /// What stands in a file of one condition, or of all.
+  /// The sums of one condition, or of all, as a file has them.
   struct Part {
     MoveCounts counts;
     std::vector<statistics::ClusterSums> of_worlds;  ///< empty without worlds, with rigs

@@ -86,8 +86,7 @@ TEST_F(SlowStage, IsCalledUndecidedWithTheHoldThatDecides) {
   const std::string table = run({"summary", "slow.h5"}).out;
   const std::string sentence = fmt::format(
       "\n{} of 240 moves ended more than one count off their target without oscillating; the error "
-      "was "
-      "still falling in {} of 240 moves at the end of the hold",
+      "was still falling in {} of 240 moves at the end of the hold",
       counted.off_target, counted.still_falling);
   const std::string advice = fmt::format(
       "; hold ≥ about {} s\nSuch moves are undecided: neither stable nor "

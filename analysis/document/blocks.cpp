@@ -19,11 +19,6 @@ bool is_for_people(const Item& item) {
   return is_shown(item.shown, Audience::people);
 }
 
-/// The content that people see in place of the data.
-const Content& shown_content(const Content& content) {
-  return content.for_people ? *content.for_people : content;
-}
-
 Kind shown_kind(const Item& item) {
   return item.kind_for_people.value_or(item.kind);
 }
@@ -88,7 +83,7 @@ struct ValueText {
     std::vector<std::string> values;
     for (std::size_t i = 0; i < members.contents.size(); ++i) {
       const Item& member = item.members[i];
-      const Content& content = shown_content(members.contents[i]);
+      const Content& content = shown_in(members.contents[i]);
       if (!is_for_people(member) || content.is_empty()) continue;
       values.push_back(fmt::format("{} {}", member.heading, shown_value(member, content)));
     }
@@ -96,6 +91,9 @@ struct ValueText {
   }
   std::string operator()(const Rows&) const { return unknown_text; }
   std::string operator()(const std::shared_ptr<const Figure>&) const { return unknown_text; }
+  std::string operator()(const std::shared_ptr<const Twofold>& twofold) const {
+    return shown_value(item, twofold->shown);
+  }
 };
 
 /// The unit as it is shown beside numbers in this notation.
@@ -130,14 +128,14 @@ void add_columns(std::vector<BlockColumn>& columns, const std::vector<Item>& ite
     if (is_flat(item)) {
       std::vector<const Members*> inner;
       for (const Members* const row : rows)
-        inner.push_back(row == nullptr ? nullptr : std::get_if<Members>(&row->contents[i].value));
+        inner.push_back(row == nullptr ? nullptr : std::get_if<Members>(&shown_in(row->contents[i]).value));
       add_columns(columns, item.members, inner);
       continue;
     }
     BlockColumn shown{item.heading, shown_unit(item), is_numeric(item)};
     bool is_known = false;
     for (const Members* const row : rows) {
-      const Content& content = row == nullptr ? Content{} : shown_content(row->contents[i]);
+      const Content& content = row == nullptr ? Content{} : shown_in(row->contents[i]);
       shown.cells.push_back(content.is_empty() && !is_numeric(item) ? "" : shown_value(item, content));
       is_known = is_known || (!shown.cells.back().empty() && shown.cells.back() != unknown_text);
     }
@@ -196,7 +194,7 @@ ItemWithRows own_table(const Item& outer, const Rows& rows, const std::string& t
     Members first;
     if (is_named) first.contents.push_back(row.contents[naming]);
     if (has_rows) {
-      const auto* const inner = std::get_if<Rows>(&row.contents[members.front()].value);
+      const auto* const inner = std::get_if<Rows>(&shown_in(row.contents[members.front()]).value);
       if (inner == nullptr) continue;
       for (const Members& one : inner->rows) {
         Members line = first;
@@ -205,7 +203,7 @@ ItemWithRows own_table(const Item& outer, const Rows& rows, const std::string& t
       }
       continue;
     }
-    const auto is_empty = [&](std::size_t i) { return shown_content(row.contents[i]).is_empty(); };
+    const auto is_empty = [&](std::size_t i) { return shown_in(row.contents[i]).is_empty(); };
     if (std::ranges::all_of(members, is_empty)) continue;
     for (const std::size_t i : members) first.contents.push_back(row.contents[i]);
     own.rows.rows.push_back(std::move(first));
@@ -217,7 +215,7 @@ ItemWithRows own_table(const Item& outer, const Rows& rows, const std::string& t
 std::vector<std::string> sentences_of(const std::vector<Item>& items, const Members& row) {
   std::vector<std::string> sentences;
   for (std::size_t i = 0; i < items.size(); ++i) {
-    const Content& content = row.contents[i];
+    const Content& content = shown_in(row.contents[i]);
     if (items[i].kind == Kind::sentence && !content.is_empty())
       sentences.push_back(std::get<std::string>(content.value));
     const auto* const members = std::get_if<Members>(&content.value);
@@ -232,7 +230,7 @@ std::string sentences_below(const ItemWithRows& own, bool is_named) {
   std::string text;
   for (const Members& row : own.rows.rows) {
     const std::string name =
-        is_named ? shown_value(own.item.members.front(), shown_content(row.contents.front())) + ": " : "";
+        is_named ? shown_value(own.item.members.front(), shown_in(row.contents.front())) + ": " : "";
     for (const std::string& one : sentences_of(own.item.members, row)) text += name + one + "\n";
   }
   return text;
@@ -242,7 +240,7 @@ class BlockList {
  public:
   void add(const std::vector<Item>& items, const Members& members) {
     for (std::size_t i = 0; i < items.size(); ++i) {
-      const Content& content = shown_content(members.contents[i]);
+      const Content& content = shown_in(members.contents[i]);
       if (is_for_people(items[i]) && !content.is_empty()) add(items[i], content);
     }
   }

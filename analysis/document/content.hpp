@@ -9,7 +9,8 @@
 
 namespace zerocount::document {
 
-struct Figure;  // figure.hpp
+struct Figure;   // figure.hpp
+struct Twofold;  // below
 
 /// A number with bounds, all in the unit of the item.
 struct Bounded {
@@ -48,11 +49,27 @@ struct Rows {
 /// The content of one item; std::monostate if there is none.
 struct Content {
   std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, Bounded, std::string, Members, List,
-               Named, Rows, std::shared_ptr<const Figure>>
+               Named, Rows, std::shared_ptr<const Figure>, std::shared_ptr<const Twofold>>
       value{};
-  std::shared_ptr<const Content> for_people{};  ///< where people are shown something else
 
   bool is_empty() const { return value.index() == 0; }
 };
+
+/// Data, and what people are shown in their place. An answer holds as many contents as values: this one is
+/// behind a pointer, so that all the others stay as small as a text.
+struct Twofold {
+  Content data;
+  Content shown;
+};
+
+inline const Content& data_in(const Content& content) {
+  const auto* const twofold = std::get_if<std::shared_ptr<const Twofold>>(&content.value);
+  return twofold == nullptr ? content : (*twofold)->data;
+}
+
+inline const Content& shown_in(const Content& content) {
+  const auto* const twofold = std::get_if<std::shared_ptr<const Twofold>>(&content.value);
+  return twofold == nullptr ? content : (*twofold)->shown;
+}
 
 }  // namespace zerocount::document

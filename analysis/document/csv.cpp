@@ -75,7 +75,8 @@ class CsvLine {
     return line + '\n';
   }
 
-  void add(const Item& item, const Content& content, const std::string& name) {
+  void add(const Item& item, const Content& given, const std::string& name) {
+    const Content& content = data_in(given);
     if (item.kind == Kind::object) return add(item.members, std::get_if<Members>(&content.value), name + "_");
     const auto* const bounded = std::get_if<Bounded>(&content.value);
     names_.push_back(name);
@@ -123,7 +124,7 @@ void add_lines(std::string& csv, const std::vector<Item>& items, const Members* 
     csv += row == nullptr ? longer.names() : longer.cells();
   };
   if (members == nullptr) return add_row(nullptr);
-  const Content& content = members->contents[static_cast<std::size_t>(item - items.begin())];
+  const Content& content = data_in(members->contents[static_cast<std::size_t>(item - items.begin())]);
   for (const Members& row : std::get<Rows>(content.value).rows) add_row(&row);
 }
 

@@ -160,10 +160,9 @@ class Description {
     contents_.back() = [data = std::move(contents_.back()), get = std::move(get)](const Row& row,
                                                                                   Audience audience) {
       if (audience == Audience::people) return Value::content(std::invoke(get, row));
-      Content content = data(row, audience);
-      if (audience == Audience::all)
-        content.for_people = std::make_shared<const Content>(Value::content(std::invoke(get, row)));
-      return content;
+      if (audience != Audience::all) return data(row, audience);
+      return Content{
+          std::make_shared<const Twofold>(data(row, audience), Value::content(std::invoke(get, row)))};
     };
     return *this;
   }

@@ -51,6 +51,7 @@ class JsonWriter {
   void operator()(const Bounded& value) { (*this)(value.value); }
   void operator()(const std::string& value) { text(value); }
   void operator()(const std::shared_ptr<const Figure>&) { text_ += "null"; }
+  void operator()(const std::shared_ptr<const Twofold>& twofold) { content(*item_, twofold->data); }
   void operator()(const Members& members) { object(item_->members, members); }
   void operator()(const List& list) {
     const Item& element = item_->members[0];
@@ -86,14 +87,15 @@ class JsonWriter {
   }
 
   void add_member(const Item& item, const Content& value) {
-    if (!is_shown(item.shown, Audience::json) || (item.optional && value.is_empty())) return;
+    const Content& data = data_in(value);
+    if (!is_shown(item.shown, Audience::json) || (item.optional && data.is_empty())) return;
     if (!item.bounded) {
       key(item.key);
-      content(item, value);
+      content(item, data);
       return;
     }
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    const auto* const found = std::get_if<Bounded>(&value.value);
+    const auto* const found = std::get_if<Bounded>(&data.value);
     const Bounded number = found == nullptr ? Bounded{unknown, unknown, unknown} : *found;
     key(item.key);
     (*this)(number.value);

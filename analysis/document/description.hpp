@@ -167,6 +167,18 @@ class Description {
     return *this;
   }
 
+  /// People see the item that was added last only in the rows where `is_worth` returns true.
+  template <class IsWorth>
+  Description& shown_where(IsWorth is_worth) {
+    contents_.back() = [data = std::move(contents_.back()), is_worth](const Row& row, Audience audience) {
+      if (std::invoke(is_worth, row) || audience == Audience::json || audience == Audience::csv)
+        return data(row, audience);
+      if (audience == Audience::people) return Content{};
+      return Content{std::make_shared<const Twofold>(data(row, audience), Content{})};
+    };
+    return *this;
+  }
+
   /// An object with the items of `parts`. `get` returns a Part, an optional one, or a pointer to one.
   template <class Part, class Get>
   Description& object(Item item, Description<Part> parts, Get get) {

@@ -165,6 +165,7 @@ Description<PointJerks> creep_description() {
 
 Description<JerkStatistics> statistics_description() {
   using Statistics = JerkStatistics;
+  const auto has_jerks = [](const Statistics& s) { return s.jerks > 0; };
   return Description<Statistics>()
       .value(fact("trials", "trials of the design point"), &Statistics::trials)
       .value(fact("moves", "moves of all trials"), &Statistics::moves)
@@ -177,14 +178,18 @@ Description<JerkStatistics> statistics_description() {
       .object(everywhere("interval", "Intervals between the jerks of a move",
                          "times between the onsets of successive jerks of a move"),
               interval_description(), &Statistics::intervals)
+      .shown_where([](const Statistics& s) { return s.intervals.n > 0; })
       .object(everywhere("slowing", "Trend of the intervals",
                          "trend of the intervals between the jerks of a move"),
               slowing_description(), &Statistics::slowing)
+      .shown_where([](const Statistics& s) { return s.slowing.moves > 0; })
       .object(everywhere("agreement", "In the direction of the holding torque",
                          "jerks in the direction of their holding torque"),
               proportion_description(), &Statistics::agreement)
+      .shown_where(has_jerks)
       .object(everywhere("magnitude", "Magnitude", "largest |error| of the jerks"), magnitude_description(),
-              &Statistics::magnitudes);
+              &Statistics::magnitudes)
+      .shown_where(has_jerks);
 }
 
 Description<PointJerks> point_description() {

@@ -8,6 +8,7 @@
 #include "analysis/sensitivity/sensitivity.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
+#include "core/text/counted.hpp"
 
 namespace zerocount::sensitivity {
 namespace {
@@ -76,6 +77,11 @@ std::string notes_sentences(const OutputSensitivity& output) {
   return output.notes.empty() ? "" : fmt::format("note: {}", fmt::join(output.notes, "\nnote: "));
 }
 
+std::optional<std::string> number_with_unit(double number, const std::string& unit) {
+  if (std::isnan(number)) return {};
+  return text::short_number(number) + (unit == "1" ? "" : " " + unit);
+}
+
 Description<OutputSensitivity> output_description() {
   using Output = const OutputSensitivity&;
   return Description<OutputSensitivity>()
@@ -95,12 +101,15 @@ Description<OutputSensitivity> output_description() {
              &OutputSensitivity::conclusion)
       .sentence(notes_sentences)
       .value(in_data("notes", "what limits these numbers"), &OutputSensitivity::notes)
-      .value(everywhere("trials", "trials or worlds", "trials, or worlds, that are used"),
+      .value(everywhere("trials", "computed from", "trials, or worlds, that are used"),
              &OutputSensitivity::trials)
+      .shown_as([](Output o) { return text::counted(o.trials, o.of_worlds ? "world" : "trial"); })
       .value(everywhere("mean", "mean", "mean of the output, in its unit"), &OutputSensitivity::mean)
+      .shown_as([](Output o) { return number_with_unit(o.mean, o.unit); })
       .value(everywhere("standard_deviation", "standard deviation",
                         "standard deviation of the output, in its unit"),
              &OutputSensitivity::standard_deviation)
+      .shown_as([](Output o) { return number_with_unit(o.standard_deviation, o.unit); })
       .table({.key = "factors", .meaning = "what varies in the trials, strongest first"},
              factor_description(), &OutputSensitivity::factors)
       .table(everywhere("left_out", "Left out", "factors without numbers"),

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "analysis/experiment_design/expected_widths.hpp"
-#include "analysis/experiment_design/prior_machines.hpp"
 #include "analysis/experiment_design/torque_protocol.hpp"
 
 namespace zerocount::experiment_design {

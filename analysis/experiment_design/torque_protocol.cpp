@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "analysis/experiment_design/experiment_design.hpp"
 #include "core/loop/dac.hpp"
 
 namespace zerocount::experiment_design {
+
 namespace {
 
 /// Rest at torque 0 before the first and after the last part, samples.
@@ -112,6 +116,37 @@ TorqueProtocol sampled_protocol(std::span<const ProtocolSegment> segments, const
     from = segment.to;
   }
   return protocol;
+}
+
+namespace {
+
+/// A row for each sample: time, torque, and `last`(sample).
+template <class Last>
+std::string table_of(const ExperimentDesign& design, std::string_view last_name, const Last& last) {
+  const TorqueProtocol& protocol = design.protocol;
+  std::string text = fmt::format("t [s],{} [{}],{}\n", parameters::text_on(design.frame.axis, "$torque"),
+                                 parameters::unit_on(design.frame.axis, "N m"), last_name);
+  for (std::size_t k = 0; k < protocol.torque.size(); ++k) {
+    text +=
+        fmt::format("{},{},{}\n", static_cast<double>(k) * protocol.sample_time, protocol.torque[k], last[k]);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string protocol_table(const ExperimentDesign& design) {
+  return table_of(design, "code", design.protocol.codes);
+}
+
+std::string record_table(const ExperimentDesign& design) {
+  return table_of(design, "count", design.record.counts);
+}
+
+std::string streamer_file(const TorqueProtocol& protocol) {
+  std::string text;
+  for (const double torque : protocol.torque) text += fmt::format("{}\n", torque);
+  return text;
 }
 
 }  // namespace zerocount::experiment_design

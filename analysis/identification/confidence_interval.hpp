@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "analysis/identification/contact_fit.hpp"
-#include "analysis/record_fit/quantity.hpp"
+#include "analysis/record_fit/axis_model.hpp"
 
 namespace zerocount::identification {
 

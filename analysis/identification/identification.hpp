@@ -8,11 +8,10 @@
 #include "analysis/document/answer.hpp"
 #include "analysis/identification/answer/fit_report.hpp"
 #include "analysis/identification/confidence_interval.hpp"
+#include "analysis/identification/contact_coordinates.hpp"
 #include "analysis/identification/contact_fit.hpp"
-#include "analysis/identification/joint_draws.hpp"
-#include "analysis/identification/records/fitted_record.hpp"
+#include "analysis/identification/records/checked_record.hpp"
 #include "analysis/record_fit/residual_checks.hpp"
-#include "analysis/record_fit/residual_line.hpp"
 #include "analysis/record_fit/test_record.hpp"
 
 namespace zerocount::identification {

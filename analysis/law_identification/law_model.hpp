@@ -9,7 +9,6 @@
 
 #include "analysis/identification/contact_coordinates.hpp"
 #include "analysis/record_fit/axis_model.hpp"
-#include "analysis/record_fit/quantity.hpp"
 #include "analysis/record_fit/test_record.hpp"
 #include "core/friction/friction_model.hpp"
 #include "core/friction/parameters.hpp"

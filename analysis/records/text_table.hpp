@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/records/column_source.hpp"
+#include "analysis/records/dataset_file.hpp"
 
 namespace zerocount::records {
 

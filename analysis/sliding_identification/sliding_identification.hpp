@@ -6,7 +6,6 @@
 
 #include "analysis/document/answer.hpp"
 #include "analysis/identification/answer/fit_report.hpp"
-#include "analysis/sliding_identification/free_run.hpp"
 #include "analysis/sliding_identification/reversal_friction.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
 #include "analysis/sliding_identification/unexplained_force.hpp"

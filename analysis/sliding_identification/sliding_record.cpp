@@ -4,15 +4,21 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
+#include <ceres/autodiff_cost_function.h>
 #include <fmt/format.h>
 
 #include "analysis/identification/records/checked_record.hpp"
-#include "analysis/sliding_identification/presliding_travel.hpp"
+#include "analysis/sliding_identification/sliding_fit.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "core/failure/failure.hpp"
+#include "core/friction/sliding/sliding.hpp"
+#include "core/numerics/dense.hpp"
 
 namespace zerocount::sliding_identification {
+
 namespace {
 
 constexpr std::size_t smoothing_samples = 5;
@@ -175,6 +181,225 @@ void cut_windows(SlidingRecord& record, std::size_t samples) {
                                 stroke.direction});
     }
   }
+}
+
+namespace {
+
+double value_of(double number) {
+  return number;
+}
+
+template <int N>
+double value_of(const ceres::Jet<double, N>& number) {
+  return number.a;
+}
+
+/// A sliding axis. Number is double, or ceres::Jet to carry derivatives.
+template <class Number>
+class SlidingAxis {
+ public:
+  SlidingAxis(const Number* point, const Number* start, double direction)
+      : position_(start[0]), velocity_(start[1]), direction_(direction) {
+    using std::abs, std::exp, std::sqrt;
+    curve_ = {point[coulomb_level], point[stribeck_excess], exp(-2.0 * point[log_stribeck_velocity])};
+    damping_ = point[viscous_damping];
+    offset_ = point[offset_torque];
+    per_inertia_ = exp(-point[log_inertia]);
+    constexpr double steepest = 0.86;  // of 2·x·exp(−x²)
+    friction_rate_ = value_of(
+        per_inertia_ * (abs(damping_) + steepest * abs(curve_.excess) * sqrt(curve_.per_velocity_squared)));
+  }
+
+  const Number& position() const { return position_; }
+
+  /// @param first, last torques against the drive that depend on the position, at both ends
+  void advance(const motion::TorqueCourse& course, double duration, const Number& first, const Number& last) {
+    const double rate = std::max(friction_rate_, motion::is_constant(course) ? 0.0 : course.rate);
+    constexpr double max_steps = 200.0;  // no meaning beyond: the parameters are far off
+    const double steps = std::clamp(std::ceil(20.0 * rate * duration), 1.0, max_steps);
+    for (double i = 0.0; i < steps; i += 1.0) {
+      const auto torque = [&](double at) -> Number {
+        return motion::course_after(course, at * duration / steps).now - offset_ -
+               (first + at / steps * (last - first));
+      };
+      step(torque(i), torque(i + 0.5), torque(i + 1.0), duration / steps);
+    }
+  }
+
+ private:
+  Number acceleration(const Number& velocity, const Number& torque) const {
+    return per_inertia_ * friction::sliding_torque<Number>(torque, damping_, curve_, direction_, velocity);
+  }
+
+  void step(const Number& first, const Number& middle, const Number& last, double time) {
+    const Number a1 = acceleration(velocity_, first);
+    const Number a2 = acceleration(velocity_ + 0.5 * time * a1, middle);
+    const Number a3 = acceleration(velocity_ + 0.5 * time * a2, middle);
+    const Number a4 = acceleration(velocity_ + time * a3, last);
+    position_ += time * velocity_ + time * time / 6.0 * (a1 + a2 + a3);
+    velocity_ += time / 6.0 * (a1 + 2.0 * (a2 + a3) + a4);
+  }
+
+  Number position_;
+  Number velocity_;
+  friction::StribeckCurveOf<Number> curve_;
+  Number damping_;      ///< cs
+  Number offset_;       ///< u0
+  Number per_inertia_;  ///< 1/J
+  double direction_;
+  double friction_rate_;  ///< the largest (1/s) at which the friction can change the velocity
+};
+
+template <std::size_t terms>
+struct WindowResiduals {
+  const SlidingRecord& record;
+  const Window& window;
+
+  template <class Number>
+  bool operator()(const Number* point, const Number* start, Number* residuals) const {
+    using std::isfinite;
+    SlidingAxis<Number> axis(point, start, window.direction);
+    const auto of_position = [&](std::size_t k) {
+      Number torque(0.0);
+      for (std::size_t j = 0; j < terms; ++j) torque += record.shape[k][j] * point[position_amplitudes + j];
+      return torque;
+    };
+    Number here = of_position(window.first);
+    for (std::size_t k = window.first; k <= window.last; ++k) {
+      if (!isfinite(axis.position())) return false;
+      *residuals++ = (axis.position() - record.position[k]) / record.resolution;
+      if (k == window.last) break;
+      const Number next = of_position(k + 1);
+      axis.advance(record.torque[k], record.time[k + 1] - record.time[k], here, next);
+      here = next;
+    }
+    return true;
+  }
+};
+
+template <std::size_t terms>
+std::unique_ptr<ceres::CostFunction> residuals_with(const SlidingRecord& record, const Window& window) {
+  using Residuals = ceres::AutoDiffCostFunction<WindowResiduals<terms>, ceres::DYNAMIC,
+                                                static_cast<int>(position_amplitudes + terms), 2>;
+  return std::make_unique<Residuals>(new WindowResiduals<terms>{record, window},
+                                     static_cast<int>(samples_of(window)));
+}
+
+}  // namespace
+
+std::unique_ptr<ceres::CostFunction> window_residuals(const SlidingRecord& record, const Window& window) {
+  if (record.waves == 0) return residuals_with<0>(record, window);
+  return record.waves == 1 ? residuals_with<2>(record, window)
+                           : residuals_with<position_terms>(record, window);
+}
+
+namespace {
+
+constexpr double bands_per_octave = 2.0;
+constexpr int reference_bands = 2;        // of the longest travels
+constexpr double lowest_travel = 4.0;     // steps of the readings
+constexpr double visible_deficit = 0.05;  // of the sliding level
+constexpr double standard_errors = 3.0;
+constexpr double margin = 4.0;
+
+/// Normal equations of the torque balance with a level of friction of its own in each band.
+class LevelsByTravel {
+ public:
+  LevelsByTravel(double longest, double shortest, std::size_t correlated)
+      : longest_(longest),
+        correlated_(static_cast<double>(correlated)),
+        bands_(std::max(reference_bands, band_of(shortest))) {
+    normal_ = Eigen::MatrixXd::Zero(balance_terms + bands_, balance_terms + bands_);
+    right_ = Eigen::VectorXd::Zero(balance_terms + bands_);
+    samples_.assign(static_cast<std::size_t>(bands_), 0.0);
+  }
+
+  int bands() const { return bands_; }
+  double samples(int band) const { return samples_[static_cast<std::size_t>(band)]; }
+  double upper_end(int band) const { return longest_ * std::exp2(-band / bands_per_octave); }
+
+  void add(const TorqueBalance& balance, double direction, double travel) {
+    const int band = std::clamp(band_of(travel), 0, bands_ - 1);
+    const Eigen::Index own = balance_terms + band;
+    normal_.topLeftCorner<balance_terms, balance_terms>() += balance.terms * balance.terms.transpose();
+    normal_.col(own).head<balance_terms>() += direction * balance.terms;
+    normal_.row(own).head<balance_terms>() += direction * balance.terms.transpose();
+    normal_(own, own) += 1.0;
+    right_.head<balance_terms>() += balance.torque * balance.terms;
+    right_[own] += direction * balance.torque;
+    squares_ += balance.torque * balance.torque;
+    samples_[static_cast<std::size_t>(band)] += 1.0;
+  }
+
+  /// Whether the friction in `band` is lower than the level that the bands above it share, and that below it
+  /// lower still.
+  bool is_lower(int band) const {
+    std::vector<Eigen::Index> used;
+    for (Eigen::Index i = 0; i < balance_terms; ++i) used.push_back(i);
+    for (int i = band; i < bands_; ++i) {
+      if (samples(i) > 0.0) used.push_back(balance_terms + i);
+    }
+    const Eigen::VectorXd scale =
+        normal_.diagonal()(used).cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd inverse =
+        numerics::pseudo_inverse(scale.asDiagonal() * normal_(used, used) * scale.asDiagonal());
+    const Eigen::VectorXd found =
+        scale.cwiseProduct(numerics::product(inverse, scale.cwiseProduct(right_(used))));
+    const double level = found[direction_term];
+    const double count = std::accumulate(samples_.begin(), samples_.end(), 0.0);
+    const double variance = std::max(0.0, squares_ - found.dot(right_(used))) / count;
+    const double error =
+        scale[balance_terms] * std::sqrt(variance * correlated_ * inverse(balance_terms, balance_terms));
+    double below = 0.0;
+    double samples_below = 0.0;
+    for (std::size_t i = balance_terms + 1; i < used.size(); ++i) {
+      const double number = samples(static_cast<int>(used[i] - balance_terms));
+      below += number * found[static_cast<Eigen::Index>(i)];
+      samples_below += number;
+    }
+    const double deficit = -found[balance_terms];
+    return level > 0.0 && deficit > std::max(visible_deficit * level, standard_errors * error) &&
+           -below >= deficit * samples_below;
+  }
+
+ private:
+  int band_of(double travel) const {
+    return static_cast<int>(bands_per_octave * std::log2(longest_ / travel));
+  }
+
+  double longest_;
+  double correlated_;  ///< samples whose errors depend on each other
+  int bands_;
+  Eigen::MatrixXd normal_;
+  Eigen::VectorXd right_;
+  double squares_{0.0};
+  std::vector<double> samples_;
+};
+
+}  // namespace
+
+double presliding_travel(const SlidingRecord& record, std::span<const Window> runs) {
+  const auto travel_at = [&](const Window& run, std::size_t k) {
+    return std::abs(record.position[k] - record.position[run.first]);
+  };
+  double longest = 0.0;
+  for (const Window& run : runs) longest = std::max(longest, travel_at(run, run.last));
+  const double shortest = lowest_travel * record.resolution;
+  if (longest <= shortest) return 0.0;
+  LevelsByTravel levels(longest, shortest, 2 * balance_reach(record));
+  for (const Window& run : runs) {
+    for (std::size_t k = run.first + record.smoothing + balance_reach(record);
+         k + balance_reach(record) <= run.last; ++k) {
+      if (const double travel = travel_at(run, k); travel > 0.0)
+        levels.add(torque_balance(record, k, run.direction), run.direction, travel);
+    }
+  }
+  for (int band = reference_bands; band < levels.bands(); ++band) {
+    if (levels.samples(band) == 0.0 || !levels.is_lower(band)) continue;
+    const double end = levels.upper_end(band);
+    return std::min(margin * end, std::max(end, longest / margin));
+  }
+  return 0.0;
 }
 
 }  // namespace zerocount::sliding_identification

@@ -1,14 +1,21 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "analysis/records/raw_series.hpp"
-#include "analysis/sliding_identification/position_torque.hpp"
+#include "analysis/sliding_identification/sliding_fit.hpp"
 #include "core/motion/torque_course.hpp"
 #include "experiments/parameters/study_units.hpp"
 
+namespace ceres {
+class CostFunction;
+}
 namespace zerocount::sliding_identification {
 
 /// A stroke, or a part of one, over which the motion is simulated from an initial state of its own.
@@ -64,5 +71,50 @@ SlidingRecord sliding_record(const records::RawSeries& series, double pitch = 0.
 
 /// Cuts the strokes into windows of about `samples` samples, and at least 50 steps of the readings.
 void cut_windows(SlidingRecord& record, std::size_t samples);
+
+/// The fitted parameters of a sliding axis, in this order.
+enum SlidingCoordinate : std::size_t {
+  log_inertia,            ///< ln of J (kg m²) or of the mass (kg)
+  coulomb_level,          ///< Fc, N m or N
+  viscous_damping,        ///< cs, N m s/rad or N s/m
+  offset_torque,          ///< u0, N m or N
+  stribeck_excess,        ///< Fs − Fc, N m or N
+  log_stribeck_velocity,  ///< ln of ωs, rad/s or m/s
+  position_amplitudes,    ///< the first of those of the position's waves, N m or N (of a slope N/m)
+  sliding_dimension = position_amplitudes + position_terms
+};
+
+using SlidingPoint = Eigen::Matrix<double, sliding_dimension, 1>;
+
+/// The positions of a simulated sliding motion less the readings in a window, in units of the resolution. The
+/// parameters are the first coordinates of a SlidingPoint, as many as the record's waves need, and the
+/// initial position and velocity.
+///
+/// The motion is J·dω/dt = u − u0 − p(θ) − cs·ω − d·g(ω), dθ/dt = ω, the law of
+/// core/friction/sliding/sliding.hpp with an offset and with the torques p of the record's waves, by the
+/// classical Runge–Kutta method, with steps of at most a sampling interval and a twentieth of the time
+/// constants of the friction and of the amplifier. The derivatives are those of these steps, by forward
+/// automatic differentiation. p is taken at the positions that were read: their errors are small beside a
+/// wave, and p is then known but for its amplitudes. The evaluation fails where the motion is not finite.
+/// @param record and @param window must outlive the result.
+std::unique_ptr<ceres::CostFunction> window_residuals(const SlidingRecord& record, const Window& window);
+
+/// Travel from the start of a run, rad or m, beyond which the axis slides; 0 where the readings show no
+/// pre-sliding motion.
+///
+/// A run is a motion in one direction, from a standstill or a reversal. Before it slides, the friction rises
+/// with the travel s since its start, whatever the law; while it slides, it does not depend on s. A dwell
+/// that ends where it began, in which the rotor creeps under the loop's integral, is short runs with little
+/// friction. Fitted by least squares is
+///
+///   u = J·a + cs·v + u0 + d·(Fc + D_i),   d = ±1 the direction,
+///
+/// with a level Fc + D_i for each band of s (ratio √2), and Fc above the band in question. Bands are taken
+/// from the longest travels down. The axis does not slide in the first band with D_i < −Fc/20, by 3 standard
+/// errors, below which the deficit is on average as large at least (friction that varies along the axis makes
+/// other patterns). Laws approach their level exponentially, so four times the upper end of that band is
+/// returned, unless more than a quarter of the longest run would be lost.
+/// @param record with its velocities
+double presliding_travel(const SlidingRecord& record, std::span<const Window> runs);
 
 }  // namespace zerocount::sliding_identification

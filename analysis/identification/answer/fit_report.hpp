@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/document/description.hpp"
-#include "analysis/record_fit/quantity.hpp"
+#include "analysis/record_fit/axis_model.hpp"
 #include "analysis/record_fit/test_record.hpp"
 #include "experiments/parameters/study_units.hpp"
 

@@ -1,5 +1,3 @@
-#include "analysis/record_fit/encoder_noise.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -7,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/record_fit/angle_observations.hpp"
 #include "tests/analysis/record_fit/wandering_path.hpp"
 
 namespace zerocount::testing {

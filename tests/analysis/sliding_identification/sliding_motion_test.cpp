@@ -1,12 +1,11 @@
 // The motion over a window: that of core's Plant, and its derivatives.
-#include "analysis/sliding_identification/sliding_motion.hpp"
-
 #include <array>
 #include <cmath>
 
 #include <ceres/cost_function.h>
 #include <gtest/gtest.h>
 
+#include "analysis/sliding_identification/sliding_record.hpp"
 #include "core/plant/plant.hpp"
 
 namespace zerocount::testing {

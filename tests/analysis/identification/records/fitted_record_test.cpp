@@ -1,6 +1,4 @@
 // The record beside the fit, which figures draw.
-#include "analysis/identification/records/fitted_record.hpp"
-
 #include <cmath>
 #include <random>
 

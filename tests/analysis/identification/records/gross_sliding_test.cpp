@@ -1,6 +1,4 @@
 // A record ends where the rotor begins to slide, and nowhere else.
-#include "analysis/identification/records/gross_sliding.hpp"
-
 #include <array>
 #include <cmath>
 #include <numbers>

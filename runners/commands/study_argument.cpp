@@ -1,7 +1,9 @@
 #include "runners/commands/study_argument.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -91,6 +93,15 @@ std::optional<std::int64_t> study_point(const command_line::Arguments& arguments
         "option '--point': a manifest has no results to tell which of its points is best; "
         "expected a results file, or a point by label or number");
   return 0;
+}
+
+std::shared_ptr<const plugin::ControllerPlugin> plugin_option(const command_line::Arguments& arguments) {
+  const std::optional<std::string> path = arguments.value("plugin");
+  if (!path) return nullptr;
+  const sections::LoadedPlugin loaded = plugins::load_plugin(*path);
+  if (const auto* fault = std::get_if<plugin::PluginFault>(&loaded))
+    arguments.refuse(fmt::format("option '--plugin': {}; expected {}", fault->what, fault->expected));
+  return std::get<std::shared_ptr<const plugin::ControllerPlugin>>(loaded);
 }
 
 }  // namespace zerocount::commands

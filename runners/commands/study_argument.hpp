@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 
+#include "core/plugin/controller_plugin.hpp"
 #include "experiments/study/study.hpp"
 #include "results/reading/results_file.hpp"
 #include "runners/command_line/command_line.hpp"
@@ -40,5 +42,8 @@ study::Study load_study(const std::filesystem::path& operand, const command_line
 /// results file and the only point of a manifest; nothing without the option.
 /// @throws Failure: bad_input for `best` of a manifest with several points; as summary::summarise_file
 std::optional<std::int64_t> study_point(const command_line::Arguments& arguments, const study::Study& study);
+
+/// The user's controller for the trials of a results file, of the option --plugin; null if none is given.
+std::shared_ptr<const plugin::ControllerPlugin> plugin_option(const command_line::Arguments& arguments);
 
 }  // namespace zerocount::commands

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "runners/status/status.hpp"
-#include "runners/verification/traced_trial.hpp"
+#include "runners/verification/replay.hpp"
 
 namespace zerocount::commands {
 

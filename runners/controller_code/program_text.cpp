@@ -22,42 +22,21 @@ struct Shape {
 
 Shape shape_of(Operation operation) {
   using enum Binding;
-  switch (operation) {
-    case Operation::negative:
-      return {"-{0}", sign, whole, whole};
-    case Operation::negation:
-      return {"", sign, whole, whole};
-    case Operation::sum:
-      return {"{0} + {1}", sum, sum, product};
-    case Operation::difference:
-      return {"{0} - {1}", sum, sum, product};
-    case Operation::product:
-      return {"{0} * {1}", product, product, sign};
-    case Operation::quotient:
-      return {"{0} / {1}", product, product, sign};
-    case Operation::at_most:
-      return {"{0} <= {1}", comparison, comparison, sum};
-    case Operation::at_least:
-      return {"{0} >= {1}", comparison, comparison, sum};
-    case Operation::below:
-      return {"{0} < {1}", comparison, comparison, sum};
-    case Operation::above:
-      return {"{0} > {1}", comparison, comparison, sum};
-    case Operation::both:
-      return {"", both, both, comparison};
-    case Operation::either:
-      return {"", either, comparison, comparison};
-    case Operation::literal:
-    case Operation::constant:
-    case Operation::variable:
-    case Operation::count_difference:
-    case Operation::magnitude:
-    case Operation::limited:
-    case Operation::is_even:
-    case Operation::choice:
-      break;
-  }
-  return {"", whole, either, either};
+  static const std::map<Operation, Shape> shapes{
+      {Operation::negative, {"-{0}", sign, whole, whole}},
+      {Operation::negation, {"", sign, whole, whole}},
+      {Operation::sum, {"{0} + {1}", sum, sum, product}},
+      {Operation::difference, {"{0} - {1}", sum, sum, product}},
+      {Operation::product, {"{0} * {1}", product, product, sign}},
+      {Operation::quotient, {"{0} / {1}", product, product, sign}},
+      {Operation::at_most, {"{0} <= {1}", comparison, comparison, sum}},
+      {Operation::at_least, {"{0} >= {1}", comparison, comparison, sum}},
+      {Operation::below, {"{0} < {1}", comparison, comparison, sum}},
+      {Operation::above, {"{0} > {1}", comparison, comparison, sum}},
+      {Operation::both, {"", both, both, comparison}},
+      {Operation::either, {"", either, comparison, comparison}}};
+  const auto found = shapes.find(operation);
+  return found == shapes.end() ? Shape{"", whole, either, either} : found->second;
 }
 
 /// The text of a term, in parentheses where it does not bind as strongly.

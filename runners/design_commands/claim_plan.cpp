@@ -123,12 +123,11 @@ struct ClaimRow {
 };
 
 /// What was asked, and the plans that answer it; those of other questions are empty.
-struct Plans {
-  PlanRequest request;
+struct Plans : PlanRequest {
   std::vector<ClaimRow> claims{};
   std::vector<RigPlan> tolerance{};
   std::vector<RigPlan> halfwidth_on_rigs{};
-  std::optional<SequentialCost> halfwidth{};  ///< without rigs
+  std::optional<SequentialCost> halfwidth_without_rigs{};
 };
 
 std::vector<ClaimRow> claim_plans(const PlanRequest& request) {
@@ -175,18 +174,15 @@ std::vector<RigPlan> tolerance_plans(const PlanRequest& request) {
 
 Plans plans_of(PlanRequest request) {
   Plans plans{std::move(request)};
-  const PlanRequest& asked = plans.request;
-  if (asked.rigs_share) {
-    plans.tolerance = tolerance_plans(asked);
-  } else if (asked.success) {
-    plans.claims = claim_plans(asked);
+  if (plans.rigs_share) {
+    plans.tolerance = tolerance_plans(plans);
+  } else if (plans.success) {
+    plans.claims = claim_plans(plans);
   }
-  if (!asked.halfwidth) return plans;
-  if (asked.rig_sd) {
-    plans.halfwidth_on_rigs = halfwidth_plans(asked);
-  } else {
-    plans.halfwidth = statistics::sequential_cost(*asked.halfwidth, asked.confidence, asked.rate());
-  }
+  if (plans.halfwidth && plans.rig_sd) plans.halfwidth_on_rigs = halfwidth_plans(plans);
+  if (plans.halfwidth && !plans.rig_sd)
+    plans.halfwidth_without_rigs =
+        statistics::sequential_cost(*plans.halfwidth, plans.confidence, plans.rate());
   return plans;
 }
 
@@ -206,7 +202,7 @@ std::string claim_headline(const Plans& plans) {
       row.plan.failures == 0 ? "none of which fails"
                              : fmt::format("at most {} of which fail", row.plan.failures),
       row.chance ? fmt::format(" with a probability of {}", text::percent_near(*row.chance)) : "",
-      text::percent(*plans.request.success), with_confidence(plans.request));
+      text::percent(*plans.success), with_confidence(plans));
 }
 
 std::string tolerance_headline(const Plans& plans) {
@@ -214,31 +210,32 @@ std::string tolerance_headline(const Plans& plans) {
   return fmt::format(
       "{} rigs with {} trials each, none of which fails, show that at least {} of rigs hold zero in at least "
       "{} of moves, {}; trials of one move or more",
-      fewest.rigs, fewest.trials_per_rig, text::percent(*plans.request.rigs_share),
-      text::percent(*plans.request.success), with_confidence(plans.request));
+      fewest.rigs, fewest.trials_per_rig, text::percent(*plans.rigs_share), text::percent(*plans.success),
+      with_confidence(plans));
 }
 
 std::string halfwidth_headline(const Plans& plans) {
-  const PlanRequest& request = plans.request;
-  if (!request.halfwidth) return "";
+  if (!plans.halfwidth) return "";
   const std::string aim =
-      fmt::format("the {} bounds of a success rate of {} within ±{}", text::percent(request.confidence),
-                  text::percent(request.rate()), text::percent(*request.halfwidth));
-  if (plans.halfwidth)
-    return fmt::format("{} trials bring {}{}", plans.halfwidth->fixed, aim,
-                       request.true_success ? "" : ", the worst case");
+      fmt::format("the {} bounds of a success rate of {} within ±{}", text::percent(plans.confidence),
+                  text::percent(plans.rate()), text::percent(*plans.halfwidth));
+  if (plans.halfwidth_without_rigs)
+    return fmt::format("{} trials bring {}{}", plans.halfwidth_without_rigs->fixed, aim,
+                       plans.true_success ? "" : ", the worst case");
   const std::vector<RigPlan>& on_rigs = plans.halfwidth_on_rigs;
   return fmt::format("{} to {} rigs bring {}, with a standard deviation of {} between rigs{}",
-                     on_rigs.back().rigs, on_rigs.front().rigs, aim, text::percent(*request.rig_sd),
-                     request.pilot.empty() ? "" : " (" + request.pilot + ")");
+                     on_rigs.back().rigs, on_rigs.front().rigs, aim, text::percent(*plans.rig_sd),
+                     plans.pilot.empty() ? "" : " (" + plans.pilot + ")");
 }
 
-std::string rigs_sentence(const Plans& plans) {
+std::string halfwidth_sentence(const Plans& plans) {
+  if (plans.halfwidth_without_rigs)
+    return "`stop` takes more: its bounds hold at whatever number of trials the outcomes let it end";
   if (plans.halfwidth_on_rigs.empty()) return "";
-  const double rate = plans.request.rate();
+  const double rate = plans.rate();
   return fmt::format(
       "more trials on a rig help little once they outnumber {:.3g}: what differs between rigs remains",
-      rate * (1.0 - rate) / (*plans.request.rig_sd * *plans.request.rig_sd));
+      rate * (1.0 - rate) / (*plans.rig_sd * *plans.rig_sd));
 }
 
 Description<RigPlan> rig_columns() {
@@ -266,81 +263,84 @@ Description<ClaimRow> claim_columns() {
 Description<Plans> halfwidth_description() {
   using Of = const Plans&;
   return Description<Plans>()
-      .value(in_data("halfwidth", "half-width of the bounds", "1"), [](Of p) { return *p.request.halfwidth; })
-      .value(in_data("rate", "assumed rate", "1"), [](Of p) { return p.request.rate(); })
+      .value(in_data("halfwidth", "half-width of the bounds", "1"), [](Of p) { return *p.halfwidth; })
+      .value(in_data("rate", "assumed rate", "1"), [](Of p) { return p.rate(); })
       .value(in_data("rig_sd", "standard deviation of the success probability between rigs", "1"),
-             [](Of p) { return p.request.rig_sd; })
+             [](Of p) { return p.rig_sd; })
       .table({.key = "rig_plans", .meaning = "rigs and trials; none without rig_sd"}, rig_columns(),
              &Plans::halfwidth_on_rigs)
       .value(everywhere("trials", "trials, decided beforehand", "trials without rigs, decided beforehand"),
-             [](Of p) { return p.halfwidth ? std::optional(p.halfwidth->fixed) : std::nullopt; })
+             [](Of p) {
+               return p.halfwidth_without_rigs ? std::optional(p.halfwidth_without_rigs->fixed)
+                                               : std::nullopt;
+             })
       .value(everywhere("trials_with_stop", "trials with `stop`, about",
                         "trials without rigs, decided by the outcomes"),
-             [](Of p) { return p.halfwidth ? std::optional(p.halfwidth->sequential) : std::nullopt; })
-      .sentence(rigs_sentence);
+             [](Of p) {
+               return p.halfwidth_without_rigs ? std::optional(p.halfwidth_without_rigs->sequential)
+                                               : std::nullopt;
+             })
+      .sentence(halfwidth_sentence);
 }
 
-/// The answer to one of the questions: `success`, `rigs` or `halfwidth`.
-document::AnswerDescription<Plans> answer_to(std::string_view question) {
-  const bool of_claim = question == "success";
-  const bool of_rigs = question == "rigs";
-  document::AnswerDescription<Plans> answer{
-      {.name = fmt::format("plan-{}", question),
-       .meaning = of_claim  ? "trials that show a proportion of successful axes"
-                  : of_rigs ? "rigs and trials that show a proportion of successful rigs"
-                            : "trials that bring the bounds of a rate within a half-width",
-       .csv_table = of_claim  ? "plans"
-                    : of_rigs ? "rig_plans"
-                              : ""},
-      {}};
-  Description<PlanRequest> asked;
-  asked.value(in_data("confidence", "confidence of the claim, or of the bounds", "1"),
-              &PlanRequest::confidence);
-  if (of_claim) {
-    asked.value(in_data("success", "proportion of axes to be shown to succeed", "1"), &PlanRequest::success)
-        .value({.key = "true_success",
-                .heading = "assumed true proportion",
-                .meaning = "assumed true proportion",
-                .unit = "1",
-                .notation = document::Notation::given_percent},
-               &PlanRequest::true_success)
-        .value(in_data("power", "probability that is asked for", "1"), &PlanRequest::power);
-  }
-  if (of_rigs) {
-    asked
-        .value(in_data("success", "proportion of its moves in which a rig holds zero", "1"),
-               &PlanRequest::success)
-        .value(in_data("rigs_share", "proportion of rigs to be shown to succeed", "1"),
-               &PlanRequest::rigs_share);
-  }
-  answer.items.headline(of_claim  ? claim_headline
-                        : of_rigs ? tolerance_headline
-                                  : halfwidth_headline)
-      .include(asked, &Plans::request);
-  if (of_claim)
-    answer.items.table({.key = "plans", .meaning = "plans by the number of failures"}, claim_columns(),
-                       &Plans::claims);
-  if (of_rigs)
-    answer.items.table({.key = "rig_plans", .meaning = "rigs and trials, if no trial fails"}, rig_columns(),
-                       &Plans::tolerance);
-  if (of_claim || of_rigs) answer.items.sentence(halfwidth_headline);
+document::AnswerDescription<Plans> answer_named(const char* name, const char* meaning, const char* csv_table,
+                                                std::string (*headline)(const Plans&)) {
+  document::AnswerDescription<Plans> answer{{.name = name, .meaning = meaning, .csv_table = csv_table}, {}};
+  answer.items.headline(headline).value(
+      in_data("confidence", "confidence of the claim, or of the bounds", "1"), &Plans::confidence);
+  return answer;
+}
+
+/// Adds the bounds, which may be asked for beside a claim.
+document::AnswerDescription<Plans> with_halfwidth(document::AnswerDescription<Plans> answer) {
   answer.items.object(everywhere("halfwidth", "trials for these bounds", "plan of the bounds of a rate"),
                       halfwidth_description(),
-                      [](const Plans& plans) { return plans.request.halfwidth ? &plans : nullptr; });
+                      [](const Plans& plans) { return plans.halfwidth ? &plans : nullptr; });
   return answer;
+}
+
+document::AnswerDescription<Plans> success_answer() {
+  document::AnswerDescription<Plans> answer = answer_named(
+      "plan-success", "trials that show a proportion of successful axes", "plans", claim_headline);
+  answer.items.value(in_data("success", "proportion of axes to be shown to succeed", "1"), &Plans::success)
+      .value({"true_success", "assumed true proportion", "assumed true proportion", "1",
+              document::Notation::given_percent},
+             &Plans::true_success)
+      .value(in_data("power", "probability that is asked for", "1"), &Plans::power)
+      .table({.key = "plans", .meaning = "plans by the number of failures"}, claim_columns(), &Plans::claims)
+      .sentence(halfwidth_headline);
+  return with_halfwidth(std::move(answer));
+}
+
+document::AnswerDescription<Plans> rigs_answer() {
+  document::AnswerDescription<Plans> answer =
+      answer_named("plan-rigs", "rigs and trials that show a proportion of successful rigs", "rig_plans",
+                   tolerance_headline);
+  answer.items
+      .value(in_data("success", "proportion of its moves in which a rig holds zero", "1"), &Plans::success)
+      .value(in_data("rigs_share", "proportion of rigs to be shown to succeed", "1"), &Plans::rigs_share)
+      .table({.key = "rig_plans", .meaning = "rigs and trials, if no trial fails"}, rig_columns(),
+             &Plans::tolerance)
+      .sentence(halfwidth_headline);
+  return with_halfwidth(std::move(answer));
+}
+
+document::AnswerDescription<Plans> halfwidth_answer() {
+  return with_halfwidth(answer_named("plan-halfwidth",
+                                     "trials that bring the bounds of a rate within a half-width", "",
+                                     halfwidth_headline));
 }
 
 }  // namespace
 
 document::Answer claim_plan(const command_line::Arguments& arguments) {
   const Plans plans = plans_of(request_of(arguments));
-  const PlanRequest& asked = plans.request;
-  return answer_to(asked.rigs_share ? "rigs" : asked.success ? "success" : "halfwidth").of(plans);
+  return (plans.rigs_share ? rigs_answer() : plans.success ? success_answer() : halfwidth_answer()).of(plans);
 }
 
 std::vector<document::AnswerType> claim_plan_types() {
-  return {answer_to("success").complete_type(), answer_to("rigs").complete_type(),
-          answer_to("halfwidth").complete_type()};
+  return {success_answer().complete_type(), rigs_answer().complete_type(),
+          halfwidth_answer().complete_type()};
 }
 
 }  // namespace zerocount::design_commands

@@ -1,7 +1,4 @@
-#include "runners/design_commands/equivalence_plan.hpp"
-
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,9 +17,11 @@
 #include "analysis/comparison/point_trials.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
+#include "core/text/number_text.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/design_commands/plans.hpp"
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/status/progress.hpp"
 #include "runners/trials/study_runner.hpp"
@@ -61,10 +60,8 @@ std::pair<std::string, comparison::GateMargin> read_margin(const command_line::A
   std::string number = text.substr(equals + 1);
   const bool relative = number.ends_with('%');
   if (relative) number.pop_back();
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-  const bool read = error == std::errc{} && end == number.data() + number.size();
-  if (!read || !std::isfinite(value) || value <= 0.0)
+  const double value = text::parse_number<double>(number).value_or(0.0);
+  if (!std::isfinite(value) || value <= 0.0)
     refuse_margin(arguments, text, "a number greater than 0, or PERCENT% of the measure");
   if (measure->proportion() && !relative && value >= 1.0)
     refuse_margin(arguments, text, "less than 1, such as 0.02 for two percent points");

@@ -30,8 +30,7 @@ using document::with_words;
 constexpr std::string_view other_plans = ", or --success, --halfwidth or --margin";
 
 /// A study, and the time that it takes with all cores of this machine, s, where that was measured.
-struct PlannedStudy {
-  goal::Needs needs;
+struct PlannedStudy : goal::Needs {
   std::optional<double> seconds{};
 };
 
@@ -47,20 +46,17 @@ std::vector<PlannedStudy> with_times(const std::vector<goal::Needs>& studies, co
   if (studies.empty() || !is_on_machines(study)) return planned;
   const double seconds_per_trial =
       forecast::measure_cost(study).seconds() / static_cast<double>(study.trials);  // of all points
-  for (PlannedStudy& one : planned) one.seconds = seconds_per_trial * static_cast<double>(one.needs.trials);
+  for (PlannedStudy& one : planned) one.seconds = seconds_per_trial * static_cast<double>(one.trials);
   return planned;
 }
 
 document::Description<PlannedStudy> study_columns() {
   using Of = const PlannedStudy&;
   return document::Description<PlannedStudy>()
-      .value(everywhere("rigs", "rigs", "machines; 0 without rigs"), [](Of one) { return one.needs.rigs; })
+      .value(everywhere("rigs", "rigs", "machines; 0 without rigs"), &PlannedStudy::rigs)
       .value(to_people("trials on each"),
-             [](Of one) {
-               return one.needs.rigs > 0 ? std::optional(one.needs.trials / one.needs.rigs) : std::nullopt;
-             })
-      .value(everywhere("trials", "trials", "trials of a design point"),
-             [](Of one) { return one.needs.trials; })
+             [](Of one) { return one.rigs > 0 ? std::optional(one.trials / one.rigs) : std::nullopt; })
+      .value(everywhere("trials", "trials", "trials of a design point"), &PlannedStudy::trials)
       .value({.heading = "time here", .shown = Shown::to_people, .numeric = true},
              [](Of one) { return one.seconds ? status::duration_text(*one.seconds) : std::string(); })
       .value({.key = "seconds",
@@ -79,7 +75,7 @@ struct GoalPlans {
 
 std::string smallest_headline(const GoalPlans& plans) {
   if (plans.smallest.empty()) return "no study of up to 10⁹ trials can meet the goal";
-  const goal::Needs& first = plans.smallest.front().needs;
+  const goal::Needs& first = plans.smallest.front();
   const bool on_rigs = plans.study.rigs > 0;
   return fmt::format("{} can be met from {} {} on, if no move misses {}",
                      plans.study.goals.size() > 1 ? "the goals" : "the goal",

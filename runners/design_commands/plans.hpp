@@ -23,4 +23,10 @@ document::Answer goal_plan(const command_line::Arguments& arguments);
 
 std::vector<document::AnswerType> goal_plan_types();
 
+/// `plan --margin MEASURE=M … MANIFEST`: simulates a pilot of the study; the trials with which two equal
+/// studies are shown to be equivalent.
+document::Answer equivalence_plan(const command_line::Arguments& arguments);
+
+document::AnswerType equivalence_plan_type();
+
 }  // namespace zerocount::design_commands

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <numeric>
 #include <span>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,11 +20,11 @@
 #include "runners/forecast/cost.hpp"
 #include "runners/forecast/file_size.hpp"
 #include "runners/forecast/stored_column.hpp"
+#include "runners/trials/block_source.hpp"
 #include "runners/trials/effort.hpp"
-#include "runners/trials/shard_collector.hpp"
+#include "runners/trials/shard_writer.hpp"
 #include "runners/trials/study_runner.hpp"
 #include "runners/trials/trial_runner.hpp"
-#include "runners/trials/turns.hpp"
 
 namespace zerocount::forecast {
 namespace {
@@ -43,33 +45,32 @@ shards::TrialResult trial_without_jerks(const study::Study& study) {
   return trial;
 }
 
+/// How many trials have about this many samples: at least 1, at most `most`.
+std::int64_t trials_with(double samples, const study::Study& study, std::int64_t most) {
+  return std::clamp(static_cast<std::int64_t>(samples / trials::samples_per_trial(study)), std::int64_t{1},
+                    most);
+}
+
+using Rows = std::vector<std::int64_t>;
+
 /// Rows of several places among all of them, from the `from`-th to before the `to`-th of each.
-std::vector<std::int64_t> rows_at(std::int64_t places, std::int64_t from, std::int64_t to, std::int64_t all) {
-  std::vector<std::int64_t> rows;
+Rows rows_at(std::int64_t places, std::int64_t from, std::int64_t to, std::int64_t all) {
+  Rows rows;
   for (std::int64_t place = 0; place < places; ++place) {
     for (std::int64_t i = from; i < to; ++i) rows.push_back(all / places * place + i);
   }
   return rows;
 }
 
-/// Trials from several places of the study, which together fill the lanes, numbered from 0, without sample
-/// records.
-std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
+/// Trials of these rows, as far as they end in time, without sample records and numbered from 0.
+/// @param groups that are run one after the other
+std::vector<shards::TrialResult> run_in_time(const study::Study& study, std::span<const Rows> groups) {
   const trials::Effort limited = trials::Effort().share({}, sampling_limit);
-  const std::int64_t rows = study::trial_count(study);
-  const auto wanted =
-      std::clamp(static_cast<std::int64_t>(max_sampled_samples / trials::samples_per_trial(study)),
-                 std::int64_t{1}, std::min(max_sampled_trials, rows));
-  const std::int64_t places = std::min<std::int64_t>(sampled_places, wanted);
   trials::TrialRunner runner(study);
   std::vector<shards::TrialResult> trials;
-  const auto add = [&](std::int64_t from, std::int64_t to) {
-    std::vector<shards::TrialResult> more = runner.run(rows_at(places, from, to, rows), limited.stop());
-    trials.insert(trials.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-  };
   try {
-    add(0, 1);
-    add(1, wanted / places);
+    for (const Rows& rows : groups)
+      std::ranges::move(runner.run(rows, limited.stop()), std::back_inserter(trials));
   } catch (const trial::Interrupted&) {
     if (trials.empty()) trials.push_back(trial_without_jerks(study));
   }
@@ -81,25 +82,22 @@ std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
   return trials;
 }
 
-/// The first trials of the middle point, numbered from 0.
+/// Trials from several places of the study, which together fill the lanes.
+std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
+  const std::int64_t rows = study::trial_count(study);
+  const std::int64_t wanted = trials_with(max_sampled_samples, study, std::min(max_sampled_trials, rows));
+  const std::int64_t places = std::min<std::int64_t>(sampled_places, wanted);
+  return run_in_time(study,
+                     std::array{rows_at(places, 0, 1, rows), rows_at(places, 1, wanted / places, rows)});
+}
+
+/// The first trials of the middle point.
 std::vector<shards::TrialResult> trials_of_point(const study::Study& study) {
   if (!layout::has_sums(study.retention)) return {};
-  const trials::Effort limited = trials::Effort().share({}, sampling_limit);
-  const auto count =
-      std::clamp(static_cast<std::int64_t>(max_sampled_samples / trials::samples_per_trial(study)),
-                 std::int64_t{1}, std::min(max_sampled_trials, study.trials));
-  std::vector<shards::TrialResult> trials;
-  try {
-    const layout::RowRange rows{study::point_count(study) / 2 * study.trials, count};
-    trials = trials::TrialRunner(study).run(rows, limited.stop());
-  } catch (const trial::Interrupted&) {
-    trials.push_back(trial_without_jerks(study));
-  }
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    trials[i].row = static_cast<std::int64_t>(i);
-    trials[i].trace.clear();
-  }
-  return trials;
+  Rows rows(static_cast<std::size_t>(
+      trials_with(max_sampled_samples, study, std::min(max_sampled_trials, study.trials))));
+  std::iota(rows.begin(), rows.end(), study::point_count(study) / 2 * study.trials);
+  return run_in_time(study, std::array{std::move(rows)});
 }
 
 /// Some of the trials whose records the study retains, of points spread over it.
@@ -108,9 +106,8 @@ std::vector<shards::TrialResult> traced_trials(const study::Study& study) {
   const trials::Effort limited = trials::Effort().share({}, sampling_limit);
   const std::int64_t points = study::point_count(study);
   const std::int64_t retained = std::ssize(study.retained_trials);
-  const auto wanted =
-      std::clamp(static_cast<std::int64_t>(max_traced_samples / trials::samples_per_trial(study)),
-                 std::int64_t{1}, std::min<std::int64_t>(sampled_places, points * retained));
+  const std::int64_t wanted =
+      trials_with(max_traced_samples, study, std::min<std::int64_t>(sampled_places, points * retained));
   std::vector<shards::TrialResult> traced;
   for (std::int64_t i = 0; i < wanted; ++i) {
     const std::int64_t one = points * retained / wanted * i;
@@ -156,15 +153,15 @@ double bytes_of_records(const study::Study& study) {
 
 /// Bytes of the datasets of a shard without their values.
 double bytes_of_descriptions(const study::Study& study) {
-  const std::size_t columns =
-      layout::has_trials(study.retention)
-          ? study.columns.inputs.size() +
-                layout::outcome_table(layout::format_version, study.features).columns.size() +
-                layout::jerk_table().columns.size() +
-                (study.retained_trials.empty() ? 0 : layout::trace_table(study.features).columns.size())
-          : 0;
-  constexpr double others = 10.0;
-  return bytes_of_shard_dataset * (static_cast<double>(columns) + others);
+  double datasets = 10.0;  // but for those of the trials
+  if (layout::has_trials(study.retention)) {
+    datasets += static_cast<double>(study.columns.inputs.size());
+    for (const layout::Table& table :
+         {layout::outcome_table(layout::format_version, study.features), layout::jerk_table(),
+          study.retained_trials.empty() ? layout::Table{} : layout::trace_table(study.features)})
+      datasets += static_cast<double>(table.columns.size());
+  }
+  return bytes_of_shard_dataset * datasets;
 }
 
 /// Numbers in the sums of a point, of trials that are numbered from 0.
@@ -186,22 +183,15 @@ struct SumBytes {
   double of_all{0.0};
 };
 
-/// Every n-th, so that there are about `count`, numbered from 0.
-std::vector<shards::TrialResult> some_of(const std::vector<shards::TrialResult>& trials, std::size_t count) {
-  const std::size_t step = std::max<std::size_t>(trials.size() / count, 1);
-  std::vector<shards::TrialResult> some;
-  for (std::size_t i = 0; i < trials.size(); i += step) {
-    some.push_back(trials[i]);
-    some.back().row = std::ssize(some) - 1;
-  }
-  return some;
-}
-
 SumBytes bytes_of_sums(const study::Study& study, const std::vector<shards::TrialResult>& all_trials) {
-  constexpr std::size_t used = 64;  // to which `growth` belongs
-  const std::vector<shards::TrialResult> trials = some_of(all_trials, used);
-  constexpr double growth = 4.0;  // distinct values that more trials add; measured
   if (!layout::has_sums(study.retention)) return {};
+  constexpr std::size_t used = 64;  // trials, to which `growth` belongs
+  constexpr double growth = 4.0;    // distinct values that more trials add; measured
+  std::vector<shards::TrialResult> trials;
+  for (std::size_t i = 0; i < all_trials.size(); i += std::max<std::size_t>(all_trials.size() / used, 1)) {
+    trials.push_back(all_trials[i]);
+    trials.back().row = std::ssize(trials) - 1;
+  }
   const double all = numbers_of_sums(study, trials);
   const auto sampled = static_cast<double>(trials.size());
   double of_rigs = 0.0;  // numbers of the rigs that no sampled trial is on

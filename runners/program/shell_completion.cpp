@@ -1,5 +1,3 @@
-#include "runners/program/shell_completion.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -13,6 +11,7 @@
 #include "core/failure/failure.hpp"
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "runners/program/shell_commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::program {

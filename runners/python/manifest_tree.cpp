@@ -1,5 +1,3 @@
-#include "runners/python/manifest_tree.hpp"
-
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -12,6 +10,7 @@
 #include "experiments/manifest_text/overrides.hpp"
 #include "experiments/yaml/problems.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
+#include "runners/python/package.hpp"
 
 namespace zerocount::python {
 namespace {

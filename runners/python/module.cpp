@@ -7,10 +7,7 @@
 
 #include "core/trial/outcome.hpp"
 #include "results/layout/layout.hpp"
-#include "runners/python/failures.hpp"
-#include "runners/python/manifest_tree.hpp"
-#include "runners/python/python_law.hpp"
-#include "runners/python/study_object.hpp"
+#include "runners/python/package.hpp"
 
 namespace zerocount::python {
 namespace {

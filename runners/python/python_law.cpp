@@ -1,7 +1,7 @@
-#include "runners/python/python_law.hpp"
-
 #include <string>
 #include <utility>
+
+#include "runners/python/package.hpp"
 
 namespace zerocount::python {
 namespace {

@@ -1,5 +1,3 @@
-#include "runners/python/sampled_trials.hpp"
-
 #include <algorithm>
 #include <cstdint>
 #include <span>
@@ -18,7 +16,7 @@
 #include "experiments/randomness/random_variables.hpp"
 #include "results/layout/fields.hpp"
 #include "runners/python/arrays.hpp"
-#include "runners/python/interruptible.hpp"
+#include "runners/python/package.hpp"
 #include "runners/trials/trial_set.hpp"
 
 namespace zerocount::python {

@@ -1,5 +1,3 @@
-#include "runners/python/study_object.hpp"
-
 #include <memory>
 #include <optional>
 #include <set>
@@ -28,9 +26,7 @@
 #include "results/reading/results_file.hpp"
 #include "runners/plugins/plugin_library.hpp"
 #include "runners/python/arrays.hpp"
-#include "runners/python/interruptible.hpp"
-#include "runners/python/python_law.hpp"
-#include "runners/python/sampled_trials.hpp"
+#include "runners/python/package.hpp"
 
 namespace zerocount::python {
 namespace {

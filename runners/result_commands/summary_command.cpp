@@ -19,7 +19,6 @@
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/command.hpp"
-#include "runners/commands/plugin_option.hpp"
 #include "runners/commands/stage_progress.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/result_commands/result_commands.hpp"

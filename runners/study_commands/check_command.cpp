@@ -21,7 +21,6 @@
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/forecast/cost.hpp"
-#include "runners/forecast/engine_use.hpp"
 #include "runners/forecast/study_size.hpp"
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/standard_output/standard_output.hpp"
@@ -106,38 +105,43 @@ std::string plan_headline(const Plan& plan) {
                      status::duration_text(plan.cost.seconds()));
 }
 
-/// "12, 16 trials of each"; nothing without rigs.
-std::optional<std::string> rigs_text(const Plan& plan) {
-  if (plan.study.rigs == 0) return {};
-  return fmt::format("{}, {} of each", plan.study.rigs,
-                     text::counted(plan.study.trials / plan.study.rigs, "trial"));
+/// "16 trials", those of each of the groups.
+std::string of_each(std::int64_t all, std::int64_t groups, std::string_view noun) {
+  return text::counted(all / std::max<std::int64_t>(groups, 1), noun);
 }
 
-/// "3, 4 rigs in each", "3, about 40 trials in each"; nothing without worlds.
+/// "3, 16 trials under each: warm, cold, …"; nothing where there are no such groups.
+std::optional<std::string> groups_text(std::int64_t groups, std::string_view each,
+                                       const std::vector<std::string>& names = {}) {
+  if (groups == 0) return {};
+  return fmt::format("{}, {}{}{}", groups, each, names.empty() ? "" : ": ", fmt::join(names, ", "));
+}
+
+std::optional<std::string> rigs_text(const Plan& plan) {
+  const study::Study& study = plan.study;
+  return groups_text(study.rigs, of_each(study.trials, study.rigs, "trial") + " of each");
+}
+
 std::optional<std::string> worlds_text(const Plan& plan) {
   const study::Study& study = plan.study;
-  if (study.worlds == 0) return {};
-  if (study.rigs == 0)
-    return fmt::format("{}, about {} trials in each", study.worlds, study.trials / study.worlds);
-  return fmt::format("{}, {} in each", study.worlds, text::counted(study.rigs / study.worlds, "rig"));
+  return groups_text(study.worlds,
+                     (study.rigs > 0 ? of_each(study.rigs, study.worlds, "rig")
+                                     : "about " + of_each(study.trials, study.worlds, "trial")) +
+                         " in each");
 }
 
-/// "2, 8000 trials under each: warm, cold"; nothing without conditions.
 std::optional<std::string> conditions_text(const Plan& plan) {
   const std::vector<std::string>& names = plan.study.condition_names;
-  if (names.empty()) return {};
-  return fmt::format("{}, {} trials under each: {}", names.size(), plan.study.trials / std::ssize(names),
-                     fmt::join(names, ", "));
+  return groups_text(std::ssize(names),
+                     of_each(plan.study.trials, std::ssize(names), "trial") + " under each", names);
 }
 
-/// "4, 4000 trials at each: 0 cycles, 100000 cycles, …"; nothing without ages.
 std::optional<std::string> ages_text(const Plan& plan) {
   const study::Ages& ages = plan.study.ages;
-  if (ages.at.empty()) return {};
   std::vector<std::string> texts;
   for (const double age : ages.at) texts.push_back(study::age_text(ages, age));
-  return fmt::format("{}, {} trials at each: {}", texts.size(), plan.study.trials / std::ssize(texts),
-                     fmt::join(texts, ", "));
+  return groups_text(std::ssize(texts), of_each(plan.study.trials, std::ssize(texts), "trial") + " at each",
+                     texts);
 }
 
 std::string stop_text(const Plan& plan) {
@@ -336,11 +340,8 @@ document::AnswerDescription<Plan> check_answer() {
 }
 
 /// "to the nearest of 3.9e-06 rad: 0.0001 rad = 26 counts"; nothing for targets in counts.
-std::optional<std::string> targets_text(const study::Study& study, std::int64_t point,
-                                        std::int64_t condition) {
+std::optional<std::string> targets_text(const study::Study& study, const study::StudyTrial& trial) {
   constexpr std::size_t shown = 5;
-  const study::StudyTrial trial =
-      study::study_trial(study, point, study::turns_of(study).trial_of(0, condition));
   const std::size_t moves = trial.target_positions.size();
   if (moves == 0) return {};
   const std::string unit = parameters::unit_on(study.units.axis, "rad");
@@ -351,12 +352,6 @@ std::optional<std::string> targets_text(const study::Study& study, std::int64_t 
   }
   return fmt::format("to the nearest of {:.4g} {}: {}{}", loop::fine_resolution(trial.parameters.encoder),
                      unit, text, moves > shown ? ", …" : "");
-}
-
-std::optional<theory::HuntingPrediction> hunting_of(const study::Study& study, std::int64_t point,
-                                                    std::int64_t condition) {
-  return theory::predict_hunting(
-      study::study_trial(study, point, study::turns_of(study).trial_of(0, condition)).parameters);
 }
 
 /// Warns of the first point whose moves may end before they arrive, and says how many there are.
@@ -380,6 +375,8 @@ std::vector<PointReading> examined_points(const study::Study& study, std::int64_
     const std::int64_t point = static_cast<std::int64_t>(i) / conditions;
     const std::int64_t condition = static_cast<std::int64_t>(i) % conditions;
     const auto index = static_cast<std::size_t>(point);
+    const study::StudyTrial trial =
+        study::study_trial(study, point, study::turns_of(study).trial_of(0, condition));
     points[i] = {point,
                  study.points.labels[index],
                  names.size() == 1 ? std::nullopt : std::optional(names[index]),
@@ -387,8 +384,8 @@ std::vector<PointReading> examined_points(const study::Study& study, std::int64_
                      ? std::nullopt
                      : std::optional(study.conditions[static_cast<std::size_t>(condition)]),
                  theory::examine(study, point, condition, rotors),
-                 hunting_of(study, point, condition),
-                 targets_text(study, point, condition)};
+                 theory::predict_hunting(trial.parameters),
+                 targets_text(study, trial)};
   };
   std::vector<theory::KnownRotor> of_first;
   if (!points.empty()) examine(0, of_first);

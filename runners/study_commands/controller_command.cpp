@@ -20,7 +20,7 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
-#include "runners/controller_code/written_controller.hpp"
+#include "runners/controller_code/chain_program.hpp"
 #include "runners/status/interruption.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_commands/precision_effect.hpp"
@@ -157,8 +157,8 @@ std::vector<std::string> margin_lines(const study::Study& study, std::int64_t po
   return lines;
 }
 
-PrecisionEffect simulated_effect(const study::Study& study, std::int64_t point,
-                                 const controller_code::ControllerToWrite& chain) {
+std::vector<std::string> simulated_effect(const study::Study& study, std::int64_t point,
+                                          const controller_code::ControllerToWrite& chain) {
   const status::InterruptionWatch interruption;
   try {
     return effect_of_single_precision(study, point, chain, interruption.token());
@@ -205,7 +205,7 @@ ExitCode write_controller(const command_line::Arguments& arguments) {
       p.controller,     loop::fine_resolution(p.encoder), p.dac, p.initial.integral, name,
       study.units.axis, margin_lines(study, point)};
   if (precision == controller_code::Precision::single_precision) {
-    const std::vector<std::string> lines = precision_lines(simulated_effect(study, point, chain), study);
+    const std::vector<std::string> lines = simulated_effect(study, point, chain);
     for (const std::string& line : lines) status::tell("{}\n", line);
     chain.remarks.insert(chain.remarks.end(), lines.begin(), lines.end());
   }

@@ -58,47 +58,38 @@ std::vector<End> ends_of(const study::Study& study, std::int64_t point, std::int
   return ends;
 }
 
-PrecisionEffect::Ends summary_of(const std::vector<End>& ends) {
+/// The quantile of the times at which the slowest moves of the trials have settled.
+std::string settled_text(const std::vector<End>& ends, double p) {
   std::vector<double> settled;
   settled.reserve(ends.size());
   for (const End& end : ends) settled.push_back(end.settled);
   std::ranges::sort(settled);
-  const auto quantile = [&](double p) {
-    return settled[static_cast<std::size_t>(statistics::quantile_rank(std::ssize(settled), p) - 1)];
-  };
-  return {std::ranges::count_if(ends, &End::meets), quantile(0.5), quantile(0.95)};
-}
-
-std::string seconds(double time) {
+  const double time =
+      settled[static_cast<std::size_t>(statistics::quantile_rank(std::ssize(settled), p) - 1)];
   return std::isfinite(time) ? fmt::format("{:.6g} s", time) : "never";
 }
 
 }  // namespace
 
-PrecisionEffect effect_of_single_precision(const study::Study& study, std::int64_t point,
-                                           const controller_code::ControllerToWrite& chain,
-                                           const std::stop_token& stop) {
+std::vector<std::string> effect_of_single_precision(const study::Study& study, std::int64_t point,
+                                                    const controller_code::ControllerToWrite& chain,
+                                                    const std::stop_token& stop) {
   const double affordable = max_samples / trials::samples_per_trial(study);
   const std::int64_t count =
       std::min(study.trials, static_cast<std::int64_t>(std::clamp(affordable, least_trials, most_trials)));
   const std::vector<End> in_double = ends_of(study, point, count, chain, Precision::double_precision, stop);
   const std::vector<End> in_single = ends_of(study, point, count, chain, Precision::single_precision, stop);
-  PrecisionEffect effect{count, 0, summary_of(in_single), summary_of(in_double)};
+  std::int64_t otherwise = 0;
   for (std::size_t i = 0; i < in_single.size(); ++i)
-    effect.judged_otherwise += in_single[i].meets != in_double[i].meets ? 1 : 0;
-  return effect;
-}
-
-std::vector<std::string> precision_lines(const PrecisionEffect& effect, const study::Study& study) {
-  const PrecisionEffect::Ends& now = effect.single_precision;
-  const PrecisionEffect::Ends& before = effect.double_precision;
-  const goal::QuestionWords& words = goal::words_of(goal::question_of(study));
-  return {fmt::format("What single precision changes in {} simulated trials (in double precision):",
-                      effect.trials),
-          fmt::format("  {} trials {} ({}); {} are judged otherwise", now.meeting, words.meet, before.meeting,
-                      effect.judged_otherwise),
-          fmt::format("  settled: median {} ({}), 95 % {} ({})", seconds(now.median), seconds(before.median),
-                      seconds(now.p95), seconds(before.p95))};
+    otherwise += in_single[i].meets != in_double[i].meets ? 1 : 0;
+  return {fmt::format("What single precision changes in {} simulated trials (in double precision):", count),
+          fmt::format("  {} trials {} ({}); {} are judged otherwise",
+                      std::ranges::count_if(in_single, &End::meets),
+                      goal::words_of(goal::question_of(study)).meet,
+                      std::ranges::count_if(in_double, &End::meets), otherwise),
+          fmt::format("  settled: median {} ({}), 95 % {} ({})", settled_text(in_single, 0.5),
+                      settled_text(in_double, 0.5), settled_text(in_single, 0.95),
+                      settled_text(in_double, 0.95))};
 }
 
 }  // namespace zerocount::study_commands

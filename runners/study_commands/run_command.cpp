@@ -27,16 +27,14 @@
 #include "runners/commands/study_argument.hpp"
 #include "runners/commands/timeline_option.hpp"
 #include "runners/commands/verified_report.hpp"
-#include "runners/forecast/engine_use.hpp"
+#include "runners/forecast/cost.hpp"
 #include "runners/forecast/study_size.hpp"
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/status/interruption.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_commands/study_commands.hpp"
 #include "runners/study_run/earlier_shards.hpp"
-#include "runners/study_run/existing_output.hpp"
 #include "runners/study_run/file_run.hpp"
-#include "runners/study_run/sequential_run.hpp"
 #include "runners/trials/study_runner.hpp"
 
 namespace zerocount::study_commands {
@@ -82,21 +80,11 @@ layout::RowRange part_of(const command_line::Arguments& arguments, const std::st
 }
 
 /// Request of a run.
-struct RunRequest {
-  study::Study study;
-  fs::path output;
-  layout::RowRange wanted;  ///< rows of the study
-  int threads{0};
-  bool quiet{false};
+struct RunRequest : study_run::FileRun {
   bool force{false};
-  std::optional<fs::path> page;      ///< --watch
-  std::optional<fs::path> timeline;  ///< --timeline
+  std::optional<fs::path> page;          ///< --watch
+  std::optional<fs::path> trace_events;  ///< --timeline
 };
-
-/// The requested engine.
-study::Engine engine_of(const command_line::Arguments& arguments) {
-  return arguments.choice("engine") == "batch" ? study::Engine::batch : study::Engine::reference;
-}
 
 /// @throws Failure (bad_input) if --study names another study.
 void require_study_of_option(const command_line::Arguments& arguments, const study::Study& study) {
@@ -113,10 +101,11 @@ RunRequest run_request(const command_line::Arguments& arguments) {
   RunRequest request;
   request.output = command_line::output_place(arguments);
   request.page = commands::watched_page(arguments);
-  request.timeline = commands::timeline_place(arguments);
+  request.trace_events = commands::timeline_place(arguments);
   request.study = commands::load_study(arguments.operands()[0], arguments, commands::StudyUse::to_make_files);
   require_study_of_option(arguments, request.study);
-  request.study.engine = engine_of(arguments);
+  request.study.engine =
+      arguments.choice("engine") == "batch" ? study::Engine::batch : study::Engine::reference;
   const std::optional<std::string> part = arguments.value("shard");
   request.wanted = part ? part_of(arguments, *part, request.study) : layout::all_rows(request.study);
   if (request.study.stop && part) {
@@ -127,11 +116,9 @@ RunRequest run_request(const command_line::Arguments& arguments) {
   request.threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
   request.quiet = arguments.has("quiet");
   request.force = arguments.has("force");
+  request.check_room = !request.force;
+  if (request.force) request.foreign = study_run::ForeignShards::remove;
   return request;
-}
-
-study_run::ForeignShards foreign_shards(const RunRequest& request) {
-  return request.force ? study_run::ForeignShards::remove : study_run::ForeignShards::refuse;
 }
 
 /// The summary of the trials that are finished so far.
@@ -149,8 +136,7 @@ report::ReportPage page_of(const fs::path& output) {
   return report::answer_page(summary_answer::summary_answer(summary));
 }
 
-void run_to_output(const RunRequest& request, const status::Listener& listener, timeline::Timeline* timeline,
-                   const std::stop_token& stop) {
+void run_to_output(const RunRequest& request, const std::stop_token& stop) {
   const study_run::ExistingUse existing =
       request.force ? study_run::ExistingUse::none
                     : study_run::use_of_existing(request.output, request.study, request.wanted);
@@ -165,18 +151,14 @@ void run_to_output(const RunRequest& request, const status::Listener& listener, 
   }
   storage::require_replaceable(request.output);
   if (request.study.stop) {
-    study_run::run_sequential(request.study, request.output,
-                              {request.threads, request.quiet, foreign_shards(request), listener, timeline},
-                              stop);
+    study_run::run_sequential(request, stop);
   } else {
-    study_run::run_to_file({request.study, request.output, request.wanted, request.threads, request.quiet,
-                            foreign_shards(request), !request.force, listener, timeline},
-                           existing, stop);
+    study_run::run_to_file(request, existing, stop);
   }
 }
 
 ExitCode run(const command_line::Arguments& arguments) {
-  const RunRequest request = run_request(arguments);
+  RunRequest request = run_request(arguments);
   const parallel::ThreadLimit limit(trials::threads_to_use(request.threads));
   commands::print_warnings(request.study);
   if (request.study.plugin && !request.quiet) {
@@ -197,8 +179,10 @@ ExitCode run(const command_line::Arguments& arguments) {
                            .kind = "run"},
                           [&] { return sections_so_far(request.output); });
   return live.during([&] {
-    commands::with_timeline(request.timeline, [&](timeline::Timeline* timeline) {
-      run_to_output(request, live.listener(), timeline, interruption.token());
+    request.listener = live.listener();
+    commands::with_timeline(request.trace_events, [&](timeline::Timeline* timeline) {
+      request.timeline = timeline;
+      run_to_output(request, interruption.token());
     });
     if (request.page) live.finish(report::html_page(page_of(request.output)));
     return ExitCode::success;

@@ -82,56 +82,32 @@ std::string problem_lines(Status s) {
 }
 
 document::Description<run_status::PartCounts> parts_description() {
+  using document::everywhere;
   using Parts = run_status::PartCounts;
   return document::Description<Parts>()
-      .value({.key = "all", .heading = "all", .meaning = "parts of the array job"}, &Parts::all)
-      .value({.key = "complete", .heading = "complete", .meaning = "parts with all their trials"},
-             &Parts::complete)
-      .value({.key = "running", .heading = "running", .meaning = "parts that a process runs"},
-             &Parts::running)
-      .value({.key = "interrupted",
-              .heading = "interrupted",
-              .meaning = "parts with finished trials that no process runs"},
+      .value(everywhere("all", "all", "parts of the array job"), &Parts::all)
+      .value(everywhere("complete", "complete", "parts with all their trials"), &Parts::complete)
+      .value(everywhere("running", "running", "parts that a process runs"), &Parts::running)
+      .value(everywhere("interrupted", "interrupted", "parts with finished trials that no process runs"),
              &Parts::interrupted)
-      .value({.key = "waiting", .heading = "waiting", .meaning = "parts that have not begun"},
-             &Parts::waiting);
+      .value(everywhere("waiting", "waiting", "parts that have not begun"), &Parts::waiting);
 }
 
 document::Description<run_status::RunStatus> run_description() {
-  using document::Shown;
+  using document::in_data;
   using Run = run_status::RunStatus;
   return document::Description<Run>()
-      .value({.key = "complete", .meaning = "whether the results file is complete", .shown = Shown::in_data},
-             &Run::complete)
-      .value({.key = "name",
-              .meaning = "name of the study; empty if no file could be read",
-              .shown = Shown::in_data},
-             &Run::name)
-      .value({.key = "running", .meaning = "whether a process runs it", .shown = Shown::in_data},
-             &Run::running)
-      .value({.key = "trials",
-              .meaning = "trials of the study; the maximum with 'stop'",
-              .shown = Shown::in_data},
-             &Run::trials)
-      .value({.key = "finished", .meaning = "trials in complete files", .shown = Shown::in_data},
-             &Run::finished)
-      .value({.key = "shards",
-              .meaning = "finished shards, without those of complete parts",
-              .shown = Shown::in_data},
-             &Run::shards)
-      .value({.heading = "shards", .shown = Shown::to_people},
+      .value(in_data("complete", "whether the results file is complete"), &Run::complete)
+      .value(in_data("name", "name of the study; empty if no file could be read"), &Run::name)
+      .value(in_data("running", "whether a process runs it"), &Run::running)
+      .value(in_data("trials", "trials of the study; the maximum with 'stop'"), &Run::trials)
+      .value(in_data("finished", "trials in complete files"), &Run::finished)
+      .value(in_data("shards", "finished shards, without those of complete parts"), &Run::shards)
+      .value(document::to_people("shards"),
              [](const Run& run) { return run.complete ? std::nullopt : std::optional(run.shards); })
-      .value({.key = "rate",
-              .meaning = "sum of the mean rates of the processes that run",
-              .unit = "1/s",
-              .shown = Shown::in_data},
-             &Run::rate)
-      .value({.key = "remaining", .meaning = "time to go at this rate", .unit = "s", .shown = Shown::in_data},
-             &Run::remaining)
-      .value({.key = "problems",
-              .meaning = "files that cannot be read, or were set aside as damaged",
-              .shown = Shown::in_data},
-             &Run::problems)
+      .value(in_data("rate", "sum of the mean rates of the processes that run", "1/s"), &Run::rate)
+      .value(in_data("remaining", "time to go at this rate", "s"), &Run::remaining)
+      .value(in_data("problems", "files that cannot be read, or were set aside as damaged"), &Run::problems)
       .object({.key = "parts", .heading = "parts", .meaning = "parts of an array job", .optional = true},
               parts_description(), &Run::parts);
 }

@@ -18,14 +18,13 @@
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
-#include "runners/commands/plugin_option.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/rare/rare_file.hpp"
 #include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_commands/study_commands.hpp"
 #include "runners/study_commands/trace_writer.hpp"
-#include "runners/verification/traced_trial.hpp"
+#include "runners/verification/replay.hpp"
 
 namespace zerocount::study_commands {
 namespace {

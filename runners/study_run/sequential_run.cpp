@@ -1,5 +1,3 @@
-#include "runners/study_run/sequential_run.hpp"
-
 #include <algorithm>
 #include <vector>
 
@@ -12,6 +10,7 @@
 #include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_run/assembly.hpp"
+#include "runners/study_run/file_run.hpp"
 #include "runners/trials/study_runner.hpp"
 
 namespace zerocount::study_run {
@@ -125,11 +124,11 @@ void assemble_decided(const std::vector<shards::ShardInfo>& shards, const study:
 
 }  // namespace
 
-void run_sequential(const study::Study& study, const fs::path& output, const SequentialRunSettings& settings,
-                    const std::stop_token& stop) {
-  const fs::path directory = layout::shards_directory(output);
+void run_sequential(const FileRun& request, const std::stop_token& stop) {
+  const study::Study& study = request.study;
+  const fs::path directory = layout::shards_directory(request.output);
   storage::make_directory(directory);
-  EarlierShards earlier = earlier_shards(directory, study, layout::all_rows(study), settings.foreign);
+  EarlierShards earlier = earlier_shards(directory, study, request.wanted, request.foreign);
   std::vector<shards::ShardInfo> shards = std::move(earlier.usable);
   Successes successes(study);
   std::int64_t done = 0;
@@ -138,10 +137,10 @@ void run_sequential(const study::Study& study, const fs::path& output, const Seq
     done += shard.rows.count;
   }
   status::Progress progress(study::point_count(study) * study.trials, done, trials::samples_per_trial(study),
-                            settings.quiet, settings.listener);
+                            request.quiet, request.listener);
   trials::RunSettings run;
-  run.threads = settings.threads;
-  run.timeline = settings.timeline;
+  run.threads = request.threads;
+  run.timeline = request.timeline;
   run.finished = [&](std::int64_t trials) { progress.update(done += trials); };
 
   std::int64_t trials = 0;
@@ -165,15 +164,15 @@ void run_sequential(const study::Study& study, const fs::path& output, const Seq
   progress.project(study::point_count(study) * trials);
   progress.finish(done);
 
-  assemble_decided(shards, study, decided_study(study, trials), output,
-                   {.stop = stop, .timeline = settings.timeline});
+  assemble_decided(shards, study, decided_study(study, trials), request.output,
+                   {.stop = stop, .timeline = request.timeline});
   for (const shards::ShardInfo& shard : shards) earlier.all.push_back(shard.path);
   remove_shards(directory, earlier.all);
-  if (!settings.quiet) {
+  if (!request.quiet) {
     const char* const why = sure(study, successes, trials)
                                 ? "all success rates are known as well as requested"
                                 : "max_trials; some success rates are known less well than requested";
-    status::tell("wrote {}: {} trials at each point ({})\n", output.string(), trials, why);
+    status::tell("wrote {}: {} trials at each point ({})\n", request.output.string(), trials, why);
   }
 }
 

@@ -22,7 +22,6 @@
 #include "core/trial/trial.hpp"
 #include "results/layout/table_io.hpp"
 #include "runners/trials/block_source.hpp"
-#include "runners/trials/shard_collector.hpp"
 #include "runners/trials/shard_writer.hpp"
 #include "runners/trials/trial_runner.hpp"
 

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text/counted.hpp"
 #include "results/reading/first_difference.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
@@ -21,7 +22,6 @@
 #include "results/storage/temporary_folder.hpp"
 #include "runners/study_run/assembly.hpp"
 #include "runners/study_run/earlier_shards.hpp"
-#include "runners/study_run/recorded_trials.hpp"
 #include "runners/verification/replay.hpp"
 
 namespace zerocount::verification {
@@ -140,10 +140,32 @@ void compare_rebuilt(const reading::ResultsFile& file, const study::Study& study
   }
 }
 
-std::string detail_of(const layout::FileHeader& header) {
-  return fmt::format("{}, trials {} to {} of {}: all that follows from them made again{}", header.name,
-                     header.rows.first, header.rows.end() - 1, header.trials * header.points,
-                     equality_of(header) == Equality::bits ? "" : ", to a relative 1e-9");
+std::size_t datasets_in(const hdf5::Group& group) {
+  std::size_t count = 0;
+  for (const std::string& name : group.children())
+    count += group.is_group(name) ? datasets_in(group.open_group(name)) : 1;
+  return count;
+}
+
+/// What the check of the statistics covers.
+std::string detail_of(const reading::ResultsFile& file, const study::Study& study) {
+  const layout::FileHeader& header = file.header();
+  std::string values;
+  if (file.trials()) {
+    const reading::TrialTables& trials = *file.trials();
+    values = fmt::format(
+        "{} inputs and {} measures of {} trials with {} moves, {} jerks and {} sample records "
+        "in their ranges; ",
+        trials.input_columns().size(), trials.measures().size(), trials.count(),
+        trials.count() * trials.moves(), trials.jerk_count(), trials.trace_count());
+  }
+  return fmt::format(
+      "{}, trials {} to {} of {}: header as its manifest says; {}all {} datasets, with the statistics of {}, "
+      "as "
+      "they are when made again{}",
+      header.name, header.rows.first, header.rows.end() - 1, header.trials * header.points, values,
+      datasets_in(file.root()), text::counted(study::point_count(study), "design point"),
+      equality_of(header) == Equality::bits ? "" : ", to a relative 1e-9");
 }
 
 }  // namespace
@@ -160,10 +182,10 @@ std::optional<Described> check_statistics(CheckReport& report,
   std::optional<Described> described;
   add_check(report, "statistics", [&](Check& check, ProblemList& problems) {
     layout::FileHeader header = layout::read_header(hdf5::File::open_to_read(report.path));
-    check.detail = detail_of(header);
     study::Study study = layout::recorded_study(header, report.path, header.plugin ? plugin : nullptr);
     compare_header(header, study, problems);
     const reading::ResultsFile file(report.path, reading::Require::unfinished);  // the checksum was checked
+    check.detail = detail_of(file, study);
     if (file.trials() && file.trials()->moves() != study.moves) {
       problems.add(
           fmt::format("/outcome/move: {} moves; its manifest has {}", file.trials()->moves(), study.moves));

@@ -6,7 +6,7 @@
 #include "core/plugin/controller_plugin.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
-#include "runners/verification/check.hpp"
+#include "runners/verification/verification.hpp"
 
 namespace zerocount::verification {
 

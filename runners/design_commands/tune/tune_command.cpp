@@ -31,7 +31,7 @@
 #include "runners/design_commands/tune/extras.hpp"
 #include "runners/design_commands/tune/tune_answer.hpp"
 #include "runners/design_commands/tune/tune_page.hpp"
-#include "runners/forecast/engine_use.hpp"
+#include "runners/forecast/cost.hpp"
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/standard_output/standard_output.hpp"
 #include "runners/status/interruption.hpp"

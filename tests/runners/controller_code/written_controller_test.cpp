@@ -1,7 +1,5 @@
 // The written controller in each language and precision: it decides as the built-in chain, or, in single
 // precision, as the law of which the program says what single precision changes, bit for bit.
-#include "runners/controller_code/written_controller.hpp"
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +13,7 @@
 
 #include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
+#include "runners/controller_code/chain_program.hpp"
 #include "runners/controller_code/program.hpp"
 #include "runners/controller_code/program_text.hpp"
 #include "runners/plugins/plugin_library.hpp"

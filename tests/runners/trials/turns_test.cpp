@@ -1,6 +1,4 @@
 // The order in which the rows of a sweep run: points take turns.
-#include "runners/trials/turns.hpp"
-
 #include <algorithm>
 #include <cstdint>
 #include <map>
@@ -8,6 +6,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "runners/trials/block_source.hpp"
 
 namespace zerocount::trials {
 namespace {

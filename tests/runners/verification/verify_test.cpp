@@ -214,7 +214,8 @@ TEST_F(Verify, AnswersInJson) {
   const auto json = nlohmann::json::parse(result.out);
   EXPECT_EQ(json["ok"], true);
   EXPECT_EQ(json["files"][0]["path"], "out.h5");
-  EXPECT_EQ(json["files"][0]["checks"].back()["detail"], "3 of 32, equal to the bit");
+  EXPECT_EQ(json["files"][0]["checks"].back()["detail"],
+            "3 of 32, with inputs, measures, jerks and sample records equal to the bit");
 }
 
 TEST_F(Verify, RefusesWhatIsNotThere) {

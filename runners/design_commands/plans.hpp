@@ -5,7 +5,7 @@
 #include "analysis/document/answer.hpp"
 #include "runners/command_line/command_line.hpp"
 
-/// The questions of `plan`, but that of --margin (equivalence_plan.hpp).
+/// The questions of `plan`.
 namespace zerocount::design_commands {
 
 /// `plan --success …`, `plan --rigs-share …` and `plan --halfwidth …`: the trials and rigs that show a claim,

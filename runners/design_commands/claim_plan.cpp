@@ -19,7 +19,7 @@
 #include "results/reading/all_trials_file.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/study_argument.hpp"
-#include "runners/design_commands/plans.hpp"
+#include "runners/design_commands/design_commands.hpp"
 
 namespace zerocount::design_commands {
 namespace {

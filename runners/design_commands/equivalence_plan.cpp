@@ -21,7 +21,7 @@
 #include "experiments/study/condition_study.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/study_argument.hpp"
-#include "runners/design_commands/plans.hpp"
+#include "runners/design_commands/design_commands.hpp"
 #include "runners/plugins/hidden_state.hpp"
 #include "runners/status/progress.hpp"
 #include "runners/trials/study_runner.hpp"

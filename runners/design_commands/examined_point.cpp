@@ -1,5 +1,3 @@
-#include "runners/design_commands/examined_point.hpp"
-
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -10,6 +8,7 @@
 #include "analysis/goal/question.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/commands/study_argument.hpp"
+#include "runners/design_commands/design_commands.hpp"
 #include "runners/trials/variant.hpp"
 
 namespace zerocount::design_commands {

@@ -14,7 +14,7 @@
 #include "analysis/goal/question.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "runners/commands/study_argument.hpp"
-#include "runners/design_commands/plans.hpp"
+#include "runners/design_commands/design_commands.hpp"
 #include "runners/forecast/cost.hpp"
 #include "runners/status/progress.hpp"
 

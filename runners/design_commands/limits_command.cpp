@@ -1,5 +1,3 @@
-#include "runners/design_commands/limits_command.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -20,10 +18,8 @@
 #include "runners/commands/command.hpp"
 #include "runners/commands/stage_progress.hpp"
 #include "runners/design_commands/design_commands.hpp"
-#include "runners/design_commands/examined_point.hpp"
 #include "runners/status/interruption.hpp"
-#include "runners/tuning/effects/additions.hpp"
-#include "runners/tuning/effects/idealisations.hpp"
+#include "runners/tuning/effects/effects.hpp"
 #include "runners/tuning/tune_plan.hpp"
 
 namespace zerocount::design_commands {
@@ -51,6 +47,13 @@ constexpr const char* limits_help =
     "\n"
     "Example: zerocount limits my-axis.yaml\n";
 
+/// "17 % fewer": failures than at the point as it is.
+std::string failures_text(const Limit& limit) {
+  if (!limit.avoided) return "";
+  return fmt::format("{:.0f} % {}", std::abs(100.0 * *limit.avoided),
+                     *limit.avoided >= 0.0 ? "fewer" : "more");
+}
+
 template <class Member>
 auto gain_of(Member member) {
   return [member](const Limit& limit) {
@@ -62,38 +65,27 @@ auto gain_of(Member member) {
 document::Description<Limit> limit_columns(const document::Item& effect) {
   return document::Description<Limit>()
       .value(effect, &Limit::effect)
-      .value({.key = "rate",
-              .heading = "rate",
-              .meaning = "proportion of moves, or of machines, that meet the question; unknown if it is not "
-                         "simulated",
-              .unit = "1",
-              .notation = Notation::percent},
+      .value(proportion("rate", "rate",
+                        "proportion of moves, or of machines, that meet the question; unknown if it is not "
+                        "simulated"),
              &Limit::rate)
-      .value({.key = "goal",
-              .heading = "of goal",
-              .meaning = "the worst of several goals, which the rate is of",
-              .optional = true},
+      .value(optional(everywhere("goal", "of goal", "the worst of several goals, which the rate is of")),
              &Limit::goal)
-      .value({.key = "condition",
-              .heading = "condition or age",
-              .meaning = "the worst condition, which the rate is of",
-              .optional = true},
-             &Limit::condition)
+      .value(
+          optional(everywhere("condition", "condition or age", "the worst condition, which the rate is of")),
+          &Limit::condition)
       .value({.key = "rates",
               .meaning = "the rates of all goals under all conditions, where there are several",
               .unit = "1",
               .shown = Shown::in_json,
               .optional = true},
              &Limit::rates)
-      .value({.key = "gained",
-              .heading = "gained",
-              .meaning = "machines, or trials, that meet the worst goal more often without the cause",
-              .optional = true},
-             gain_of(&tuning::PairedGain::gained))
-      .value({.key = "lost",
-              .heading = "lost",
-              .meaning = "machines, or trials, that meet it less often",
-              .optional = true},
+      .value({.heading = "failures", .shown = Shown::to_people, .numeric = true}, failures_text)
+      .value(
+          optional(everywhere("gained", "gained",
+                              "machines, or trials, that meet the worst goal more often without the cause")),
+          gain_of(&tuning::PairedGain::gained))
+      .value(optional(everywhere("lost", "lost", "machines, or trials, that meet it less often")),
              gain_of(&tuning::PairedGain::lost))
       .value(
           {.key = "p_value",
@@ -212,13 +204,17 @@ std::string limits_headline(const PointLimits& found) {
 document::AnswerDescription<PointLimits> limits_answer() {
   document::AnswerDescription<PointLimits> answer{
       {.name = "limits", .meaning = "what stands between a point and its goal", .csv_table = "limits"}, {}};
+  const auto added = limit_columns({.key = "effect", .heading = "added", .meaning = "effect that is added"});
   answer.items.headline(limits_headline)
       .include(limits_description("with causes of failures switched off"), &PointLimits::limits)
-      .table({.key = "additions",
-              .heading = "with an effect added that the study may assume away",
-              .meaning = "rates with an effect added to those of the study"},
-             limit_columns({.key = "effect", .heading = "added", .meaning = "effect that is added"}),
+      .table(document::in_data("additions", "rates with an effect added to those of the study"), added,
              &PointLimits::additions)
+      .table(document::to_people("with an effect added that the study may assume away"), added,
+             [](const PointLimits& found) {
+               std::vector<Limit> rows = found.additions;
+               rows.insert(rows.begin(), found.limits.front());
+               return rows;
+             })
       .sentence(simulated_sentence);
   return answer;
 }
@@ -293,10 +289,8 @@ std::int64_t trials_of_limits(const study::Study& study, std::int64_t point) {
 std::string rated_words(const study::Study& study, std::size_t claim) {
   const tuning::ClaimPlace place = tuning::place_of_claim(study, claim);
   const goal::Question question = only(goal::question_of(study), place.goal);
-  const std::string goal = has_several(goal::question_of(study)) ? " '" + question.claim()->name + "'" : "";
-  return fmt::format("{} {}{}{}{}", goal::is_of_machines(question) ? "machines" : "moves",
-                     goal::words_of(question).meet, goal,
-                     study::condition_text(study, static_cast<std::int64_t>(place.condition)),
+  return fmt::format("{} {}{}{}", goal::is_of_machines(question) ? "machines" : "moves",
+                     goal::words_of(question).meet, claim_text(study, place),
                      question.worlds > 0 ? " in the worst world" : "");
 }
 

@@ -4,7 +4,6 @@
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/design_commands/design_commands.hpp"
-#include "runners/design_commands/plans.hpp"
 
 namespace zerocount::design_commands {
 namespace {

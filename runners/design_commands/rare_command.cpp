@@ -1,5 +1,3 @@
-#include "runners/design_commands/rare_command.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -8,7 +6,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "analysis/goal/question.hpp"
 #include "analysis/parallel/parallel.hpp"
@@ -23,9 +20,7 @@
 #include "runners/commands/study_argument.hpp"
 #include "runners/commands/timeline_option.hpp"
 #include "runners/design_commands/design_commands.hpp"
-#include "runners/design_commands/examined_point.hpp"
 #include "runners/plugins/hidden_state.hpp"
-#include "runners/rare/rare_answer.hpp"
 #include "runners/rare/rare_run.hpp"
 #include "runners/status/interruption.hpp"
 #include "runners/status/status.hpp"
@@ -74,27 +69,12 @@ std::optional<std::int64_t> world_to_ask(const command_line::Arguments& argument
   return world;
 }
 
+/// A probability over all conditions would be an average: one is named.
 std::optional<std::int64_t> condition_to_ask(const command_line::Arguments& arguments,
                                              const study::Study& study) {
-  const std::optional<std::string> name = arguments.value("condition");
-  const std::optional<double> age = command_line::number_option(arguments, "age", 0.0);
-  if (!study.ages.at.empty()) return study::turn_named(study, name, age);
-  if (age) arguments.refuse("option '--age': the study has no ages");
-  if (study.conditions.empty()) {
-    if (name) arguments.refuse("option '--condition': the study has no conditions");
-    return std::nullopt;
-  }
-  const std::string names = fmt::format("{}", fmt::join(study.conditions, ", "));
-  if (!name)
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: every machine bears each of its {} conditions, and a probability over all "
-                              "of them would be an average; expected --condition with one of {}",
-                              arguments.operands()[0], study.conditions.size(), names));
-  const auto found = std::ranges::find(study.conditions, *name);
-  if (found == study.conditions.end())
-    arguments.refuse(
-        fmt::format("option '--condition': '{}' is not a condition; expected one of {}", *name, names));
-  return found - study.conditions.begin();
+  const std::int64_t turn = study::turn_named(study, arguments.value("condition"),
+                                              command_line::number_option(arguments, "age", 0.0));
+  return study.conditions.empty() ? std::nullopt : std::optional(turn);
 }
 
 measures::MoveEvent event_to_ask(const command_line::Arguments& arguments, const study::Study& study) {

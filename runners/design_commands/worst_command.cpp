@@ -1,6 +1,6 @@
-#include "runners/design_commands/worst_command.hpp"
-
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,7 +18,6 @@
 #include "runners/commands/study_argument.hpp"
 #include "runners/commands/timeline_option.hpp"
 #include "runners/design_commands/design_commands.hpp"
-#include "runners/design_commands/examined_point.hpp"
 #include "runners/status/interruption.hpp"
 #include "runners/tuning/worst_machines/worst_machines.hpp"
 
@@ -27,7 +26,6 @@ namespace {
 
 using document::everywhere;
 using document::in_data;
-using document::Shown;
 using tuning::JudgedMachine;
 using tuning::WorstMachine;
 using tuning::WorstMachines;
@@ -51,14 +49,13 @@ struct Search {
 };
 
 std::string headline(const Search& search) {
-  const WorstMachines& found = search.found;
-  const std::string place = "worst in the box of the central 99.9 % of each input: ";
-  if (found.in_box_is_of_study())
-    return place + fmt::format("none is worse than {} of the study",
-                               machine_name(found.of_study, search.study.rigs > 0));
-  return place + fmt::format("{:.4g} % of {} moves {}{}", 100.0 * found.in_box.met, found.in_box.moves,
-                             goal::words_of(goal::question_of(search.study)).meet,
-                             study::condition_text(search.study, found.in_box.condition));
+  const JudgedMachine& worst = search.found.in_box;
+  return "worst in the box of the central 99.9 % of each input: " +
+         (worst.is_previous ? fmt::format("none is worse than {} of the study",
+                                          machine_name(search.found.of_study, search.study.rigs > 0))
+                            : fmt::format("{:.4g} % of {} moves {}{}", 100.0 * worst.met, worst.moves,
+                                          goal::words_of(goal::question_of(search.study)).meet,
+                                          study::condition_text(search.study, worst.condition)));
 }
 
 /// How the machine of the manifest is run again.
@@ -73,44 +70,80 @@ std::string replay_sentence(const Search& search) {
 }
 
 document::Description<JudgedMachine> judged_description() {
-  document::Item condition =
-      everywhere("condition", "condition", "the condition that it bears, with conditions");
-  document::Item goal = everywhere("goal", "goal that its moves meet the least often",
-                                   "the goal that its moves meet the least often, of several");
-  condition.optional = goal.optional = true;
   return document::Description<JudgedMachine>()
-      .value(std::move(condition), &JudgedMachine::condition_name)
-      .value(std::move(goal), &JudgedMachine::goal)
+      .value(optional(everywhere("condition", "condition", "the condition that it bears, with conditions")),
+             &JudgedMachine::condition_name)
+      .value(optional(everywhere("goal", "goal that its moves meet the least often",
+                                 "the goal that its moves meet the least often, of several")),
+             &JudgedMachine::goal)
       .value(everywhere("moves", "moves", "moves by which the machine is judged"), &JudgedMachine::moves)
-      .value({.key = "met",
-              .heading = "moves that do as asked",
-              .meaning = "proportion of these moves that meet the goal",
-              .unit = "1",
-              .notation = document::Notation::percent},
+      .value(proportion("met", "moves that do as asked", "proportion of these moves that meet the goal"),
              &JudgedMachine::met);
 }
 
-/// A machine that was sought, and whether it is another one of the answer.
-struct FoundMachine {
-  const JudgedMachine& machine;
-  bool is_other;
+/// A machine that was sought. @param other_key of whether it is this other machine of the answer
+document::Description<JudgedMachine> found_description(const std::string& other_key,
+                                                       const std::string& other_machine) {
+  return document::Description<JudgedMachine>()
+      .value(in_data("rig", "rig of the study with its profiles; 0 without rigs"), &JudgedMachine::rig)
+      .value(in_data("trial", "its worst trial, of its manifest"), &JudgedMachine::trial)
+      .include(judged_description(), std::identity())
+      .value(in_data("inputs", "the quantities that differ between machines, by parameter"),
+             &JudgedMachine::inputs)
+      .value(in_data("quantiles", "their quantiles", "1"), &JudgedMachine::quantiles)
+      .value(in_data(other_key, "whether it is " + other_machine), &JudgedMachine::is_previous);
+}
+
+/// The machines that differ, each with its name, for people.
+using NamedMachine = std::pair<std::string, JudgedMachine>;
+
+std::vector<NamedMachine> machine_rows(const Search& search) {
+  const auto& [of_study, again, in_box, likely, with_profiles, edges] = search.found;
+  std::vector<NamedMachine> rows{{"worst of the study, by new trials", again}};
+  if (in_box.is_previous) rows.back().first += ", also in the box";
+  if (!in_box.is_previous) rows.emplace_back("worst in the box", in_box);
+  if (likely.is_previous) rows.back().first += ", also of the likely machines";
+  if (!likely.is_previous) rows.emplace_back("worst of the likely machines", likely);
+  return rows;
+}
+
+document::Description<NamedMachine> machine_columns() {
+  return document::Description<NamedMachine>()
+      .value({.heading = "machine"}, &NamedMachine::first)
+      .include(judged_description(), &NamedMachine::second);
+}
+
+/// An input of these machines, and of the box.
+struct InputRow {
+  std::string name;
+  std::vector<std::optional<double>> values;  ///< [column]
 };
 
-document::Description<FoundMachine> found_description(const std::string& other_key,
-                                                      const std::string& other_machine) {
-  using Found = const FoundMachine&;
-  return document::Description<FoundMachine>()
-      .value(in_data("rig", "rig of the study with its profiles; 0 without rigs"),
-             [](Found found) { return found.machine.rig; })
-      .value(in_data("trial", "its worst trial, of its manifest"),
-             [](Found found) { return found.machine.trial; })
-      .include(judged_description(), [](Found found) -> const JudgedMachine& { return found.machine; })
-      .value(everywhere("inputs", "inputs", "the quantities that differ between machines, by parameter"),
-             [](Found found) -> const NamedValues& { return found.machine.inputs; })
-      .value(in_data("quantiles", "their quantiles", "1"),
-             [](Found found) -> const std::vector<double>& { return found.machine.quantiles; })
-      .value(everywhere(other_key, "is " + other_machine, "whether it is " + other_machine),
-             &FoundMachine::is_other);
+std::vector<InputRow> input_rows(const Search& search) {
+  const auto& [of_study, again, in_box, likely, with_profiles, edges] = search.found;
+  std::vector<InputRow> rows;
+  for (const auto& [name, value] : in_box.inputs) {
+    InputRow& row = rows.emplace_back(InputRow{name, {}});
+    for (const NamedValues* one :
+         {&edges.low, &edges.median, &edges.high, &again.inputs,
+          in_box.is_previous ? nullptr : &in_box.inputs, likely.is_previous ? nullptr : &likely.inputs}) {
+      row.values.emplace_back();
+      if (one == nullptr) continue;
+      const auto found = std::ranges::find(*one, name, &NamedValues::value_type::first);
+      if (found != one->end()) row.values.back() = found->second;
+    }
+  }
+  return rows;
+}
+
+document::Description<InputRow> input_columns() {
+  document::Description<InputRow> columns;
+  columns.value({.heading = "input"}, &InputRow::name);
+  std::size_t column = 0;
+  for (const char* const heading :
+       {"box from", "median", "to", "worst of the study", "worst in the box", "likely"})
+    columns.value({.heading = heading}, [i = column++](const InputRow& row) { return row.values[i]; });
+  return columns;
 }
 
 document::AnswerDescription<Search> worst_answer() {
@@ -121,20 +154,16 @@ document::AnswerDescription<Search> worst_answer() {
       .sentence([](const Search& s) {
         return "worst of the study: " + worst_machine_text(s.found.of_study, s.study);
       })
-      .object(everywhere("again", "the same machine, by new trials",
-                         "the worst machine of the study, judged by new trials"),
-              judged_description(), [](const Search& s) { return s.found.again; })
-      .object(everywhere("box", "worst in the box",
-                         "the worst machine in the box of the central 99.9 % of each input"),
+      .object(in_data("again", "the worst machine of the study, judged by new trials"), judged_description(),
+              [](const Search& s) { return s.found.again; })
+      .object(in_data("box", "the worst machine in the box of the central 99.9 % of each input"),
               found_description("of_study", "the worst machine of the study"),
-              [](const Search& s) {
-                return FoundMachine{s.found.in_box, s.found.in_box_is_of_study()};
-              })
-      .object(everywhere("likely", "worst of the likely machines", "the worst of the likely machines"),
+              [](const Search& s) { return s.found.in_box; })
+      .object(in_data("likely", "the worst of the likely machines"),
               found_description("in_box", "the machine of the box"),
-              [](const Search& s) {
-                return FoundMachine{s.found.likely, s.found.likely_is_in_box()};
-              })
+              [](const Search& s) { return s.found.likely; })
+      .table(document::to_people("each machine by trials of its own"), machine_columns(), machine_rows)
+      .table(document::to_people("what differs between machines"), input_columns(), input_rows)
       .sentence(replay_sentence);
   return answer;
 }
@@ -201,25 +230,17 @@ std::string machine_name(const WorstMachine& worst, bool on_rigs) {
 }
 
 std::string worst_machine_text(const WorstMachine& worst, const study::Study& study) {
-  const std::string goal =
-      study.goals.size() > 1 ? " '" + study.goals[worst.claim.goal].name + "'" : std::string();
-  return fmt::format("{}, {:.4g} % of its moves {}{}{}{}{}", machine_name(worst, study.rigs > 0),
-                     100.0 * worst.met, goal::words_of(goal::question_of(study)).meet, goal,
-                     study::condition_text(study, static_cast<std::int64_t>(worst.claim.condition)),
-                     worst.inputs.empty() ? "" : "; ", values_text(worst.inputs));
+  return fmt::format("{}, {:.4g} % of its moves {}{}{}{}", machine_name(worst, study.rigs > 0),
+                     100.0 * worst.met, goal::words_of(goal::question_of(study)).meet,
+                     claim_text(study, worst.claim), worst.inputs.empty() ? "" : "; ",
+                     values_text(worst.inputs));
 }
 
 document::Description<WorstMachine> worst_description() {
   return document::Description<WorstMachine>()
-      .value({.key = "goal",
-              .meaning = "the goal that it meets in the fewest moves, of several",
-              .shown = Shown::in_data,
-              .optional = true},
+      .value(optional(in_data("goal", "the goal that it meets in the fewest moves, of several")),
              &WorstMachine::goal)
-      .value({.key = "condition",
-              .meaning = "the condition under which it does worst, with conditions",
-              .shown = Shown::in_data,
-              .optional = true},
+      .value(optional(in_data("condition", "the condition under which it does worst, with conditions")),
              &WorstMachine::condition)
       .value(in_data("rig",
                      "number of the machine in the study: its rig, or its trial where no trials share a rig"),

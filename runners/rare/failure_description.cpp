@@ -1,5 +1,3 @@
-#include "runners/rare/failure_description.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -11,6 +9,7 @@
 #include "analysis/statistics/quantile.hpp"
 #include "core/numerics/normal_distribution.hpp"
 #include "experiments/designs/random_key.hpp"
+#include "runners/rare/rare_run.hpp"
 
 namespace zerocount::rare {
 namespace {

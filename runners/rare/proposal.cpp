@@ -1,10 +1,213 @@
 #include "runners/rare/proposal.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
 #include <utility>
+
+#include <Eigen/Core>
+
+#include "core/numerics/dense.hpp"
+#include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::rare {
 namespace {
+
+constexpr std::size_t max_components = 8;
+constexpr int max_iterations = 25;
+constexpr std::size_t max_points = 1500;  // to which a mixture is fitted
+
+Eigen::VectorXd vector_of(std::span<const double> z) {
+  return Eigen::VectorXd::Map(z.data(), std::ssize(z));
+}
+
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// The square matrix stored by rows.
+Eigen::MatrixXd matrix_of(std::span<const double> rows) {
+  const auto size = static_cast<Eigen::Index>(std::lround(std::sqrt(static_cast<double>(rows.size()))));
+  return Eigen::Map<const RowMatrix>(rows.data(), size, size);
+}
+
+/// L⁻¹ of a lower triangular L, by rows.
+std::vector<double> inverse_of_factor(std::span<const double> factor, std::size_t size) {
+  std::vector<double> inverse(factor.size(), 0.0);
+  for (std::size_t column = 0; column < size; ++column) {
+    for (std::size_t i = column; i < size; ++i) {
+      double sum = i == column ? 1.0 : 0.0;
+      for (std::size_t j = column; j < i; ++j) sum -= factor[i * size + j] * inverse[j * size + column];
+      inverse[i * size + column] = sum / factor[i * size + i];
+    }
+  }
+  return inverse;
+}
+
+NormalComponent component_of(double weight, const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance) {
+  const RowMatrix factor = numerics::cholesky_factor(covariance);
+  return normal_component(weight, {mean.begin(), mean.end()}, {factor.data(), factor.data() + factor.size()});
+}
+
+/// [column] Logarithms of the density, without the factor (2π)^(−d/2), at the columns of `z`.
+Eigen::VectorXd log_densities(const NormalComponent& component, const Eigen::MatrixXd& z) {
+  const Eigen::MatrixXd white =
+      numerics::product(matrix_of(component.inverse_factor), z.colwise() - vector_of(component.mean));
+  return -0.5 * white.colwise().squaredNorm().transpose().array() - component.log_determinant;
+}
+
+/// Logarithm of the density at one point, without the factor (2π)^(−d/2).
+double log_density(const NormalComponent& component, std::span<const double> z) {
+  const std::size_t size = z.size();
+  double squares = 0.0;
+  for (std::size_t i = 0; i < size; ++i) {
+    double white = 0.0;
+    for (std::size_t j = 0; j <= i; ++j)
+      white += component.inverse_factor[i * size + j] * (z[j] - component.mean[j]);
+    squares += white * white;
+  }
+  return -0.5 * squares - component.log_determinant;
+}
+
+/// Logarithm of Σ exp(xᵢ).
+double log_sum(std::span<const double> x) {
+  const double largest = std::ranges::max(x);
+  double sum = 0.0;
+  for (const double one : x) sum += numerics::exp(one - largest);
+  return largest + numerics::log(sum);
+}
+
+/// Points to fit to, as columns.
+struct FittedPoints {
+  Eigen::MatrixXd z;        ///< [coordinate, point]
+  Eigen::VectorXd weights;  ///< [point]; their sum is their effective number
+};
+
+/// The part of the whole weight that these points have, and a normal distribution of their moments, with a
+/// part of the standard normal distribution.
+NormalComponent component_of(const FittedPoints& points, const Eigen::VectorXd& weights) {
+  const double sum = weights.sum();
+  const Eigen::VectorXd mean = numerics::product(points.z, weights) / sum;
+  const Eigen::MatrixXd centred = points.z.colwise() - mean;
+  const Eigen::MatrixXd weighted = centred * weights.asDiagonal();
+  const double added = static_cast<double>(mean.size()) + 2.0;
+  const Eigen::MatrixXd covariance = (numerics::product(weighted, centred.transpose()) +
+                                      added * Eigen::MatrixXd::Identity(mean.size(), mean.size())) /
+                                     (sum + added);
+  return component_of(sum / points.weights.sum(), mean, covariance);
+}
+
+/// The mixture while it is fitted.
+struct Fit {
+  std::vector<NormalComponent> components;
+  double log_likelihood{-std::numeric_limits<double>::infinity()};  ///< mean per unit of weight
+};
+
+/// Points far from each other, from which the components begin (k-means++, Arthur and Vassilvitskii 2007).
+std::vector<Eigen::Index> first_centres(const FittedPoints& points, std::size_t count,
+                                        NumberSource& numbers) {
+  Eigen::VectorXd distance = Eigen::VectorXd::Ones(points.weights.size());
+  std::vector<Eigen::Index> centres;
+  while (centres.size() < count) {
+    const Eigen::VectorXd chances = distance.cwiseProduct(points.weights);
+    double place = numbers.uniform() * chances.sum();
+    Eigen::Index chosen = 0;
+    for (; chosen + 1 < chances.size(); ++chosen) {
+      place -= chances[chosen];
+      if (place < 0.0) break;
+    }
+    const Eigen::VectorXd centre = points.z.col(chosen);
+    const Eigen::VectorXd squares = (points.z.colwise() - centre).colwise().squaredNorm().transpose();
+    distance = centres.empty() ? squares : Eigen::VectorXd(distance.cwiseMin(squares));
+    centres.push_back(chosen);
+  }
+  return centres;
+}
+
+/// [component] The weights of the points in it; the mean log-likelihood goes to `fit`.
+std::vector<Eigen::VectorXd> weights_in(const FittedPoints& points, Fit& fit) {
+  std::vector<Eigen::VectorXd> in_component;
+  for (const NormalComponent& component : fit.components)
+    in_component.emplace_back(log_densities(component, points.z).array() + numerics::log(component.weight));
+  double sum = 0.0;
+  std::vector<double> logs(fit.components.size());
+  for (Eigen::Index i = 0; i < points.weights.size(); ++i) {
+    for (std::size_t k = 0; k < logs.size(); ++k) logs[k] = in_component[k][i];
+    const double all = log_sum(logs);
+    for (std::size_t k = 0; k < logs.size(); ++k)
+      in_component[k][i] = points.weights[i] * numerics::exp(logs[k] - all);
+    sum += points.weights[i] * all;
+  }
+  fit.log_likelihood = sum / points.weights.sum();
+  return in_component;
+}
+
+Fit fit_of(const FittedPoints& points, std::size_t count, NumberSource& numbers) {
+  Fit fit{{component_of(points, points.weights)}};
+  std::vector<Eigen::VectorXd> weights = weights_in(points, fit);
+  if (count == 1) return fit;
+  const NormalComponent whole = fit.components.front();
+  fit = {};
+  for (const Eigen::Index centre : first_centres(points, count, numbers)) {
+    fit.components.push_back(whole);
+    fit.components.back().weight = 1.0 / static_cast<double>(count);
+    const Eigen::VectorXd mean = points.z.col(centre);
+    fit.components.back().mean = {mean.begin(), mean.end()};
+  }
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    const double before = fit.log_likelihood;
+    weights = weights_in(points, fit);
+    if (fit.log_likelihood < before + 1e-3) break;
+    const double least = 1e-3 * points.weights.sum();
+    fit.components.clear();
+    double sum = 0.0;
+    for (const Eigen::VectorXd& in_component : weights) {
+      if (in_component.sum() < least) continue;
+      fit.components.push_back(component_of(points, in_component));
+      sum += fit.components.back().weight;
+    }
+    for (NormalComponent& one : fit.components) one.weight /= sum;
+  }
+  return fit;
+}
+
+/// The component with the covariance S + 1.25·S·(I + S)⁻³ in place of S.
+NormalComponent widened(const NormalComponent& component) {
+  const Eigen::MatrixXd factor = matrix_of(component.factor);
+  const Eigen::MatrixXd covariance = numerics::product(factor, factor.transpose());
+  const Eigen::MatrixXd inverse = numerics::inverse_of_positive_definite(
+      covariance + Eigen::MatrixXd::Identity(covariance.rows(), covariance.cols()));
+  const Eigen::MatrixXd cube = numerics::product(inverse, numerics::product(inverse, inverse));
+  const Eigen::MatrixXd added = 1.25 * numerics::product(covariance, cube);
+  return component_of(component.weight, vector_of(component.mean),
+                      covariance + 0.5 * (added + added.transpose()));
+}
+
+/// The points, or as many of them as a fit takes, drawn by their weights.
+FittedPoints fitted_points(const WeightedPoints& points, NumberSource& numbers) {
+  const double effective = effective_size(points.weights);
+  const std::size_t size = points.z.size();
+  const bool all = size <= max_points;
+  std::vector<double> places;  // of the points drawn, in the cumulative weights
+  for (std::size_t i = 0; !all && i < max_points; ++i) places.push_back(numbers.uniform());
+  std::ranges::sort(places);
+  const double sum = std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
+  const auto count = static_cast<Eigen::Index>(all ? size : max_points);
+  FittedPoints fitted{Eigen::MatrixXd(std::ssize(points.z.front()), count), Eigen::VectorXd(count)};
+  double passed = 0.0;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    passed += points.weights[i] / sum;
+    if (all) {
+      fitted.z.col(static_cast<Eigen::Index>(i)) = vector_of(points.z[i]);
+      fitted.weights[static_cast<Eigen::Index>(i)] = points.weights[i] / sum * effective;
+    }
+    for (; next < places.size() && (places[next] < passed || i + 1 == size); ++next) {
+      fitted.z.col(static_cast<Eigen::Index>(next)) = vector_of(points.z[i]);
+      fitted.weights[static_cast<Eigen::Index>(next)] = effective / static_cast<double>(max_points);
+    }
+  }
+  return fitted;
+}
 
 /// Density over that of the trials' own distribution, of the pinned values.
 double density_of_pinned(const TrialSpace& space, const Proposal& proposal, std::span<const double> z) {
@@ -28,6 +231,69 @@ const Weighted& chosen_by(const std::vector<Weighted>& all, double place) {
 }
 
 }  // namespace
+
+NormalComponent normal_component(double weight, std::vector<double> mean, std::vector<double> factor) {
+  NormalComponent component{weight, std::move(mean), std::move(factor), {}, 0.0};
+  const std::size_t size = component.mean.size();
+  component.inverse_factor = inverse_of_factor(component.factor, size);
+  for (std::size_t i = 0; i < size; ++i)
+    component.log_determinant += numerics::log(component.factor[i * size + i]);
+  return component;
+}
+
+double density_ratio(std::span<const NormalComponent> components, std::span<const double> z) {
+  double standard = 0.0;
+  for (const double x : z) standard += 0.5 * x * x;
+  double density = 0.0;
+  for (const NormalComponent& component : components)
+    density += component.weight * numerics::exp(log_density(component, z) + standard);
+  return density;
+}
+
+std::vector<double> draw(const NormalComponent& component, NumberSource& numbers) {
+  const std::size_t size = component.mean.size();
+  const std::vector<double> z = numbers.normals(size);
+  std::vector<double> point = component.mean;
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) point[i] += component.factor[i * size + j] * z[j];
+  }
+  return point;
+}
+
+double effective_size(std::span<const double> weights) {
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const double weight : weights) {
+    sum += weight;
+    squares += weight * weight;
+  }
+  return squares > 0.0 ? sum * sum / squares : 0.0;
+}
+
+NormalComponent fitted_normal(const WeightedPoints& points, NumberSource& numbers) {
+  return widened(fit_of(fitted_points(points, numbers), 1, numbers).components.front());
+}
+
+std::vector<NormalComponent> fitted_mixture(const WeightedPoints& points, NumberSource& numbers) {
+  const FittedPoints fitted = fitted_points(points, numbers);
+  const double effective = fitted.weights.sum();
+  const auto size = static_cast<double>(fitted.z.rows());
+  const double parameters = 1.0 + size + 0.5 * size * (size + 1.0);
+  Fit best;
+  double best_criterion = std::numeric_limits<double>::infinity();
+  for (std::size_t count = 1; count <= max_components; ++count) {
+    Fit fit = fit_of(fitted, count, numbers);
+    const double criterion =
+        -2.0 * effective * fit.log_likelihood +
+        parameters * static_cast<double>(count) * numerics::log(std::max(effective, 2.0));
+    if (criterion >= best_criterion) break;
+    best_criterion = criterion;
+    best = std::move(fit);
+  }
+  std::vector<NormalComponent> widened_ones;
+  for (const NormalComponent& component : best.components) widened_ones.push_back(widened(component));
+  return widened_ones;
+}
 
 TrialSpace trial_space(std::size_t coordinates, std::vector<randomness::DiscreteDraw> discrete) {
   TrialSpace space{coordinates, std::move(discrete)};

@@ -1,5 +1,3 @@
-#include "runners/rare/rare_answer.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -17,6 +15,7 @@
 #include "analysis/text/percent.hpp"
 #include "core/numerics/normal_distribution.hpp"
 #include "core/text/shell_word.hpp"
+#include "runners/rare/rare_run.hpp"
 
 namespace zerocount::rare {
 namespace {

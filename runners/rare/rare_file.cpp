@@ -1,5 +1,3 @@
-#include "runners/rare/rare_file.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <string_view>
@@ -14,7 +12,7 @@
 #include "results/layout/table_io.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
-#include "runners/rare/rare_answer.hpp"
+#include "runners/rare/rare_run.hpp"
 
 namespace zerocount::rare {
 

@@ -1,5 +1,3 @@
-#include "runners/rare/rare_question.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -7,6 +5,7 @@
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "experiments/study/condition_study.hpp"
+#include "runners/rare/rare_run.hpp"
 #include "runners/trials/trial_set.hpp"
 
 namespace zerocount::rare {

@@ -13,7 +13,6 @@
 #include "core/trial/trial.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/recorded_values.hpp"
-#include "runners/rare/rare_file.hpp"
 #include "runners/status/status.hpp"
 
 namespace zerocount::rare {

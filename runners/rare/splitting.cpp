@@ -1,5 +1,3 @@
-#include "runners/rare/splitting.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -7,6 +5,7 @@
 #include <utility>
 
 #include "core/numerics/elementary_functions.hpp"
+#include "runners/rare/estimator.hpp"
 
 namespace zerocount::rare {
 namespace {

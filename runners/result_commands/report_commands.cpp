@@ -26,7 +26,7 @@
 #include "runners/commands/figure_picture.hpp"
 #include "runners/commands/live_page.hpp"
 #include "runners/commands/verified_report.hpp"
-#include "runners/design_commands/tune/tune_page.hpp"
+#include "runners/design_commands/tune/tune_answer.hpp"
 #include "runners/result_commands/report_index.hpp"
 #include "runners/result_commands/report_parts.hpp"
 #include "runners/result_commands/result_commands.hpp"

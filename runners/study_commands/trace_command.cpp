@@ -19,7 +19,7 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"
-#include "runners/rare/rare_file.hpp"
+#include "runners/rare/rare_run.hpp"
 #include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_commands/study_commands.hpp"

@@ -1,5 +1,3 @@
-#include "runners/tuning/behaviour.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,6 +7,7 @@
 #include "analysis/text/text.hpp"
 #include "core/loop/encoder.hpp"
 #include "runners/trials/trial_set.hpp"
+#include "runners/tuning/tuner.hpp"
 
 namespace zerocount::tuning {
 namespace {

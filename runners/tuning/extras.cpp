@@ -1,5 +1,3 @@
-#include "runners/tuning/extras.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -9,7 +7,8 @@
 
 #include "core/trial/trial.hpp"
 #include "runners/status/progress.hpp"
-#include "runners/tuning/effects/limits.hpp"
+#include "runners/tuning/effects/effects.hpp"
+#include "runners/tuning/tuner.hpp"
 
 namespace zerocount::tuning {
 namespace {

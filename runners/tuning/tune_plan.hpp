@@ -6,8 +6,8 @@
 
 #include "experiments/study/study.hpp"
 #include "runners/trials/effort.hpp"
-#include "runners/tuning/race/search_size.hpp"
-#include "runners/tuning/search/other_controls.hpp"
+#include "runners/tuning/race/search.hpp"
+#include "runners/tuning/search/study_search.hpp"
 
 namespace zerocount::tuning {
 

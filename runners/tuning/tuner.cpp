@@ -1,7 +1,6 @@
 #include "runners/tuning/tuner.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -26,7 +25,6 @@ namespace zerocount::tuning {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t max_proof_moves = 2'000'000;
 constexpr std::int64_t units_of_frontier = 512;
@@ -79,13 +77,7 @@ struct Work {
   trials::Effort effort;
   double speed;                ///< by which a budget is planned, trials/s; infinite without a limit of time
   double measured_speed{0.0};  ///< trials/s; 0 where nothing was measured
-  Clock::time_point start{Clock::now()};
   status::StatusLine line{settings.quiet, settings.listener};
-
-  /// Seconds, those of interrupted runs included.
-  double elapsed() const {
-    return journal.seconds() + std::chrono::duration<double>(Clock::now() - start).count();
-  }
 
   /// Finds a part of the answer that is not proven; one for which the effort is not enough is named.
   void find_part(TuneAnswer& answer, const std::string& name, const std::function<void()>& work) {
@@ -96,7 +88,7 @@ struct Work {
   }
 
   void count_effort(TuneAnswer& answer) const {
-    answer.seconds = elapsed();
+    answer.seconds = journal.elapsed();
     answer.spent_trials = effort.spent_trials();
     answer.interrupted = effort.is_interrupted();
   }
@@ -137,7 +129,7 @@ void tell_default(const Work& work, TuneAnswer& answer) {
         status::duration_text(*answer.default_seconds));
 }
 
-SearchResult find_values(Work& work, StudySearch& search, const SearchPlan& plan, TuneAnswer& answer) {
+void find_values(Work& work, StudySearch& search, const SearchPlan& plan, TuneAnswer& answer) {
   const parallel::Recording stage("search");
   SearchSettings settings;
   settings.seed = work.study.seed;
@@ -154,26 +146,21 @@ SearchResult find_values(Work& work, StudySearch& search, const SearchPlan& plan
   work.line.show([] {
     return std::string("first generation: the margins of points over the ranges, then their moves");
   });
-  SearchResult found = search.run(settings);
+  SearchResult& found = answer.search = search.run(settings);
   answer.examined = std::ssize(search.examined());
-  answer.points = found.points;
-  answer.trials = found.trials;
-  answer.converged = found.converged;
   answer.missed.approaching = found.approaching;
   answer.missed.landscape = landscape_of(aim_of(work.study), found.tried);
-  answer.tried = found.tried;
   answer.frontier = frontier_of(found.tried, std::min(units_of_frontier, plan.size.max_units));
   constexpr std::int64_t enough_to_tell = 1000;
   if (search.simulated() >= enough_to_tell)
     work.measured_speed = static_cast<double>(search.simulated()) / search.simulation_seconds();
   if (answer.budget.seconds && work.measured_speed > 0.0) work.speed = work.measured_speed;
-  return found;
 }
 
 /// Where no candidate keeps the margins.
 /// @throws Failure (inconclusive) if the search ended too soon to say that there are no such values
-void explain_missing(Work& work, const StudySearch& search, const SearchPlan& plan, const SearchResult& found,
-                     TuneAnswer& answer) {
+void explain_missing(Work& work, const StudySearch& search, const SearchPlan& plan, TuneAnswer& answer) {
+  const SearchResult& found = answer.search;
   const bool had_time = found.points == 0 && answer.examined >= plan.size.first_candidates;
   if (answer.budget.seconds && found.cut && !had_time)
     throw work.out_of_time(
@@ -203,13 +190,13 @@ void examine_margins(Work& work, const StudySearch& search, bool slides, Examine
   });
 }
 
-void examine(Work& work, const StudySearch& search, const SearchResult& found, std::size_t finalist,
-             Examined& examined, TuneAnswer& answer) {
+void examine(Work& work, const StudySearch& search, std::size_t finalist, Examined& examined,
+             TuneAnswer& answer) {
   if (examined.finalist == finalist) return;
   examined.finalist = finalist;
   examined.moves.clear();
   answer.left_out.clear();  // of another finalist
-  const Candidate& candidate = found.finalists[finalist];
+  const Candidate& candidate = answer.search.finalists[finalist];
   answer.gains = candidate.values;
   if (!answer.blind) examine_margins(work, search, has_slid(candidate.units), examined, answer);
   // As many as a tenth of what the smallest proof leaves is enough for.
@@ -306,8 +293,8 @@ std::int64_t max_proof_trials(const Work& work) {
 }
 
 /// @throws Failure (inconclusive) if the time ended before the first attempt
-void prove_values(Work& work, StudySearch& search, const SearchResult& found, Examined& examined,
-                  TuneAnswer& answer) {
+void prove_values(Work& work, StudySearch& search, Examined& examined, TuneAnswer& answer) {
+  const SearchResult& found = answer.search;
   const parallel::Recording stage("proof");
   const study::Study& study = work.study;
   const std::int64_t each = trials_of_machine(study);
@@ -350,7 +337,7 @@ void prove_values(Work& work, StudySearch& search, const SearchResult& found, Ex
   const std::optional<ProvenFinalist> proven = prove(problem);
   if (!proven) throw work.out_of_time("ended in the proof");
   const Attempt& attempt = proven->attempt;
-  examine(work, search, found, attempt.finalist, examined, answer);
+  examine(work, search, attempt.finalist, examined, answer);
   const Candidate& candidate = found.finalists[attempt.finalist];
   const bool slid = has_slid(candidate.units) || has_slid(run.results);
   if (answer.margins && slid != examined.margins_slide) examine_margins(work, search, slid, examined, answer);
@@ -371,14 +358,7 @@ void add_extras(Work& work, const study::Study& study, StudySearch& search, Tune
   work.line.clear();
   if (work.settings.proven) work.settings.proven(answer);
   const parallel::Recording stage("extras");
-  TunedAxis axis{study,
-                 search,
-                 work.journal,
-                 work.effort,
-                 work.speed,
-                 work.measured_speed,
-                 [&work] { return work.elapsed(); },
-                 answer};
+  TunedAxis axis{study, search, work.journal, work.effort, work.speed, work.measured_speed, answer};
   make_extras(work.settings.extras, axis, work.settings.quiet, work.line, [&](const Extra& extra) {
     if (work.settings.ready) work.settings.ready(extra, answer);
   });
@@ -392,19 +372,18 @@ TuneAnswer tuned(const study::Study& study, const TuneSettings& settings, const 
     journal.keep_speed(work.speed);
   }
   const SearchPlan plan = plan_search(study, settings.budget, work.effort, work.speed);
-  StudySearch search(
-      study, study.tuning->free, plan.size, journal, [&work] { return work.elapsed(); }, work.effort);
+  StudySearch search(study, study.tuning->free, plan.size, journal, work.effort);
   TuneAnswer answer = answer_of(work, search);
   tell_default(work, answer);
-  const SearchResult found = find_values(work, search, plan, answer);
-  if (found.finalists.empty()) {
-    explain_missing(work, search, plan, found, answer);
+  find_values(work, search, plan, answer);
+  if (answer.search.finalists.empty()) {
+    explain_missing(work, search, plan, answer);
   } else {
     Examined examined;
-    examine(work, search, found, 0, examined, answer);
+    examine(work, search, 0, examined, answer);
     work.line.clear();
     if (settings.found) settings.found(answer);
-    prove_values(work, search, found, examined, answer);
+    prove_values(work, search, examined, answer);
     add_extras(work, study, search, answer);
   }
   work.count_effort(answer);
@@ -426,8 +405,7 @@ Judged judged_in(const reading::AllTrialsFile& file, const study::Study& study) 
 /// The margins of values on the machines of the study.
 void add_margins_in(const study::Study& study, bool slides, const trials::Effort& effort,
                     TuningJournal& journal, TuneAnswer& answer) {
-  const StudySearch search(
-      study, study.tuning->free, default_search_size(study), journal, [] { return 0.0; }, effort);
+  const StudySearch search(study, study.tuning->free, default_search_size(study), journal, effort);
   answer.blind = search.examiner().is_blind();
   if (!answer.blind) add_margins(search, slides, effort.stop(), answer);
 }
@@ -439,9 +417,7 @@ TuneAnswer described(const study::Study& study, const TuneSettings& settings, co
   Work work{study, settings, journal, whole_effort(settings, 0.0, stop), no_limit};
   if (!settings.budget.trials) work.measured_speed = measured_speed(fresh, work.effort);
   if (settings.budget.seconds) work.speed = work.measured_speed;
-  StudySearch search(
-      fresh, study.tuning->free, default_search_size(fresh), journal, [&work] { return work.elapsed(); },
-      work.effort);
+  StudySearch search(fresh, study.tuning->free, default_search_size(fresh), journal, work.effort);
   TuneAnswer answer = answer_of(work, search);
   const reading::AllTrialsFile file(settings.output);
   const Judged judged = judged_in(file, study);

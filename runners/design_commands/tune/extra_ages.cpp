@@ -6,8 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/figures/figure.hpp"
-#include "runners/design_commands/tune/extras.hpp"
-#include "runners/design_commands/tune/tune_parts.hpp"
+#include "runners/design_commands/tune/tune_answer.hpp"
 #include "runners/tuning/ages/lost_ages.hpp"
 #include "runners/tuning/search/proof_runner.hpp"
 
@@ -55,19 +54,17 @@ std::vector<LostRow> lost_rows(Of tuning) {
 document::Description<LostRow> lost_columns() {
   using Row = const LostRow&;
   return document::Description<LostRow>()
-      .value({.key = "goal", .heading = "goal", .meaning = "name of the goal, of several", .optional = true},
+      .value(optional(document::everywhere("goal", "goal", "name of the goal, of several")),
              [](Row row) -> std::optional<std::string> {
                if (row.study.goals.size() < 2) return {};
                return row.study.goals[row.claim.claim.goal].name;
              })
-      .value({.key = "condition",
-              .heading = "condition",
-              .meaning = "name of the condition, with conditions",
-              .optional = true},
-             [](Row row) -> std::optional<std::string> {
-               if (row.study.condition_names.empty()) return {};
-               return row.study.condition_names[row.claim.claim.condition];
-             })
+      .value(
+          optional(document::everywhere("condition", "condition", "name of the condition, with conditions")),
+          [](Row row) -> std::optional<std::string> {
+            if (row.study.condition_names.empty()) return {};
+            return row.study.condition_names[row.claim.claim.condition];
+          })
       .value(document::everywhere(
                  "lost", "seems lost from",
                  "youngest age that was tried at which less than asked for meets the goal, to 10 %; null: "
@@ -109,7 +106,7 @@ std::vector<document::Figure> lost_ages_figures(Of tuning) {
                              {"asked", "asked", "1"}}};
   using report::datum;
   for (std::size_t i = 0; i < life->claims.size(); ++i) {
-    const tuning::ClaimOfLife& claim = life->claims[i].claim;
+    const tuning::ClaimPlace& claim = life->claims[i].claim;
     const study::Goal& goal = study.goals[claim.goal];
     const std::string name =
         (goal.machines ? "machines in the goal" : "moves in the goal") + tuning::text_of(study, claim);
@@ -136,9 +133,8 @@ void describe_lost_ages(Items& items) {
               .heading = "how long the tuned values hold",
               .meaning = "age at which each goal is lost under each condition, of a study with ages"},
              lost_columns(), lost_rows)
-      .value({.key = "ages_tried_to",
-              .meaning = "oldest age that was tried, of a study with ages, in the unit of ages",
-              .optional = true},
+      .value(optional(document::in_data(
+                 "ages_tried_to", "oldest age that was tried, of a study with ages, in the unit of ages")),
              [](Of t) -> std::optional<double> {
                const auto* const life = t.answer.extra<LostAges>();
                return life == nullptr ? std::nullopt : std::optional(life->tried.back().age);

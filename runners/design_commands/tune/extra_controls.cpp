@@ -7,10 +7,9 @@
 
 #include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
-#include "runners/design_commands/tune/extras.hpp"
-#include "runners/design_commands/tune/tune_parts.hpp"
-#include "runners/tuning/search/other_controls.hpp"
+#include "runners/design_commands/tune/tune_answer.hpp"
 #include "runners/tuning/search/proof_runner.hpp"
+#include "runners/tuning/search/study_search.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -48,14 +47,14 @@ TunedValues values_by_name(const std::vector<study::FreeParameter>& free, const 
 tuning::SearchResult search_control(TunedAxis& axis, const study::Study& study, const OtherControl& control,
                                     const trials::Effort& effort, std::span<const TunedValues> tuned) {
   const tuning::SearchPlan plan = tuning::plan_other_search(study, control.free, effort, axis.speed);
-  tuning::StudySearch search(study, control.free, plan.size, axis.journal, axis.elapsed, effort);
+  tuning::StudySearch search(study, control.free, plan.size, axis.journal, effort);
   tuning::SearchSettings settings;
   settings.seed = study.seed;
   settings.begins_anew = axis.has_budget();
   settings.effort = plan.effort;
   tuning::SearchResult found = search.run(settings, tuning::starts_from(tuned, control.free));
-  axis.answer.points += found.points;
-  axis.answer.trials += found.trials;
+  axis.answer.search.points += found.points;
+  axis.answer.search.trials += found.trials;
   if (found.finalists.empty() && found.cut) throw trials::Spent{};
   return found;
 }
@@ -124,23 +123,15 @@ document::Description<Alternative> alternative_columns() {
              [](Row row) {
                return row.verdict ? std::optional(goal::text_of(row.verdict->status)) : std::nullopt;
              })
-      .value({.key = "rate",
-              .heading = "moves that meet it",
-              .meaning = "proportion of moves that meet the goal, with one-sided bounds",
-              .unit = "1",
-              .notation = document::Notation::percent},
+      .value(proportion("rate", "moves that meet it",
+                        "proportion of moves that meet the goal, with one-sided bounds"),
              [](Row row) {
                return row.verdict ? std::optional(goal::bounded(row.verdict->moves)) : std::nullopt;
              })
-      .value({.key = "goal_name",
-              .heading = "worst goal",
-              .meaning = "name of the worst goal, of several",
-              .optional = true},
+      .value(optional(document::everywhere("goal_name", "worst goal", "name of the worst goal, of several")),
              &Alternative::worst_goal)
-      .value({.key = "condition",
-              .heading = "worst condition or age",
-              .meaning = "name of the worst condition, with conditions",
-              .optional = true},
+      .value(optional(document::everywhere("condition", "worst condition or age",
+                                           "name of the worst condition, with conditions")),
              &Alternative::worst_condition)
       .value(criterion_item(),
              [](Row row) { return row.verdict ? std::optional(row.criterion) : std::nullopt; });

@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/figures/figure.hpp"
-#include "runners/design_commands/tune/extras.hpp"
-#include "runners/design_commands/tune/tune_parts.hpp"
+#include "runners/design_commands/tune/tune_answer.hpp"
 
 namespace zerocount::design_commands {
 namespace {

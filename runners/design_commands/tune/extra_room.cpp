@@ -1,8 +1,7 @@
 #include "analysis/report/figures/figure.hpp"
 #include "analysis/text/quantity.hpp"
 #include "core/numerics/bisection.hpp"
-#include "runners/design_commands/tune/extras.hpp"
-#include "runners/design_commands/tune/tune_parts.hpp"
+#include "runners/design_commands/tune/tune_answer.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -75,7 +74,7 @@ struct RoomRow {
 
   /// " 'small' under condition loaded", of several claims.
   std::string text_of(const std::optional<std::size_t>& claim) const {
-    return claim ? claim_text(study, *claim) : "";
+    return claim ? claim_text(study, tuning::place_of_claim(study, *claim)) : "";
   }
 };
 

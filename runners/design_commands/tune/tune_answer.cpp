@@ -16,8 +16,6 @@
 #include "core/loop/encoder.hpp"
 #include "core/text/shell_word.hpp"
 #include "core/theory/gains.hpp"
-#include "runners/design_commands/tune/extras.hpp"
-#include "runners/design_commands/tune/tune_parts.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -125,24 +123,26 @@ std::string left_out_sentence(Of tuning) {
 
 std::string effort_sentence(Of tuning) {
   const TuneAnswer& answer = tuning.answer;
-  const bool may_improve = !answer.converged && answer.points > 0 && !tuning.is_of_file;
+  const bool may_improve = !answer.search.converged && answer.search.points > 0 && !tuning.is_of_file;
   return fmt::format(
-      "searched: {} points, {} trials{}\nspent: {}", answer.points, answer.trials,
+      "searched: {} points, {} trials{}\nspent: {}", answer.search.points, answer.search.trials,
       may_improve ? "; the last generation still improved, a larger --budget may find better values" : "",
       spent_text(answer));
 }
 
-Description<TuneAnswer> search_description() {
-  return Description<TuneAnswer>()
-      .value(in_data("points", "points that were simulated"), &TuneAnswer::points)
+Description<Tuning> search_description() {
+  return Description<Tuning>()
+      .value(in_data("points", "points that were simulated"), [](Of t) { return t.answer.search.points; })
       .value(
           in_data("telling_points",
                   "points at which some moves meet the worst goal, more than 1 %, and too few; where hardly "
                   "any point is one, the goal is not shown to be out of reach"),
-          [](const TuneAnswer& answer) { return answer.missed.landscape.telling; })
-      .value(in_data("trials", "trials of the search, and of those for other controls"), &TuneAnswer::trials)
-      .value(in_data("seconds", "time", "s"), &TuneAnswer::seconds)
-      .value(in_data("converged", "whether the last generation improved no more"), &TuneAnswer::converged);
+          [](Of t) { return t.answer.missed.landscape.telling; })
+      .value(in_data("trials", "trials of the search, and of those for other controls"),
+             [](Of t) { return t.answer.search.trials; })
+      .value(in_data("seconds", "time", "s"), [](Of t) { return t.answer.seconds; })
+      .value(in_data("converged", "whether the last generation improved no more"),
+             [](Of t) { return t.answer.search.converged; });
 }
 
 struct FrontierRow {
@@ -172,11 +172,8 @@ Description<FrontierRow> frontier_columns() {
   return Description<FrontierRow>()
       .value({.key = "gains", .heading = "values", .meaning = "values by parameter"},
              [](Row row) { return named(row.free, row.point.values); })
-      .value({.key = "rate",
-              .heading = "rate of the goal",
-              .meaning = "rate of the goal by the search, which is a little too good",
-              .unit = "1",
-              .notation = document::Notation::percent},
+      .value(proportion("rate", "rate of the goal",
+                        "rate of the goal by the search, which is a little too good"),
              [](Row row) { return row.point.estimate.rate; })
       .value(criterion_item(), [](Row row) { return row.point.estimate.criterion; });
 }
@@ -197,8 +194,8 @@ document::FigureData points_data(std::string name, const TuneAnswer& answer,
 
 std::vector<document::Figure> frontier_figures(Of tuning) {
   const TuneAnswer& answer = tuning.answer;
-  if (!is_drawn(tuning) || answer.tried.empty()) return {};
-  std::vector<TriedPoint> tried = answer.tried;
+  if (!is_drawn(tuning) || answer.search.tried.empty()) return {};
+  std::vector<TriedPoint> tried = answer.search.tried;
   std::erase_if(tried, [](const TriedPoint& one) { return !std::isfinite(one.estimate.criterion); });
   const goal::Verdict& verdict = answer.proof->verdict;
   const study::Goal& goal = worst_goal(tuning);
@@ -227,8 +224,7 @@ void add_closing(Description<Tuning>& items) {
       .table({.heading = "success and speed, by the search (its rates are a little too good)",
               .shown = Shown::to_people},
              frontier_columns(), some_frontier_rows)
-      .object(in_data("searched", "size of the search"), search_description(),
-              [](Of t) -> const TuneAnswer& { return t.answer; })
+      .object(in_data("searched", "size of the search"), search_description(), std::identity())
       .value(in_data("spent_trials", "trials of all"), [](Of t) { return t.answer.spent_trials; })
       .value(in_data("left_out", "parts of the answer for which the budget was not enough"),
              [](Of t) { return t.answer.left_out; })
@@ -257,12 +253,6 @@ NamedValues named(const std::vector<study::FreeParameter>& free, const tuning::V
 const study::Goal& worst_goal(Of tuning) {
   const std::optional<tuning::Proof>& proof = tuning.answer.proof;
   return tuning.study.goals[proof ? proof->verdict.goal : 0];
-}
-
-std::string claim_text(const study::Study& study, std::size_t claim) {
-  const tuning::ClaimPlace place = tuning::place_of_claim(study, claim);
-  return (study.goals.size() > 1 ? fmt::format(" '{}'", study.goals[place.goal].name) : std::string()) +
-         study::condition_text(study, static_cast<std::int64_t>(place.condition));
 }
 
 document::Item criterion_item() {
@@ -310,6 +300,26 @@ document::AnswerDescription<Tuning> proof_answer() {
     add_refusals(items);
     add_proof_sentences(items);
   });
+}
+
+tuning::Extra margins_extra();
+tuning::Extra ages_extra();
+tuning::Extra room_extra();
+tuning::Extra robustness_extra();
+tuning::Extra controls_extra();
+tuning::Extra limits_extra();
+tuning::Extra maps_extra();
+
+const std::vector<tuning::Extra>& all_extras() {
+  static const std::vector<tuning::Extra> extras{
+      margins_extra(),     // what more delay loses; of a goal that is missed, what a wider band would change
+      ages_extra(),        // at which each claim is lost, of a study with ages
+      room_extra(),        // of each free parameter
+      robustness_extra(),  // with other seeds, spreads and delays
+      controls_extra(),    // others, each at its own best values
+      limits_extra(),      // what stands between the values and the goal
+      maps_extra()};       // over pairs of free parameters, for a page
+  return extras;
 }
 
 }  // namespace zerocount::design_commands

@@ -9,7 +9,7 @@
 #include "analysis/text/text.hpp"
 #include "core/text/counted.hpp"
 #include "experiments/parameters/study_units.hpp"
-#include "runners/design_commands/tune/tune_parts.hpp"
+#include "runners/design_commands/tune/tune_answer.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -141,11 +141,9 @@ Description<LoopReading> loop_description() {
           [](Reading r) { return r.loop.stiffness; })
       .value(in_data("machine", "number of the machine; unknown where the stiffness says all of it"),
              [](Reading r) { return r.loop.machine; })
-      .value(
-          {.key = "condition", .meaning = "the condition that it bears, with conditions", .optional = true},
-          [](Reading r) {
-            return tuning::condition_name(r.study, {0, static_cast<std::size_t>(r.loop.condition)});
-          });
+      .value(optional(in_data("condition", "the condition that it bears, with conditions")), [](Reading r) {
+        return tuning::condition_name(r.study, {0, static_cast<std::size_t>(r.loop.condition)});
+      });
 }
 
 Description<SmallestMargins> margins_description() {
@@ -217,22 +215,16 @@ std::string nearest_sentence(Of tuning) {
   return lines;
 }
 
-struct NearestReading {
-  const NearestPoint& nearest;
-  Of tuning;
-};
-
-Description<NearestReading> nearest_description() {
-  using Reading = const NearestReading&;
-  return Description<NearestReading>()
+Description<Tuning> nearest_description() {
+  return Description<Tuning>()
       .value(in_data("gains", "its values, by parameter"),
-             [](Reading r) { return named(r.tuning.answer.free, r.nearest.values); })
+             [](Of t) { return named(t.answer.free, t.answer.nearest->values); })
       .object(in_data("margins", "its smallest margins"), margins_description(),
-              [](Reading r) { return r.nearest.margins; })
+              [](Of t) { return t.answer.nearest->margins; })
       .value(
           in_data("lacking",
                   "by how much margins are too small, or the sensitivity too large: dB, degrees, samples, 1"),
-          [](Reading r) { return lacking_of(r.nearest, r.tuning.study.tuning->margins); });
+          [](Of t) { return lacking_of(*t.answer.nearest, t.study.tuning->margins); });
 }
 
 }  // namespace
@@ -259,10 +251,8 @@ void add_margins(Items& items) {
                    return LoopReading{*((*t.answer.margins).*found).loop, t.study};
                  });
   }
-  items.table({.key = "margins_by_condition",
-               .heading = "smallest margins under each condition",
-               .meaning = "smallest margins under each condition, with conditions",
-               .optional = true},
+  items.table(optional(everywhere("margins_by_condition", "smallest margins under each condition",
+                                  "smallest margins under each condition, with conditions")),
               Description<ConditionMargins>()
                   .value(everywhere("condition", "condition", "its name"), &ConditionMargins::condition)
                   .include(margins_description(),
@@ -273,10 +263,7 @@ void add_margins(Items& items) {
 void add_nearest(Items& items) {
   items.sentence(nearest_sentence)
       .object(in_data("nearest", "the point that comes nearest to the margins, where none keeps them"),
-              nearest_description(), [](Of t) -> std::optional<NearestReading> {
-                if (!t.answer.nearest) return {};
-                return NearestReading{*t.answer.nearest, t};
-              });
+              nearest_description(), [](Of t) { return t.answer.nearest ? &t : nullptr; });
 }
 
 }  // namespace zerocount::design_commands

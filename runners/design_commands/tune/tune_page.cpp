@@ -1,5 +1,3 @@
-#include "runners/design_commands/tune/tune_page.hpp"
-
 #include <cmath>
 #include <utility>
 
@@ -12,9 +10,8 @@
 #include "analysis/statistics/proportion.hpp"
 #include "results/layout/header.hpp"
 #include "runners/commands/verified_report.hpp"
-#include "runners/design_commands/limits_command.hpp"
-#include "runners/design_commands/tune/extras.hpp"
-#include "runners/design_commands/tune/tune_parts.hpp"
+#include "runners/design_commands/design_commands.hpp"
+#include "runners/design_commands/tune/tune_answer.hpp"
 #include "runners/tuning/tuner.hpp"
 
 namespace zerocount::design_commands {

@@ -2,7 +2,9 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,9 +14,8 @@
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/summary/cells_of_point.hpp"
 #include "analysis/text/text.hpp"
-#include "runners/design_commands/limits_command.hpp"
-#include "runners/design_commands/tune/tune_parts.hpp"
-#include "runners/design_commands/worst_command.hpp"
+#include "runners/design_commands/design_commands.hpp"
+#include "runners/design_commands/tune/tune_answer.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -52,7 +53,7 @@ tuning::ClaimPlace worst_claim(const goal::Verdict& verdict) {
 /// "met: all goals are met by controller.ki = 5000, least 'small' under condition loaded".
 std::string met_headline(Of tuning) {
   const goal::Verdict& verdict = tuning.answer.proof->verdict;
-  const std::string least = claim_text(tuning.study, tuning::claim_at(tuning.study, worst_claim(verdict)));
+  const std::string least = claim_text(tuning.study, worst_claim(verdict));
   return fmt::format("met: {} met by {}{}", tuning.study.goals.size() > 1 ? "all goals are" : "the goal is",
                      tuned_text(tuning), least.empty() ? "" : ", least" + least);
 }
@@ -155,13 +156,12 @@ Description<Tuning> proof_description() {
   Description<Tuning> proof;
   const auto worst = [](Of t) { return worst_claim(t.answer.proof->verdict); };
   return proof
-      .value({.key = "goal", .meaning = "name of the worst goal, of several", .optional = true},
+      .value(optional(in_data("goal", "name of the worst goal, of several")),
              [worst](Of t) {
                return tuning::has_named_claims(t.study) ? tuning::goal_name(t.study, worst(t)) : std::nullopt;
              })
-      .value(
-          {.key = "condition", .meaning = "name of the worst condition, with conditions", .optional = true},
-          [worst](Of t) { return tuning::condition_name(t.study, worst(t)); })
+      .value(optional(in_data("condition", "name of the worst condition, with conditions")),
+             [worst](Of t) { return tuning::condition_name(t.study, worst(t)); })
       .value(in_data("rate", "proportion of moves that meet the goal, with one-sided bounds", "1"),
              [](Of t) { return goal::bounded(t.answer.proof->verdict.moves); })
       .value(in_data("machines_low",
@@ -178,11 +178,86 @@ Description<Tuning> proof_description() {
              [](Of t) { return t.answer.proof->attempts; })
       .value(in_data("criterion", "quantity that is minimised; unknown for never"),
              [](Of t) { return t.answer.criterion; })
-      .object({.key = "worlds", .meaning = "verdicts by world", .optional = true}, worlds_of_proof(),
+      .object(optional(in_data("worlds", "verdicts by world")), worlds_of_proof(),
               [](Of t) -> const goal::Verdict* {
                 const goal::Verdict& verdict = t.answer.proof->verdict;
                 return verdict.worlds.empty() ? nullptr : &verdict;
               });
+}
+
+using document::Description;
+using document::in_data;
+using document::Notation;
+using summary::MoveBehaviour;
+using summary::UpperValues;
+using tuning::Refusal;
+
+using Moves = const MoveBehaviour&;
+
+/// "<key>_p95" and "<key>_max" of upper values. People are shown what has a heading.
+void add_upper(Description<MoveBehaviour>& columns, const document::Item& of,
+               UpperValues MoveBehaviour::*values, const std::string& p95_heading,
+               const std::string& max_heading) {
+  const auto item = [&of](const std::string& key, const std::string& heading, const std::string& meaning) {
+    document::Item one = of;
+    one.key = of.key + key;
+    one.heading = heading;
+    one.meaning = meaning;
+    return one;
+  };
+  columns
+      .value(item("_p95", p95_heading, of.meaning + ", which 95 % of the moves do not exceed"),
+             [values](Moves row) { return (row.*values).p95; })
+      .value(item("_max", max_heading, "largest " + of.meaning),
+             [values](Moves row) { return (row.*values).max; });
+}
+
+std::optional<double> of_rest(Moves row, double summary::RestTorque::*value) {
+  return row.rest ? std::optional((*row.rest).*value) : std::nullopt;
+}
+
+Description<MoveBehaviour> behaviour_columns() {
+  using document::everywhere;
+  Description<MoveBehaviour> columns;
+  columns
+      .value(optional(everywhere("goal", "goal", "name of the goal that asks the moves")),
+             &MoveBehaviour::goal)
+      .value(optional(everywhere("condition", "condition", "the condition that the machines bear")),
+             &MoveBehaviour::condition)
+      .value(everywhere("moves", "moves", "moves of these trials"), &MoveBehaviour::moves);
+  add_upper(columns, {.key = "overshoot", .meaning = "excursion beyond the target", .unit = "count"},
+            &MoveBehaviour::overshoot, "overshoot p95 (counts)", "");
+  add_upper(columns,
+            {.key = "overshoot_length", .meaning = "excursion beyond the target, rad (m on a linear axis)"},
+            &MoveBehaviour::overshoot_length, "(rad, m)", "");
+  add_upper(columns,
+            {.key = "overshoot_of_step",
+             .meaning = "excursion beyond the target as a proportion of the move's step",
+             .unit = "1",
+             .notation = Notation::percent},
+            &MoveBehaviour::overshoot_of_step, "(of the step)", "");
+  add_upper(columns, {.key = "peak_torque", .meaning = "absolute torque decided, N m (N on a linear axis)"},
+            &MoveBehaviour::peak_torque, "", "peak torque (N m, N)");
+  add_upper(columns,
+            {.key = "peak_of_range",
+             .meaning = "absolute torque as a proportion of the converter's largest",
+             .unit = "1",
+             .notation = Notation::percent},
+            &MoveBehaviour::peak_of_range, "", "of the range");
+  columns
+      .value(proportion("saturated", "moves that saturate",
+                        "moves in which the converter clipped, as a proportion"),
+             &MoveBehaviour::saturated)
+      .value(everywhere("rest_torque_rms", "rms torque at rest",
+                        "rms of the torque at rest, N m (N on a linear axis)"),
+             [](Moves row) { return of_rest(row, &summary::RestTorque::rms); })
+      .value(everywhere("rest_torque_changes", "of its changes",
+                        "rms of its changes from sample to sample, N m (N on a linear axis)"),
+             [](Moves row) { return of_rest(row, &summary::RestTorque::changes); })
+      .value(in_data("rest_torque_changes_of_range",
+                     "the same as a proportion of the converter's largest torque", "1"),
+             [](Moves row) { return of_rest(row, &summary::RestTorque::of_range); });
+  return columns;
 }
 
 }  // namespace
@@ -242,6 +317,48 @@ void add_proof(Items& items) {
              [](Of t) { return t.answer.at_edges; })
       .object(in_data("worst", "the worst machine of the proof"), worst_description(),
               [](Of t) { return t.answer.worst; });
+}
+
+std::string sanity_line(Of tuning) {
+  const tuning::TuneAnswer& answer = tuning.answer;
+  if (answer.behaviour.empty() && answer.refusals.empty()) return "";
+  std::vector<std::string> texts;
+  for (const Refusal& one : answer.refusals)
+    texts.push_back(fmt::format("{}; to exclude it add {}", one.text, one.remedy));
+  return fmt::format("before the proof: a drive engineer would refuse {} of {}{}{}",
+                     texts.empty() ? "nothing" : "this", values_text(named(answer.free, answer.gains)),
+                     texts.empty() ? "" : ": ", fmt::join(texts, "; "));
+}
+
+void add_refusals(Items& items) {
+  items.table(
+      {.key = "refusals",
+       .heading = "a drive engineer would refuse this",
+       .meaning = "what a drive engineer would refuse of the tuned values, although they may meet "
+                  "the goal"},
+      Description<Refusal>()
+          .value({.key = "finding",
+                  .meaning = "what an engineer would refuse",
+                  .words = {"overshoot", "saturation", "torque noise", "phase margin"}},
+                 &Refusal::finding)
+          .value(everywhere("text", "finding", "the finding in a sentence"), &Refusal::text)
+          .value(in_data("value",
+                         "proportion of the step, of the moves, of the converter's largest "
+                         "torque; degrees"),
+                 &Refusal::value)
+          .value(in_data("passes", "the value that passes"), &Refusal::largest)
+          .value(everywhere("remedy", "to exclude it add", "what excludes it, as it stands in a manifest"),
+                 &Refusal::remedy),
+      [](Of t) -> const std::vector<Refusal>& { return t.answer.refusals; });
+}
+
+void add_behaviour(Description<Tuning>& items) {
+  items.table(
+      {.key = "behaviour",
+       .heading = "what the moves of the proof do",
+       .meaning = "what the moves of the proof do, by goal and condition; the torque at rest is of machines "
+                  "of the search where the study does not measure it"},
+      behaviour_columns(), [](Of t) -> const std::vector<MoveBehaviour>& { return t.answer.behaviour; });
 }
 
 }  // namespace zerocount::design_commands

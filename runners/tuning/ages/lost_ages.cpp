@@ -138,23 +138,23 @@ class LifeOfClaims {
   const AgeRuns& runs_;
   const std::vector<study::FreeParameter>& free_;
   const Values& values_;
-  std::vector<ClaimOfLife> claims_;
+  std::vector<ClaimPlace> claims_;
   std::vector<AgeVerdict> tried_;
   std::string refusal_;
 };
 
 }  // namespace
 
-std::vector<ClaimOfLife> claims_of_life(const study::Study& study) {
+std::vector<ClaimPlace> claims_of_life(const study::Study& study) {
   const auto conditions = static_cast<std::size_t>(study::conditions_of_age(study));
-  std::vector<ClaimOfLife> claims;
+  std::vector<ClaimPlace> claims;
   for (std::size_t goal = 0; goal < study.goals.size(); ++goal) {
     for (std::size_t condition = 0; condition < conditions; ++condition) claims.push_back({goal, condition});
   }
   return claims;
 }
 
-std::string text_of(const study::Study& study, const ClaimOfLife& claim) {
+std::string text_of(const study::Study& study, const ClaimPlace& claim) {
   std::string text;
   if (study.goals.size() > 1) text = fmt::format(" '{}'", study.goals[claim.goal].name);
   if (!study.condition_names.empty()) text += " under condition " + study.condition_names[claim.condition];

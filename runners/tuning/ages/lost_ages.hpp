@@ -10,22 +10,17 @@
 #include "experiments/study/study.hpp"
 #include "runners/trials/effort.hpp"
 #include "runners/trials/variant.hpp"
-#include "runners/tuning/race/search_space.hpp"
+#include "runners/tuning/units/unit_runner.hpp"
 
 /// A tuned study at ages that its manifest need not name, on machines that its search did not use: the age at
 /// which the values lose each of their claims.
 namespace zerocount::tuning {
 
-/// A goal under a condition of the manifest, whatever the age.
-struct ClaimOfLife {
-  std::size_t goal{0};
-  std::size_t condition{0};  ///< of Study::condition_names; 0 without conditions
-};
-
-/// The claims of a study with ages: goal by goal, each under every condition of the manifest.
-std::vector<ClaimOfLife> claims_of_life(const study::Study& study);
+/// The claims of a study with ages, whatever the age: goal by goal, each under every condition of the
+/// manifest (Study::condition_names).
+std::vector<ClaimPlace> claims_of_life(const study::Study& study);
 /// " of goal 'small' under condition cold", as far as the study has several goals, and conditions.
-std::string text_of(const study::Study& study, const ClaimOfLife& claim);
+std::string text_of(const study::Study& study, const ClaimPlace& claim);
 
 /// What machines of one age do.
 struct AgeVerdict {
@@ -68,7 +63,7 @@ std::int64_t trials_at_one_age(const study::Study& study, std::int64_t trials_ea
 /// A claim over age. The ages assume that a machine which misses a claim goes on missing it: they are the
 /// first of those that were tried, to 10 %, and which ones are tried depends on what the machines did.
 struct LostClaim {
-  ClaimOfLife claim;
+  ClaimPlace claim;
   /// The youngest age at which fewer machines, or moves, than asked for meet the goal; nothing up to the
   /// oldest age that was tried.
   std::optional<double> lost{};

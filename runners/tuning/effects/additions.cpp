@@ -1,14 +1,16 @@
-#include "runners/tuning/effects/additions.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "analysis/parallel/parallel.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/rules/value_rules.hpp"
+#include "runners/tuning/effects/effects.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -116,11 +118,11 @@ class ModeSearch {
   }
 
   ChangedPoint with_mode(double frequency) const {
-    const std::vector<ConditionEffects> mode =
-        runs_.effects([&](const study::Study& study, std::int64_t point) {
+    return runs_
+        .points([&](const study::Study& study, std::int64_t point) {
           return std::vector{load_mode(study, point, frequency)};
-        });
-    return runs_.changed(std::array{&mode.front()});
+        })
+        .front();
   }
 
   /// The point with a mode, run on so many units, or on fewer by which it is not borne.
@@ -189,15 +191,70 @@ bool can_lose(const EffectRuns& runs) {
   return std::ranges::any_of(as_it_is.rates, [](double rate) { return rate > allowed_loss; });
 }
 
-std::vector<Limit> nothing_to_lose(const EffectRuns& runs, const std::vector<ConditionEffects>& effects) {
+std::vector<Limit> nothing_to_lose(const EffectRuns& runs, std::span<const ChangedPoint> points) {
   constexpr const char* why = "hardly any move meets the goal as it is, so that nothing can be lost";
   std::vector<Limit> rows;
-  for (const ConditionEffects& one : effects) {
-    const std::string refusal = runs.changed(std::array{&one}).refusal;
-    rows.push_back({one.name, std::nullopt, refusal.empty() ? why : refusal});
-  }
+  for (const ChangedPoint& one : points)
+    rows.push_back({one.name, std::nullopt, one.refusal.empty() ? why : one.refusal});
   if (!can_have_load(runs)) rows.push_back({"a load mode", std::nullopt, why});
   return rows;
+}
+
+constexpr int other_seeds = 10;
+constexpr double wider = 2.0;
+
+Effect wider_spread(const study::Study& study, std::int64_t point) {
+  study::PointEdit at(study, point);
+  const study::Widened widened = at.widen(wider);
+  Effect effect{.name = "twice the spread", .edit = [](study::PointEdit& of) { of.widen(wider); }};
+  if (widened.changed.empty()) {
+    effect.refusal = "nothing is drawn of the axis that can lie farther from its centre";
+  } else if (!widened.kept.empty()) {
+    effect.note =
+        fmt::format("as in the study, because it would leave its range: {}", fmt::join(widened.kept, ", "));
+  }
+  return effect;
+}
+
+/// @param factor of a delay. @param instead samples, where there is none
+Effect other_delay(const study::Study& study, std::int64_t point, double factor, double instead) {
+  study::PointEdit at(study, point);
+  const double delay = at.limits("controller.delay").high;
+  const auto changed = [factor, instead](double samples) {
+    return samples > 0.0 ? factor * samples : instead;
+  };
+  at.set("controller.delay", changed(delay));
+  return {
+      .name = delay > 0.0 ? fmt::format("{} the delay", factor < 1.0 ? "half" : "twice")
+                          : fmt::format("{:g} samples of delay", instead),
+      .refusal = rules::refusal_of(at),
+      .change = [changed](trial::TrialParameters& p) { p.controller.delay = changed(p.controller.delay); }};
+}
+
+Limit with_other_seeds(const EffectRuns& runs, const trials::Replicates& units,
+                       const std::function<study::Study(std::uint64_t)>& with_seed) {
+  std::array<study::Study, other_seeds> others;
+  parallel::for_each_index(
+      others.size(),
+      [&](std::size_t i) {
+        others[i] = with_seed(trials::fresh_seed(runs.study().seed, fmt::format("other seed {}", i)));
+      },
+      "study");
+  Limit lowest;
+  int held = 0;
+  double highest = 0.0;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const EffectRuns seeded(others[i], units, runs.effort());
+    Limit one = limit_of(seeded, seeded.base());
+    held += one.holds ? 1 : 0;
+    highest = std::max(highest, *one.rate);
+    if (i == 0 || is_lower(one, lowest)) lowest = std::move(one);
+  }
+  lowest.effect = fmt::format("{} other seeds", other_seeds);
+  lowest.note =
+      fmt::format("holds with {} of {}; the highest rate is {:.4g} %", held, other_seeds, 100.0 * highest);
+  lowest.holds = held == other_seeds;
+  return lowest;
 }
 
 }  // namespace
@@ -222,18 +279,29 @@ Effect load_mode(const study::Study& study, std::int64_t point, double frequency
 }
 
 std::vector<Limit> additions_to(const EffectRuns& runs, const TellStage& tell) {
-  const std::vector<ConditionEffects> effects = runs.effects(added_effects);
-  if (!can_lose(runs)) return nothing_to_lose(runs, effects);
+  std::vector<ChangedPoint> points = runs.points(added_effects);
+  if (!can_lose(runs)) return nothing_to_lose(runs, points);
   if (tell) tell("effects that the study may assume away");
-  std::vector<ChangedPoint> points;
-  points.reserve(effects.size());
-  for (const ConditionEffects& one : effects) points.push_back(runs.changed(std::array{&one}));
   runs.run(points, runs.units());
   std::vector<Limit> rows;
   rows.reserve(points.size() + 1);
   for (const ChangedPoint& one : points) rows.push_back(limit_of(runs, one));
   if (!can_have_load(runs)) rows.push_back(ModeSearch(runs).lowest());
   return rows;
+}
+
+std::vector<Effect> other_premises(const study::Study& study, std::int64_t point) {
+  return {wider_spread(study, point), other_delay(study, point, 0.5, 0.5),
+          other_delay(study, point, 2.0, 2.0)};
+}
+
+std::vector<Limit> variations_of(const EffectRuns& runs, const trials::Replicates& units,
+                                 const std::function<study::Study(std::uint64_t)>& with_seed) {
+  std::vector<Limit> found{with_other_seeds(runs, units, with_seed)};
+  std::vector<ChangedPoint> points = runs.points(other_premises);
+  runs.run(points, runs.units());
+  for (const ChangedPoint& one : points) found.push_back(limit_of(runs, one));
+  return found;
 }
 
 }  // namespace zerocount::tuning

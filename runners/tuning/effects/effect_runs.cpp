@@ -1,87 +1,65 @@
-#include "runners/tuning/effects/effect_runs.hpp"
-
 #include <algorithm>
 #include <utility>
 
 #include "core/failure/failure.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/condition_study.hpp"
+#include "runners/tuning/effects/effects.hpp"
 
 namespace zerocount::tuning {
-namespace {
-
-/// The study of a condition with these effects changed; nothing, and its refusal, where its manifest could
-/// not describe it.
-std::optional<study::Study> changed_study(const study::Study& study, std::int64_t point,
-                                          std::span<const Effect* const> effects, std::string& refusal) {
-  study::PointEdit at(study, point);
-  for (const Effect* one : effects) {
-    if (one->edit) one->edit(at);
-  }
-  for (const Effect* one : effects) {
-    if (refusal.empty()) refusal = one->refusal;
-  }
-  if (refusal.empty() && !effects.empty()) refusal = rules::refusal_of(at);
-  return refusal.empty() ? std::optional(at.study()) : std::nullopt;
-}
-
-Change all_changes(const std::vector<const Effect*>& effects) {
-  std::vector<Change> changes;
-  for (const Effect* one : effects) {
-    if (one->change) changes.push_back(one->change);
-  }
-  return [changes = std::move(changes)](trial::TrialParameters& p) {
-    for (const Change& change : changes) change(p);
-  };
-}
-
-}  // namespace
-
 EffectRuns::EffectRuns(const study::Study& study, const trials::Replicates& units, trials::Effort effort)
     : study_(study), aim_(aim_of(study)), units_(units), effort_(std::move(effort)) {
   for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition)
     conditions_.push_back(under_condition(study, condition));
   units_.trials_each /= std::ssize(conditions_);
-  base_ = changed({});
+  base_ = {"none", std::vector<std::vector<Effect>>(conditions_.size())};
+  apply_effects(base_);
   run({&base_, 1}, units_.count);
 }
 
-std::vector<ConditionEffects> EffectRuns::effects(
+std::vector<ChangedPoint> EffectRuns::points(
     const std::function<std::vector<Effect>(const study::Study&, std::int64_t)>& effects_of) const {
-  std::vector<ConditionEffects> all;
+  std::vector<ChangedPoint> all;
   for (std::size_t condition = 0; condition < conditions_.size(); ++condition) {
     for (Effect& effect : effects_of(conditions_[condition], units_.point)) {
-      auto same = std::ranges::find(all, effect.name, &ConditionEffects::name);
+      auto same = std::ranges::find(all, effect.name, &ChangedPoint::name);
       if (same == all.end()) {
-        all.push_back({effect.name, {}});
+        all.push_back({effect.name, std::vector<std::vector<Effect>>(conditions_.size())});
         same = all.end() - 1;
-        same->under.resize(conditions_.size());
       }
-      same->under[condition] = std::move(effect);
+      same->under[condition] = {std::move(effect)};
     }
   }
+  for (ChangedPoint& one : all) apply_effects(one);
   return all;
 }
 
-ChangedPoint EffectRuns::changed(std::span<const ConditionEffects* const> together) const {
-  ChangedPoint point;
-  for (const ConditionEffects* one : together) point.name += (point.name.empty() ? "" : " and ") + one->name;
-  if (point.name.empty()) point.name = "none";
+ChangedPoint EffectRuns::together(const ChangedPoint& a, const ChangedPoint& b) const {
+  ChangedPoint both{a.name + " and " + b.name, a.under};
+  for (std::size_t i = 0; i < both.under.size(); ++i)
+    both.under[i].insert(both.under[i].end(), b.under[i].begin(), b.under[i].end());
+  apply_effects(both);
+  return both;
+}
+
+void EffectRuns::apply_effects(ChangedPoint& point) const {
   for (std::size_t condition = 0; condition < conditions_.size(); ++condition) {
-    std::vector<const Effect*> effects;
-    for (const ConditionEffects* one : together) {
-      if (one->under[condition]) effects.push_back(&*one->under[condition]);
+    const std::vector<Effect>& effects = point.under[condition];
+    study::PointEdit at(conditions_[condition], units_.point);
+    std::vector<Change> changes;
+    for (const Effect& one : effects) {
+      if (point.note.empty()) point.note = one.note;
+      if (point.refusal.empty()) point.refusal = one.refusal;
+      if (one.edit) one.edit(at);
+      if (one.change) changes.push_back(one.change);
     }
-    for (const Effect* one : effects) {
-      if (point.note.empty()) point.note = one->note;
-    }
-    std::optional<study::Study> study =
-        changed_study(conditions_[condition], units_.point, effects, point.refusal);
-    if (!study) return point;
-    point.studies.push_back(std::move(*study));
-    point.changes.push_back(all_changes(effects));
+    if (point.refusal.empty() && !effects.empty()) point.refusal = rules::refusal_of(at);
+    if (!point.refusal.empty()) return;
+    point.studies.push_back(at.study());
+    point.changes.emplace_back([changes = std::move(changes)](trial::TrialParameters& p) {
+      for (const Change& change : changes) change(p);
+    });
   }
-  return point;
 }
 
 void EffectRuns::run(std::span<ChangedPoint> points, std::int64_t count) const {

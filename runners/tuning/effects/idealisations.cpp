@@ -1,5 +1,3 @@
-#include "runners/tuning/effects/idealisations.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +20,7 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/rules/effect_rules.hpp"
 #include "experiments/study/study_table.hpp"
+#include "runners/tuning/effects/effects.hpp"
 
 namespace zerocount::tuning {
 namespace {

@@ -1,5 +1,3 @@
-#include "runners/tuning/effects/limits.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +7,7 @@
 
 #include "analysis/statistics/distributions.hpp"
 #include "experiments/study/condition_study.hpp"
-#include "runners/tuning/effects/idealisations.hpp"
+#include "runners/tuning/effects/effects.hpp"
 
 namespace zerocount::tuning {
 
@@ -68,10 +66,10 @@ double margin_on(const EffectRuns& runs, const ChangedPoint& point, std::int64_t
   return estimate_of(runs.aim(), point.run, count).margin;
 }
 
-std::vector<ChangedPoint> pairs_of(const EffectRuns& runs, const std::vector<ConditionEffects>& causes) {
+std::vector<ChangedPoint> pairs_of(const EffectRuns& runs, std::span<const ChangedPoint> alone) {
   std::vector<ChangedPoint> pairs;
-  for (auto a = causes.begin(); a != causes.end(); ++a) {
-    for (auto b = a + 1; b != causes.end(); ++b) pairs.push_back(runs.changed(std::array{&*a, &*b}));
+  for (auto a = alone.begin(); a != alone.end(); ++a) {
+    for (auto b = a + 1; b != alone.end(); ++b) pairs.push_back(runs.together(*a, *b));
   }
   return pairs;
 }
@@ -144,12 +142,12 @@ void run_alone(const EffectRuns& runs, std::vector<ChangedPoint>& alone, const T
 }
 
 /// Adds the best pair of causes, if it is better than each alone.
-void add_best_pair(const EffectRuns& runs, const std::vector<ConditionEffects>& causes,
-                   std::span<const ChangedPoint> alone, const TellStage& tell, std::vector<Limit>& limits) {
+void add_best_pair(const EffectRuns& runs, std::span<const ChangedPoint> alone, const TellStage& tell,
+                   std::vector<Limit>& limits) {
   const auto best = std::ranges::max_element(limits, is_lower);
   if (misses_nothing(*best)) return;
   if (tell) tell("pairs of causes");
-  std::vector<ChangedPoint> pairs = pairs_of(runs, causes);
+  std::vector<ChangedPoint> pairs = pairs_of(runs, alone);
   const std::int64_t alternatives = std::ssize(pairs);
   const ChangedPoint* const together = best_pair(runs, alone, pairs);
   if (together == nullptr) return;
@@ -177,8 +175,12 @@ Limit limit_of(const EffectRuns& runs, const ChangedPoint& point) {
   if (!point.refusal.empty()) return {point.name, std::nullopt, point.refusal};
   Limit limit{point.name, std::nullopt, point.note, estimate_of(runs.aim(), point.run, runs.units())};
   limit.rate = limit.estimate.rate;
-  const Claim& claim = runs.aim().claims[limit.estimate.worst];
-  limit.asked = claim.machines.value_or(claim.moves);
+  limit.asked = wanted_rate(runs.aim().claims[limit.estimate.worst]);
+  const Estimate base = estimate_of(runs.aim(), runs.base().run, runs.units());
+  if (&point != &runs.base() && base.rate < 1.0 && limit.estimate.worst == base.worst &&
+      limit.estimate.units == base.units)
+    limit.avoided = (limit.estimate.rate - base.rate) / (1.0 - base.rate);
+  limit.holds = reaches(runs.aim(), limit.estimate);
   if (has_named_claims(runs.study())) name_claims(runs, limit);
   return limit;
 }
@@ -190,11 +192,8 @@ Estimate estimate_on(const study::Study& study, const trials::Replicates& units,
 }
 
 std::vector<Limit> limits_of(const EffectRuns& runs, const TellStage& tell) {
-  const std::vector<ConditionEffects> causes = runs.effects(idealisations_of);
   std::vector<Limit> limits{limit_of(runs, runs.base())};
-  std::vector<ChangedPoint> alone;
-  alone.reserve(causes.size());
-  for (const ConditionEffects& one : causes) alone.push_back(runs.changed(std::array{&one}));
+  std::vector<ChangedPoint> alone = runs.points(idealisations_of);
   if (misses_nothing(limits.front())) {
     for (const ChangedPoint& one : alone)
       limits.push_back({one.name, std::nullopt, one.refusal.empty() ? "nothing is missed" : one.refusal});
@@ -203,7 +202,7 @@ std::vector<Limit> limits_of(const EffectRuns& runs, const TellStage& tell) {
   run_alone(runs, alone, tell);
   for (const ChangedPoint& one : alone)
     limits.push_back(cause_of(runs, one, limits.front(), std::ssize(alone)));
-  if (!trials::within(runs.effort(), [&] { add_best_pair(runs, causes, alone, tell, limits); }))
+  if (!trials::within(runs.effort(), [&] { add_best_pair(runs, alone, tell, limits); }))
     limits.push_back({"pairs of causes", std::nullopt, "the budget ended"});
   return limits;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -32,6 +33,10 @@ class TuningJournal {
 
   bool resumed() const { return resumed_; }
   double seconds() const { return seconds_; }  ///< that the earlier runs took
+  /// Seconds that the tuning took so far, those of the earlier runs included.
+  double elapsed() const {
+    return seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
   /// Trials per second that an earlier run measured, so that the search has the same size again.
   std::optional<double> speed() const { return speed_; }
   /// @throws Failure (machine_failed)
@@ -58,6 +63,7 @@ class TuningJournal {
   bool begun_{false};  ///< this run has written the header
   bool torn_{false};   ///< the file may end within a line
   double seconds_{0.0};
+  std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};
   std::optional<double> speed_;
   std::map<std::pair<std::string, Values>, std::vector<UnitResult>> known_;
 };

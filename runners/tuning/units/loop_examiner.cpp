@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -17,10 +19,85 @@
 #include "core/theory/margins.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/plan.hpp"
-#include "runners/tuning/units/loop_spread.hpp"
 
 namespace zerocount::tuning {
 namespace {
+
+/// Whether some input whose name fits is drawn under a condition.
+template <class Fits>
+bool draws(const study::Study& study, std::int64_t condition, const Fits& fits) {
+  const study::StudyPlan& plan = *study.plan;
+  for (std::size_t column = 0; column < study.columns.inputs.size(); ++column) {
+    if (!fits(study.columns.inputs[column].name)) continue;
+    const study::Value& value =
+        *study::value_at_point(plan, plan.inputs[column].slot, study::plan_point(plan, 0, condition));
+    if (!plan.has_conditions() || value.kind != study::Value::Kind::number) return true;
+  }
+  return false;
+}
+
+/// Replaces each machine by two, with the factors 1 − part and 1 + part.
+template <class Scale>
+void spread_by(const std::optional<double>& part, std::vector<trial::TrialParameters>& machines,
+               const Scale& scale) {
+  if (part.value_or(0.0) == 0.0) return;
+  std::vector<trial::TrialParameters> spread;
+  spread.reserve(2 * machines.size());
+  for (const trial::TrialParameters& machine : machines) {
+    for (const double factor : {1.0 - *part, 1.0 + *part}) {
+      spread.push_back(machine);
+      scale(spread.back(), factor);
+    }
+  }
+  machines = std::move(spread);
+}
+
+/// The spread of the study's margins without what it draws itself under a condition; none without margins.
+/// @param condition 0 without conditions
+study::LoopSpread spread_of_undrawn(const study::Study& study, std::int64_t condition) {
+  if (!study.tuning) return {std::nullopt, std::nullopt, std::nullopt};
+  study::LoopSpread spread = study.tuning->margins.spread;
+  const auto is_drawn = [&](std::initializer_list<std::string_view> names) {
+    return draws(study, condition,
+                 [&](std::string_view name) { return std::ranges::find(names, name) != names.end(); });
+  };
+  if (is_drawn({"plant.inertia", "plant.load.inertia"})) spread.inertia.reset();
+  if (is_drawn({"plant.presliding_damping", "plant.sliding_damping"})) spread.damping.reset();
+  if (is_drawn({"dac.gain_error"})) spread.torque_constant.reset();
+  return spread;
+}
+
+/// The machine with each combination of the lowest and the highest value of what is spread: 2ⁿ of them, or
+/// the machine itself without a spread.
+///
+///     inertia: J and JL times 1 ± s;  damping: c and cs times 1 ± s;  torque constant: times 1 ± s
+std::vector<trial::TrialParameters> corners_of(const trial::TrialParameters& machine,
+                                               const study::LoopSpread& spread) {
+  std::vector<trial::TrialParameters> machines{machine};
+  spread_by(spread.inertia, machines, [](trial::TrialParameters& p, double factor) {
+    p.plant.inertia *= factor;
+    p.plant.load.inertia *= factor;
+  });
+  spread_by(spread.damping, machines, [](trial::TrialParameters& p, double factor) {
+    p.plant.presliding_damping *= factor;
+    p.plant.sliding_damping *= factor;
+  });
+  spread_by(spread.torque_constant, machines, [](trial::TrialParameters& p, double factor) {
+    p.dac.gain_error = (1.0 + p.dac.gain_error) * factor - 1.0;
+  });
+  return machines;
+}
+
+/// The places in corners_of() at which margins usually are smallest: the lowest damping with the highest
+/// torque constant, both inertias.
+std::vector<std::size_t> likely_worst_corners(const study::LoopSpread& spread) {
+  const auto is_spread = [](const std::optional<double>& part) { return part.value_or(0.0) != 0.0; };
+  const std::size_t torques = is_spread(spread.torque_constant) ? 2 : 1;
+  const std::size_t dampings = is_spread(spread.damping) ? 2 : 1;
+  const std::size_t highest_torque = torques - 1;
+  if (!is_spread(spread.inertia)) return {highest_torque};
+  return {highest_torque, dampings * torques + highest_torque};
+}
 
 constexpr std::int64_t max_unlike_machines = 100;
 constexpr int places_on_profile = 64;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -7,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "core/trial/parameters.hpp"
 #include "experiments/study/study.hpp"
 
+/// What the machines of the margins differ in beyond what the study draws (study::LoopSpread).
 namespace zerocount::tuning {
 
 /// The loop that has the smallest of a margin.
@@ -69,7 +72,7 @@ struct Examination {
 /// Examines whether the linear loops of the machines keep margins under every condition: at every stiffness
 /// of the contact before it slides, from k1 to k1 + k2 over the friction profile of the machine, or that of
 /// its bristles; and while the machines slide, if they do or friction has no stiffness. Each machine stands
-/// for those that differ from it by the spread of the margins (loop_spread.hpp).
+/// for those that differ from it by the spread of the margins.
 class LoopExaminer {
  public:
   /// Machines that differ in the stiffness of their spring alone are examined as one with the stiffness of

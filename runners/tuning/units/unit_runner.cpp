@@ -273,10 +273,16 @@ bool has_named_claims(const study::Study& study) {
   return study.goals.size() > 1 || !study.conditions.empty();
 }
 
-std::string text_of_claim(const study::Study& study, const ClaimPlace& place) {
-  const std::optional<std::string> goal = study.goals.size() > 1 ? goal_name(study, place) : std::nullopt;
-  return (goal ? fmt::format(" of goal '{}'", *goal) : std::string()) +
+std::string claim_text(const study::Study& study, const ClaimPlace& place) {
+  return (study.goals.size() > 1 ? fmt::format(" '{}'", study.goals[place.goal].name) : std::string()) +
          study::condition_text(study, static_cast<std::int64_t>(place.condition));
+}
+
+UnitResult result_of(const study::Study& study, std::span<const trial::TrialOutcome> outcomes) {
+  const TrialCounter counter(study);
+  UnitResult result;
+  for (const trial::TrialOutcome& one : outcomes) counter.add(one.moves, 0, result);
+  return result;
 }
 
 void run_units(std::span<const UnitsToRun> entries, const trials::Replicates& units,

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/measure_table.hpp"
@@ -59,8 +60,8 @@ struct ClaimPlace {
 };
 ClaimPlace place_of_claim(const study::Study& study, std::size_t claim);
 std::size_t claim_at(const study::Study& study, const ClaimPlace& place);
-/// " of goal 'small' under condition loaded", as far as the study has several goals, and conditions.
-std::string text_of_claim(const study::Study& study, const ClaimPlace& place);
+/// " 'small' under condition loaded", as far as the study has several goals, and conditions.
+std::string claim_text(const study::Study& study, const ClaimPlace& place);
 /// The name of the goal where goals have names, and of the condition where there are any.
 std::optional<std::string> goal_name(const study::Study& study, const ClaimPlace& place);
 std::optional<std::string> condition_name(const study::Study& study, const ClaimPlace& place);
@@ -78,6 +79,9 @@ struct UnitsToRun {
   std::vector<UnitResult>* results{nullptr};  ///< get one entry a unit, [claim of aim_of()]
   const Change* change{nullptr};              ///< null: none
 };
+
+/// What trials show that all are of one unit, under the first condition.
+UnitResult result_of(const study::Study& study, std::span<const trial::TrialOutcome> outcomes);
 
 /// Runs the trials of all entries on all cores. The results do not depend on the number of cores.
 /// @param units of each of the studies

@@ -1,5 +1,3 @@
-#include "runners/tuning/worst_machines/machine_box.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -43,8 +41,6 @@ study::Study searched_study(const study::Study& study, const std::vector<study::
   searched.design = study::Design::monte_carlo;
   return searched;
 }
-
-using NamedValues = std::vector<std::pair<std::string, double>>;
 
 std::string not_one_number(std::string_view name) {
   return fmt::format(

@@ -1,10 +1,15 @@
 #include "runners/tuning/worst_machines/worst_machines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 #include "analysis/measures/goal_counts.hpp"
+#include "analysis/measures/move_event.hpp"
 #include "core/failure/failure.hpp"
 #include "core/random/number_source.hpp"
 #include "experiments/designs/random_key.hpp"
@@ -13,10 +18,138 @@
 #include "experiments/study/plan.hpp"
 #include "runners/trials/trial_set.hpp"
 #include "runners/tuning/race/search_space.hpp"
-#include "runners/tuning/worst_machines/machine_race.hpp"
 
 namespace zerocount::tuning {
 namespace {
+
+/// Trials of a machine at each stage of a race, from its first one on: the last stage decides.
+constexpr std::array<std::int64_t, 3> stage_trials{4, 16, 64};
+constexpr std::size_t survivors = 8;  // machines that a race keeps
+constexpr std::size_t stages = stage_trials.size();
+constexpr std::size_t race_part = 4;  // one of so many goes on to the next stage
+constexpr std::int64_t raced_at_once = 64;
+
+/// A time beyond any that matters, s: ten times that of the goal, or the hold of a move. Of several goals as
+/// a proportion of what each allows.
+double late_time(const study::Study& study, std::int64_t point) {
+  if (study.goals.size() > 1) return 10.0;
+  if (study::first_goal(study)) return study::first_goal(study)->within * 10.0;
+  return study::study_trial(study, point, 0).parameters.command.hold;
+}
+
+/// Sum of the criterion's values, where one that is never reached counts as `late`.
+double lateness(const ClaimResult& unit, double late) {
+  double sum = 0.0;
+  for (const double value : unit.values) sum += std::min(value, late);
+  return sum;
+}
+
+/// How a machine fails: the moves that miss a goal which asks them, and the score of each move
+/// (measures::MoveScore::event).
+class MachineFailures {
+ public:
+  MachineFailures(const study::Study& study, std::int64_t point)
+      : event_(measures::missed_question(study)), late_(late_time(study, point)) {}
+
+  /// Adds the moves that the goals ask, those that meet them, and the score of each; the largest double where
+  /// it was never reached.
+  void add_to(ClaimResult& result, std::span<const trial::TrialOutcome> outcomes) const {
+    for (const trial::TrialOutcome& outcome : outcomes) {
+      for (const trial::MoveOutcome& move : outcome.moves) {
+        if (!measures::is_asked(event_, move)) continue;
+        const double score = measures::score_of(measures::MoveScore::event, event_, move);
+        ++result.moves;
+        result.met += measures::happens(event_, move) ? 0 : 1;
+        result.values.push_back(std::isnan(score) ? std::numeric_limits<double>::max() : score);
+      }
+    }
+  }
+
+  /// Whether a meets less than b; of equal ones, whether it is later.
+  bool is_worse(const ClaimResult& a, const ClaimResult& b) const {
+    if (met_proportion(a) != met_proportion(b)) return met_proportion(a) < met_proportion(b);
+    return lateness(a, late_) > lateness(b, late_);
+  }
+
+ private:
+  measures::MoveEvent event_;
+  double late_;  ///< counts for a time that is never reached, s; of several goals part of what each allows
+};
+
+/// The smaller, the worse: proportion of the moves that meet the goal, and minus the latest time.
+std::pair<double, double> merit_of(const ClaimResult& result) {
+  return {met_proportion(result), result.values.empty() ? 0.0 : -std::ranges::max(result.values)};
+}
+
+/// The claim that the unit meets in the fewest moves, the latest of equal ones.
+std::size_t worst_claim(const UnitResult& unit) {
+  return static_cast<std::size_t>(std::ranges::min_element(unit.claims, {}, merit_of) - unit.claims.begin());
+}
+
+const ClaimResult& worst_result(const UnitResult& unit) {
+  return unit.claims[worst_claim(unit)];
+}
+
+/// Runs the trials of a stage.
+void simulate(std::vector<BoxPoint>& points, std::size_t stage, const MachineBox& box,
+              const MachineFailures& failures, const trials::Effort& effort) {
+  const std::int64_t from = stage == 0 ? 0 : stage_trials[stage - 1];
+  const auto trials = static_cast<std::size_t>(stage_trials[stage] - from);
+  for (BoxPoint& point : points)
+    point.results.push_back(stage == 0 ? ClaimResult{} : ClaimResult(point.results.back()));
+  const std::size_t size = (raced_at_once + trials - 1) / trials;
+  const auto points_of = [&](std::size_t block) {
+    return std::span(points).subspan(block * size, std::min(size, points.size() - block * size));
+  };
+  const auto draw = [&](std::size_t block) {
+    std::vector<trial::TrialParameters> drawn;
+    for (const BoxPoint& point : points_of(block)) {
+      for (std::int64_t i = from; i < stage_trials[stage]; ++i)
+        drawn.push_back(box.trial_of(point, box.study().trials + i));
+    }
+    return drawn;
+  };
+  trials::run({static_cast<std::int64_t>(points.size() * trials), (points.size() + size - 1) / size, draw},
+              effort, [&](std::size_t block, std::span<const trial::TrialOutcome> outcomes) {
+                for (BoxPoint& point : points_of(block)) {
+                  failures.add_to(point.results.back(), outcomes.first(trials));
+                  outcomes = outcomes.subspan(trials);
+                }
+              });
+}
+
+/// The worst first.
+void sort_by(std::vector<BoxPoint>& points, std::size_t stage, const MachineFailures& failures) {
+  std::ranges::stable_sort(points, [&](const BoxPoint& a, const BoxPoint& b) {
+    return failures.is_worse(a.results[stage], b.results[stage]);
+  });
+}
+
+/// Keeps the worst of the points, the worst first. After each stage a part of those that have not run all
+/// trials goes on, by the trials that all of them have run: of it those that do worse there than the mildest
+/// point that is kept so far, which they would replace.
+/// @throws trial::Interrupted, trials::Spent
+void race(std::vector<BoxPoint>& points, const MachineBox& box, const MachineFailures& failures,
+          const trials::Effort& effort) {
+  const auto newcomers = std::stable_partition(
+      points.begin(), points.end(), [](const BoxPoint& point) { return point.results.size() == stages; });
+  std::vector<BoxPoint> running(newcomers, points.end());
+  points.erase(newcomers, points.end());
+  for (std::size_t stage = 0; stage < stages; ++stage) {
+    simulate(running, stage, box, failures, effort);
+    sort_by(running, stage, failures);
+    const std::size_t on = std::max((running.size() + race_part - 1) / race_part, survivors / 2);
+    if (stage + 1 == stages) break;
+    if (running.size() > on) running.resize(on);
+    if (points.size() < survivors) continue;
+    std::erase_if(running, [&](const BoxPoint& point) {
+      return !failures.is_worse(point.results[stage], points.back().results[stage]);
+    });
+  }
+  std::ranges::move(running, std::back_inserter(points));
+  sort_by(points, stages - 1, failures);
+  if (points.size() > survivors) points.resize(survivors);
+}
 
 constexpr std::int64_t trials_of_verdict = 256;
 constexpr std::int64_t judged_at_once = 64;
@@ -33,9 +166,8 @@ void name_claim(const study::Study& study, WorstMachine& machine) {
 }
 
 /// Values of what differs between the machines of the study, by their names.
-std::vector<std::pair<std::string, double>> inputs_of_machine(const study::Study& study, std::int64_t point,
-                                                              const WorstMachine& machine) {
-  std::vector<std::pair<std::string, double>> named;
+NamedValues inputs_of_machine(const study::Study& study, std::int64_t point, const WorstMachine& machine) {
+  NamedValues named;
   const bool of_rig =
       study.rigs > 0 && (!study.columns.rigs.empty() || (study.worlds > 0 && !study.columns.worlds.empty()));
   const bool has_conditions = !study.conditions.empty();  // what they override is an input of trials
@@ -74,20 +206,10 @@ std::vector<trial::TrialParameters> trials_of_manifest(const JudgedMachine& mach
 /// Of several goals the one that the moves meet the least often.
 std::optional<std::string> worst_goal(const study::Study& study,
                                       std::span<const trial::TrialOutcome> outcomes) {
-  std::vector<double> met;  // [goal]
-  for (const measures::CountedGoal& goal : measures::asked_of_moves(study)) {
-    ClaimResult count;
-    for (const trial::TrialOutcome& outcome : outcomes) {
-      for (const trial::MoveOutcome& move : outcome.moves) {
-        if (!measures::asks(goal, move)) continue;
-        ++count.moves;
-        count.met += measures::meets(goal, move) ? 1 : 0;
-      }
-    }
-    met.push_back(met_proportion(count));
-  }
-  if (met.size() < 2) return std::nullopt;
-  return goal_name(study, {static_cast<std::size_t>(std::ranges::min_element(met) - met.begin()), 0});
+  if (study.goals.size() < 2) return std::nullopt;
+  const UnitResult all = result_of(study, outcomes);
+  const auto worst = std::ranges::min_element(all.claims, {}, met_proportion);
+  return goal_name(study, {static_cast<std::size_t>(worst - all.claims.begin()), 0});
 }
 
 /// Judges a machine by the trials of its manifest.
@@ -98,10 +220,7 @@ JudgedMachine judged(const BoxPoint& point, const MachineBox& box, const Machine
   JudgedMachine machine;
   machine.rig = point.rig;
   machine.quantiles = point.quantiles;
-  for (std::size_t i = 0; i < box.inputs().size(); ++i) {
-    for (const auto& one : study::values_at_quantile(study, box.point(), box.inputs()[i], point.quantiles[i]))
-      machine.inputs.push_back(one);
-  }
+  machine.inputs = values_at(study, box.point(), point.quantiles);
   const std::int64_t step = rigs_of_manifest(box, point);
   std::vector<trial::TrialParameters> trials;
   std::int64_t first = 0;
@@ -241,9 +360,20 @@ class MachineSearch {
 
 }  // namespace
 
+NamedValues values_at(const study::Study& study, std::int64_t point, std::span<const double> quantiles) {
+  const std::vector<study::MachineInput> inputs = study::machine_inputs(study, point);
+  NamedValues values;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    for (auto& one : study::values_at_quantile(study, point, inputs[i], quantiles[i]))
+      values.push_back(std::move(one));
+  }
+  return values;
+}
+
 WorstMachine worst_machine(const study::Study& study, std::int64_t point,
                            std::span<const UnitResult> results) {
-  const std::size_t unit = worst_unit(results);
+  const auto merit = [](const UnitResult& unit) { return merit_of(worst_result(unit)); };
+  const auto unit = static_cast<std::size_t>(std::ranges::min_element(results, {}, merit) - results.begin());
   const std::size_t claim = worst_claim(results[unit]);
   const ClaimResult& result = results[unit].claims[claim];
   WorstMachine machine{
@@ -294,10 +424,28 @@ WorstMachines worst_machines(const study::Study& study, const trials::Replicates
     name_claim(study, found.of_study);
   }
   const auto worst_by = [&](const auto& met) { return *std::ranges::min_element(under, {}, met); };
-  const WorstMachines of_study = worst_by([](const WorstMachines& one) { return one.of_study.met; });
+  const auto is_same = [](const JudgedMachine& a, const JudgedMachine& b) {
+    return a.condition == b.condition && a.rig == b.rig && a.quantiles == b.quantiles;
+  };
+  WorstMachines found = worst_by([](const WorstMachines& one) { return one.of_study.met; });
   const WorstMachines in_box = worst_by([](const WorstMachines& one) { return one.in_box.met; });
-  const WorstMachines likely = worst_by([](const WorstMachines& one) { return one.likely.met; });
-  return {of_study.of_study, of_study.again, in_box.in_box, likely.likely, in_box.with_profiles};
+  found.in_box = in_box.in_box;
+  found.with_profiles = in_box.with_profiles;
+  found.likely = worst_by([](const WorstMachines& one) { return one.likely.met; }).likely;
+  found.in_box.is_previous = is_same(found.in_box, found.again);
+  found.likely.is_previous = is_same(found.likely, found.in_box);
+  const study::Study under_worst = under_condition(study, found.in_box.condition);
+  const auto all_at = [&](double place) {
+    NamedValues values;
+    for (const study::MachineInput& one : study::machine_inputs(under_worst, units.point)) {
+      if (one.slots.size() > 1) continue;  // the rows of joint samples have no order
+      for (const auto& value : study::values_at_quantile(under_worst, units.point, one, quantile_at(place)))
+        values.push_back(value);
+    }
+    return values;
+  };
+  found.edges = {all_at(0.0), all_at(0.5), all_at(1.0)};
+  return found;
 }
 
 }  // namespace zerocount::tuning

@@ -216,8 +216,9 @@ TEST_F(Rare, IsOfOneCondition) {
   folder_.write("weak.yaml", text);
   expect_refused({"rare", "both.yaml", "-o", "out.h5"}, "expected --condition with one of usual, weak");
   expect_refused({"rare", "both.yaml", "-o", "out.h5", "--condition", "strong"},
-                 "'strong' is not a condition");
-  expect_refused({"rare", "weak.yaml", "-o", "out.h5", "--condition", "weak"}, "the study has no conditions");
+                 "expected --condition with one of usual, weak");
+  expect_refused({"rare", "weak.yaml", "-o", "out.h5", "--condition", "weak"},
+                 "it has no conditions; expected no --condition");
   for (const auto& [condition, bits] : {std::pair{"usual", "12"}, std::pair{"weak", "11"}}) {
     const Json alone = answer_to({"rare", "weak.yaml", "-o", "alone.h5", "--force", "--set",
                                   std::string("dac.bits=") + bits, "--set", "trials=50"});

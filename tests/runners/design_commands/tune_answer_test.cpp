@@ -10,8 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/manifest/load_study.hpp"
-#include "runners/design_commands/tune/extras.hpp"
-#include "runners/tuning/effects/limits.hpp"
+#include "runners/tuning/effects/effects.hpp"
 
 namespace zerocount::design_commands {
 namespace {

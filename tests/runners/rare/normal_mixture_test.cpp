@@ -1,5 +1,3 @@
-#include "runners/rare/normal_mixture.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // The figure of `rare`: where failures lie in the range of all trials.
 #include <gtest/gtest.h>
 
-#include "runners/rare/rare_answer.hpp"
+#include "runners/rare/rare_run.hpp"
 
 namespace zerocount::rare {
 namespace {

@@ -1,7 +1,5 @@
 // `limits` with effects added: what each effect is, and that its rate is that of the manifest which states
 // it.
-#include "runners/tuning/effects/additions.hpp"
-
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -11,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/manifest/load_study.hpp"
+#include "runners/tuning/effects/effects.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "runners/tuning/effects/limits.hpp"
+#include "runners/tuning/effects/effects.hpp"
 #include "tests/support/draws.hpp"
 
 namespace zerocount::tuning {

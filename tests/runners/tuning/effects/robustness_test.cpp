@@ -1,6 +1,4 @@
 // Premises of an answer: the rates with others are those of the manifests that state them.
-#include "runners/tuning/effects/robustness.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -10,12 +8,13 @@
 #include <gtest/gtest.h>
 
 #include "experiments/manifest/load_study.hpp"
+#include "runners/tuning/effects/effects.hpp"
 
 namespace zerocount::testing {
 namespace {
 
 using tuning::EffectRuns;
-using tuning::Variation;
+using tuning::Limit;
 
 constexpr const char* text = R"(zerocount: 1
 name: premises
@@ -39,32 +38,32 @@ double rate_of(const study::Study& study) {
   return *limit_of(runs, runs.base()).rate;
 }
 
-std::vector<Variation> variations() {
+std::vector<Limit> variations() {
   const study::Study study = stated();
   const trials::Replicates units = trials::replicates_of(study, 0);
   return variations_of(EffectRuns(study, units, {}), units,
-                       [](std::uint64_t seed) { return stated({fmt::format("seed={}", seed)}); }, {});
+                       [](std::uint64_t seed) { return stated({fmt::format("seed={}", seed)}); });
 }
 
 TEST(Robustness, RatesAreThoseOfManifestsWithOtherPremises) {
-  const std::vector<Variation> found = variations();
+  const std::vector<Limit> found = variations();
   ASSERT_EQ(found.size(), 4U);
   double lowest = 1.0;
   for (int i = 0; i < 10; ++i) {
     const std::uint64_t seed = trials::fresh_seed(3, fmt::format("other seed {}", i));
     lowest = std::min(lowest, rate_of(stated({fmt::format("seed={}", seed)})));
   }
-  EXPECT_EQ(found[0].limit.rate, lowest);
+  EXPECT_EQ(found[0].rate, lowest);
   const double cv =
       std::sqrt(std::pow(1.0 + 0.3 * 0.3, 4.0) - 1.0);  // twice the standard deviation of the logarithm
-  EXPECT_NEAR(*found[1].limit.rate,
+  EXPECT_NEAR(*found[1].rate,
               rate_of(stated(
                   {fmt::format("friction.k1.lognormal.cv={:.17g}", cv), "friction.alpha.uniform=[0,0.8]"})),
               0.011);
-  EXPECT_EQ(found[2].limit.rate, rate_of(stated({"controller.delay=0.5"})));
-  EXPECT_EQ(found[3].limit.rate, rate_of(stated({"controller.delay=2"})));
-  for (const Variation& one : found) EXPECT_EQ(one.holds, *one.limit.rate >= 0.6) << one.limit.effect;
-  EXPECT_NE(found[2].limit.rate, found[3].limit.rate) << "the delay must matter here";
+  EXPECT_EQ(found[2].rate, rate_of(stated({"controller.delay=0.5"})));
+  EXPECT_EQ(found[3].rate, rate_of(stated({"controller.delay=2"})));
+  for (const Limit& one : found) EXPECT_EQ(one.holds, *one.rate >= 0.6) << one.effect;
+  EXPECT_NE(found[2].rate, found[3].rate) << "the delay must matter here";
 }
 
 // A value that would leave its range stays, and the row says so.

@@ -1,7 +1,7 @@
 // The size of a search follows its effort.
-#include "runners/tuning/race/search_size.hpp"
-
 #include <gtest/gtest.h>
+
+#include "runners/tuning/race/search.hpp"
 
 namespace zerocount::tuning {
 namespace {

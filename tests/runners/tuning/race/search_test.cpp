@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "runners/tuning/search/other_controls.hpp"
+#include "runners/tuning/search/study_search.hpp"
 #include "tests/runners/tuning/race/made_up_problem.hpp"
 
 namespace zerocount::tuning {

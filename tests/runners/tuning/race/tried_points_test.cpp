@@ -1,13 +1,13 @@
 // The frontier between success and speed. Rates that led a search show that a goal is out of reach; a rate of
 // 0 nearly everywhere does not.
-#include "runners/tuning/race/tried_points.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "runners/tuning/race/candidate.hpp"
 
 namespace zerocount::tuning {
 namespace {

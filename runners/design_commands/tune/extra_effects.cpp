@@ -1,13 +1,14 @@
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include <fmt/format.h>
 
 #include "analysis/measures/goal_counts.hpp"
 #include "core/numerics/bisection.hpp"
-#include "runners/design_commands/tune/extras.hpp"
-#include "runners/design_commands/tune/tune_parts.hpp"
-#include "runners/tuning/effects/limits.hpp"
+#include "runners/design_commands/design_commands.hpp"
+#include "runners/design_commands/tune/tune_answer.hpp"
+#include "runners/tuning/effects/effects.hpp"
 
 namespace zerocount::design_commands {
 namespace {
@@ -84,16 +85,13 @@ std::string borne_delay_sentence(Of tuning) {
     return fmt::format("the goals seem met up to {:g} samples more of controller.delay", max_more_delay);
   return fmt::format("with {:.3g} samples more of controller.delay, at {:.3g}, the goal{} seems lost",
                      *delay.lost, delay.delays[delayed_condition(delay, tuning)] + *delay.lost,
-                     claim_text(tuning.study, delay.claim));
+                     claim_text(tuning.study, tuning::place_of_claim(tuning.study, delay.claim)));
 }
 
 void describe_delay(Items& items) {
   items
-      .value({.key = "wider_band_rate",
-              .heading = "rate of the goal with a band one count wider",
-              .meaning = "rate of the goal with a band one count wider, where it is not met",
-              .unit = "1",
-              .notation = document::Notation::percent},
+      .value(proportion("wider_band_rate", "rate of the goal with a band one count wider",
+                        "rate of the goal with a band one count wider, where it is not met"),
              [](Of t) { return found_by_extra<MoreDelay>(t).wider_band_rate; })
       .sentence(borne_delay_sentence)
       .value(document::in_data("delay_lost",
@@ -105,12 +103,66 @@ void describe_delay(Items& items) {
                if (!delay.lost) return {};
                return delay.delays[delayed_condition(delay, t)] + *delay.lost;
              })
-      .value({.key = "delay_lost_condition", .meaning = "that condition, with conditions", .optional = true},
+      .value(optional(document::in_data("delay_lost_condition", "that condition, with conditions")),
              [](Of t) -> std::optional<std::string> {
                const MoreDelay& delay = found_by_extra<MoreDelay>(t);
                if (!delay.lost) return {};
                return tuning::condition_name(t.study, {0, delayed_condition(delay, t)});
              });
+}
+
+constexpr std::int64_t points_of_robustness = 14;
+
+tuning::ExtraCost cost_of_robustness(const tuning::TunedAxis& axis) {
+  return {.applies = axis.answer.is_met(),
+          .points = points_of_robustness,
+          .trials = points_of_robustness * axis.units().trials()};
+}
+
+/// The rates at the tuned values with other premises.
+struct OtherPremises {
+  std::vector<tuning::Limit> rates{};
+};
+
+std::any find_robustness(tuning::TunedAxis& axis) {
+  const study::Study tuned = axis.on_units();
+  return OtherPremises{tuning::variations_of(
+      tuning::EffectRuns(tuned, axis.units(), axis.effort), axis.units(),
+      [&](std::uint64_t seed) { return axis.on_units({fmt::format("seed={}", seed)}); })};
+}
+
+void describe_robustness(Items& items) {
+  using document::everywhere;
+  using Row = const tuning::Limit&;
+  items.table(
+      everywhere("robustness", "at the tuned values, with other premises",
+                 "rates at the tuned values with other seeds, spreads and delays"),
+      document::Description<tuning::Limit>()
+          .value(everywhere("premise", "premise", "what differs from the study"), &tuning::Limit::effect)
+          .value(everywhere("holds", "holds", "whether every goal is met under every condition"),
+                 [](Row one) { return one.rate ? std::optional(one.holds) : std::nullopt; })
+          .value(proportion(
+                     "rate", "rate",
+                     "proportion of moves, or of machines, that meet the worst goal; of seeds the lowest"),
+                 &tuning::Limit::rate)
+          .value(optional(everywhere("note", "note", "what stayed, or why there is no rate")),
+                 [](Row one) { return one.note.empty() ? std::nullopt : std::optional(one.note); }),
+      [](Of t) { return found_by_extra<OtherPremises>(t).rates; });
+}
+
+tuning::ExtraCost cost_of_limits(const tuning::TunedAxis& axis) {
+  const std::int64_t points = std::llround(tuning::runs_of_limits(axis.tuned, 0, axis.search.units().count));
+  return {.points = points, .trials = points * axis.units().trials()};
+}
+
+std::any find_limits(tuning::TunedAxis& axis) {
+  const study::Study tuned = axis.on_units();
+  return tuning::limits_of(tuning::EffectRuns(tuned, axis.units(), axis.effort));
+}
+
+void describe_limits(Items& items) {
+  items.include(limits_description("what limits it, each by simulation on the machines of the search"),
+                found_by_extra<std::vector<tuning::Limit>>);
 }
 
 }  // namespace
@@ -122,6 +174,22 @@ tuning::Extra margins_extra() {
           .cost = cost_of_delay,
           .run = find_delay,
           .describe = describe_delay};
+}
+
+tuning::Extra robustness_extra() {
+  return {.name = "robustness",
+          .question = "Does it hold under other premises?",
+          .cost = cost_of_robustness,
+          .run = find_robustness,
+          .describe = describe_robustness};
+}
+
+tuning::Extra limits_extra() {
+  return {.name = "limits",
+          .question = "What limits it?",
+          .cost = cost_of_limits,
+          .run = find_limits,
+          .describe = describe_limits};
 }
 
 }  // namespace zerocount::design_commands

@@ -114,16 +114,16 @@ bool is_fault(const std::string& line, const std::string& fault) {
 
 }  // namespace
 
-testing::AssertionResult has_faults(const std::vector<std::string>& warnings, std::string_view faults) {
+::testing::AssertionResult has_faults(const std::vector<std::string>& warnings, std::string_view faults) {
   const std::vector<std::string> expected = split(faults, "\n");
   if (std::equal(warnings.begin(), warnings.end(), expected.begin(), expected.end(), is_fault))
-    return testing::AssertionSuccess();
-  testing::AssertionResult failed = testing::AssertionFailure() << "expected\n" << faults << "\nfound";
+    return ::testing::AssertionSuccess();
+  ::testing::AssertionResult failed = ::testing::AssertionFailure() << "expected\n" << faults << "\nfound";
   for (const std::string& line : warnings) failed << "\n" << line;
   return failed;
 }
 
-testing::AssertionResult has_faults(const std::string& message, std::string_view faults) {
+::testing::AssertionResult has_faults(const std::string& message, std::string_view faults) {
   return has_faults(split(message, "\n"), faults);
 }
 

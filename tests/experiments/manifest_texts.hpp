@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/study/study.hpp"
+#include "tests/support/says.hpp"
 
 namespace zerocount {
 
@@ -37,9 +38,9 @@ std::vector<std::string_view> unstated_premises(const study::Study& study);
 /// Whether a message has these faults, one a line. "6:9: plant.inertai | inertia" is a line that begins with
 /// "m.yaml:6:9: plant.inertai: " and has the word "inertia" behind it; there may be several words. A fault
 /// that does not begin with a digit names its source, such as "--set trials=x: trials | number".
-testing::AssertionResult has_faults(const std::string& message, std::string_view faults);
+::testing::AssertionResult has_faults(const std::string& message, std::string_view faults);
 
 /// Whether these warnings have these faults, one a warning.
-testing::AssertionResult has_faults(const std::vector<std::string>& warnings, std::string_view faults);
+::testing::AssertionResult has_faults(const std::vector<std::string>& warnings, std::string_view faults);
 
 }  // namespace zerocount

@@ -141,7 +141,7 @@ TEST(ManifestPages, NameTheSobolDimensionsInOrder) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   for (const std::size_t first : {std::size_t{0}, parameters::first_sobol_dimension_beyond_moves}) {
     const std::string listed = names_in_order_of_dimension(first);
-    EXPECT_NE(text.find(listed + "."), std::string::npos) << listed;
+    EXPECT_TRUE(says(text, listed + ".")) << listed;
   }
 }
 

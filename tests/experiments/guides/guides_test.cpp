@@ -174,8 +174,7 @@ TEST(Guides, AnUnknownNameIsToldTheNames) {
     guide_named("bal-rail");
     FAIL();
   } catch (const Failure& failure) {
-    for (const Guide& guide : guide_table())
-      EXPECT_NE(std::string(failure.what()).find(guide.name), std::string::npos) << failure.what();
+    for (const Guide& guide : guide_table()) EXPECT_TRUE(says(failure.what(), guide.name));
   }
 }
 
@@ -192,7 +191,7 @@ TEST(Guides, TheirRangeStandsForTheMissingDefaultsOfALinearAxis) {
   };
   EXPECT_EQ(default_of_k1({.axis = parameters::AxisKind::linear}),
             fmt::format("guides: {:.3g} to {:.3g}", low, high));
-  EXPECT_EQ(default_of_k1({}).find("guides:"), std::string::npos);
+  EXPECT_FALSE(says(default_of_k1({}), "guides:"));
 }
 
 }  // namespace

@@ -37,9 +37,9 @@ TEST(ExpectedValue, HasTheUnitAndADistributionThatFits) {
         parameter.name.starts_with("command."))
       continue;
     const std::string message = refusal_of(minimal_manifest(with_value(parameter, "'1'") + "\n"));
-    ASSERT_NE(message.find("a distribution, such as {"), std::string::npos) << message;
+    ASSERT_TRUE(says(message, "a distribution, such as {"));
     if (parameter.unit != "1") {
-      EXPECT_NE(message.find(fmt::format(", in {}", parameter.unit)), std::string::npos) << message;
+      EXPECT_TRUE(says(message, fmt::format(", in {}", parameter.unit)));
     }
     const std::string example = suggestion(message);
     if (example.find("low") != std::string::npos) continue;  // no default other than 0
@@ -59,11 +59,9 @@ TEST(ExpectedValue, OutOfRangeHasThemToo) {
   EXPECT_TRUE(
       has_faults(refusal_of(minimal_manifest("dac: {bits: 0}\n")),
                  "6:13: dac.bits | from 1 to 32, in bit, or a distribution, such as {integers: [10, 14]}"));
-  EXPECT_NE(
-      refusal_of(minimal_manifest("axis: linear\nplant: {inertia: 0}\n"))
-          .find("7:18: plant.inertia: '0' is out of range; expected a number greater than 0, in kg, or a "
-                "distribution, such as {uniform: [low, high]}"),
-      std::string::npos);
+  EXPECT_TRUE(says(refusal_of(minimal_manifest("axis: linear\nplant: {inertia: 0}\n")),
+                   "7:18: plant.inertia: '0' is out of range; expected a number greater than 0, in kg, or a "
+                   "distribution, such as {uniform: [low, high]}"));
 }
 
 // Random normal distributions: what is suggested in place of each is understood.
@@ -74,7 +72,7 @@ TEST(ExpectedValue, OfAPlainNormalIsABoundedOne) {
     const double sd = mean * std::exp(std::uniform_real_distribution(-4.0, 0.5)(random));
     const std::string message = refusal_of(
         minimal_manifest(fmt::format("friction: {{k1: {{normal: {{mean: {}, sd: {}}}}}}}\n", mean, sd)));
-    ASSERT_NE(message.find("only, in N m/rad: "), std::string::npos) << message;
+    ASSERT_TRUE(says(message, "only, in N m/rad: "));
     for (const char* const form : {R"(\{truncated_normal: \{[^}]*\}\})", R"(\{lognormal: \{[^}]*\}\})"}) {
       std::smatch found;
       ASSERT_TRUE(std::regex_search(message, found, std::regex(form))) << message;
@@ -93,12 +91,11 @@ TEST(ExpectedValue, OfAPlainNormalIsABoundedOne) {
 TEST(ExpectedValue, OfAnotherUsualNameIsTheParameter) {
   for (const char* const axis : {"rotary", "linear"}) {
     const std::string head = fmt::format("axis: {}\n", axis);
-    EXPECT_NE(refusal_of(minimal_manifest(head + "plant: {mass: 5}\n")).find("nearest known: plant.inertia"),
-              std::string::npos);
-    EXPECT_NE(refusal_of(minimal_manifest(head + "mass: 5\n")).find("nearest known: plant.inertia"),
-              std::string::npos);
-    EXPECT_NE(refusal_of(minimal_manifest(head + "dac: {full_scale: 5}\n")).find("nearest known: dac.range"),
-              std::string::npos);
+    EXPECT_TRUE(
+        says(refusal_of(minimal_manifest(head + "plant: {mass: 5}\n")), "nearest known: plant.inertia"));
+    EXPECT_TRUE(says(refusal_of(minimal_manifest(head + "mass: 5\n")), "nearest known: plant.inertia"));
+    EXPECT_TRUE(
+        says(refusal_of(minimal_manifest(head + "dac: {full_scale: 5}\n")), "nearest known: dac.range"));
   }
 }
 

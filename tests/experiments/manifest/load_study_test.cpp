@@ -138,7 +138,7 @@ TEST(Study, TrialsThatAreNotThereAreRefused) {
   EXPECT_THROW(study::study_trial(study, 0, -1), Failure);
 }
 
-class AllTrialsFile : public testing::Test {
+class AllTrialsFile : public ::testing::Test {
  protected:
   AllTrialsFile() { std::filesystem::create_directories(folder); }
   ~AllTrialsFile() override { std::filesystem::remove_all(folder); }
@@ -167,8 +167,8 @@ TEST_F(AllTrialsFile, IsReadAndNamedInMessages) {
 }
 
 TEST_F(AllTrialsFile, ThatIsMissingOrADirectoryIsBadInput) {
-  EXPECT_NE(failure_of(folder / "none.yaml", ExitCode::bad_input).find("no such file"), std::string::npos);
-  EXPECT_NE(failure_of(folder, ExitCode::bad_input).find("this is a directory"), std::string::npos);
+  EXPECT_TRUE(says(failure_of(folder / "none.yaml", ExitCode::bad_input), "no such file"));
+  EXPECT_TRUE(says(failure_of(folder, ExitCode::bad_input), "this is a directory"));
 }
 
 TEST_F(AllTrialsFile, OfAHundredMegabytesIsRefusedUnread) {
@@ -180,7 +180,7 @@ TEST_F(AllTrialsFile, OfAHundredMegabytesIsRefusedUnread) {
 }
 
 TEST_F(AllTrialsFile, ThatIsADeviceIsRefused) {
-  EXPECT_NE(failure_of("/dev/zero", ExitCode::bad_input).find("not a regular file"), std::string::npos);
+  EXPECT_TRUE(says(failure_of("/dev/zero", ExitCode::bad_input), "not a regular file"));
 }
 
 }  // namespace

@@ -23,8 +23,7 @@ bool is_refused(const std::string& text, const std::vector<std::string>& overrid
   try {
     study_of(text, overrides);
   } catch (const Failure& failure) {
-    EXPECT_NE(std::string(failure.what()).find("does not see this motion"), std::string::npos)
-        << failure.what();
+    EXPECT_TRUE(says(failure.what(), "does not see this motion"));
     return true;
   }
   return false;
@@ -55,22 +54,18 @@ TEST(UnseenMotions, AreTargetsThatDifferAndRoundToTheSameCount) {
 TEST(UnseenMotions, NameTheDesignPointAndTheTarget) {
   const std::string message =
       refusal_of(commanded("{units: si, targets: [1.0e-4, -1.0e-4]}", fine_and_coarse));
-  EXPECT_NE(
-      message.find("command.targets.0: the target 0.0001 rad and the position before it, 0 rad, are the "
-                   "same count of 0.00174533 rad at point 1 (encoder.fine=3600)"),
-      std::string::npos)
-      << message;
-  EXPECT_NE(message.find("command.targets.1: the target -0.0001 rad"), std::string::npos) << message;
+  EXPECT_TRUE(says(message,
+                   "command.targets.0: the target 0.0001 rad and the position before it, 0 rad, are the same "
+                   "count of 0.00174533 rad at point 1 (encoder.fine=3600)",
+                   "command.targets.1: the target -0.0001 rad"));
   const std::string shared = refusal_of(
       commanded("{units: si, targets: [1.0e-4]}",
                 "sweep: {grid: {controller.ki: [1.0e-5, 2.0e-5, 3.0e-5], encoder.fine: [1620000, 3600]}}\n"));
-  EXPECT_NE(shared.find("at point 1 (controller.ki=1e-05, encoder.fine=3600) and 2 others"),
-            std::string::npos)
-      << shared;
+  EXPECT_TRUE(says(shared, "at point 1 (controller.ki=1e-05, encoder.fine=3600) and 2 others"));
   const std::string all =
       refusal_of(commanded("{units: si, targets: [1.0e-4]}",
                            "encoder: {fine: 3600}\nsweep: {grid: {controller.ki: [1.0e-5, 2.0e-5]}}\n"));
-  EXPECT_EQ(all.find("at point"), std::string::npos) << all;
+  EXPECT_FALSE(says(all, "at point"));
 }
 
 TEST(UnseenMotions, AreErrorsWithProfilesSinesAndSequencesToo) {
@@ -103,7 +98,7 @@ TEST(UnseenMotions, InSomeTrialsAreAWarningWithTheirProportion) {
   };
   const study::Study study = study_of(drawn(2.0), {"trials=4000"});
   ASSERT_FALSE(study.warnings.empty());
-  EXPECT_NE(study.warnings.back().find("command.targets.0: "), std::string::npos) << study.warnings.back();
+  EXPECT_TRUE(says(study.warnings.back(), "command.targets.0: "));
   EXPECT_TRUE(study.warnings.back().find(" in 24") != std::string::npos ||
               study.warnings.back().find(" in 25") != std::string::npos)
       << study.warnings.back();
@@ -114,7 +109,7 @@ TEST(UnseenMotions, OfAStudyRecordedEarlierAreAWarning) {
   const study::Study study = parse_study(
       commanded("{units: si, targets: [1.0e-4]}", "encoder: {fine: 3600}\n"), "old.h5:/manifest", {}, 5);
   ASSERT_FALSE(study.warnings.empty());
-  EXPECT_NE(study.warnings.back().find("does not see"), std::string::npos);
+  EXPECT_TRUE(says(study.warnings.back(), "does not see"));
 }
 
 }  // namespace

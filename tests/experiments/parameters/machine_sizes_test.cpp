@@ -1,4 +1,5 @@
 // The same keys serve a galvanometer, a slide of half a tonne and a telescope: no range is that of one size.
+#include <array>
 #include <map>
 #include <string>
 #include <string_view>
@@ -8,7 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/parameters/study_units.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/says.hpp"
 
 namespace zerocount {
 namespace {
@@ -110,8 +113,7 @@ TEST(MachineSizes, AbsurdNumbersAreToldOnEachAndImpossibleOnesRefused) {
   for (const Machine& machine : machines) {
     const std::vector<std::string> warnings = study_of(manifest_of(machine, 1e5)).warnings;
     ASSERT_EQ(warnings.size(), 1U) << machine.name;
-    EXPECT_NE(warnings[0].find("controller.cascade.kp: one count of error commands"), std::string::npos)
-        << warnings[0];
+    EXPECT_TRUE(says(warnings[0], "controller.cascade.kp: one count of error commands"));
     for (const char* key : {"controller.cascade.kp", "controller.cascade.ki", "controller.kp",
                             "controller.feedforward.acceleration", "controller.standstill.ki"}) {
       for (const char* value : {"1.0e+16", "-1"})
@@ -122,3 +124,74 @@ TEST(MachineSizes, AbsurdNumbersAreToldOnEachAndImpossibleOnesRefused) {
 
 }  // namespace
 }  // namespace zerocount
+
+// One table has the units of both kinds of axes: those of a linear axis follow from the rotary ones.
+
+namespace zerocount::parameters {
+namespace {
+
+TEST(StudyUnits, ForceAndPositionStandForTorqueAndAngle) {
+  const std::array<std::array<std::string, 2>, 15> units{{{"rad", "m"},
+                                                          {"N m", "N"},
+                                                          {"(N m)", "(N)"},
+                                                          {"kg m^2", "kg"},
+                                                          {"N m/rad", "N/m"},
+                                                          {"N m s/rad", "N s/m"},
+                                                          {"N m/(rad s)", "N/(m s)"},
+                                                          {"(N m)^n/rad", "N^n/m"},
+                                                          {"1/rad", "1/m"},
+                                                          {"rad/s^2", "m/s^2"},
+                                                          {"N m/count", "N/count"},
+                                                          {"µrad", "µm"},
+                                                          {"arcsec", "µm"},
+                                                          {"s", "s"},
+                                                          {"count/sample", "count/sample"}}};
+  for (const auto& [rotary, linear] : units) {
+    EXPECT_EQ(unit_on(AxisKind::rotary, rotary), rotary);
+    EXPECT_EQ(unit_on(AxisKind::linear, rotary), linear);
+    EXPECT_EQ(unit_on(AxisKind::linear, linear), linear) << "a unit of a linear axis stays as it is";
+  }
+}
+
+TEST(StudyUnits, NoUnitOrMeaningOfALinearAxisSpeaksOfRotation) {
+  for (const GainUnits gains : {GainUnits::count, GainUnits::si}) {
+    const StudyUnits units{AxisKind::linear, gains};
+    for (const Parameter& parameter : parameter_table()) {
+      if (!exists_on(parameter, AxisKind::linear)) continue;
+      const std::string text = unit_of(parameter, units) + ": " + meaning_of(parameter, units);
+      for (const char* word : {"rad", "N m", "kg m", "rotor", "torque", "angle", "revolution", "$"}) {
+        EXPECT_FALSE(says(text, word)) << parameter.name << ": " << text;
+      }
+    }
+  }
+}
+
+TEST(StudyUnits, PlaceholdersBecomeTheWordsOfTheAxis) {
+  const char* const text =
+      "$torque of command.torque.levels at a $rotor_angle of the $rotor along the $track";
+  EXPECT_EQ(text_on(AxisKind::rotary, text),
+            "torque of command.torque.levels at a rotor angle of the rotor along the rotor");
+  EXPECT_EQ(text_on(AxisKind::linear, text),
+            "force of command.torque.levels at a position of the slide along the travel");
+}
+
+// What is in other units than the default's has to be given.
+TEST(StudyUnits, ADefaultHoldsInItsOwnUnitsAlone) {
+  const auto holds = [](const char* name, const StudyUnits& units) {
+    return default_holds(parameter_table()[find_parameter(name).value()], units);
+  };
+  const StudyUnits rotary, si{AxisKind::rotary, GainUnits::si}, linear{AxisKind::linear};
+  for (const char* name : {"plant.inertia", "friction.k1", "controller.ki", "dac.resolution"}) {
+    EXPECT_TRUE(holds(name, rotary)) << name;
+    EXPECT_FALSE(holds(name, linear)) << name;
+  }
+  EXPECT_FALSE(holds("controller.ki", si));
+  EXPECT_TRUE(holds("controller.kp", si)) << "0 is 0 in any unit";
+  EXPECT_TRUE(holds("plant.inertia", si));
+  EXPECT_TRUE(holds("friction.alpha", linear)) << "1/s";
+  EXPECT_TRUE(holds("friction.model", linear));
+  EXPECT_FALSE(holds("encoder.resolution", linear));
+}
+
+}  // namespace
+}  // namespace zerocount::parameters

@@ -178,7 +178,7 @@ TEST_F(Plausibility, OneCountIsWithinTheRangeInSiUnitsToo) {
     EXPECT_TRUE(with(key, 0.99 * range / per_count).empty()) << key;
     const std::vector<std::string> warnings = with(key, 1.01 * range / per_count);
     ASSERT_EQ(warnings.size(), 1u) << key;
-    EXPECT_NE(warnings[0].find("controller.units: count"), std::string::npos);
+    EXPECT_TRUE(says(warnings[0], "controller.units: count"));
   }
 }
 

@@ -56,10 +56,10 @@ TEST(LinearAxis, IsAskedForAllThatTheRotaryRigsDefaultsSayNothingOf) {
         "encoder.resolution: the key is missing; expected its value in m/count",
         "controller.ki: the key is missing, and its default, 3.85e-05 N m/count, has another "
         "unit; expected its value in N/(m s)"}) {
-    EXPECT_NE(refusal.find(key), std::string::npos) << key << "\n" << refusal;
+    EXPECT_TRUE(says(refusal, key)) << key << "\n" << refusal;
   }
-  EXPECT_EQ(refusal.find("coarse"), std::string::npos) << "without effect: " << refusal;
-  EXPECT_EQ(refusal.find("profile"), std::string::npos) << "without effect: " << refusal;
+  EXPECT_FALSE(says(refusal, "coarse")) << "without effect: " << refusal;
+  EXPECT_FALSE(says(refusal, "profile")) << "without effect: " << refusal;
   EXPECT_EQ(refusal_of(minimal_manifest("axis: linear\nfriction: {model: none}\n"
                                         "plant: {inertia: 1, presliding_damping: 0}\n"
                                         "encoder: {resolution: 1.0e-9}\ndac: {resolution: 1.0e-4}\n"
@@ -73,10 +73,9 @@ TEST(LinearAxis, HasNoDefaultElementsOfGms) {
       minimal_manifest("axis: linear\nfriction: {model: gms, gms: {attraction: 100}, breakaway: 5}\n"
                        "plant: {inertia: 1, sliding_damping: 1}\nencoder: {resolution: 1.0e-9}\n"
                        "dac: {resolution: 1.0e-4}\ncontroller: {units: si, ki: 1, kp: 1}\n"));
-  EXPECT_NE(refusal.find("friction.model: gms has no default elements on a linear axis; expected the lists "
-                         "friction.gms.stiffness, N/m, and friction.gms.weight"),
-            std::string::npos)
-      << refusal;
+  EXPECT_TRUE(says(refusal,
+                   "friction.model: gms has no default elements on a linear axis; expected the lists "
+                   "friction.gms.stiffness, N/m, and friction.gms.weight"));
 }
 
 struct Refused {
@@ -105,8 +104,8 @@ TEST(LinearAxis, AndARotaryOneHaveEachTheirOwnKeys) {
        "a preload of 13 N can reach the breakaway of 12 N"},
   };
   for (const Refused& refused : cases) {
-    EXPECT_NE(refusal_of(refused.more).find(refused.message), std::string::npos) << refused.message << "\n"
-                                                                                 << refusal_of(refused.more);
+    EXPECT_TRUE(says(refusal_of(refused.more), refused.message)) << refused.message << "\n"
+                                                                 << refusal_of(refused.more);
   }
 }
 
@@ -116,8 +115,8 @@ TEST(LinearAxis, HasProfilesWithThePeriodOfItsTravel) {
   const auto refusal = [&](const std::string& more) {
     return refusal_of(stage_with(loop + more), {"friction.k2=" + profile});
   };
-  EXPECT_NE(refusal("").find("the profile of a linear axis needs the key travel"), std::string::npos);
-  EXPECT_NE(refusal("travel: 0.005\n").find("'0.01' is out of range"), std::string::npos)
+  EXPECT_TRUE(says(refusal(""), "the profile of a linear axis needs the key travel"));
+  EXPECT_TRUE(says(refusal("travel: 0.005\n"), "'0.01' is out of range"))
       << "a correlation length beyond the travel";
   const study::Study study = study_of(stage_with(loop + "travel: 0.2\n"), {"friction.k2=" + profile});
   ASSERT_EQ(study.profiles.size(), 1u);

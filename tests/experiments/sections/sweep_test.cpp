@@ -194,8 +194,8 @@ TEST(Sweep, TooManyPointsAreRefusedAtOnce) {
       failure_of("{grid: {controller.ki: {linspace: [0, 1, 1000]}, controller.kp: {linspace: [0, 1, 1000]}, "
                  "controller.kd: {linspace: [0, 1, 1000]}}}"),
       "6:8: sweep | too many design points"));
-  EXPECT_NE(failure_of("{grid: {controller.ki: {linspace: [0, 1, 1000000000]}}}").find("from 2 to 1000000"),
-            std::string::npos);
+  EXPECT_TRUE(
+      says(failure_of("{grid: {controller.ki: {linspace: [0, 1, 1000000000]}}}"), "from 2 to 1000000"));
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
 }
 

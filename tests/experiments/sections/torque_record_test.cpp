@@ -8,6 +8,7 @@
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
+#include "tests/support/says.hpp"
 
 namespace zerocount::sections {
 namespace {
@@ -70,10 +71,8 @@ TEST(TorqueOfAFile, MayBeShortenedAndHasTheUnitsOfTheAxis) {
   EXPECT_EQ(trial.command.hold, 0.75);
   const std::string torque =
       refusal_of_replay(replay(exact) + axis, {{"f.csv", "t,force [N m]\n0,1\n1,2\n"}});
-  EXPECT_NE(torque.find(
-                "f.csv:1:1: command.torque.file: the column force has the unit 'N m'; expected N, mN or kN"),
-            std::string::npos)
-      << torque;
+  EXPECT_TRUE(says(
+      torque, "f.csv:1:1: command.torque.file: the column force has the unit 'N m'; expected N, mN or kN"));
 }
 
 TEST(TorqueOfAFile, FaultsHaveTheirPlace) {
@@ -103,26 +102,22 @@ TEST(TorqueOfAFile, FaultsHaveTheirPlace) {
     EXPECT_EQ(found.find('\n'), std::string::npos) << "nothing follows from it: " << found;
   }
   const std::string longer = refusal_of_replay(replay("{file: record.csv}", ", hold: 0.008"), table);
-  EXPECT_NE(
-      longer.find("command.hold: the record of command.torque.file lasts 0.007 s, and the move can take "
-                  "0.008 s; expected at most the record"),
-      std::string::npos)
-      << longer;
+  EXPECT_TRUE(says(longer,
+                   "command.hold: the record of command.torque.file lasts 0.007 s, and the move can take "
+                   "0.008 s; expected at most the record"));
   const std::string both = refusal_of_replay(replay("{file: record.csv, levels: [1]}"), table);
-  EXPECT_NE(both.find("command.torque.levels: it has no effect: command.torque.file defines the torque"),
-            std::string::npos)
-      << both;
-  EXPECT_NE(refusal_of_replay(replay("{file: [[0, 1], [0.5, 2], [0.5, 1]]}")).find("found the time 0.5 s"),
-            std::string::npos);
-  EXPECT_NE(refusal_of_replay(replay("{file: [[0.5, 1], [1, 2]]}")).find("found the time 0.5 s; expected 0"),
-            std::string::npos);
+  EXPECT_TRUE(says(both, "command.torque.levels: it has no effect: command.torque.file defines the torque"));
+  EXPECT_TRUE(
+      says(refusal_of_replay(replay("{file: [[0, 1], [0.5, 2], [0.5, 1]]}")), "found the time 0.5 s"));
+  EXPECT_TRUE(
+      says(refusal_of_replay(replay("{file: [[0.5, 1], [1, 2]]}")), "found the time 0.5 s; expected 0"));
 }
 
 TEST(TorqueOfAFile, OneFaultIsOneMessage) {
   for (const std::string file : {"[[0, 1]]", "[[0, 1], [1, .inf]]", "[[0, 1, 2], [1, 2, 3]]", "[[0, 1], 2]",
                                  "7", "{}", "[]", "[[0, 1], [0, 1]]"}) {
     const std::string found = refusal_of_replay(replay("{file: " + file + "}"));
-    EXPECT_NE(found.find("command.torque.file"), std::string::npos) << file << ": " << found;
+    EXPECT_TRUE(says(found, "command.torque.file")) << file << ": " << found;
     EXPECT_EQ(found.find('\n'), std::string::npos) << file << ": " << found;
   }
 }
@@ -132,10 +127,9 @@ TEST(TorqueOfAFile, BeyondTheConverterHasItsWarning) {
     const study::Study study = replayed_study(replay("{file: " + file + "}", ", hold: 0.1"),
                                               {{"record.csv", "t,torque\n0,1\n0.1,1e6\n"}});
     ASSERT_EQ(study.warnings.size(), 1u) << file;
-    EXPECT_NE(study.warnings[0].find("command.torque.file: 1000000 N m can be outside the converter's range"),
-              std::string::npos)
-        << study.warnings[0];
-    EXPECT_EQ(study.warnings[0].find("1:1:"), std::string::npos) << "not the place of the key";
+    EXPECT_TRUE(
+        says(study.warnings[0], "command.torque.file: 1000000 N m can be outside the converter's range"));
+    EXPECT_FALSE(says(study.warnings[0], "1:1:")) << "not the place of the key";
   }
 }
 

@@ -417,7 +417,7 @@ TEST(Ages, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
                          "{linear: 0, scale: 1}}}}\n"),
        "friction.k2.aging is given twice in this condition"}};
   for (const auto& [error, expected] : faults)
-    EXPECT_NE(error.find(expected), std::string::npos) << error << "\n" << expected;
+    EXPECT_TRUE(says(error, expected)) << error << "\n" << expected;
 }
 
 // A normal rate that can be drawn leaves no value out of range is allowed, as what is drawn has ends.
@@ -432,7 +432,7 @@ TEST(Ages, WithoutAnythingThatChangesAreWarnedOf) {
   const Study study = study_of("zerocount: 1\nname: f\nseed: 3\nrigs: 2\ntrials: 12\nages: {at: [0, 10]}\n" +
                                command_of_ages);
   ASSERT_FALSE(study.warnings.empty());
-  EXPECT_NE(study.warnings.back().find("ages: the ages are all alike"), std::string::npos);
+  EXPECT_TRUE(says(study.warnings.back(), "ages: the ages are all alike"));
 }
 
 // The manifest of a point and condition keeps the law of the section for a value that replaces the section's.

@@ -253,18 +253,9 @@ TEST(Conditions, ChangeTheStudysHashByNameValueAndOrder) {
   EXPECT_EQ(hashes.size(), 5U);
 }
 
-std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    study_of(text, overrides);
-  } catch (const Failure& failure) {
-    return failure.what();
-  }
-  return "";
-}
-
 TEST(Conditions, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
   const auto of = [](const std::string& conditions, const std::vector<std::string>& overrides = {}) {
-    return refusal(manifest_with("conditions: " + conditions + "\n"), overrides);
+    return refusal_of(manifest_with("conditions: " + conditions + "\n"), overrides);
   };
   const std::vector<std::pair<std::string, std::string>> faults{
       {of("{}"), "16:13: conditions: found 0 conditions; expected 1 to"},
@@ -295,7 +286,7 @@ TEST(Conditions, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
           {"goal={within: 0.002, moves: 0.9}", "tune={free: {plant.inertia: [1.0e-4, 1.0e-3]}}"}),
        "plant.inertia is tuned at --set tune"}};
   for (const auto& [error, expected] : faults)
-    EXPECT_NE(error.find(expected), std::string::npos) << error << "\n" << expected;
+    EXPECT_TRUE(says(error, expected)) << error << "\n" << expected;
 }
 
 }  // namespace

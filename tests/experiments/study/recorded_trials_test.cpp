@@ -114,32 +114,6 @@ TEST(RecordedTrials, HaveTheSameInputs) {
   }
 }
 
-// What is not an input is the same in every trial, and as written or the default.
-TEST(RecordedTrials, HaveTheSameParametersBesides) {
-  const trial::TrialParameters p = study_trial(study_of(full_manifest()), 5, 123).parameters;
-  EXPECT_EQ(p.plant.presliding_damping, 0.2);
-  EXPECT_EQ(p.plant.sliding_damping, 1e-3);
-  EXPECT_EQ(p.friction.uniform.lambda, 10);
-  EXPECT_EQ(p.friction.uniform.n, 2);
-  EXPECT_EQ(p.friction.uniform.coulomb_ratio, 0.8);
-  EXPECT_EQ(p.friction.uniform.stribeck_velocity, 0.01);
-  EXPECT_EQ(p.friction.model, friction::FrictionModel::presliding);
-  EXPECT_EQ(p.encoder.fine, 1620000);
-  EXPECT_EQ(p.encoder.coarse, 86400);
-  EXPECT_EQ(p.dac.bits, 12);
-  EXPECT_EQ(p.dac.resolution, 2.4e-4);
-  EXPECT_EQ(p.controller.sample_rate, 2000);
-  EXPECT_EQ(p.controller.kd, 0);
-  EXPECT_EQ(p.command.targets[1], 0);
-  EXPECT_EQ(p.command.hold, 1);
-  EXPECT_EQ(p.command.profile.shape, loop::ReferenceShape::step);
-  EXPECT_TRUE(p.command.torque.levels.empty());
-  EXPECT_EQ(p.initial.hardening, 0);
-  EXPECT_EQ(p.initial.history.reversals, 0);
-  EXPECT_EQ(p.initial.mode, trial::InitialMode::stick);
-  EXPECT_EQ(p.verdict.dwell, 0.05);
-}
-
 std::vector<double> shipped_inputs(const char* name, std::int64_t point, std::int64_t index) {
   const auto path = std::filesystem::path(ZEROCOUNT_MANIFESTS) / (std::string(name) + ".yaml");
   return study_trial(manifest::load_study(path), point, index).inputs;

@@ -32,7 +32,7 @@ RandomSequence random_sequence(std::mt19937_64& draws) {
   return sequence;
 }
 
-class SequenceProperties : public testing::Test {
+class SequenceProperties : public ::testing::Test {
  protected:
   template <class Check>
   void for_random_sequences(Check check) {

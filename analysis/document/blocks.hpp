@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct BlockColumn {
   std::string unit;  ///< empty: none
   bool numeric;      ///< aligned to the right
   std::vector<std::string> cells{};
+  std::vector<std::string> links{};  ///< in HTML: [row] the file that the cell leads to; empty: none
 };
 
 struct FactsBlock {
@@ -30,6 +32,10 @@ struct FactsBlock {
 struct TableBlock {
   std::string title;  ///< may be empty
   std::vector<BlockColumn> columns;
+
+  void add_row(std::vector<std::string> cells) {
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].cells.push_back(std::move(cells[i]));
+  }
 };
 struct HeadlineBlock {
   std::string sentence;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -26,11 +27,28 @@ std::string unit_html(const BlockColumn& column) {
   return column.unit.empty() ? "" : fmt::format("<span class=\"unit\">{}</span>", markup(column.unit));
 }
 
+/// The name of a file as a part of an address.
+std::string percent_encoded(std::string_view name) {
+  std::string text;
+  for (const char c : name) {
+    const bool is_plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                          std::string_view("-._~").find(c) != std::string_view::npos;
+    text += is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return text;
+}
+
+std::string linked_cell(const BlockColumn& column, std::size_t row) {
+  const std::string cell = markup(column.cells[row]);
+  if (row >= column.links.size() || column.links[row].empty()) return cell;
+  return fmt::format("<a href=\"./{}\">{}</a>", percent_encoded(column.links[row]), cell);
+}
+
 /// Each cell has the head of its column, which a phone shows in front of it.
 std::string cell_html(const BlockColumn& column, std::size_t row) {
   return fmt::format("<td{} data-head=\"{}\">{}</td>", column.numeric ? "" : " class=\"text wrap\"",
                      markup(column.head + (column.unit.empty() ? "" : " (" + column.unit + ")")),
-                     markup(column.cells[row]));
+                     linked_cell(column, row));
 }
 
 /// The columns as one table.

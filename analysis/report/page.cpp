@@ -2,76 +2,57 @@
 
 #include <algorithm>
 #include <fstream>
-#include <map>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "analysis/document/blocks.hpp"
 #include "analysis/document/markup.hpp"
-#include "analysis/report/embedded_files.hpp"
-#include "analysis/report/figures/axis_ticks.hpp"
-#include "analysis/report/html.hpp"
 #include "core/hash/sha256.hpp"
+#include "results/layout/header.hpp"
 
 namespace zerocount::report {
 namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json colours() {
-  return ordered_json::parse(embedded_file("colours.json"));
-}
-
-std::string css_variables(const ordered_json& values) {
+std::string css_variables(const char* mode) {
   std::string text;
-  for (const auto& [name, value] : values.items())
+  const ordered_json colours = colours_of(mode);
+  for (const auto& [name, value] : colours.items())
     text += fmt::format("{}:{};", name, value.get<std::string>());
   return text;
 }
 
 /// The colours as CSS: light, dark if the reader's system is dark, and always light in print.
 std::string css_colours() {
-  const ordered_json all = colours();
   return fmt::format(
       ":root{{color-scheme:light dark;{}}}\n@media screen and (prefers-color-scheme:dark){{:root{{{}}}}}\n",
-      css_variables(all["light"]), css_variables(all["dark"]));
+      css_variables("light"), css_variables("dark"));
 }
 
-bool has_figures(const ReportPage& page) {
-  return std::ranges::any_of(page.sections, [](const PageSection& one) { return !one.figures.empty(); });
-}
+constexpr std::string_view without_scripts =
+    "<noscript><p class=\"warning\">The figures are drawn by JavaScript, which is turned off "
+    "here.</p></noscript>";
 
-std::string without_scripts_html(const ReportPage& page) {
-  if (!has_figures(page)) return "";
-  return "<noscript><p class=\"warning\">The figures are drawn by JavaScript, which is turned off "
-         "here.</p></noscript>";
-}
+/// The scripts of a page with figures, in the order in which they run, and the sources that its
+/// Content-Security-Policy (level 2) allows: their hashes.
+struct Scripts {
+  std::string elements{};
+  std::string hashes{"'none'"};
+};
 
-/// The scripts of the page, in the order in which they run; none without figures.
-std::vector<std::string> script_sources(const ReportPage& page) {
-  if (!has_figures(page)) return {};
-  std::vector<std::string_view> names(drawing_libraries.begin(), drawing_libraries.end());
-  names.emplace_back("page.js");
-  std::vector<std::string> sources(names.size());
-  std::transform(names.begin(), names.end(), sources.begin(),
-                 [](std::string_view name) { return script_source(embedded_file(name)); });
-  return sources;
-}
-
-std::string script_elements(const std::vector<std::string>& sources) {
-  std::string text;
-  for (const std::string& source : sources) text += fmt::format("<script>{}</script>\n", source);
-  return text;
-}
-
-/// The sources that a Content-Security-Policy (level 2) allows: the hashes of these scripts.
-std::string script_hashes(const std::vector<std::string>& sources) {
-  if (sources.empty()) return "'none'";
-  std::string text;
-  for (const std::string& source : sources)
-    text += fmt::format("{}'sha256-{}'", text.empty() ? "" : " ", hash::base64(hash::sha256(source)));
-  return text;
+Scripts scripts_of_figures() {
+  Scripts scripts{"", ""};
+  const auto add = [&](std::string_view name) {
+    const std::string source = script_source(embedded_file(name));
+    scripts.elements += fmt::format("<script>{}</script>\n", source);
+    scripts.hashes +=
+        fmt::format("{}'sha256-{}'", scripts.hashes.empty() ? "" : " ", hash::base64(hash::sha256(source)));
+  };
+  for (const std::string_view name : drawing_scripts) add(name);
+  add("page.js");
+  return scripts;
 }
 
 /// The mark of an unfinished page, in its head.
@@ -83,17 +64,6 @@ std::string state_elements(PageState state) {
       state == PageState::live ? fmt::format("<meta http-equiv=\"refresh\" content=\"{}\">\n", live_interval)
                                : std::string();
   return std::string(unfinished_mark) + reload;
-}
-
-ordered_json figures_json(const ReportPage& page) {
-  ordered_json figures = ordered_json::array();
-  for (const PageSection& section : page.sections) {
-    for (const Figure& figure : section.figures) {
-      figures.push_back(
-          {{"name", figure.name}, {"specification", with_tick_labels(figure)}, {"data", data_json(figure)}});
-    }
-  }
-  return {{"theme", figure_theme()}, {"figures", figures}};
 }
 
 std::string figure_html(const Figure& figure) {
@@ -148,31 +118,72 @@ bool is_unfinished_page(const std::filesystem::path& path) {
   return head.find(unfinished_mark) != std::string::npos;
 }
 
-ordered_json figure_theme() {
-  return ordered_json::parse(embedded_file("theme.json"));
-}
-
-ordered_json light_colours() {
-  return colours()["light"];
-}
-
 std::string html_page(const ReportPage& page) {
   std::string sections;
-  for (const PageSection& section : page.sections) sections += section_html(section);
-  const std::vector<std::string> sources = script_sources(page);
-  return filled(embedded_file("page.html"), {{"kind", document::markup(page.kind)},
-                                             {"without-scripts", without_scripts_html(page)},
-                                             {"title", document::markup(page.title)},
-                                             {"subtitle", document::markup(page.subtitle)},
-                                             {"footer", document::markup(page.footer)},
-                                             {"colours", css_colours()},
-                                             {"style", std::string(embedded_file("page.css"))},
-                                             {"contents", contents_html(page)},
-                                             {"sections", sections},
-                                             {"figures", script_json(figures_json(page))},
-                                             {"scripts", script_elements(sources)},
-                                             {"script-hashes", script_hashes(sources)},
-                                             {"state", state_elements(page.state)}});
+  ordered_json figures = ordered_json::array();
+  for (const PageSection& section : page.sections) {
+    sections += section_html(section);
+    for (const Figure& figure : section.figures) figures.push_back(figure_json(figure));
+  }
+  const Scripts scripts = figures.empty() ? Scripts{} : scripts_of_figures();
+  return filled(embedded_file("page.html"),
+                {{"kind", document::markup(page.kind)},
+                 {"without-scripts", figures.empty() ? "" : std::string(without_scripts)},
+                 {"title", document::markup(page.title)},
+                 {"subtitle", document::markup(page.subtitle)},
+                 {"footer", document::markup(page.footer)},
+                 {"colours", css_colours()},
+                 {"style", std::string(embedded_file("page.css"))},
+                 {"contents", contents_html(page)},
+                 {"sections", sections},
+                 {"figures", script_json({{"theme", figure_theme()}, {"figures", std::move(figures)}})},
+                 {"scripts", scripts.elements},
+                 {"script-hashes", scripts.hashes},
+                 {"state", state_elements(page.state)}});
+}
+
+std::string html_folded(const std::string& head, const std::string& html) {
+  return fmt::format("<details><summary>{}</summary>{}</details>\n", document::markup(head), html);
+}
+
+PageSection answer_section(std::string name, std::string title, const document::Answer& answer) {
+  return {std::move(name), std::move(title), document::html(answer), document::figures(answer)};
+}
+
+PageSection figures_first(std::string name, std::string title, const document::Answer& answer) {
+  PageSection section{std::move(name), std::move(title), "", document::figures(answer)};
+  std::string rest;
+  for (const document::Block& block : document::blocks(answer))
+    (std::holds_alternative<document::HeadlineBlock>(block) ? section.html : rest) += document::html(block);
+  section.html_after = html_folded("Numbers", rest);
+  return section;
+}
+
+ReportPage answer_page(const document::Answer& answer) {
+  return {answer.type.meaning,
+          "",
+          fmt::format("zerocount {}", layout::current_provenance().zerocount_version),
+          {answer_section("answer", "Answer", answer)},
+          answer.type.name};
+}
+
+std::vector<std::string> figure_names(const ReportPage& page) {
+  std::vector<std::string> names;
+  for (const PageSection& section : page.sections) {
+    for (const Figure& figure : section.figures) names.push_back(figure.name);
+  }
+  return names;
+}
+
+const Figure& find_figure(const ReportPage& page, const std::string& name) {
+  for (const PageSection& section : page.sections) {
+    const auto found = std::ranges::find(section.figures, name, &Figure::name);
+    if (found != section.figures.end()) return *found;
+  }
+  const std::vector<std::string> known = figure_names(page);
+  throw Failure(ExitCode::bad_input,
+                fmt::format("unknown figure '{}'; this study has: {}", name,
+                            known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
 }
 
 }  // namespace zerocount::report

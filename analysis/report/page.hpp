@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/document/answer.hpp"
 #include "analysis/report/figures/figure.hpp"
 
 namespace zerocount::report {
@@ -44,11 +45,22 @@ std::string html_page(const ReportPage& page);
 /// Whether the file is a page that is live or unfinished.
 bool is_unfinished_page(const std::filesystem::path& path);
 
-/// The theme of all figures as a Vega-Lite config. Its colours are CSS variables such as "var(--ink)", which
-/// the page defines for light and dark mode.
-nlohmann::ordered_json figure_theme();
+/// HTML below the line `head`, which shows and hides it. It is not printed.
+std::string html_folded(const std::string& head, const std::string& html);
 
-/// The colours of light mode, {"--ink": "#…"}.
-nlohmann::ordered_json light_colours();
+/// An answer with its figures as a section.
+PageSection answer_section(std::string name, std::string title, const document::Answer& answer);
+
+/// An answer as a section: its headline and its figures, all else folded.
+PageSection figures_first(std::string name, std::string title, const document::Answer& answer);
+
+/// An answer as a page of its own, with its figures.
+ReportPage answer_page(const document::Answer& answer);
+
+/// The names of all figures of a page.
+std::vector<std::string> figure_names(const ReportPage& page);
+
+/// @throws Failure (bad_input) if the page has no such figure; the message lists the existing ones.
+const Figure& find_figure(const ReportPage& page, const std::string& name);
 
 }  // namespace zerocount::report

@@ -4,43 +4,14 @@
 (() => {
   const report = JSON.parse(document.getElementById("figures").textContent);
 
-  const objects = data => data.rows.map(row => Object.fromEntries(data.columns.map(([field], i) => [field, row[i]])));
-
-  // Parts of a composed figure cannot follow their container by themselves: "container" becomes a number everywhere.
-  function withWidth(specification, width) {
-    const composed = specification.vconcat !== undefined;
-    const inner = composed ? width - (specification.usermeta?.margin ?? 80) : width;
-    const set = part => {
-      if (part === null || typeof part !== "object") return part;
-      if (Array.isArray(part)) return part.map(set);
-      return Object.fromEntries(
-        Object.entries(part).map(([key, value]) => [key, key === "width" && value === "container" ? inner : set(value)]));
-    };
-    const sized = set(specification);
-    if (!composed) sized.autosize = {type: "fit-x", contains: "padding"};
-    return sized;
-  }
-
-  // As many legend entries side by side as the longest leaves room for.
-  function legendFor(figure, width) {
-    const [data] = figure.data;
-    const names = ["label", "series"].map(name => data.columns.findIndex(([field]) => field === name)).filter(i => i >= 0);
-    const longest = Math.max(8, ...data.rows.flatMap(row => names.map(i => String(row[i]).length)));
-    const columns = Math.max(1, Math.floor((width - 60) / (6.4 * longest + 32)));
-    return {columns: Math.min(columns, 8), labelLimit: width - 80};
-  }
-
   async function draw(figure) {
     const place = document.querySelector(`#figure-${CSS.escape(figure.name)} .plot`);
     const width = Math.floor(place.getBoundingClientRect().width);
     if (width === figure.width) return;
     figure.width = width;
-    const specification = withWidth(figure.specification, width);
-    specification.datasets = Object.fromEntries(figure.data.map(data => [data.name, objects(data)]));
     // ast: expressions are interpreted, because the security policy of the page forbids eval.
-    await vegaEmbed(place, specification, {
-      config: vega.mergeConfig({}, report.theme, {legend: legendFor(figure, width)}), renderer: "svg", actions: false, ast: true, defaultStyle: true, logLevel: vega.Warn,
-    });
+    await vegaEmbed(place, completed(figure, report.theme, width),
+      {renderer: "svg", actions: false, ast: true, defaultStyle: true, logLevel: vega.Warn});
     place.dataset.drawn = "yes";
   }
 

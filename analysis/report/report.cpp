@@ -1,16 +1,10 @@
 #include "analysis/report/report.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "analysis/document/markup.hpp"
-#include "analysis/report/embedded_files.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
-#include "analysis/report/figures/report_figures.hpp"
-#include "analysis/report/figures/standalone_figure.hpp"
-#include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
-#include "core/failure/failure.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -36,25 +30,6 @@ struct Replays {
     return replayed;
   }
 };
-
-std::vector<Figure> figures_of_paper(const ReportedStudy& reported, Replays& replays) {
-  std::vector<Figure> figures;
-  for (const PaperFigure& wanted : paper_figures(reported)) {
-    std::vector<ReplayedTrial> trials;
-    for (const SampleTrial& trial : wanted.trials) trials.push_back(replays.run(trial));
-    figures.push_back(paper_figure(reported, wanted, trials));
-  }
-  return figures;
-}
-
-std::vector<Figure> responses(const ReportedStudy& reported, Replays& replays) {
-  const std::vector<SampleTrial> trials = sample_trials(reported);
-  if (trials.empty()) return {};
-  std::vector<ReplayedTrial> replayed;
-  replayed.reserve(trials.size());
-  for (const SampleTrial& trial : trials) replayed.push_back(replays.run(trial));
-  return {response_figure(reported, trials, replayed)};
-}
 
 std::string warnings_html(const std::vector<std::string>& warnings) {
   std::string html;
@@ -118,7 +93,9 @@ void qualify_bounds(const ReportedStudy& reported, ReportPage& page) {
   for (PageSection& section : page.sections) {
     if (section.name == sensitivity_section_name) continue;
     for (Figure& figure : section.figures)
-      call_bounds_too_narrow(figure, fmt::format("{} {}", dependence_sentence, too_narrow_sentence));
+      call_bounds_too_narrow(
+          figure,
+          fmt::format("{} Bounds assume independent trials, and are too narrow here.", dependence_sentence));
   }
 }
 
@@ -159,8 +136,9 @@ StudyReport study_report(const reading::AllTrialsFile& file, const ReportOptions
   if (reported.study.plugin) {
     add(page, {"traces", "Response", without_traces_html(*reported.study.plugin), {}});
   } else {
-    add(page, {"traces", "Response", "", responses(reported, replays)});
-    add(page, {"paper", "The paper's figures", "", figures_of_paper(reported, replays)});
+    const Replay replay = [&](const SampleTrial& trial) { return replays.run(trial); };
+    add(page, {"traces", "Response", "", response_figures(reported, replay)});
+    add(page, {"paper", "The paper's figures", "", paper_figures(reported, replay)});
   }
   add(page, {"run", "Provenance", run_html(reported), {}});
   report.warnings = replays.warnings;
@@ -170,37 +148,6 @@ StudyReport study_report(const reading::AllTrialsFile& file, const ReportOptions
   qualify_bounds(reported, page);
   put_on_axis(reported.study.units.axis, page);
   return report;
-}
-
-std::vector<std::string> figure_names(const ReportPage& page) {
-  std::vector<std::string> names;
-  for (const PageSection& section : page.sections) {
-    for (const Figure& figure : section.figures) names.push_back(figure.name);
-  }
-  return names;
-}
-
-const Figure& find_figure(const ReportPage& page, const std::string& name) {
-  for (const PageSection& section : page.sections) {
-    for (const Figure& figure : section.figures) {
-      if (figure.name == name) return figure;
-    }
-  }
-  std::string known;
-  for (const std::string& other : figure_names(page)) known += (known.empty() ? "" : ", ") + other;
-  throw Failure(ExitCode::bad_input,
-                fmt::format("unknown figure '{}'; this study has: {}", name, known.empty() ? "none" : known));
-}
-
-std::string drawing_program(const Figure& figure) {
-  const auto quoted = [](std::string_view text) { return nlohmann::ordered_json(std::string(text)).dump(); };
-  return fmt::format(
-      // Prevents the libraries from using node's module system.
-      "const run = require('vm').runInThisContext;\n"
-      "for (const name of ['exports', 'module', 'require']) delete globalThis[name];\n"
-      "run({});\nrun({});\nconst specification = {};\n{}",
-      quoted(embedded_file("vega.min.js")), quoted(embedded_file("vega-lite.min.js")),
-      script_json(standalone_specification(figure)), embedded_file("render.js"));
 }
 
 }  // namespace zerocount::report

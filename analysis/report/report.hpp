@@ -8,7 +8,7 @@
 
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/history/series.hpp"
-#include "analysis/report/figures/thinned_trace.hpp"
+#include "analysis/report/figures/report_figures.hpp"
 #include "analysis/report/first_screen/first_screen.hpp"
 #include "analysis/report/page.hpp"
 #include "results/reading/all_trials_file.hpp"
@@ -42,14 +42,5 @@ struct StudyReport {
 /// again.
 /// @throws Failure as AllTrialsFile; bad_input if `point` is not a design point.
 StudyReport study_report(const reading::AllTrialsFile& file, const ReportOptions& options = {});
-
-/// The names of all figures of a report.
-std::vector<std::string> figure_names(const ReportPage& page);
-
-/// @throws Failure (bad_input) if the report has no such figure; the message lists the existing ones.
-const Figure& find_figure(const ReportPage& page, const std::string& name);
-
-/// A self-contained program for node that draws a figure as SVG.
-std::string drawing_program(const Figure& figure);
 
 }  // namespace zerocount::report

@@ -13,12 +13,6 @@
 /// The texts and tables of a report, as HTML, and its sections with both text and figures.
 namespace zerocount::report {
 
-/// An answer with its figures as a section.
-PageSection answer_section(std::string name, std::string title, const document::Answer& answer);
-
-/// An answer as a section: its headline and its figures, all else folded.
-PageSection figures_first(std::string name, std::string title, const document::Answer& answer);
-
 /// The conclusions in words.
 struct Conclusions {
   std::string headline;

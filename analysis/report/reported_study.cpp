@@ -2,34 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "analysis/goal/success_bounds.hpp"
 #include "analysis/summary/cells_of_point.hpp"
-#include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/point_names.hpp"
-#include "analysis/summary/summary.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/quantity.hpp"
+#include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 
 namespace zerocount::report {
-
 namespace {
 
 /// The file with what its summary says, but for the point that the page speaks of.
 ReportedStudy summarised(const reading::AllTrialsFile& file) {
   ReportedStudy reported{file, file.study(), summary::summarise(file)};
-  reported.bounds_name = reported.study.stop   ? "bounds that hold at whatever trial one stops"
-                         : reported.study.rigs ? "Korn-Graubard bounds"
-                                               : "Clopper-Pearson bounds";
-  for (const measures::PointSummary& one : reported.summary.points)
-    reported.success_bounds.push_back(
-        goal::bounds_of_chosen(one, 1, reported.summary.question.stopped, statistics::summary_confidence));
   reported.names = summary::short_labels(reported.summary.labels, reported.summary.axes);
   return reported;
 }
@@ -102,7 +93,10 @@ goal::QuestionRate shown_rate(const ReportedStudy& reported, std::int64_t point)
 }
 
 std::string shown_bounds(const ReportedStudy& reported) {
-  if (!question_of(reported).claim()) return "95 % " + reported.bounds_name;
+  if (!question_of(reported).claim())
+    return reported.study.stop   ? "95 % bounds that hold at whatever trial one stops"
+           : reported.study.rigs ? "95 % Korn-Graubard bounds"
+                                 : "95 % Clopper-Pearson bounds";
   return fmt::format("one-sided {} bounds", text::percent(question_of(reported).claim()->confidence));
 }
 
@@ -117,17 +111,59 @@ layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point) {
   return {point * trials, trials};
 }
 
-std::string axis_title(const study::SweepAxis& axis) {
-  if (axis.unit.empty() || axis.unit == "1") return axis.name;
-  return fmt::format("{} ({})", axis.name, axis.unit);
+namespace {
+
+std::string value_text(const study::SweepAxis& axis, std::size_t point) {
+  if (axis.kind == study::SweepAxis::Kind::text)
+    return axis.name == "case" ? axis.texts[point] : fmt::format("{} {}", axis.name, axis.texts[point]);
+  return fmt::format("{} {}", axis.name, text::short_number(axis.numbers[point]));
 }
 
-std::string proportion_text(double proportion) {
-  if (proportion == 1.0) return "100 %";
-  const double distance = std::min(proportion, 1.0 - proportion);
-  const int digits =
-      distance > 0.0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(distance))) - 1, 1, 9) : 0;
-  return fmt::format("{:.{}f} %", 100.0 * proportion, digits);
+}  // namespace
+
+std::vector<double> values_of(const study::SweepAxis& axis) {
+  std::vector<double> values = axis.numbers;
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+std::vector<PointGroup> groups_along(const ReportedStudy& reported, const std::vector<std::size_t>& along) {
+  std::vector<PointGroup> groups;
+  const std::vector<study::SweepAxis>& axes = reported.summary.axes;
+  for (std::size_t point = 0; point < reported.summary.points.size(); ++point) {
+    std::string label;
+    for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+      if (std::find(along.begin(), along.end(), axis) != along.end()) continue;
+      label += (label.empty() ? "" : ", ") + value_text(axes[axis], point);
+    }
+    auto group =
+        std::find_if(groups.begin(), groups.end(), [&](const PointGroup& g) { return g.label == label; });
+    if (group == groups.end()) group = groups.insert(groups.end(), PointGroup{label, {}});
+    group->points.push_back(static_cast<std::int64_t>(point));
+  }
+  return groups;
+}
+
+std::vector<std::size_t> numeric_axes(const ReportedStudy& reported, std::size_t min_values) {
+  std::vector<std::size_t> found;
+  const std::vector<study::SweepAxis>& axes = reported.summary.axes;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const std::vector<double>& numbers = axes[i].numbers;
+    if (axes[i].kind != study::SweepAxis::Kind::number ||
+        !std::all_of(numbers.begin(), numbers.end(), [](double value) { return std::isfinite(value); })) {
+      continue;
+    }
+    const std::vector<PointGroup> groups = groups_along(reported, {i});
+    if (std::all_of(groups.begin(), groups.end(),
+                    [&](const PointGroup& group) { return group.points.size() >= min_values; })) {
+      found.push_back(i);
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) {
+    return values_of(axes[a]).size() > values_of(axes[b]).size();
+  });
+  return found;
 }
 
 }  // namespace zerocount::report

@@ -10,7 +10,6 @@
 
 #include "analysis/goal/question.hpp"
 #include "analysis/measures/trial_value.hpp"
-#include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/summary.hpp"
 #include "experiments/study/study.hpp"
@@ -32,12 +31,10 @@ struct ReportedStudy {
   const reading::AllTrialsFile& file;
   const study::Study& study;
   summary::StudySummary summary;
-  std::vector<statistics::ConfidenceInterval> success_bounds{};  ///< 95 %, [point]
-  std::string bounds_name{};                                     ///< kind of these bounds, for captions
-  summary::ChosenPoint chosen{};                                 ///< that the page speaks of
-  std::vector<std::string> names{};                              ///< [point] short labels
-  std::vector<ReportedCondition> conditions{};                   ///< empty without conditions
-  std::size_t worst_condition{0};                                ///< at the chosen point
+  summary::ChosenPoint chosen{};                ///< that the page speaks of
+  std::vector<std::string> names{};             ///< [point] short labels
+  std::vector<ReportedCondition> conditions{};  ///< empty without conditions
+  std::size_t worst_condition{0};               ///< at the chosen point
 };
 
 /// Whether figures tell the conditions of the study apart.
@@ -68,10 +65,6 @@ std::vector<std::int64_t> leading_points(const ReportedStudy& reported);
 inline const measures::PointSummary& point_of(const ReportedStudy& reported, std::int64_t point) {
   return reported.summary.points[static_cast<std::size_t>(point)];
 }
-inline const statistics::ConfidenceInterval& bounds_of(const ReportedStudy& reported, std::int64_t point) {
-  return reported.success_bounds[static_cast<std::size_t>(point)];
-}
-
 /// What the study is judged by.
 inline const goal::Question& question_of(const ReportedStudy& reported) {
   return reported.summary.question;
@@ -84,9 +77,6 @@ std::string shown_bounds(const ReportedStudy& reported);
 /// Note for results of a study with dependent trials (StudyFeatures::dependent_trials).
 inline constexpr std::string_view dependence_sentence =
     "The trials of a saltelli design are not independent: those of a row share most of their draws.";
-inline constexpr std::string_view too_narrow_sentence =
-    "Bounds assume independent trials, and are too narrow here.";
-
 /// How near a move that settles is to its target: "1 count", "10 nm".
 std::string precision_text(const ReportedStudy& reported, const study::Goal& goal);
 
@@ -98,12 +88,6 @@ ReportedStudy reported_study(const reading::AllTrialsFile& file, std::optional<s
 
 /// The global rows of the trials of a point.
 layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point);
-
-/// "controller.ki (N m/count)".
-std::string axis_title(const study::SweepAxis& axis);
-
-/// A proportion as a percentage with enough digits to differ from 100 %; only 1 is "100 %".
-std::string proportion_text(double proportion);
 
 /// The distinct values of an axis, sorted.
 std::vector<double> values_of(const study::SweepAxis& axis);

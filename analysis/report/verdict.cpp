@@ -1,10 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <optional>
 #include <sstream>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +8,6 @@
 #include "analysis/document/markup.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/goal/success_bounds.hpp"
-#include "analysis/report/html.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/statistics/sample_size.hpp"
@@ -25,6 +20,15 @@
 
 namespace zerocount::report {
 namespace {
+
+/// A proportion as a percentage with enough digits to differ from 100 %; only 1 is "100 %".
+std::string proportion_text(double proportion) {
+  if (proportion == 1.0) return "100 %";
+  const double distance = std::min(proportion, 1.0 - proportion);
+  const int digits =
+      distance > 0.0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(distance))) - 1, 1, 9) : 0;
+  return fmt::format("{:.{}f} %", 100.0 * proportion, digits);
+}
 
 /// The number of points that the bounds of a point account for: those that it was chosen from.
 std::size_t chosen_from(const ReportedStudy& reported, std::int64_t point) {

@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include "analysis/document/blocks.hpp"
-#include "analysis/report/answer_page.hpp"
+#include "analysis/report/page.hpp"
 #include "analysis/text/report_json.hpp"
 #include "runners/standard_output/standard_output.hpp"
 #include "runners/terminal/terminal.hpp"

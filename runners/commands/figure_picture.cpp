@@ -31,10 +31,12 @@ std::string output_of(const std::vector<std::string>& words, std::string_view in
 
 }  // namespace
 
-std::string picture(const report::Figure& figure, bool png) {
-  const std::string svg = output_of({"node", "-"}, report::drawing_program(figure), "nodejs");
+std::string picture(const report::Figure& figure, std::string_view extension) {
+  const char* const form = extension == ".json" ? "specification" : "svg";
+  const std::string drawn = output_of({"node", "-"}, report::drawing_program(figure, form), "nodejs");
+  if (extension != ".png") return drawn;
   // Three pixels per point of the figure: 300 per inch at a width of 140 mm.
-  return png ? output_of({"rsvg-convert", "--format", "png", "--zoom", "3"}, svg, "librsvg2-bin") : svg;
+  return output_of({"rsvg-convert", "--format", "png", "--zoom", "3"}, drawn, "librsvg2-bin");
 }
 
 DrawingKind drawing_kind(const command_line::Arguments& arguments, std::string_view option,
@@ -50,7 +52,7 @@ DrawingKind drawing_kind(const command_line::Arguments& arguments, std::string_v
 
 std::string drawing(const report::ReportPage& page, DrawingKind kind) {
   if (kind == DrawingKind::page) return report::html_page(page);
-  return picture(page.sections.front().figures.front(), kind == DrawingKind::png);
+  return picture(page.sections.front().figures.front(), kind == DrawingKind::png ? ".png" : ".svg");
 }
 
 }  // namespace zerocount::commands

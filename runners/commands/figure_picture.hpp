@@ -10,10 +10,11 @@
 
 namespace zerocount::commands {
 
-/// A figure as SVG, or as PNG with 300 pixels per inch at a width of 140 mm. Runs node, and rsvg-convert for
-/// PNG.
+/// A figure as SVG, as PNG with 300 pixels per inch at a width of 140 mm, or as a Vega-Lite specification
+/// that needs nothing else. Runs node, and rsvg-convert for PNG.
+/// @param extension ".svg", ".png" or ".json"
 /// @throws Failure (machine_failed) where they are missing or fail.
-std::string picture(const report::Figure& figure, bool png);
+std::string picture(const report::Figure& figure, std::string_view extension);
 
 /// The kind of a file with figures: an HTML page of all of them, or a picture of one.
 enum class DrawingKind { page, svg, png };

@@ -9,8 +9,8 @@
 
 #include "analysis/document/answer.hpp"
 #include "analysis/document/markup.hpp"
-#include "analysis/report/embedded_files.hpp"
-#include "analysis/report/report_sections.hpp"
+#include "analysis/report/figures/figure.hpp"
+#include "analysis/report/page.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/storage/durable_file.hpp"
 #include "runners/command_line/output_place.hpp"

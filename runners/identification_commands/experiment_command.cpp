@@ -11,8 +11,8 @@
 #include <fmt/ranges.h>
 
 #include "analysis/experiment_design/experiment_design.hpp"
-#include "analysis/report/answer_page.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
+#include "analysis/report/page.hpp"
 #include "core/failure/failure.hpp"
 #include "core/text/number_text.hpp"
 #include "experiments/study/condition_study.hpp"

@@ -12,8 +12,8 @@
 
 #include "analysis/history/database.hpp"
 #include "analysis/history/run_record.hpp"
-#include "analysis/report/answer_page.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
+#include "analysis/report/page.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/output_place.hpp"

@@ -15,7 +15,6 @@
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/history/database.hpp"
-#include "analysis/report/figures/standalone_figure.hpp"
 #include "analysis/report/report.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/yaml/text_file.hpp"
@@ -156,14 +155,13 @@ ExitCode write_report(const command_line::Arguments& arguments) {
 /// The file that shows the figure, by the extension of its name. @param title of a page
 std::string figure_text(const report::Figure& figure, const std::string& title,
                         const std::string& extension) {
-  if (extension == ".json") return report::standalone_specification(figure).dump() + "\n";
   if (extension == ".html") {
     report::ReportPage page;
     page.title = title;
     page.sections.emplace_back().figures = {figure};
     return report::html_page(page);
   }
-  return commands::picture(figure, extension == ".png");
+  return commands::picture(figure, extension);
 }
 
 ExitCode plot(const command_line::Arguments& arguments) {

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "analysis/document/blocks.hpp"
 #include "analysis/goal/goal_text.hpp"
-#include "analysis/report/html.hpp"
 #include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "analysis/summary/summary.hpp"
@@ -91,18 +91,16 @@ IndexedFile indexed(const fs::path& file) {
 }
 
 std::string table_of(const std::vector<IndexedFile>& rows) {
-  std::vector<report::HtmlColumn> columns;
-  for (const char* const head : {"study", "from (UTC)", "verdict", "goal", "report"}) {
-    columns.emplace_back().head = head;
-    columns.back().text = true;
-  }
+  document::TableBlock table;
+  for (const char* const head : {"study", "from (UTC)", "verdict", "goal", "report"})
+    table.columns.push_back({head, "", false});
   for (const IndexedFile& row : rows) {
-    report::add_row(columns, {row.study.empty() ? row.file.filename().string() : row.study,
-                              row.created.empty() ? "–" : row.created.substr(0, 16), row.verdict, row.goal,
-                              row.page.empty() ? "–" : row.page});
-    columns.back().links.push_back(row.page);
+    table.add_row({row.study.empty() ? row.file.filename().string() : row.study,
+                   row.created.empty() ? "–" : row.created.substr(0, 16), row.verdict, row.goal,
+                   row.page.empty() ? "–" : row.page});
+    table.columns.back().links.push_back(row.page);
   }
-  return report::html_table(columns);
+  return document::html(table);
 }
 
 }  // namespace

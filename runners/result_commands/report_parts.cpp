@@ -12,7 +12,7 @@
 
 #include "analysis/document/markup.hpp"
 #include "analysis/goal/question.hpp"
-#include "analysis/report/report_sections.hpp"
+#include "analysis/report/page.hpp"
 #include "analysis/summary/judged_point.hpp"
 #include "core/failure/failure.hpp"
 #include "runners/commands/study_argument.hpp"

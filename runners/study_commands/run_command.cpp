@@ -7,8 +7,7 @@
 #include <fmt/format.h>
 
 #include "analysis/parallel/parallel.hpp"
-#include "analysis/report/answer_page.hpp"
-#include "analysis/report/report_sections.hpp"
+#include "analysis/report/page.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/summary_answer/summary_answer.hpp"
 #include "core/text/number_text.hpp"

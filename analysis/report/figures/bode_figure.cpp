@@ -1,14 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <initializer_list>
 #include <iterator>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/theory/curves.hpp"
@@ -166,17 +161,6 @@ theory::Range shown_magnitudes(const std::vector<LoopCurve>& curves) {
           step * std::ceil(std::min(all.high, largest) / step)};
 }
 
-/// Tick values: multiples of the least of `steps` of which at most six fit between low and high.
-ordered_json ticks_between(const theory::Range& extent, std::initializer_list<double> steps) {
-  const auto found = std::find_if(steps.begin(), steps.end(),
-                                  [&](double step) { return (extent.high - extent.low) / step <= 6.0; });
-  const double step = found == steps.end() ? *std::prev(found) : *found;
-  ordered_json values = ordered_json::array();
-  for (double value = step * std::ceil(extent.low / step); value <= extent.high; value += step)
-    values.push_back(datum(value));
-  return values;
-}
-
 /// "at k1 of 110 N m/rad, …, while sliding none".
 std::string springs_text(const trial::TrialParameters& parameters, std::string_view unit) {
   std::string text;
@@ -235,11 +219,8 @@ std::optional<Figure> bode_figure(const ReportedStudy& reported) {
     part["encoding"]["x"]["scale"]["domain"] = {datum(frequencies.low), datum(frequencies.high)};
     part["encoding"]["color"]["scale"] = {{"domain", labels}, {"range", colours}};
   }
-  ordered_json& magnitude = figure.specification["vconcat"][0]["layer"][1]["encoding"]["y"];
-  magnitude["scale"]["domain"] = {magnitudes.low, magnitudes.high};
-  magnitude["axis"]["values"] = ticks_between(magnitudes, {10.0, 20.0, 40.0});
-  ordered_json& phase = figure.specification["vconcat"][1]["layer"][1]["encoding"]["y"];
-  phase["axis"]["values"] = ticks_between(phases, {45.0, 90.0, 180.0, 360.0, 720.0});
+  figure.specification["vconcat"][0]["layer"][1]["encoding"]["y"]["scale"]["domain"] = {magnitudes.low,
+                                                                                        magnitudes.high};
   return figure;
 }
 

@@ -2,95 +2,113 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <utility>
+#include <ranges>
 
 #include <fmt/format.h>
 
-#include "analysis/report/embedded_files.hpp"
+#include "core/failure/failure.hpp"
 #include "core/text/number_text.hpp"
 
 namespace zerocount::report {
+
+using nlohmann::ordered_json;
+
 namespace {
 
-/// Adds "too narrow" to the title of a bound; returns whether it was one.
-bool qualify(std::string& title) {
-  if (title.find("bound") == std::string::npos) return false;
-  title += ", too narrow";
-  return true;
-}
-
-/// Calls `change` for all titles in a specification.
-template <class Change>
-void change_titles(nlohmann::ordered_json& part, const Change& change) {
-  if (!part.is_structured()) return;
-  for (auto& [key, value] : part.items()) {
-    if (key == "title" && value.is_string()) {
-      change(value.template get_ref<std::string&>());
-    } else {
-      change_titles(value, change);
-    }
-  }
-}
-
-/// Converts a title to an axis: "$rotor_angle (µrad)" becomes "position (µm)" on a linear one.
-void reword_title(std::string& title, parameters::AxisKind axis) {
-  const std::size_t unit = title.ends_with(')') ? title.rfind('(') : std::string::npos;
-  if (unit == std::string::npos) {
-    title = parameters::text_on(axis, title);
-  } else {
-    title = parameters::text_on(axis, title.substr(0, unit)) + parameters::unit_on(axis, title.substr(unit));
-  }
+std::string replaced(std::string text, std::string_view what, std::string_view by) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+  return text;
 }
 
 }  // namespace
 
+std::string_view embedded_file(std::string_view name) {
+  const std::span<const EmbeddedFile> files = embedded_files();
+  const auto found = std::ranges::find(files, name, &EmbeddedFile::name);
+  if (found != files.end()) return found->bytes;
+  throw Failure(
+      ExitCode::machine_failed,
+      fmt::format("this zerocount was built without {}, which draws the figures; in its sources, run "
+                  "'npm ci --prefix analysis/report' (./quickstart does), then cmake and the build again",
+                  name));
+}
+
+void require_drawing_libraries() {
+  for (const std::string_view script : drawing_scripts) embedded_file(script);
+}
+
 Figure figure_of(std::string_view specification, std::string name, std::string title, std::string caption,
                  std::vector<FigureData> data) {
   return {std::move(name), std::move(title), std::move(caption),
-          nlohmann::ordered_json::parse(embedded_file(fmt::format("{}.vl.json", specification))),
-          std::move(data)};
+          ordered_json::parse(embedded_file(fmt::format("{}.vl.json", specification))), std::move(data)};
 }
 
 void call_bounds_too_narrow(Figure& figure, const std::string& why) {
   bool found = false;
   for (FigureData& data : figure.data) {
-    for (FigureColumn& column : data.columns) found = qualify(column.title) || found;
+    for (FigureColumn& column : data.columns) {
+      if (column.title.find("bound") == std::string::npos) continue;
+      column.title += ", too narrow";
+      found = true;
+    }
   }
-  if (!found) return;
-  change_titles(figure.specification, qualify);
-  if (!figure.caption.ends_with(' ')) figure.caption += ' ';
-  figure.caption += why;
-}
-
-void retitle(Figure& figure, const std::map<std::string_view, std::string_view>& words) {
-  change_titles(figure.specification, [&](std::string& title) {
-    if (const auto found = words.find(title); found != words.end()) title = found->second;
-  });
+  if (found) figure.caption += (figure.caption.ends_with(' ') ? "" : " ") + why;
 }
 
 void put_on_axis(Figure& figure, parameters::AxisKind axis) {
-  const auto reword = [axis](std::string& title) { reword_title(title, axis); };
   figure.title = parameters::text_on(axis, figure.title);
   figure.caption = parameters::text_on(axis, figure.caption);
-  change_titles(figure.specification, reword);
   for (FigureData& data : figure.data) {
     for (FigureColumn& column : data.columns) {
-      reword(column.title);
+      column.title = parameters::text_on(axis, column.title);
       column.unit = parameters::unit_on(axis, column.unit);
     }
   }
 }
 
-nlohmann::ordered_json data_json(const Figure& figure) {
-  nlohmann::ordered_json data = nlohmann::ordered_json::array();
+ordered_json figure_json(const Figure& figure) {
+  ordered_json data = ordered_json::array();
   for (const FigureData& part : figure.data) {
-    nlohmann::ordered_json columns = nlohmann::ordered_json::array();
+    ordered_json columns = ordered_json::array();
     for (const FigureColumn& column : part.columns)
       columns.push_back({column.field, column.title, column.unit});
     data.push_back({{"name", part.name}, {"columns", columns}, {"rows", part.rows}});
   }
-  return data;
+  return {{"name", figure.name}, {"specification", figure.specification}, {"data", std::move(data)}};
+}
+
+ordered_json figure_theme() {
+  return ordered_json::parse(embedded_file("theme.json"));
+}
+
+ordered_json colours_of(const char* mode) {
+  return ordered_json::parse(embedded_file("colours.json"))[mode];
+}
+
+std::string script_json(const ordered_json& json) {
+  const std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return replaced(text, "<", "\\u003c");
+}
+
+std::string script_source(std::string_view source) {
+  return replaced(replaced(std::string(source), "</script", "<\\/script"), "<!--", "<\\!--");
+}
+
+std::string drawing_program(const Figure& figure, std::string_view form) {
+  const auto quoted = [](std::string_view name) { return ordered_json(embedded_file(name)).dump(); };
+  const ordered_json subject{{"figure", figure_json(figure)},
+                             {"theme", figure_theme()},
+                             {"colours", colours_of("light")},
+                             {"wanted", form}};
+  return fmt::format(
+      // Prevents the libraries from using node's module system.
+      "const run = require('vm').runInThisContext;\n"
+      "for (const name of ['exports', 'module', 'require']) delete globalThis[name];\n"
+      "for (const source of [{}, {}, {}]) run(source);\n"
+      "const {{figure, theme, colours, wanted}} = {};\n{}",
+      quoted("vega.min.js"), quoted("vega-lite.min.js"), quoted("figures.js"), script_json(subject),
+      embedded_file("render.js"));
 }
 
 void set_rows(Figure& figure, std::size_t rows, int row) {
@@ -99,31 +117,9 @@ void set_rows(Figure& figure, std::size_t rows, int row) {
 
 void divide_into_panels(Figure& figure, const std::string& field, const std::vector<FigurePanel>& panels) {
   if (panels.size() < 2) return;
-  const auto has_field = [&](const std::string& name) {
-    const auto data = std::ranges::find(figure.data, name, &FigureData::name);
-    return data != figure.data.end() &&
-           std::ranges::find(data->columns, field, &FigureColumn::field) != data->columns.end();
-  };
-  nlohmann::ordered_json view = figure.specification;
-  const nlohmann::ordered_json common = view["data"];
-  for (const char* const key : {"$schema", "data", "usermeta"}) view.erase(key);
-  const nlohmann::ordered_json meta =
-      figure.specification.value("usermeta", nlohmann::ordered_json::object());
-  nlohmann::ordered_json views = nlohmann::ordered_json::array();
-  for (const FigurePanel& panel : panels) {
-    nlohmann::ordered_json& part = views.emplace_back(view);
-    part["title"] = panel.title;
-    for (nlohmann::ordered_json& layer : part["layer"]) {
-      if (!layer.contains("data")) layer["data"] = common;
-      if (!layer["data"].contains("name") || !has_field(layer["data"]["name"])) continue;
-      nlohmann::ordered_json& transform = layer["transform"];
-      const nlohmann::ordered_json own = transform;
-      transform = {{{"filter", fmt::format("datum.{} == '{}'", field, panel.value)}}};
-      for (const nlohmann::ordered_json& one : own) transform.push_back(one);
-    }
-  }
-  figure.specification = {
-      {"$schema", figure.specification["$schema"]}, {"usermeta", meta}, {"vconcat", std::move(views)}};
+  ordered_json views = ordered_json::array();
+  for (const FigurePanel& panel : panels) views.push_back({{"value", panel.value}, {"title", panel.title}});
+  figure.specification["usermeta"]["panels"] = {{"field", field}, {"of", std::move(views)}};
 }
 
 FigureData boundaries_data() {
@@ -144,45 +140,22 @@ void add_boundary(FigureData& boundaries, const std::string& line, const std::ve
   }
 }
 
-void colour_by_name(nlohmann::ordered_json& colour, const std::vector<std::string>& names) {
+void colour_by_name(ordered_json& colour, const std::vector<std::string>& names) {
   constexpr std::size_t colours = 8;
-  nlohmann::ordered_json range = nlohmann::ordered_json::array();
+  ordered_json range = ordered_json::array();
   for (std::size_t i = 0; i < names.size(); ++i) range.push_back(fmt::format("var(--s{})", i % colours + 1));
   colour["scale"] = {{"domain", names}, {"range", std::move(range)}};
 }
 
-nlohmann::ordered_json datum(double value, int digits) {
+ordered_json datum(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
   const double rounded = text::round_to_digits(value, digits);
   if (rounded == std::floor(rounded) && std::abs(rounded) < 1e15) return static_cast<std::int64_t>(rounded);
   return rounded;
 }
 
-nlohmann::ordered_json round_numbers(double low, double high, double smallest) {
-  const double largest = std::max(std::abs(low), std::abs(high));
-  if (!std::isfinite(largest) || !std::isfinite(smallest) || smallest <= 0.0)
-    return nlohmann::ordered_json::array();
-  const bool many = largest > 300.0 * smallest;
-  nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
-  const auto add = [&](double value) {
-    if (value >= low && value <= high) numbers.push_back(datum(value));
-  };
-  add(0.0);
-  const int most = static_cast<int>(std::floor(std::log10(std::max(largest, smallest))));
-  for (int power = static_cast<int>(std::floor(std::log10(smallest))); power <= most; ++power) {
-    for (const double digit : {1.0, 2.0, 5.0}) {
-      const double value = digit * std::pow(10.0, power);
-      if (value < 0.999 * smallest || (many && digit != 1.0)) continue;
-      add(value);
-      add(-value);
-    }
-  }
-  return numbers;
-}
-
-void scale_ages(Figure& figure, const std::vector<double>& ages, const std::string& unit) {
+void scale_ages(Figure& figure, const std::vector<double>& ages) {
   ordered_json& x = figure.specification["encoding"]["x"];
-  x["title"] = fmt::format("age ({})", unit);
   const std::size_t first = ages.front() > 0.0 ? 0 : 1;
   constexpr double decade = 10.0;
   if (first >= ages.size() || ages.back() < decade * ages[first]) return;
@@ -204,6 +177,19 @@ bool spaced_by_ratio(const std::vector<double>& sorted) {
     by_difference += std::abs(sorted[i] - sorted.front() - step * difference) / (steps * difference);
   }
   return by_ratio < by_difference;
+}
+
+std::vector<std::size_t> extreme_samples(std::size_t first, std::size_t end,
+                                         const std::vector<SampleQuantity>& quantities) {
+  if (first >= end) return {};
+  std::vector<std::size_t> samples{first, end - 1};
+  for (const SampleQuantity& quantity : quantities) {
+    const auto [lowest, highest] = std::ranges::minmax_element(std::views::iota(first, end), {}, quantity);
+    samples.insert(samples.end(), {*lowest, *highest});
+  }
+  std::sort(samples.begin(), samples.end());
+  samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
+  return samples;
 }
 
 }  // namespace zerocount::report

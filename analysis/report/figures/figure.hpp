@@ -1,15 +1,19 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
-#include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "analysis/document/figure.hpp"
+#include "core/text/embedded_file.hpp"
 #include "experiments/parameters/study_units.hpp"
 
+/// Figures: data with the names and units of their columns, a caption, and an embedded specification, which
+/// figures.js completes with titles, ticks, panels and the width, in a page as in a picture.
 namespace zerocount::report {
 
 using document::ColumnOf;
@@ -17,23 +21,53 @@ using document::data_of;
 using document::Figure;
 using document::FigureColumn;
 using document::FigureData;
+using text::EmbeddedFile;
+
+/// All embedded files: the Vega-Lite specifications, the page of the report, and the JavaScript libraries for
+/// drawing (if they were installed at build time).
+std::span<const EmbeddedFile> embedded_files();
+
+/// The contents of an embedded file.
+/// @throws Failure (machine_failed) if the program was built without it; the message says how to include it.
+std::string_view embedded_file(std::string_view name);
+
+/// What a page needs to draw figures, in loading order: the libraries, then our own.
+inline constexpr std::array<std::string_view, 4> drawing_scripts{"vega.min.js", "vega-lite.min.js",
+                                                                 "vega-embed.min.js", "figures.js"};
+
+/// @throws Failure (machine_failed) if the program was built without one of them, so before work is lost.
+void require_drawing_libraries();
 
 /// A figure with the embedded specification `specification`.vl.json.
 Figure figure_of(std::string_view specification, std::string name, std::string title, std::string caption,
                  std::vector<FigureData> data);
 
-/// Marks all bounds in the data table and the tooltips as too narrow, and adds `why` to the caption. No
-/// effect on a figure without bounds.
+/// Marks all bounds as too narrow, and adds `why` to the caption. No effect on a figure without bounds.
 void call_bounds_too_narrow(Figure& figure, const std::string& why);
-
-/// Replaces titles in the specification. @param words each title as it is there, and as it shall be
-void retitle(Figure& figure, const std::map<std::string_view, std::string_view>& words);
 
 /// Converts the figure's titles, units and caption from a rotary axis to an axis of this kind.
 void put_on_axis(Figure& figure, parameters::AxisKind axis);
 
-/// The data as JSON: [{"name", "columns": [[field, title, unit]], "rows"}].
-nlohmann::ordered_json data_json(const Figure& figure);
+/// {"name", "specification", "data": [{"name", "columns": [[field, title, unit]], "rows"}]}
+nlohmann::ordered_json figure_json(const Figure& figure);
+
+/// For the content of <script type="application/json">: escapes every '<', so that the content cannot end the
+/// script or open a comment. Replaces bytes that are not UTF-8 by U+FFFD; NaN and infinity become null.
+std::string script_json(const nlohmann::ordered_json& json);
+
+/// JavaScript for the content of <script>: escapes "</script" and "<!--" in its literals.
+std::string script_source(std::string_view source);
+
+/// The theme of all figures as a Vega-Lite config. Its colours are CSS variables such as "var(--ink)", which
+/// the page defines for light and dark mode.
+nlohmann::ordered_json figure_theme();
+
+/// The colours of light mode, {"--ink": "#…"}, or of dark mode.
+nlohmann::ordered_json colours_of(const char* mode);
+
+/// A self-contained program for node that writes a figure. @param form "svg", or "specification": JSON for
+/// Vega-Lite that needs nothing else
+std::string drawing_program(const Figure& figure, std::string_view form);
 
 /// Sets the height to `rows` rows of `row` pixels each.
 void set_rows(Figure& figure, std::size_t rows, int row);
@@ -67,16 +101,19 @@ void colour_by_name(nlohmann::ordered_json& colour, const std::vector<std::strin
 /// A number for a dataset, with `digits` significant digits; null for NaN and infinities.
 nlohmann::ordered_json datum(double value, int digits = 6);
 
-/// Tick values in [low, high] for a logarithmic or symlog axis: 0, and ± 1, 2 and 5 times powers of ten from
-/// `smallest` on (only powers of ten if there are many). Empty if an argument is not finite or `smallest` is
-/// not positive.
-nlohmann::ordered_json round_numbers(double low, double high, double smallest);
-
 /// The horizontal axis of figures of the specification `ages`: logarithmic where the ages span decades, and
 /// linear below the first age above 0. @param ages rising
-void scale_ages(Figure& figure, const std::vector<double>& ages, const std::string& unit);
+void scale_ages(Figure& figure, const std::vector<double>& ages);
 
 /// Whether sorted positive numbers are closer to equal ratios than to equal differences.
 bool spaced_by_ratio(const std::vector<double>& sorted);
+
+/// A quantity of a sample, by its number.
+using SampleQuantity = std::function<double(std::size_t)>;
+
+/// The samples of [first, end) that a line needs: the first, the last, and those with the minimum and the
+/// maximum of each quantity. In order, each once.
+std::vector<std::size_t> extreme_samples(std::size_t first, std::size_t end,
+                                         const std::vector<SampleQuantity>& quantities);
 
 }  // namespace zerocount::report

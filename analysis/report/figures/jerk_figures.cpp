@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <cstddef>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "analysis/jerks/jerk_statistics.hpp"
 #include "analysis/report/figures/report_figures.hpp"
@@ -154,12 +152,9 @@ std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point,
           "range of time (Garwood, widened if trials differ), for each range separately.",
           label_of(reported, point)),
       {std::move(data)});
-  ordered_json& x = figure.specification["encoding"]["x"];
-  const double first = jerks.rates.front().from > 0.0 ? jerks.rates.front().from : jerks.rates.front().to;
-  x["axis"]["values"] = round_numbers(jerks.rates.front().from, jerks.rates.back().to, first);
   if (jerks.rates.front().from == 0.0) {  // a logarithmic axis cannot show 0
-    x["scale"]["type"] = "symlog";
-    x["scale"]["constant"] = first;
+    figure.specification["encoding"]["x"]["scale"] = {
+        {"type", "symlog"}, {"constant", jerks.rates.front().to}, {"nice", false}};
   }
   return figure;
 }

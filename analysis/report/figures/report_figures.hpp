@@ -1,14 +1,51 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "analysis/report/figures/figure.hpp"
-#include "analysis/report/figures/thinned_trace.hpp"
 #include "analysis/report/reported_study.hpp"
+#include "core/trial/trial.hpp"
+#include "results/shards/shard.hpp"
 
 /// The figures of a report. A figure is omitted if the study lacks its data.
 namespace zerocount::report {
+
+/// A trial that was simulated again, with the samples for a figure.
+struct ReplayedTrial {
+  std::int64_t point{0};
+  trial::TrialParameters parameters;
+  shards::TrialResult result;                ///< to compare with the record
+  std::vector<trial::SampleRecord> samples;  ///< thinned
+};
+
+/// Reduces the samples of a trial while it runs, so that a line through the kept samples looks the same.
+/// The samples are divided into at most `buckets` groups of equal length. Of each group the first, the last,
+/// and those with the minimum and maximum error and torque are kept, so that a jerk of one sample remains
+/// visible. Samples with the same count, torque and target as both neighbours are dropped. (Jugel et al.
+/// 2014, M4.)
+class TraceThinner {
+ public:
+  TraceThinner(std::int64_t samples, std::int64_t buckets);
+  void add(const trial::SampleRecord& sample);
+  /// The kept samples, in order.
+  std::vector<trial::SampleRecord> finish();
+
+ private:
+  void close_bucket();
+
+  std::int64_t bucket_length_;
+  std::int64_t bucket_{0};
+  std::vector<trial::SampleRecord> at_hand_;
+  std::vector<trial::SampleRecord> kept_;
+};
+
+/// Simulates a trial of the study again with the reference engine. The caller sets the row of the result.
+ReplayedTrial replay_trial(const study::Study& study, std::int64_t point, std::int64_t index,
+                           std::int64_t buckets);
 
 /// Gives each condition its colour, the same in all figures; without conditions the legend goes. @param
 /// colour the channel, of names of conditions
@@ -57,20 +94,14 @@ struct SampleTrial {
 /// for an open-loop study.
 std::vector<SampleTrial> sample_trials(const ReportedStudy& reported);
 
-/// Errors of these trials over time with the goals, and the torque of the worst. @param replayed [trial]
-Figure response_figure(const ReportedStudy& reported, const std::vector<SampleTrial>& trials,
-                       const std::vector<ReplayedTrial>& replayed);
+/// Simulates a trial of the study again.
+using Replay = std::function<ReplayedTrial(const SampleTrial&)>;
 
-/// A figure of the paper that the study can reproduce from some trials.
-struct PaperFigure {
-  std::string name;                   ///< "paper-fig7"
-  std::vector<SampleTrial> trials{};  ///< to be simulated again
-};
+/// Errors of the sample trials over time with the goals, and the torque of the worst.
+std::vector<Figure> response_figures(const ReportedStudy& reported, const Replay& replay);
 
 /// The figures of the paper that the study can reproduce: Fig. 4 and 6 for torque levels, Fig. 7 for moves to
 /// different targets, Fig. 8 for one long move with jerks.
-std::vector<PaperFigure> paper_figures(const ReportedStudy& reported);
-Figure paper_figure(const ReportedStudy& reported, const PaperFigure& wanted,
-                    const std::vector<ReplayedTrial>& replayed);
+std::vector<Figure> paper_figures(const ReportedStudy& reported, const Replay& replay);
 
 }  // namespace zerocount::report

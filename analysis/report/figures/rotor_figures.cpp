@@ -1,9 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <iterator>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/statistics/spread_over.hpp"
@@ -46,20 +45,21 @@ struct ShownTrials {
   std::optional<std::int64_t> rig{};
 };
 
-/// Visits the trials with their final positions. Trials with a non-finite state have no position.
-template <class Visit>
-void visit_ends(const ReportedStudy& reported, const ShownTrials& shown, std::size_t column,
-                const Visit& visit) {
+/// The trials with their final positions. Trials with a non-finite state have that of their start.
+std::vector<EndOnRotor> ends_of(const ReportedStudy& reported, const ShownTrials& shown, std::size_t column) {
   const layout::RowRange rows = rows_of(reported, shown.point);
   const std::vector<double> starts = reported.file.input(column, rows);
+  std::vector<EndOnRotor> ends;
   measures::visit_trials(
       reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-        if (shown.rig && study::rig_of(reported.study, row - rows.first) != *shown.rig) return;
-        const double end = starts[static_cast<std::size_t>(row - rows.first)] + moves.back().final_position;
-        const double start = starts[static_cast<std::size_t>(row - rows.first)];
-        visit(EndOnRotor{row - rows.first, on_rotor(std::isfinite(end) ? end : start, reported.study.period),
-                         trial::worst_outcome(moves), meets(question_of(reported), moves)});
+        const std::int64_t trial = row - rows.first;
+        if (shown.rig && study::rig_of(reported.study, trial) != *shown.rig) return;
+        const double start = starts[static_cast<std::size_t>(trial)];
+        const double end = start + moves.back().final_position;
+        ends.push_back({trial, on_rotor(std::isfinite(end) ? end : start, reported.study.period),
+                        trial::worst_outcome(moves), meets(question_of(reported), moves)});
       });
+  return ends;
 }
 
 /// A profile's point: the one in its name, otherwise the chosen one.
@@ -86,20 +86,9 @@ FigureData profile_data(const reading::StoredProfile& profile) {
   return data;
 }
 
-/// Rate of the trials that meet the question in equal sectors of the rotor.
-struct Sectors {
-  std::vector<std::int64_t> trials, successes;
-  double period;  ///< rad or m
-
-  Sectors(std::size_t count, double length) : trials(count), successes(count), period(length) {}
-  void add(const EndOnRotor& end) {
-    const auto sector = static_cast<std::size_t>(end.angle / period * static_cast<double>(trials.size()));
-    ++trials[std::min(sector, trials.size() - 1)];
-    successes[std::min(sector, trials.size() - 1)] += end.met;
-  }
-};
-
-FigureData sector_data(const Sectors& sectors, const goal::QuestionWords& words) {
+/// Rate of the trials that meet the question in equal sectors of the rotor. @param period rad or m
+FigureData sector_data(const std::vector<EndOnRotor>& ends, double period, std::size_t sectors,
+                       const goal::QuestionWords& words) {
   FigureData data{"sectors",
                   {{"from", "from", "rad"},
                    {"to", "to", "rad"},
@@ -108,15 +97,19 @@ FigureData sector_data(const Sectors& sectors, const goal::QuestionWords& words)
                    {"high", "upper 95 % bound", "1"},
                    {"successes", "trials that met it", "1"},
                    {"trials", "trials", "1"}}};
-  const double width = sectors.period / static_cast<double>(sectors.trials.size());
-  for (std::size_t i = 0; i < sectors.trials.size(); ++i) {
-    if (sectors.trials[i] == 0) continue;
-    const statistics::ConfidenceInterval bounds =
-        statistics::clopper_pearson(sectors.successes[i], sectors.trials[i]);
-    data.rows.push_back(ordered_json::array(
-        {datum(width * static_cast<double>(i)), datum(width * static_cast<double>(i + 1)),
-         datum(statistics::rate(sectors.successes[i], sectors.trials[i])), datum(bounds.low),
-         datum(bounds.high), sectors.successes[i], sectors.trials[i]}));
+  const auto sector_of = [&](const EndOnRotor& end) {
+    return std::min(static_cast<std::size_t>(end.angle / period * static_cast<double>(sectors)), sectors - 1);
+  };
+  const double width = period / static_cast<double>(sectors);
+  for (std::size_t i = 0; i < sectors; ++i) {
+    const std::int64_t trials = std::ranges::count(ends, i, sector_of);
+    const std::int64_t met =
+        std::ranges::count_if(ends, [&](const EndOnRotor& end) { return end.met && sector_of(end) == i; });
+    if (trials == 0) continue;
+    const statistics::ConfidenceInterval bounds = statistics::clopper_pearson(met, trials);
+    data.rows.push_back({datum(width * static_cast<double>(i)), datum(width * static_cast<double>(i + 1)),
+                         datum(statistics::rate(met, trials)), datum(bounds.low), datum(bounds.high), met,
+                         trials});
   }
   return data;
 }
@@ -162,12 +155,9 @@ Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile&
   const reading::StoredProfile profile = shown.rig ? rotor_of_rig(stored, *shown.rig) : stored;
   const std::int64_t trials_shown = reported.file.header().trials / std::max<std::int64_t>(stored.rigs, 1);
   const double period = reported.study.period;
-  Sectors sectors(trials_shown >= 480 ? 24 : 12, period);
+  const std::vector<EndOnRotor> ends = ends_of(reported, shown, column);
   std::vector<EndOnRotor> failures;
-  visit_ends(reported, shown, column, [&](const EndOnRotor& end) {
-    sectors.add(end);
-    if (!end.met) failures.push_back(end);
-  });
+  std::ranges::copy_if(ends, std::back_inserter(failures), [](const EndOnRotor& end) { return !end.met; });
   FigureData trials{"trials",
                     {{"trial", "trial of the point", "1"},
                      {"theta", "$rotor_angle at the end", "rad"},
@@ -189,15 +179,12 @@ Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile&
       "rotor", fmt::format("rotor-{}", profile.name),
       failures.empty() ? fmt::format("How does {} vary along the $track?", parameter)
                        : fmt::format("Where along the $track are the {}, over {}?", words.failing, parameter),
-      caption, {std::move(trials), profile_data(profile), sector_data(sectors, words)});
-  figure.specification["vconcat"][0]["layer"][0]["encoding"]["y"]["title"] =
-      profile.unit == "1" ? parameter : fmt::format("{} ({})", parameter, profile.unit);
+      caption,
+      {std::move(trials), profile_data(profile),
+       sector_data(ends, period, trials_shown >= 480 ? 24 : 12, words)});
   figure.specification["vconcat"][1]["encoding"]["x"]["scale"]["domain"] = {0.0, period};
-  retitle(figure, {{"success rate", words.trial_rate}, {"failed trials", words.failing}});
-  if (failures.empty()) {
-    figure.specification["vconcat"][0]["layer"].erase(1);
-    std::rotate(figure.data.begin(), figure.data.begin() + 2, figure.data.end());
-  }
+  // The first dataset is the table behind the figure.
+  if (failures.empty()) std::rotate(figure.data.begin(), figure.data.begin() + 2, figure.data.end());
   return figure;
 }
 

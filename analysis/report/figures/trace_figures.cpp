@@ -1,11 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/report/figures/report_figures.hpp"
@@ -105,28 +101,10 @@ FigureData boxes_of(const goal::Question& question, const trial::TrialParameters
   return data;
 }
 
-/// 0, and ± powers of ten well beyond `smallest` up to `largest`; of many decades evenly some.
-ordered_json ticks_about_zero(double smallest, double largest) {
-  constexpr int max_decades = 3;
-  const int first = static_cast<int>(std::ceil(std::log10(4.0 * smallest)));
-  const int last = static_cast<int>(std::floor(std::log10(largest)));
-  const int stride = std::max(1, (last - first + max_decades) / max_decades);
-  std::vector<double> ticks{0.0};
-  for (int power = last; power >= first; power -= stride) {
-    ticks.push_back(std::pow(10.0, power));
-    ticks.push_back(-std::pow(10.0, power));
-  }
-  std::ranges::sort(ticks);
-  ordered_json values = ordered_json::array();
-  for (const double tick : ticks) values.push_back(datum(tick));
-  return values;
-}
-
 /// Puts an error in one unit on an axis that is linear within `smallest` and logarithmic beyond.
 void set_error_axis(ordered_json& channel, double smallest, double largest) {
   channel["scale"] = {
       {"type", "symlog"}, {"constant", datum(smallest)}, {"domain", {datum(-largest), datum(largest)}}};
-  channel["axis"]["values"] = ticks_about_zero(smallest, largest);
 }
 
 }  // namespace
@@ -157,8 +135,11 @@ std::vector<SampleTrial> sample_trials(const ReportedStudy& reported) {
   return trials;
 }
 
-Figure response_figure(const ReportedStudy& reported, const std::vector<SampleTrial>& trials,
-                       const std::vector<ReplayedTrial>& replayed) {
+std::vector<Figure> response_figures(const ReportedStudy& reported, const Replay& replay) {
+  const std::vector<SampleTrial> trials = sample_trials(reported);
+  if (trials.empty()) return {};
+  std::vector<ReplayedTrial> replayed(trials.size());
+  std::ranges::transform(trials, replayed.begin(), replay);
   const goal::Question& question = question_of(reported);
   const bool of_position = std::ranges::any_of(
       question.parts, [](const goal::JudgedPart& part) { return part.claim && part.claim->tolerance; });
@@ -212,7 +193,213 @@ Figure response_figure(const ReportedStudy& reported, const std::vector<SampleTr
         fmt::format("{} {}", panel == 0 ? "median" : "worst", subject);
   }
   colour_conditions(figure.specification["vconcat"][2]["encoding"]["color"], reported);
-  return figure;
+  return {std::move(figure)};
+}
+
+namespace {
+
+constexpr const char* targets_axis = "command.targets.0";
+
+/// Fig. 7: needs points with one move each that differ only in the target.
+bool shows_targets(const ReportedStudy& reported) {
+  const std::vector<study::SweepAxis>& axes = reported.summary.axes;
+  return axes.size() == 1 && axes[0].name == targets_axis && reported.file.moves() == 1 &&
+         !numeric_axes(reported, 3).empty() && axes[0].numbers.size() <= 30;
+}
+
+/// Fig. 8: needs one point with one move, and jerks in most trials.
+bool shows_jerks(const ReportedStudy& reported) {
+  const measures::PointSummary& point = reported.summary.points.front();
+  return reported.summary.points.size() == 1 && reported.file.moves() == 1 &&
+         point.of(&trial::MoveOutcome::jerk_count).median.value >= 1.0;
+}
+
+SampleTrial first_trial(std::int64_t point) {
+  return {.name = "first", .point = point};
+}
+
+/// The trial with the median number of jerks.
+SampleTrial typical_trial(const ReportedStudy& reported) {
+  SampleTrial typical = first_trial(0);
+  bool found = false;
+  measures::visit_trials(
+      reported.file, rows_of(reported, 0), [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+        const auto jerks = static_cast<double>(moves.front().jerk_count);
+        if (found ||
+            jerks != reported.summary.points.front().of(&trial::MoveOutcome::jerk_count).median.value)
+          return;
+        found = true;
+        typical.index = row;
+      });
+  return typical;
+}
+
+using SampleColumn = ColumnOf<trial::SampleRecord>;
+using Sample = const trial::SampleRecord&;
+const SampleColumn time_column{{"time", "time", "s"}, [](Sample s) { return datum(s.t); }};
+const SampleColumn target_column{{"target", "target", "count"}, [](Sample s) { return s.target; }};
+const SampleColumn count_column{{"count", "position", "count"}, [](Sample s) { return s.count; }};
+const SampleColumn torque_column{{"torque", "$torque", "N m"}, [](Sample s) { return datum(s.torque); }};
+const SampleColumn motor_torque_column{{"torque", "$torque", "N m"},
+                                       [](Sample s) { return datum(s.drive_torque); }};
+
+Figure step_responses(const std::vector<ReplayedTrial>& replayed) {
+  std::vector<trial::SampleRecord> samples;
+  for (const ReplayedTrial& trial : replayed)
+    samples.insert(samples.end(), trial.samples.begin(), trial.samples.end());
+  return figure_of(
+      "step-responses", "paper-fig7", "Moves to different targets (Fig. 7 of the paper)",
+      "Position over time, one trial for each target, from rest. In the paper all ten moves settle at their "
+      "target within 300 samples of 0.5 ms. Every curve should end as a horizontal line at its target.",
+      {data_of("samples", samples, {target_column, time_column, count_column})});
+}
+
+Figure jerks_in_time(const ReplayedTrial& trial) {
+  return figure_of(
+      "jerks-in-time", "paper-fig8", "Jerks by creep (Fig. 8 of the paper)",
+      fmt::format(
+          "Position and $torque over time of trial {}, which has the median number of jerks. After the move "
+          "the position repeatedly leaves the target by one count, always in the direction of the holding "
+          "$torque, and returns at once. The rate of these jerks decreases as the contact hardens.",
+          trial.result.row),
+      {data_of("samples", trial.samples, {time_column, count_column, torque_column})});
+}
+
+/// The ends of the torque levels. Levels that end at the same point share a row.
+/// @param field and @param title of the column of places
+FigureData level_ends(const ReplayedTrial& trial, const char* field, const char* title,
+                      double trial::MoveOutcome::*place) {
+  FigureData data{"levels", {{"levels", "levels", ""}, {field, title, "µrad"}, {"torque", "$torque", "N m"}}};
+  const std::vector<trial::MoveOutcome>& levels = trial.result.outcome.moves;
+  double reach = 0.0;
+  for (const trial::MoveOutcome& level : levels) reach = std::max(reach, std::abs(1e6 * (level.*place)));
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const double end = 1e6 * (levels[i].*place);
+    const std::string name = fmt::format("{}", i + 1);
+    const auto shared = std::find_if(data.rows.begin(), data.rows.end(), [&](const ordered_json& row) {
+      return std::abs(row[1].get<double>() - end) <= 0.01 * reach &&
+             std::abs(row[2].get<double>() - levels[i].holding_torque) <= 1e-6;
+    });
+    if (shared == data.rows.end()) {
+      data.rows.push_back(ordered_json::array({name, datum(end), datum(levels[i].holding_torque)}));
+    } else {
+      (*shared)[0] = (*shared)[0].get<std::string>() + ", " + name;
+    }
+  }
+  return data;
+}
+
+Figure hysteresis(const ReplayedTrial& trial, bool creeping) {
+  const SampleColumn angle{{"angle", "$rotor_angle", "µrad"}, [](Sample s) { return datum(1e6 * s.theta); }};
+  return figure_of(
+      "hysteresis", "paper-fig4", "$Torque over $angle (Fig. 4 of the paper)",
+      fmt::format("$Torque over $rotor_angle of trial {}, loaded and unloaded. Each number marks "
+                  "the end of a $torque level, in their order. {}",
+                  trial.result.row,
+                  creeping ? "Creep moves the $rotor on while the $torque is held, so a loop does "
+                             "not close where the contact has crept in it."
+                           : "The spring has hysteresis with return-point memory: loops between "
+                             "the same $torques have the same width, and a closed loop has no "
+                             "further influence, so levels of equal $torque end at the same "
+                             "point."),
+      {data_of("samples", trial.samples, {time_column, angle, motor_torque_column}),
+       level_ends(trial, "angle", "$rotor_angle", &trial::MoveOutcome::final_position)});
+}
+
+Figure plastic_extension(const ReplayedTrial& trial) {
+  const SampleColumn extension{{"extension", "plastic extension", "µrad"},
+                               [](Sample s) { return datum(1e6 * s.xp); }};
+  return figure_of(
+      "creep", "paper-fig6", "$Torque over plastic extension (Fig. 6 of the paper)",
+      fmt::format(
+          "$Torque over plastic (creep) extension of trial {}. Each number marks the end of a $torque "
+          "level, in their order. At constant $torque the contact creeps along a horizontal line "
+          "until it has hardened. A repeated or smaller $torque of either sign adds no extension.",
+          trial.result.row),
+      {data_of("samples", trial.samples, {time_column, extension, motor_torque_column}),
+       level_ends(trial, "extension", "plastic extension", &trial::MoveOutcome::creep)});
+}
+
+/// Whether the contact of the first trial creeps.
+bool creeps(const ReportedStudy& reported) {
+  const trial::TrialParameters parameters = study::study_trial(reported.study, 0, 0).parameters;
+  return friction::has_creep(parameters.friction.model) &&
+         friction::friction_at(parameters.friction, parameters.initial.position).alpha > 0.0;
+}
+
+}  // namespace
+
+std::vector<Figure> paper_figures(const ReportedStudy& reported, const Replay& replay) {
+  if (reported.study.open_loop) {
+    SampleTrial trial = first_trial(0);
+    trial.buckets = 2000;
+    const ReplayedTrial replayed = replay(trial);
+    const bool creeping = creeps(reported);
+    std::vector<Figure> figures{hysteresis(replayed, creeping)};
+    if (creeping) figures.push_back(plastic_extension(replayed));
+    return figures;
+  }
+  if (shows_targets(reported)) {
+    std::vector<ReplayedTrial> replayed;
+    for (std::int64_t point = 0; point < std::ssize(reported.summary.points); ++point)
+      replayed.push_back(replay(first_trial(point)));
+    return {step_responses(replayed)};
+  }
+  if (shows_jerks(reported)) return {jerks_in_time(replay(typical_trial(reported)))};
+  return {};
+}
+
+namespace {
+
+bool alike(const trial::SampleRecord& a, const trial::SampleRecord& b) {
+  return a.count == b.count && a.torque == b.torque && a.target == b.target;
+}
+
+}  // namespace
+
+TraceThinner::TraceThinner(std::int64_t samples, std::int64_t buckets)
+    : bucket_length_(std::max<std::int64_t>(1, (samples + buckets - 1) / buckets)) {}
+
+void TraceThinner::add(const trial::SampleRecord& sample) {
+  if (sample.k / bucket_length_ != bucket_) {
+    close_bucket();
+    bucket_ = sample.k / bucket_length_;
+  }
+  at_hand_.push_back(sample);
+}
+
+void TraceThinner::close_bucket() {
+  const std::vector<SampleQuantity> quantities{
+      [&](std::size_t i) { return static_cast<double>(at_hand_[i].error); },
+      [&](std::size_t i) { return at_hand_[i].torque; }};
+  for (const std::size_t place : extreme_samples(0, at_hand_.size(), quantities)) {
+    const trial::SampleRecord& sample = at_hand_[place];
+    const std::size_t size = kept_.size();
+    if (size >= 2 && alike(kept_[size - 1], sample) && alike(kept_[size - 2], sample)) kept_.pop_back();
+    kept_.push_back(sample);
+  }
+  at_hand_.clear();
+}
+
+std::vector<trial::SampleRecord> TraceThinner::finish() {
+  close_bucket();
+  return std::move(kept_);
+}
+
+ReplayedTrial replay_trial(const study::Study& study, std::int64_t point, std::int64_t index,
+                           std::int64_t buckets) {
+  const study::StudyTrial trial = study::study_trial(study, point, index);
+  TraceThinner thinner(trial::samples_of_trial(trial.parameters), buckets);
+  ReplayedTrial replayed;
+  replayed.point = point;
+  trial::TrialObservers observers;
+  observers.sample = [&](const trial::SampleRecord& sample) { thinner.add(sample); };
+  observers.jerk = [&](const trial::Jerk& jerk) { replayed.result.jerks.push_back(jerk); };
+  replayed.result.inputs = trial.inputs;
+  replayed.result.outcome = trial::run_trial(trial.parameters, observers);
+  replayed.samples = thinner.finish();
+  replayed.parameters = trial.parameters;
+  return replayed;
 }
 
 }  // namespace zerocount::report

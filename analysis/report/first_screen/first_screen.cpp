@@ -1,19 +1,297 @@
 #include "analysis/report/first_screen/first_screen.hpp"
 
 #include <algorithm>
-#include <string_view>
+#include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "analysis/document/blocks.hpp"
 #include "analysis/document/markup.hpp"
-#include "analysis/report/first_screen/assumptions.hpp"
-#include "analysis/report/first_screen/axis_drawing.hpp"
-#include "analysis/report/first_screen/gains.hpp"
-#include "analysis/report/first_screen/requirements.hpp"
 #include "analysis/report/report_sections.hpp"
+#include "analysis/summary/move_behaviour.hpp"
+#include "analysis/text/percent.hpp"
+#include "analysis/theory/point_theory.hpp"
+#include "analysis/theory/theory_prediction.hpp"
+#include "experiments/rules/value_sources.hpp"
+#include "results/layout/measure_table.hpp"
 
 namespace zerocount::report {
 namespace {
+
+using rules::ValueSource;
+using summary::CellOfPoint;
+using summary::MoveBehaviour;
+
+/// The parameter in the section tune; null where tune does not change it.
+const study::FreeParameter* free_parameter(const study::Study& study, std::string_view name) {
+  if (!study.tuning) return nullptr;
+  const auto found = std::ranges::find(study.tuning->free, name, &study::FreeParameter::name);
+  return found == study.tuning->free.end() ? nullptr : &*found;
+}
+
+/// Whether the value is chosen by the designer, not a property of the axis: gains and blocks of the
+/// controller, and what tune may change.
+bool is_chosen(const study::Study& study, std::size_t slot) {
+  const std::string_view name = study.plan->table.rows[slot].name;
+  if (free_parameter(study, name) != nullptr) return true;
+  return name.starts_with("controller.") && name != "controller.delay" && name != "controller.jitter" &&
+         name != "controller.missed";
+}
+
+/// "default", or the range in which tune seeks the value.
+std::string note_of(const study::Study& study, const rules::SourcedValue& value) {
+  const study::FreeParameter* const free = free_parameter(study, study.plan->table.rows[value.slot].name);
+  if (free != nullptr) return range_text(free->low, free->high, "");
+  return value.source == rules::ValueSource::assumed ? "default" : "";
+}
+
+/// "kp" for "controller.kp".
+std::string short_name(std::string_view name) {
+  constexpr std::string_view section = "controller.";
+  return std::string(name.starts_with(section) ? name.substr(section.size()) : name);
+}
+
+/// "11.3 … 11.5 dB" on one line; "–" where no trial has one.
+std::string margin_text(const theory::Range& range, std::string_view unit) {
+  if (range.empty()) return "–";
+  const auto number = [](double value) { return fmt::format("{:.3g}", value); };
+  const std::string low = number(range.low);
+  const std::string high = number(range.high);
+  return (low == high ? low : low + "\u00a0…\u00a0" + high) + std::string(unit);
+}
+
+/// The values at a design point that are chosen, all of them: those that the manifest gives and the defaults
+/// that act; with the range in which tune seeks them.
+std::string gains_html(const study::Study& study, std::int64_t point) {
+  const PointValues values(study, point);
+  document::TableBlock table{
+      "",
+      {{"controller", "", false}, {"value", "", false}, {study.tuning ? "range of tune" : "", "", false}}};
+  for (const rules::SourcedValue& one : rules::value_sources(*study.plan)) {
+    const parameters::Parameter& parameter = study.plan->table.rows[one.slot];
+    const bool is_word = one.source == rules::ValueSource::assumed && parameters::has_labels(parameter);
+    if (is_chosen(study, one.slot) && !is_word)
+      table.add_row({short_name(parameter.name), values.text(one.slot), note_of(study, one)});
+  }
+  return document::html(table);
+}
+
+/// The margins of the linear loops at a design point under each condition, as `check` prints them; empty
+/// where no loop is linear.
+std::string loops_html(const study::Study& study, std::int64_t point) {
+  if (theory::has_no_linear_loop(study::study_trial(study, point, 0).parameters)) return "";
+  const bool has_conditions = !study.conditions.empty();
+  document::TableBlock table{"",
+                             {{"loop", "", false},
+                              {"gain margin", "", false},
+                              {"phase margin", "", false},
+                              {"crossover", "", false}}};
+  if (has_conditions) table.columns.insert(table.columns.begin(), {"condition", "", false});
+  std::vector<theory::KnownRotor> rotors;
+  for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
+    for (const theory::LoopRanges& loop : theory::examine(study, point, condition, rotors).loops) {
+      const std::string verdict = theory::stability_text(loop);
+      std::vector<std::string> cells{loop.name + (verdict == "stable" ? "" : ": " + verdict),
+                                     margin_text(loop.gain, "\u00a0dB"), margin_text(loop.phase, "°"),
+                                     margin_text(loop.phase_at, "\u00a0Hz")};
+      if (has_conditions) cells.insert(cells.begin(), study.conditions[static_cast<std::size_t>(condition)]);
+      table.add_row(std::move(cells));
+    }
+  }
+  return document::html(table);
+}
+
+/// "plant.inertia 3.2 … 4.6 kg", with how often a drawn value is drawn. The section is left out after another
+/// value of it. @param section of the value before
+std::string value_html(const PointValues& values, std::size_t slot, std::string& section) {
+  std::string name(values.study().plan->table.rows[slot].name);
+  const std::size_t key = name.rfind('.') + 1;
+  const bool is_same = name.substr(0, key) == section;
+  section = name.substr(0, key);
+  const std::string drawn = values.draw_text(slot);
+  return fmt::format("<span><b>{}</b> {}{}</span>", document::markup(is_same ? name.substr(key) : name),
+                     document::markup(values.text(slot)), drawn.empty() ? "" : ", " + drawn);
+}
+
+/// A source and what comes from it. @param items HTML; without any there is no row
+std::string source_html(const std::string& source, const std::vector<std::string>& items) {
+  if (items.empty()) return "";
+  std::string html = fmt::format("<tr><th>{}</th><td>", document::markup(source));
+  for (const std::string& item : items) html += item + " ";
+  return html + "</td></tr>\n";
+}
+
+std::vector<std::string> values_from(ValueSource source, const std::vector<rules::SourcedValue>& all,
+                                     const PointValues& values) {
+  std::vector<std::string> items;
+  std::string section;
+  for (const rules::SourcedValue& one : all) {
+    if (one.source == source && !is_chosen(values.study(), one.slot))
+      items.push_back(value_html(values, one.slot, section));
+  }
+  return items;
+}
+
+std::vector<std::string> absent(const study::Study& study, study::PremiseState state) {
+  std::vector<std::string> items;
+  for (const study::Premise& premise : study.premises) {
+    if (premise.state == state)
+      items.push_back(fmt::format("<span>{}</span>", document::markup(premise.assumption)));
+  }
+  return items;
+}
+
+/// Assumptions of the trials of a design point by their source: measured, from a table of samples, given in
+/// the manifest, defaults; then the effects of a real axis that are stated to be absent, and those that are
+/// assumed to be.
+std::string assumptions_html(const study::Study& study, std::int64_t point) {
+  const PointValues values(study, point);
+  const std::vector<rules::SourcedValue> all = rules::value_sources(*study.plan);
+  const std::string samples = study.samples ? "samples of " + study.samples->file : "";
+  return "<table class=\"assumptions\"><tbody>\n" +
+         source_html("measured", values_from(ValueSource::measured, all, values)) +
+         source_html(samples, values_from(ValueSource::sampled, all, values)) +
+         source_html("given in the manifest", values_from(ValueSource::given, all, values)) +
+         source_html("assumed: defaults", values_from(ValueSource::assumed, all, values)) +
+         source_html("stated as absent", absent(study, study::PremiseState::stated_none)) +
+         source_html("assumed away", absent(study, study::PremiseState::assumed)) + "</tbody></table>\n";
+}
+
+/// "true overshoot ≤ 1 µm".
+std::string limit_text(const study::GoalLimit& limit, const study::Study& study) {
+  std::string words = limit.measure;
+  std::ranges::replace(words, '_', ' ');
+  if (const std::size_t torque = words.find("torque"); torque != std::string::npos)
+    words.replace(torque, 6, parameters::text_on(study.units.axis, "$torque"));
+  std::string unit;
+  for (const layout::Measure& measure : layout::measure_table(study.features)) {
+    if (measure.field.column.name == limit.measure)
+      unit = parameters::unit_on(study.units.axis, measure.field.column.unit);
+  }
+  return fmt::format("{} ≤ {}", words, quantity_text(limit.largest, unit));
+}
+
+/// A row: a goal under a condition, or moves that no goal asks.
+struct RequirementRow {
+  std::optional<CellOfPoint> claim{};
+  std::optional<MoveBehaviour> moves{};
+  std::string condition{};
+};
+
+/// A column of the table, of what is claimed or of what the moves do.
+struct RequirementColumn {
+  std::string head;
+  std::function<std::string(const CellOfPoint&)> of_claim{};
+  std::function<std::string(const MoveBehaviour&)> of_moves{};
+};
+
+std::string verdict_cell(const CellOfPoint& claim) {
+  const char* const style = claim.status == goal::Status::met      ? "good"
+                            : claim.status == goal::Status::missed ? "bad"
+                                                                   : "open";
+  return fmt::format("<span class=\"{}\">{}</span>", style, goal::text_of(claim.status));
+}
+
+std::string moves_cell(const CellOfPoint& claim) {
+  return fmt::format("{} of {}: ≥ {}", claim.met, claim.moves, text::percent_at_least(claim.rate.low));
+}
+
+std::string machines_cell(const CellOfPoint& claim) {
+  if (!claim.machines) return "";
+  return fmt::format("{}: ≥ {}", text::percent_near(claim.machines->value),
+                     text::percent_at_least(claim.machines->low));
+}
+
+std::string time_cell(const CellOfPoint& claim) {
+  return claim.settling_time_p95 ? quantity_text(*claim.settling_time_p95, "s")
+                                 : std::string("not in the hold");
+}
+
+std::string overshoot_cell(const MoveBehaviour& moves, std::string_view unit) {
+  if (std::isnan(moves.overshoot_length.p95)) return "";
+  if (moves.overshoot_length.p95 == 0.0) return "none";
+  const double of_step = moves.overshoot_of_step.p95;
+  return quantity_text(moves.overshoot_length.p95, unit) +
+         (std::isnan(of_step) ? "" : fmt::format(", {:.3g} % of the step", 100.0 * of_step));
+}
+
+std::string peak_cell(const MoveBehaviour& moves, std::string_view unit) {
+  if (std::isnan(moves.peak_torque.max)) return "";
+  return fmt::format("{}, {:.3g} % of the range", quantity_text(moves.peak_torque.max, unit),
+                     100.0 * moves.peak_of_range.max);
+}
+
+/// The columns after that of the conditions.
+std::vector<RequirementColumn> columns_of(const ReportedStudy& reported) {
+  const parameters::AxisKind axis = reported.study.units.axis;
+  std::vector<RequirementColumn> columns;
+  if (question_of(reported).claim()) {
+    columns = {{"verdict", verdict_cell}, {"moves in the goal", moves_cell}};
+    if (std::ranges::any_of(reported.study.goals,
+                            [](const study::Goal& goal) { return goal.machines.has_value(); }))
+      columns.push_back({"machines in the goal", machines_cell});
+    columns.push_back({"95 % settle within", time_cell});
+  }
+  const auto of_moves = [&](std::string head, auto cell, std::string_view unit) {
+    columns.push_back(
+        {std::move(head), {}, [cell, on_axis = parameters::unit_on(axis, unit)](const MoveBehaviour& moves) {
+           return cell(moves, on_axis);
+         }});
+  };
+  of_moves("overshoot (95 %)", overshoot_cell, "rad");
+  of_moves(parameters::text_on(axis, "peak $torque"), peak_cell, "N m");
+  columns.push_back({"moves that saturate", {}, [](const MoveBehaviour& moves) {
+                       return text::percent_near(moves.saturated);
+                     }});
+  return columns;
+}
+
+std::string cell_html(const std::string& head, const std::string& html) {
+  return fmt::format("<td class=\"text\" data-head=\"{}\">{}</td>", document::markup(head), html);
+}
+
+std::string row_html(const RequirementRow& row, const std::vector<RequirementColumn>& columns,
+                     bool with_condition) {
+  std::string html = "<tr>";
+  if (with_condition) html += cell_html("condition", document::markup(row.condition));
+  for (const RequirementColumn& column : columns) {
+    std::string cell;
+    if (row.claim && column.of_claim) cell = column.of_claim(*row.claim);
+    if (row.moves && column.of_moves) cell = column.of_moves(*row.moves);
+    html += cell_html(column.head, cell);
+  }
+  return html + "</tr>\n";
+}
+
+/// The rows of the goal with this number; the number of goals for moves that none asks.
+std::vector<RequirementRow> rows_of_goal(std::size_t number, const ReportedStudy& reported,
+                                         const std::vector<CellOfPoint>& claims,
+                                         const std::vector<MoveBehaviour>& behaviour) {
+  std::vector<RequirementRow> rows;
+  const auto conditions = static_cast<std::size_t>(study::condition_count(reported.study));
+  for (std::size_t i = 0; i < conditions; ++i) {
+    RequirementRow row;
+    if (!reported.study.conditions.empty()) row.condition = reported.study.conditions[i];
+    if (const std::size_t at = number * conditions + i; at < claims.size()) row.claim = claims[at];
+    for (const MoveBehaviour& one : behaviour) {
+      if (one.number == number && one.condition.value_or("") == row.condition) row.moves = one;
+    }
+    if (row.claim || row.moves) rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+/// Head of the rows below it: their goal.
+std::string title_of(std::size_t number, const ReportedStudy& reported) {
+  const std::vector<study::Goal>& goals = reported.study.goals;
+  if (number < goals.size()) {
+    const std::string& name = goals[number].name;
+    return (name.empty() ? "" : fmt::format("<b>{}</b> ", document::markup(name))) +
+           document::prose_markup(requirement_text(goals[number], reported.study));
+  }
+  return goals.empty() ? "No goal is stated: what the moves do" : "Moves that no goal is about";
+}
 
 /// A part with its head; empty without content.
 std::string part_html(const char* head, const std::string& content) {
@@ -42,6 +320,41 @@ std::string_view style_of(const std::vector<summary::CellOfPoint>& claims) {
 
 }  // namespace
 
+std::string requirement_text(const study::Goal& goal, const study::Study& study) {
+  std::string text =
+      (goal.tolerance ? "±" + quantity_text(*goal.tolerance, parameters::unit_on(study.units.axis, "rad"))
+                      : "±" + quantity_text(static_cast<double>(goal.band), "count")) +
+      fmt::format(" for good after {}", quantity_text(goal.within, "s"));
+  for (const study::GoalLimit& limit : goal.limits) text += "; " + limit_text(limit, study);
+  const std::string moves = goal.on.empty() ? "the moves" : fmt::format("moves {}", fmt::join(goal.on, ", "));
+  return text + fmt::format(
+                    "; in {} of {}{}, with {} confidence", text::percent(goal.moves), moves,
+                    goal.machines ? fmt::format(" of {} of the machines", text::percent(*goal.machines)) : "",
+                    text::percent(goal.confidence));
+}
+
+std::string requirements_html(const ReportedStudy& reported,
+                              const std::vector<summary::CellOfPoint>& claims) {
+  if (reported.study.open_loop) return "";
+  const std::int64_t point = reported.chosen.point;
+  const std::vector<MoveBehaviour> behaviour = summary::behaviour_in(reported.file, reported.study, point);
+  const std::vector<RequirementColumn> columns = columns_of(reported);
+  const bool with_condition = !reported.study.conditions.empty();
+  std::string html = "<table class=\"requirements\"><thead><tr>";
+  if (with_condition) html += "<th class=\"text\">condition</th>";
+  for (const RequirementColumn& column : columns)
+    html += fmt::format("<th class=\"text\">{}</th>", document::markup(column.head));
+  html += "</tr></thead><tbody>\n";
+  for (std::size_t number = 0; number <= std::max<std::size_t>(reported.study.goals.size(), 1); ++number) {
+    const std::vector<RequirementRow> rows = rows_of_goal(number, reported, claims, behaviour);
+    if (rows.empty()) continue;
+    html += fmt::format("<tr class=\"group\"><th class=\"text\" colspan=\"{}\">{}</th></tr>\n",
+                        columns.size() + (with_condition ? 1 : 0), title_of(number, reported));
+    for (const RequirementRow& row : rows) html += row_html(row, columns, with_condition);
+  }
+  return html + "</tbody></table>\n";
+}
+
 PageSection first_screen(const ReportedStudy& reported, const FirstScreenParts& parts) {
   const Conclusions conclusions = conclusions_of(reported);
   const study::Study& study = reported.study;
@@ -55,7 +368,7 @@ PageSection first_screen(const ReportedStudy& reported, const FirstScreenParts& 
           parts.warnings +
               fmt::format("<p class=\"headline {}\">{}</p>\n", style_of(claims),
                           document::prose_markup(headline)) +
-              axis_svg(axis_diagram(study, point)) +
+              diagram_html(axis_diagram(study, point)) +
               part_html("Requirements", requirements_html(reported, claims)) + lines_html(conclusions.lines) +
               "<div class=\"columns\">\n" +
               part_html("Gains", study.open_loop ? "" : gains_html(study, point)) +
@@ -65,7 +378,7 @@ PageSection first_screen(const ReportedStudy& reported, const FirstScreenParts& 
 }
 
 std::string axis_html(const study::Study& study, std::int64_t point) {
-  return axis_svg(axis_diagram(study, point)) + part_html("Assumptions", assumptions_html(study, point));
+  return diagram_html(axis_diagram(study, point)) + part_html("Assumptions", assumptions_html(study, point));
 }
 
 }  // namespace zerocount::report

@@ -1,13 +1,94 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/report/page.hpp"
 #include "analysis/report/reported_study.hpp"
 #include "analysis/summary/cells_of_point.hpp"
+#include "core/trial/parameters.hpp"
+#include "experiments/study/point_limits.hpp"
+#include "experiments/study/study.hpp"
 
+/// The first screen of a page: the verdict, the axis as a diagram, the requirements with their verdicts, the
+/// gains with the margins of the loops, and the assumptions.
 namespace zerocount::report {
+
+// The quantities of analysis/text, in which a line does not break between a number and its unit.
+std::string quantity_text(double value, std::string_view unit);
+std::string range_text(double low, double high, std::string_view unit);
+std::string list_text(std::span<const double> values, std::string_view unit);
+
+/// The values of parameters at a design point, over all trials and conditions.
+class PointValues {
+ public:
+  PointValues(const study::Study& study, std::int64_t point) : study_(study), point_(point) {}
+
+  const study::Study& study() const { return study_; }
+  std::int64_t point() const { return point_; }
+
+  /// The range of the parameter with this dotted path, in its unit in the manifest.
+  study::ValueLimits limits(std::string_view name) const;
+  study::ValueLimits limits(std::size_t slot) const;
+  /// Whether the value can be above 0 in some trial.
+  bool can_be_positive(std::string_view name) const { return limits(name).high > 0.0; }
+
+  /// Whether the value is the word "none" in all trials.
+  bool is_none(std::string_view name) const;
+
+  /// "3.2 … 4.6 kg", "presliding", "none"; of a distribution without ends "about 130 N m/rad".
+  std::string text(std::string_view name) const;
+  std::string text(std::size_t slot) const;
+
+  /// "per rig", "per trial", … where the value is drawn; else empty.
+  std::string draw_text(std::size_t slot) const;
+
+ private:
+  std::size_t slot_of(std::string_view name) const;
+  std::vector<double> typical_values(std::size_t slot) const;  ///< under each condition
+
+  const study::Study& study_;
+  std::int64_t point_;
+};
+
+/// A block of the axis: its name, and its main numbers with their units, a line each.
+struct DiagramBlock {
+  std::string title;
+  std::vector<std::string> lines;
+};
+
+/// The axis as blocks in the direction of the signals: reference → controller → drive → plant → encoder,
+/// which closes the loop.
+struct AxisDiagram {
+  DiagramBlock reference;                     ///< of an open loop the levels of the torque
+  std::optional<DiagramBlock> controller{};   ///< none of an open loop
+  DiagramBlock drive;                         ///< converter and amplifier
+  DiagramBlock plant;                         ///< motor and moved mass, with the load if there is one
+  std::optional<DiagramBlock> friction{};     ///< none without friction
+  std::optional<DiagramBlock> disturbance{};  ///< none without disturbances
+  DiagramBlock encoder;
+};
+
+/// The axis of a design point: what is on in some trial under some condition.
+AxisDiagram axis_diagram(const study::Study& study, std::int64_t point);
+
+/// The axis as HTML: boxes that page.css lays out and joins by arrows, from left to right on wide screens and
+/// paper, from top to bottom on phones.
+std::string diagram_html(const AxisDiagram& diagram);
+
+/// A goal in SI units: "±10 nm for good after 30 ms; true overshoot ≤ 1 µm; in 95 % of moves 0, 3 of 95 % of
+/// the machines, with 95 % confidence".
+std::string requirement_text(const study::Goal& goal, const study::Study& study);
+
+/// Each goal under each condition at the chosen point: the verdict with its bounds, and what the moves do:
+/// overshoot, peak torque, saturation. Without a goal the latter alone.
+/// @param claims by goal and condition
+std::string requirements_html(const ReportedStudy& reported, const std::vector<summary::CellOfPoint>& claims);
 
 /// Parts that the results file does not contain. A part that is not given is made from the file.
 struct FirstScreenParts {

@@ -123,7 +123,7 @@ std::vector<document::Figure> lost_ages_figures(Of tuning) {
       {std::move(data)});
   std::vector<double> ages;
   for (const tuning::AgeVerdict& at : life->tried) ages.push_back(at.age);
-  report::scale_ages(figure, ages, study.ages.unit);
+  report::scale_ages(figure, ages);
   return {std::move(figure)};
 }
 

@@ -12,7 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/parallel/parallel.hpp"
-#include "analysis/report/embedded_files.hpp"
+#include "analysis/report/figures/figure.hpp"
 #include "analysis/report/page.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest_text/point_manifest.hpp"

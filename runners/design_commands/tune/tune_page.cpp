@@ -5,8 +5,8 @@
 
 #include "analysis/document/markup.hpp"
 #include "analysis/report/first_screen/first_screen.hpp"
+#include "analysis/report/page.hpp"
 #include "analysis/report/report.hpp"
-#include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "results/layout/header.hpp"
 #include "runners/commands/verified_report.hpp"

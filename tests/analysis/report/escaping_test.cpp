@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/document/markup.hpp"
-#include "analysis/report/html.hpp"
+#include "analysis/report/figures/figure.hpp"
 
 namespace zerocount::report {
 namespace {

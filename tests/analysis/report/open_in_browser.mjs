@@ -121,20 +121,18 @@ async function checkPage({page, said, requests, name}) {
   return figures.length;
 }
 
-/// The frames of the block diagram hold their text.
+/// The blocks of the diagram hold their text and do not overlap.
 async function checkDiagram({page, name}) {
-  const lost = await page.evaluate(() => {
-    const svg = [...document.querySelectorAll("svg.axis")].filter(one => one.getBoundingClientRect().width > 0);
-    if (svg.length !== 1) return [`${svg.length} drawings are shown`];
-    const frames = [...svg[0].querySelectorAll("rect")].map(frame => frame.getBBox());
-    const texts = [...svg[0].querySelectorAll("text")].filter(text => text.textContent.length > 3 && !text.textContent.startsWith("Disturbance:"));
-    return texts.filter(text => {
-      const box = text.getBBox();
-      return !frames.some(frame => box.x >= frame.x && box.x + box.width <= frame.x + frame.width + 0.5 &&
-                                   box.y >= frame.y && box.y + box.height <= frame.y + frame.height + 0.5);
-    }).map(text => text.textContent);
+  const wrong = await page.evaluate(() => {
+    const blocks = [...document.querySelectorAll(".axis>.block")].map(block => [block, block.getBoundingClientRect()]);
+    const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+    const pairs = blocks.flatMap(([a, first], i) => blocks.slice(i + 1).filter(([, second]) => overlap(first, second)).map(([b]) => `${a.className} on ${b.className}`));
+    const lost = blocks.flatMap(([block, frame]) => [...block.querySelectorAll("b,span")]
+      .filter(text => !text.closest(".disturbance") && (text.scrollWidth > text.clientWidth || text.getBoundingClientRect().bottom > frame.bottom))
+      .map(text => text.textContent));
+    return [...(blocks.length >= 4 ? [] : [`${blocks.length} blocks`]), ...pairs, ...lost];
   });
-  expect(lost.length === 0, `${name}: the frames of the diagram hold their text: ${lost.join("; ")}`);
+  expect(wrong.length === 0, `${name}: the blocks of the diagram hold their text: ${wrong.join("; ")}`);
 }
 
 /// No table is wider than its column, folded ones and those behind figures included.

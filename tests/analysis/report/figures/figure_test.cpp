@@ -8,9 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/report/embedded_files.hpp"
-#include "analysis/report/figures/standalone_figure.hpp"
-#include "analysis/report/page.hpp"
 #include "tests/results/failures.hpp"
 
 namespace zerocount::report {
@@ -31,21 +28,6 @@ TEST(SpacedByRatio, TellsTheTwoSpacingsApart) {
   EXPECT_FALSE(spaced_by_ratio({1.0, 2.0, 3.0, 4.0}));
   EXPECT_FALSE(spaced_by_ratio({0.0, 1.0, 10.0}));
   EXPECT_FALSE(spaced_by_ratio({1.0, 10.0}));
-}
-
-TEST(RoundNumbers, AreOneTwoFiveWithinTheRange) {
-  EXPECT_EQ(round_numbers(0.0, 0.6, 0.01), nlohmann::ordered_json({0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5}));
-  EXPECT_EQ(round_numbers(-30.0, 3000.0, 1.0), nlohmann::ordered_json({0, 1, -1, 10, -10, 100, 1000}));
-}
-
-TEST(RoundNumbers, AreNoneOfWhatIsNotFinite) {
-  const double infinity = std::numeric_limits<double>::infinity();
-  for (const double strange : {infinity, -infinity, std::nan("")}) {
-    EXPECT_TRUE(round_numbers(0.0, strange, 0.01).empty());
-    EXPECT_TRUE(round_numbers(0.0, 1.0, strange).empty());
-  }
-  EXPECT_TRUE(round_numbers(0.0, 1.0, 0.0).empty());
-  EXPECT_EQ(round_numbers(0.0, std::numeric_limits<double>::max(), 1.0).size(), 310U);  // 0, 1, 10, …, 1e308
 }
 
 TEST(Specifications, AreVegaLiteOfDataByName) {
@@ -74,24 +56,6 @@ TEST(Specifications, NameColoursThatThereAre) {
       EXPECT_TRUE(colours["dark"].contains((*match)[1].str())) << file.name << ": " << (*match)[1];
     }
   }
-}
-
-TEST(StandaloneFigure, NeedsNeitherDataNorThemeNorColoursOfThePage) {
-  const Figure figure = figure_of("success", "success", "Success", "",
-                                  {{"points",
-                                    {{"label", "point", ""}, {"rate", "rate", "1"}},
-                                    {nlohmann::ordered_json::array({"var(--a label)", 0.5})}}});
-  const nlohmann::ordered_json whole = standalone_specification(figure);
-  EXPECT_EQ(whole["width"], 560);
-  EXPECT_EQ(whole["config"]["background"], "white");
-  EXPECT_EQ(whole["config"]["line"]["color"], light_colours()["--s1"]);
-  EXPECT_EQ(whole["layer"][1]["mark"]["color"], light_colours()["--ink"]);
-  EXPECT_EQ(whole["datasets"]["points"][0]["label"], "var(--a label)");
-  EXPECT_EQ(whole["datasets"]["points"][0]["rate"], 0.5);
-  nlohmann::ordered_json drawing = whole;
-  drawing.erase("datasets");
-  EXPECT_EQ(drawing.dump().find("var(--"), std::string::npos);
-  EXPECT_EQ(drawing.dump().find("container"), std::string::npos);
 }
 
 TEST(EmbeddedFiles, WhatIsMissingIsSaidWithWhatToDo) {

@@ -1,10 +1,10 @@
-#include "analysis/report/figures/thinned_trace.hpp"
-
 #include <algorithm>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "analysis/report/figures/report_figures.hpp"
 
 namespace zerocount::report {
 namespace {

@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/report/first_screen/quantity.hpp"
-#include "analysis/report/first_screen/requirements.hpp"
 #include "analysis/summary/move_behaviour.hpp"
 #include "tests/analysis/report/run_studies.hpp"
 #include "tests/support/temporary_folder.hpp"

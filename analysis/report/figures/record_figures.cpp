@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "analysis/experiment_design/experiment_design.hpp"
 #include "analysis/identification/identification.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
-#include "analysis/report/figures/thinning.hpp"
-#include "analysis/report/html.hpp"
+#include "analysis/theory/point_theory.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -37,20 +36,9 @@ ShownUnit shown_unit(const RecordSummary& record) {
   return {"µ" + parameters::unit_on(record.axis, "rad"), record.unit / micro};
 }
 
-/// Smallest and largest value of a drawn axis.
-struct AxisRange {
-  double low{std::numeric_limits<double>::infinity()};
-  double high{-std::numeric_limits<double>::infinity()};
-
-  void add(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-};
-
 /// Range of the fit and of the readings without the masked ones, which may be far off.
-AxisRange angle_range(const FittedRecord& record, const ShownUnit& unit) {
-  AxisRange range;
+theory::Range angle_range(const FittedRecord& record, const ShownUnit& unit) {
+  theory::Range range;
   for (std::size_t k = 0; k < record.time.size(); ++k) {
     range.add(unit.size * record.fitted[k]);
     if (!record.excluded[k]) range.add(unit.size * record.reading[k]);
@@ -130,20 +118,12 @@ std::string fit_caption(const RecordSummary& record, const ShownUnit& unit, doub
   return caption;
 }
 
-/// Sets the titles and the range of the axes, and the legend.
-void set_axes(ordered_json& specification, const ShownUnit& unit, parameters::AxisKind kind,
-              const AxisRange& range, bool masked) {
-  ordered_json& panels = specification["vconcat"];
-  const std::string angle = fmt::format("{} ({})", parameters::text_on(kind, "$angle"), unit.name);
-  for (ordered_json* const axis : {&panels[0]["encoding"]["y"], &panels[2]["encoding"]["x"]}) {
-    (*axis)["title"] = angle;
-    (*axis)["scale"]["domain"] = {datum(range.low), datum(range.high)};
-    if (unit.name != "counts") (*axis)["axis"].erase("tickMinStep");
-  }
-  panels[2]["encoding"]["y"]["title"] = parameters::text_on(kind, "$torque ($Nm)");
-  panels[1]["encoding"]["y"]["title"] = fmt::format("residual ({})", unit.name);
+/// Sets the range of the readings, and without masked samples drops their layers and their entry in the
+/// legend.
+void set_axes(ordered_json& panels, const theory::Range& range, bool masked) {
+  panels[0]["encoding"]["y"]["scale"]["domain"] = {datum(range.low), datum(range.high)};
+  panels[2]["encoding"]["x"]["scale"]["domain"] = {datum(range.low), datum(range.high)};
   if (masked) return;
-  // Without masked samples the legend has no entry for them.
   panels[0]["layer"].erase(2);
   panels[2]["layer"].erase(1);
   ordered_json& colours = panels[0]["layer"][1]["encoding"]["color"]["scale"];
@@ -160,7 +140,7 @@ Figure fit_figure(const RecordSummary& record, const FittedRecord& fit, std::siz
       figure_of("identification", fmt::format("record-{}", number), record.name,
                 fit_caption(record, unit, band, samples.size()),
                 {samples_data(fit, unit, record.axis, samples), masks_data(fit), band_data(band)});
-  set_axes(figure.specification, unit, record.axis, angle_range(fit, unit), record.excluded > 0);
+  set_axes(figure.specification["vconcat"], angle_range(fit, unit), record.excluded > 0);
   return figure;
 }
 
@@ -209,6 +189,35 @@ std::vector<Figure> identification_figures(const Identification& identification)
   for (std::size_t r = 0; r < records; ++r)
     figures.push_back(fit_figure(identification.records[r], identification.fitted[r], r + 1, buckets));
   return figures;
+}
+
+using experiment_design::ExperimentDesign;
+
+Figure experiment_figure(const ExperimentDesign& design) {
+  constexpr std::size_t buckets = 500;
+  const auto torque = [&](std::size_t k) { return design.protocol.torque[k]; };
+  const auto count = [&](std::size_t k) { return static_cast<double>(design.record.counts[k]); };
+  const std::size_t samples = design.protocol.torque.size();
+  const std::size_t length = std::max<std::size_t>(1, samples / buckets);
+  std::vector<std::size_t> drawn;
+  for (std::size_t first = 0; first < samples; first += length) {
+    const auto kept = extreme_samples(first, std::min(first + length, samples), {torque, count});
+    drawn.insert(drawn.end(), kept.begin(), kept.end());
+  }
+  constexpr int digits = 9;
+  const auto time = [&](std::size_t k) { return static_cast<double>(k) * design.frame.sample_time; };
+  Figure figure = figure_of(
+      "experiment", "experiment", "The experiment",
+      "Top: the $torque to command. Bottom: the readings that the machine with the median of every guess "
+      "would give. "
+      "All extremes of the samples are drawn.",
+      {data_of<std::size_t>(
+          "samples", drawn,
+          {{{"time", "time", "s"}, [&](std::size_t k) { return datum(time(k), digits); }},
+           {{"torque", "$torque", "N m"}, [&](std::size_t k) { return datum(torque(k)); }},
+           {{"count", "reading", "counts"}, [&](std::size_t k) { return datum(count(k), digits); }}})});
+  put_on_axis(figure, design.frame.axis);
+  return figure;
 }
 
 }  // namespace zerocount::report

@@ -1,5 +1,4 @@
-#include "analysis/report/figures/axis_ticks.hpp"
-
+// What figures.js makes of a specification: the labels of axes, and that it needs nothing of the page.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +18,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/report/report.hpp"
+#include "analysis/report/figures/figure.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::report {
@@ -64,7 +63,6 @@ nlohmann::ordered_json panel_of(const RandomAxis& axis, const std::string& data,
   if (axis.scale == "linear") x["scale"]["zero"] = false;
   if (axis.scale == "symlog") {
     x["scale"]["constant"] = axis.high / 1000.0;
-    x["axis"]["values"] = round_numbers(axis.low, axis.high, axis.high / 1000.0);
   }
   if (axis.unit == "%") x["axis"]["format"] = "~p";
   return {{"width", width},
@@ -77,6 +75,16 @@ nlohmann::ordered_json panel_of(const RandomAxis& axis, const std::string& data,
 std::string text_of(const std::filesystem::path& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// What the program of a figure writes. @param form of drawing_program
+std::string drawn_by_node(const Figure& figure, const char* form) {
+  const testing::TemporaryFolder folder;
+  std::ofstream(folder / "draw.js") << drawing_program(figure, form);
+  const std::string command = fmt::format("'{}' '{}' > '{}'", ZEROCOUNT_NODE, (folder / "draw.js").string(),
+                                          (folder / "drawn").string());
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  return text_of(folder / "drawn");
 }
 
 /// The title and the visible labels of an axis in a picture.
@@ -168,12 +176,7 @@ TEST(TickLabels, DifferAndHaveAtMostFourFigures) {
     figure.specification["vconcat"].push_back(panel_of(axis, name, i % 2 == 0 ? 260 : 800));
     figure.data.push_back({name, {{"x", "value", axis.unit}}, {{axis.low}, {axis.high}}});
   }
-  const testing::TemporaryFolder folder;
-  std::ofstream(folder / "draw.js") << drawing_program(figure);
-  const std::string command = fmt::format("'{}' '{}' > '{}'", ZEROCOUNT_NODE, (folder / "draw.js").string(),
-                                          (folder / "axes.svg").string());
-  ASSERT_EQ(std::system(command.c_str()), 0);
-  std::vector<DrawnAxis> drawn = drawn_axes(text_of(folder / "axes.svg"));
+  std::vector<DrawnAxis> drawn = drawn_axes(drawn_by_node(figure, "svg"));
   std::erase_if(drawn, [](const DrawnAxis& axis) { return axis.labels.empty() && axis.title.empty(); });
   ASSERT_EQ(drawn.size(), wanted.size());
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -190,6 +193,53 @@ TEST(TickLabels, DifferAndHaveAtMostFourFigures) {
       EXPECT_TRUE(number >= axis.low - room && number <= axis.high + room) << label << " in " << what;
     }
   }
+}
+
+TEST(DrawnFigure, NeedsNeitherDataNorThemeNorColoursOfThePage) {
+  const Figure figure = figure_of("success", "success", "Success", "",
+                                  {{"points",
+                                    {{"label", "point", ""}, {"rate", "rate", "1"}},
+                                    {nlohmann::ordered_json::array({"var(--a label)", 0.5})}}});
+  const nlohmann::ordered_json whole = nlohmann::ordered_json::parse(drawn_by_node(figure, "specification"));
+  EXPECT_EQ(whole["width"], 560);
+  EXPECT_EQ(whole["config"]["background"], "white");
+  EXPECT_EQ(whole["config"]["line"]["color"], colours_of("light")["--s1"]);
+  EXPECT_EQ(whole["layer"][1]["mark"]["color"], colours_of("light")["--ink"]);
+  EXPECT_EQ(whole["datasets"]["points"][0]["label"], "var(--a label)");
+  EXPECT_EQ(whole["datasets"]["points"][0]["rate"], 0.5);
+  nlohmann::ordered_json drawing = whole;
+  drawing.erase("datasets");
+  EXPECT_EQ(drawing.dump().find("var(--"), std::string::npos);
+  EXPECT_EQ(drawing.dump().find("container"), std::string::npos);
+}
+
+/// Titles come from the columns, one panel is drawn for each value, and layers without rows are left out.
+TEST(DrawnFigure, HasTitlesPanelsAndLayersByItsData) {
+  using nlohmann::ordered_json;
+  const auto layer = [](const char* data, const char* title) {
+    return ordered_json{{"data", {{"name", data}}},
+                        {"mark", "point"},
+                        {"encoding",
+                         {{"x", {{"field", "time"}, {"type", "quantitative"}, {"title", title}}},
+                          {"tooltip", {{{"field", "time"}}, {{"field", "kind"}, {"title", "own"}}}}}}};
+  };
+  const std::vector<FigureColumn> columns{{"time", "arrived by", "s"}, {"kind", "kind of it", ""}};
+  Figure figure{"f",
+                "",
+                "",
+                {{"width", "container"}, {"layer", {layer("all", "@time"), layer("none", "words (@time)")}}},
+                {{"all", columns, {{1.5, "it's"}, {2.5, "b"}}}, {"none", columns, {}}}};
+  const auto drawn = [&] { return ordered_json::parse(drawn_by_node(figure, "specification")); };
+  const ordered_json whole = drawn();
+  ASSERT_EQ(whole["layer"].size(), 1U);
+  EXPECT_EQ(whole["layer"][0]["encoding"]["x"]["title"], "arrived by (s)");
+  EXPECT_EQ(whole["layer"][0]["encoding"]["tooltip"][0]["title"], "arrived by (s)");
+  EXPECT_EQ(whole["layer"][0]["encoding"]["tooltip"][1]["title"], "own");
+  divide_into_panels(figure, "kind", {{"it's", "first"}, {"b", "second"}});
+  const ordered_json panels = drawn()["vconcat"];
+  ASSERT_EQ(panels.size(), 2U);
+  EXPECT_EQ(panels[0]["title"], "first");
+  EXPECT_EQ(panels[0]["layer"][0]["transform"][0]["filter"]["equal"], "it's");
 }
 
 }  // namespace

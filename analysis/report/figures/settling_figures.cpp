@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/statistics/spread_over.hpp"
 #include "analysis/statistics/sums/histogram.hpp"
+#include "analysis/summary/worlds_of_point.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/quantity.hpp"
 #include "analysis/text/text.hpp"
@@ -33,15 +32,61 @@ double band_of(const ReportedStudy& reported, const measures::PointSummary& poin
                    (2.0 * static_cast<double>(clusters)));
 }
 
-statistics::Histogram<double> settling_times(const ReportedStudy& reported, std::int64_t point) {
-  statistics::Histogram<double> times;
-  measures::visit_trials(reported.file, rows_of(reported, point),
-                         [&](std::int64_t, std::span<const trial::MoveOutcome> moves) {
-                           for (const trial::MoveOutcome& move : moves) {
-                             if (move.arrived) times.add(move.settling_time);
-                           }
-                         });
-  return times;
+/// Moves that are asked, and the times from which they are settled.
+struct SettledMoves {
+  statistics::Histogram<double> times{};
+  std::int64_t asked{0};
+};
+
+/// The moves of a point, divided by the world of their trial. @param time of a move; NaN where it does not
+/// settle, nothing where it is not asked
+using SettlingTime = std::function<std::optional<double>(const trial::MoveOutcome&)>;
+std::vector<SettledMoves> settled_by_world(const ReportedStudy& reported, std::int64_t point,
+                                           std::size_t worlds, const SettlingTime& time) {
+  std::vector<SettledMoves> settled(worlds);
+  const layout::RowRange rows = rows_of(reported, point);
+  measures::visit_trials(
+      reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+        const std::int64_t world = worlds == 1 ? 0 : study::world_of(reported.study, row - rows.first);
+        SettledMoves& of_world = settled[static_cast<std::size_t>(world)];
+        for (const trial::MoveOutcome& move : moves) {
+          const std::optional<double> found = time(move);
+          if (!found) continue;
+          ++of_world.asked;
+          if (!std::isnan(*found)) of_world.times.add(*found);
+        }
+      });
+  return settled;
+}
+
+SettlingTime time_in(const measures::CountedGoal& goal) {
+  return [&goal](const trial::MoveOutcome& move) {
+    return measures::asks(goal, move) ? std::optional(measures::settling_time(goal, move)) : std::nullopt;
+  };
+}
+
+std::optional<double> arrival_time(const trial::MoveOutcome& move) {
+  return move.arrived ? move.settling_time : std::nan("");
+}
+
+/// The latest time; 0 where no move settles.
+double end_of(const SettledMoves& moves) {
+  return moves.times.size > 0 ? statistics::largest(moves.times) : 0.0;
+}
+
+/// The distribution function of the times as at most about `most` steps {time, proportion}, from 0 to
+/// the last time.
+std::vector<std::pair<double, double>> steps_of(const SettledMoves& moves, std::int64_t most) {
+  std::vector<std::pair<double, double>> steps{{0.0, 0.0}};
+  std::int64_t settled = 0;
+  std::int64_t shown = 0;
+  for (const auto& [time, count] : moves.times.counts) {
+    settled += count;
+    if (settled < moves.times.size && (settled - shown) * most < moves.times.size) continue;
+    steps.emplace_back(time, static_cast<double>(settled) / static_cast<double>(moves.asked));
+    shown = settled;
+  }
+  return steps;
 }
 
 const measures::MeasureStatistics& settling_of(const ReportedStudy& reported, std::int64_t point) {
@@ -75,26 +120,14 @@ std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
   return shown;
 }
 
-void add_curve(FigureData& data, const std::string& label, const statistics::Histogram<double>& times,
-               std::int64_t moves, double half_width, double end) {
-  const auto row = [&](double time, std::int64_t arrived) {
-    const double proportion = static_cast<double>(arrived) / static_cast<double>(moves);
-    data.rows.push_back(ordered_json::array({label, datum(time), datum(proportion),
-                                             datum(std::max(0.0, proportion - half_width)),
-                                             datum(std::min(1.0, proportion + half_width))}));
-  };
-  row(0.0, 0);
-  std::int64_t arrived = 0;
-  std::int64_t shown = 0;
-  for (const auto& [time, count] : times.counts) {
-    arrived += count;
-    const bool last = arrived == times.size;
-    if (last || (arrived - shown) * max_steps >= times.size) {
-      row(time, arrived);
-      shown = arrived;
-    }
-  }
-  if (times.size == 0 || statistics::largest(times) < end) row(end, arrived);
+/// Adds a curve with its band, which goes on to `end`.
+void add_curve(FigureData& data, const std::string& label, const SettledMoves& moves, double half_width,
+               double end) {
+  std::vector<std::pair<double, double>> steps = steps_of(moves, max_steps);
+  if (moves.times.size == 0 || end_of(moves) < end) steps.emplace_back(end, steps.back().second);
+  for (const auto& [time, proportion] : steps)
+    data.rows.push_back({label, datum(time), datum(proportion), datum(std::max(0.0, proportion - half_width)),
+                         datum(std::min(1.0, proportion + half_width))});
 }
 
 /// "kp=400, loaded"; of a study with one point "loaded".
@@ -146,8 +179,9 @@ std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
   for (const std::int64_t point : shown) {
     for (const ReportedPart& part : parts_of(reported)) {
       const measures::PointSummary& summary = point_of(part.study, point);
-      add_curve(data, label_of_curve(reported, part, point), settling_times(part.study, point), summary.moves,
-                band_of(part.study, summary), end);
+      const std::vector<SettledMoves> moves = settled_by_world(part.study, point, 1, arrival_time);
+      add_curve(data, label_of_curve(reported, part, point), moves.front(), band_of(part.study, summary),
+                end);
     }
   }
   Figure figure = figure_of("settling-time", "settling-time", "How soon do the moves arrive?", caption,
@@ -156,7 +190,6 @@ std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
   if (start > 0.0 && end > 12.0 * start) {  // otherwise a few late arrivals would compress all others
     x["scale"]["type"] = "symlog";
     x["scale"]["constant"] = start / 4.0;
-    x["axis"]["values"] = round_numbers(0.0, end, start / 4.0);
     figure.caption += "The time axis is linear near zero and logarithmic beyond.";
   }
   if (shown.size() == 1) colour_conditions(figure.specification["encoding"]["color"], reported);
@@ -187,42 +220,22 @@ std::vector<SettledSubject> settled_subjects(const ReportedStudy& reported) {
   return subjects;
 }
 
-/// The moves of the chosen point that are asked, and the times from which they are settled.
-struct SettledMoves {
-  statistics::Histogram<double> times;
-  std::int64_t asked{0};
-};
-
-SettledMoves settled_moves(const ReportedStudy& reported, const measures::CountedGoal& goal) {
-  SettledMoves settled;
-  measures::visit_trials(reported.file, rows_of(reported, reported.chosen.point),
-                         [&](std::int64_t, std::span<const trial::MoveOutcome> moves) {
-                           for (const trial::MoveOutcome& move : moves) {
-                             if (!measures::asks(goal, move)) continue;
-                             ++settled.asked;
-                             const double time = measures::settling_time(goal, move);
-                             if (!std::isnan(time)) settled.times.add(time);
-                           }
-                         });
-  return settled;
-}
-
 /// Adds the curves of a subject, one for each condition; returns whether a move settles.
 bool add_settled(FigureData& data, const ReportedStudy& reported, const SettledSubject& subject) {
   std::vector<SettledMoves> settled;
   const std::vector<ReportedPart> parts = parts_of(reported);
+  const std::int64_t chosen = reported.chosen.point;
   double end = 0.0;
   for (const ReportedPart& part : parts) {
-    settled.push_back(settled_moves(part.study, subject.counted));
-    if (settled.back().times.size > 0) end = std::max(end, statistics::largest(settled.back().times));
+    settled.push_back(settled_by_world(part.study, chosen, 1, time_in(subject.counted)).front());
+    end = std::max(end, end_of(settled.back()));
   }
   if (end == 0.0) return false;
   if (subject.claim) end = std::max(end, subject.claim->within);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::size_t first = data.rows.size();
-    add_curve(data, has_conditions(reported) ? parts[i].condition : subject.name, settled[i].times,
-              settled[i].asked, band_of(parts[i].study, point_of(parts[i].study, reported.chosen.point)),
-              end);
+    add_curve(data, has_conditions(reported) ? parts[i].condition : subject.name, settled[i],
+              band_of(parts[i].study, point_of(parts[i].study, chosen)), end);
     for (std::size_t row = first; row < data.rows.size(); ++row) data.rows[row].push_back(subject.name);
   }
   return true;
@@ -234,18 +247,7 @@ void add_goals(Figure& figure, const std::vector<SettledSubject>& subjects) {
                    {{"within", "within", "s"}, {"moves", "proportion of moves", "1"}, {"subject", "", ""}}};
   for (const SettledSubject& one : subjects)
     if (one.claim) goals.rows.push_back({one.claim->within, one.claim->moves, one.name});
-  if (goals.rows.empty()) return;
-  figure.data.push_back(std::move(goals));
-  const ordered_json start{{"value", 0}};
-  const auto add = [&](ordered_json encoding) {
-    encoding["color"] = {{"value", "var(--ink)"}};
-    figure.specification["layer"].push_back(
-        {{"data", {{"name", "goals"}}},
-         {"mark", {{"type", "rule"}, {"strokeDash", {4, 3}}, {"strokeWidth", 1.2}}},
-         {"encoding", std::move(encoding)}});
-  };
-  add({{"x", {{"field", "within"}, {"type", "quantitative"}}}, {"y", start}, {"y2", {{"value", "height"}}}});
-  add({{"x", start}, {"x2", {{"value", "width"}}}, {"y", {{"field", "moves"}, {"type", "quantitative"}}}});
+  if (!goals.rows.empty()) figure.data.push_back(std::move(goals));
 }
 
 /// "large: ±10 nm after 30 ms in 95 % of the moves".
@@ -286,10 +288,8 @@ std::optional<Figure> settled_figure(const ReportedStudy& reported) {
                     : fmt::format("How soon are the moves within {} for good?",
                                   with_claim ? "what each goal asks" : "each band"),
                 caption, {std::move(data)});
-  ordered_json& encoding = figure.specification["encoding"];
-  encoding["x"]["title"] = "time since the start of the move (s)";
-  figure.specification["layer"][0]["encoding"]["y"]["title"] = "proportion of moves";
-  if (has_conditions(reported) || with_claim) colour_conditions(encoding["color"], reported);
+  if (has_conditions(reported) || with_claim)
+    colour_conditions(figure.specification["encoding"]["color"], reported);
   add_goals(figure, subjects);
   if (!has_conditions(reported) && !with_claim) return figure;
   std::vector<FigurePanel> panels;
@@ -310,6 +310,124 @@ std::vector<Figure> distribution_figures(const ReportedStudy& reported) {
   };
   if (!question_of(reported).claim()) add(arrival_figure(reported));
   if (!reported.study.open_loop) add(settled_figure(reported));
+  return figures;
+}
+
+namespace {
+
+constexpr std::size_t max_parameters = 6;
+constexpr std::size_t max_world_curves = 200;  ///< worlds with a curve
+constexpr std::int64_t max_world_steps = 80;   ///< of a curve
+
+/// The parameter of a rule, or the first.
+std::size_t leading_input(const worlds::PointWorlds& point) {
+  return point.rule ? point.rule->conditions.front().input : 0;
+}
+
+/// Draws what is asked as a dashed line across the figure. @param channel "x" or "y"
+void add_asked(Figure& figure, const char* channel, double value) {
+  ordered_json encoding{
+      {"x", nullptr}, {"y", nullptr}, {"detail", nullptr}, {"color", {{"value", "var(--ink)"}}}};
+  encoding[channel] = {{"field", "asked"}, {"type", "quantitative"}};
+  figure.specification["layer"].push_back(
+      {{"data", {{"values", {{{"asked", value}}}}}},
+       {"mark", {{"type", "rule"}, {"strokeDash", {4, 3}}, {"strokeWidth", 1.2}}},
+       {"encoding", std::move(encoding)}});
+}
+
+/// One curve of settled moves for each world ("horsetail").
+std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds::PointWorlds& point) {
+  const goal::Question& question = reported.summary.question;
+  if (!question.claim() && reported.study.features.bands.count == 0) return std::nullopt;
+  const std::vector<worlds::WorldInput>& inputs =
+      summary::world_inputs_of(reported.summary, reported.chosen.point);
+  const measures::CountedGoal goal = question.claim() ? question.counted() : measures::CountedGoal{.slot = 0};
+  const std::vector<SettledMoves> moves = settled_by_world(
+      reported, reported.chosen.point, static_cast<std::size_t>(reported.study.worlds), time_in(goal));
+  double end = question.claim() ? question.claim()->within : 0.0;
+  for (const SettledMoves& one : moves) end = std::max(end, end_of(one));
+  const bool colours = !inputs.empty();
+  const std::size_t input = leading_input(point);
+  const std::string parameter = colours ? inputs[input].name : std::string("world");
+  FigureData data{"steps",
+                  {{"world", "world", ""},
+                   {"time", "within the band for good from", "s"},
+                   {"share", "proportion of moves", "1"},
+                   {"bad", "bad world", ""},
+                   {"value", parameter, colours ? inputs[input].unit : "1"}}};
+  for (std::size_t world = 0; world < std::min(moves.size(), max_world_curves); ++world) {
+    std::vector<std::pair<double, double>> steps = steps_of(moves[world], max_world_steps);
+    steps.emplace_back(end, steps.back().second);
+    for (const auto& [time, share] : steps)
+      data.rows.push_back({world, datum(time), datum(share), static_cast<bool>(point.bad[world]),
+                           datum(colours ? inputs[input].values[world] : static_cast<double>(world))});
+  }
+  Figure figure = figure_of(
+      "world-curves", "worlds", "How soon do the moves of each world settle?",
+      fmt::format(
+          "Proportion of the moves of each world, at {}, whose error stays within ±{} from a time "
+          "on. {}. Bad worlds are coloured by {}{}.",
+          label_of(reported, reported.chosen.point),
+          precision_text(reported, question.claim()
+                                       ? *question.claim()
+                                       : study::Goal{.band = reported.study.features.bands.values()[0]}),
+          summary::bad_worlds_sentence(point, inputs, reported.summary.question), parameter,
+          moves.size() > max_world_curves ? fmt::format("; shown are the first {}", max_world_curves) : ""),
+      {std::move(data)});
+  if (std::ranges::find(point.bad, true) == point.bad.end())
+    figure.specification["layer"].erase(1);  // a layer without rows has no scale
+  if (question.claim()) {
+    add_asked(figure, "x", question.claim()->within);
+    add_asked(figure, "y", question.claim()->moves);
+  }
+  return figure;
+}
+
+/// The rate of each world over a parameter that differs between them.
+Figure rate_figure(const ReportedStudy& reported, const worlds::PointWorlds& point, std::size_t input) {
+  const worlds::WorldInput& parameter =
+      summary::world_inputs_of(reported.summary, reported.chosen.point)[input];
+  FigureData data{"worlds",
+                  {{"world", "world", ""},
+                   {"value", parameter.name, parameter.unit},
+                   {"rate", "rate", "1"},
+                   {"low", "lower bound", "1"},
+                   {"high", "upper bound", "1"},
+                   {"kind", "kind", ""}}};
+  for (std::size_t world = 0; world < point.bad.size(); ++world) {
+    const goal::BoundedProportion& rate = point.asked.worlds[world];
+    data.rows.push_back(
+        ordered_json::array({world, datum(parameter.values[world]), datum(rate.value), datum(rate.low),
+                             datum(rate.high), point.bad[world] ? "bad world" : "other world"}));
+  }
+  Figure figure = figure_of(
+      "world-rate", fmt::format("world-rate-{}", input + 1),
+      fmt::format("Does {} decide whether a world is good?", parameter.name),
+      fmt::format("Proportion of the {} in each world, at {}, with one-sided bounds {}.",
+                  goal::judged_meeting(reported.summary.question), label_of(reported, reported.chosen.point),
+                  point.goal ? "which all hold together with the confidence of the goal"
+                             : "each world alone, with 95 % confidence"),
+      {std::move(data)});
+  const auto [least, largest] = std::ranges::minmax(parameter.values);
+  if (least > 0.0 && largest > 5.0 * least)
+    figure.specification["encoding"]["x"]["scale"] = {{"type", "log"}};
+  if (const std::optional<study::Goal>& claim = reported.summary.question.claim())
+    add_asked(figure, "y", claim->machines.value_or(claim->moves));
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> world_figures(const ReportedStudy& reported) {
+  std::vector<Figure> figures;
+  const summary::StudySummary& study = reported.summary;
+  const std::optional<worlds::PointWorlds> found = summary::worlds_of_point(study, reported.chosen.point);
+  if (!found) return figures;
+  const worlds::PointWorlds& point = *found;
+  if (std::optional<Figure> curves = curves_figure(reported, point)) figures.push_back(std::move(*curves));
+  const std::size_t inputs = summary::world_inputs_of(study, reported.chosen.point).size();
+  for (std::size_t input = 0; input < std::min(inputs, max_parameters); ++input)
+    figures.push_back(rate_figure(reported, point, input));
   return figures;
 }
 

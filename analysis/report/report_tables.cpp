@@ -1,19 +1,18 @@
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numeric>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "analysis/document/answer.hpp"
+#include "analysis/document/blocks.hpp"
 #include "analysis/document/markup.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/summary_answer/parts.hpp"
 #include "analysis/summary_answer/summary_answer.hpp"
 #include "analysis/text/text.hpp"
+#include "core/text/counted.hpp"
+#include "core/text/shell_word.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -139,6 +138,100 @@ std::string points_html(const ReportedStudy& reported) {
 
 std::string zero_count_tables_html(const ReportedStudy& reported) {
   return html_of(reported, zero_count_description(reported.summary));
+}
+
+namespace {
+
+std::string design_text(const study::Study& study) {
+  std::string text;
+  switch (study.design) {
+    case study::Design::monte_carlo:
+      text = "Monte Carlo";
+      break;
+    case study::Design::latin_hypercube:
+      text = "Latin hypercube";
+      break;
+    case study::Design::sobol:
+      text = "Sobol' sequence";
+      break;
+    case study::Design::saltelli:
+      text = "Saltelli's, for Sobol' indices";
+      break;
+  }
+  return text + (study.independent_points ? ", drawn anew at each point"
+                                          : "; all points share the draws of a trial");
+}
+
+/// The sweep: the range of each number of the grid, and the cases.
+std::vector<document::Fact> sweep_facts(const ReportedStudy& reported) {
+  std::vector<document::Fact> facts;
+  for (const std::size_t i : numeric_axes(reported, 2)) {
+    const study::SweepAxis& axis = reported.summary.axes[i];
+    const std::vector<double> values = values_of(axis);
+    facts.push_back(
+        {"Swept", fmt::format("{}, {} values from {} to {}{}", axis.name, values.size(),
+                              text::short_number(values.front()), text::short_number(values.back()),
+                              axis.unit == "1" ? "" : " " + axis.unit)});
+  }
+  for (const study::SweepAxis& axis : reported.summary.axes) {
+    if (axis.name != "case") continue;
+    std::vector<std::string> names;
+    for (const std::string& name : axis.texts) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    facts.push_back({"Cases", fmt::format("{}", fmt::join(names, ", "))});
+  }
+  return facts;
+}
+
+/// Commands that make the study again, and that check the file.
+std::string commands_text(const ReportedStudy& reported) {
+  const std::string file = text::shell_path(reported.file.path().filename());
+  return fmt::format("zerocount run {0} -o again.h5; zerocount verify {0}", file);
+}
+
+std::vector<document::Fact> facts_of(const ReportedStudy& reported) {
+  const layout::FileHeader& header = reported.file.header();
+  const layout::Provenance& made = header.provenance;
+  std::vector<document::Fact> facts{
+      {"File", reported.file.path().filename().string()},
+      {"Seed", fmt::format("{}", header.seed)},
+      {"Program", fmt::format("zerocount {} ({}), {} engine; {}", made.zerocount_version, made.git_commit,
+                              layout::name_of(header.engine), made.created)},
+      {"Compiler, processor", fmt::format("{}; {}", made.compiler, made.cpu)},
+      {"SHA-256 of the manifest", header.manifest_sha256},
+      {"To repeat it", commands_text(reported)},
+      {"Trials",
+       fmt::format("{} at each of {}, {} each: {}", header.trials,
+                   text::counted(header.points, "design point"), text::counted(reported.file.moves(), "move"),
+                   text::counted(header.points * header.trials, "trial"))},
+      {"Design", design_text(reported.study)}};
+  if (!header.overrides.empty())
+    facts.push_back({"Set on the command line", fmt::format("{}", fmt::join(header.overrides, ", "))});
+  if (header.plugin) {
+    facts.push_back({"Controller", fmt::format("plugin {} {}, SHA-256 {}", header.plugin->name,
+                                               header.plugin->version, header.plugin->sha256)});
+  }
+  if (reported.study.samples)
+    facts.push_back({"Sampled together", study::samples_text(*reported.study.samples)});
+  if (!reported.study.correlations.empty())
+    facts.push_back({"Correlated", study::correlations_text(reported.study.correlations)});
+  for (document::Fact& fact : sweep_facts(reported)) facts.push_back(std::move(fact));
+  return facts;
+}
+
+}  // namespace
+
+std::string run_html(const ReportedStudy& reported) {
+  std::string html;
+  if (layout::is_dirty(reported.file.header().provenance)) {
+    html +=
+        "<p class=\"warning\">The program that ran this study had uncommitted changes: it cannot be built "
+        "again from its history.</p>\n";
+  }
+  return html + document::html(document::FactsBlock{facts_of(reported)}) +
+         html_folded("The manifest",
+                     fmt::format("<pre>{}</pre>", document::markup(reported.file.header().manifest)));
 }
 
 }  // namespace zerocount::report

@@ -8,7 +8,7 @@
 
 #include "analysis/identification/confidence_interval.hpp"
 #include "analysis/identification/records/checked_record.hpp"
-#include "analysis/record_fit/angle_observations.hpp"
+#include "analysis/record_fit/encoder_noise.hpp"
 #include "analysis/record_fit/reading_replicates.hpp"
 #include "analysis/record_fit/residual_checks.hpp"
 #include "core/loop/encoder.hpp"

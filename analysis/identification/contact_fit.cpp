@@ -9,7 +9,7 @@
 
 #include "analysis/identification/fit_refusals.hpp"
 #include "analysis/identification/starting_values/starting_point.hpp"
-#include "analysis/record_fit/angle_observations.hpp"
+#include "analysis/record_fit/encoder_noise.hpp"
 #include "analysis/record_fit/reading_replicates.hpp"
 #include "analysis/record_fit/residual_checks.hpp"
 #include "core/failure/failure.hpp"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/record_fit/angle_observations.hpp"
+#include "analysis/record_fit/encoder_noise.hpp"
 #include "core/failure/failure.hpp"
 #include "core/friction/law.hpp"
 

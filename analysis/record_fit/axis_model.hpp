@@ -18,6 +18,10 @@
 
 namespace zerocount::record_fit {
 
+/// Coordinates of a model: mostly logarithms of its parameters, and last the time offset, the samples by
+/// which the torque acts later than recorded; common to all records.
+using Point = Eigen::VectorXd;
+
 /// A reported quantity: a linear or nearly linear function of the coordinates.
 struct Quantity {
   std::string name;
@@ -60,10 +64,6 @@ inline double max_half_width(bool logarithmic) {
 QuantityEstimate on_parameter_scale(const Quantity& quantity, QuantityEstimate estimate);
 
 using Records = std::span<const TestRecord>;
-
-/// Coordinates of a model: mostly logarithms of its parameters, and last the time offset, the samples by
-/// which the torque acts later than recorded; common to all records.
-using Point = Eigen::VectorXd;
 
 /// Coordinates that a fit changes; the others keep their values.
 using FreeCoordinates = std::vector<bool>;

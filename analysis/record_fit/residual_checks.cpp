@@ -9,7 +9,7 @@
 #include <unsupported/Eigen/FFT>
 
 #include "analysis/parallel/parallel.hpp"
-#include "analysis/record_fit/angle_observations.hpp"
+#include "analysis/record_fit/encoder_noise.hpp"
 #include "analysis/record_fit/reading_replicates.hpp"
 #include "analysis/statistics/quantile.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 constexpr Eigen::Index longest_window = 1024;
 constexpr Eigen::Index shortest_window = 64;
 constexpr Eigen::Index transform_length = 2 * longest_window;
-constexpr std::size_t replicates = 1000;
+constexpr std::size_t spectrum_replicates = 1000;
 
 /// The samples of a ring-down.
 struct Window {
@@ -89,8 +89,8 @@ struct UsualPower {
 
 UsualPower usual_power(const TestRecord& record, const Eigen::VectorXd& path, double noise,
                        const std::vector<Window>& windows, const std::vector<Eigen::Index>& bins) {
-  std::vector<Eigen::ArrayXd> spectra(replicates);
-  parallel::for_each_index(replicates, [&](std::size_t i) {
+  std::vector<Eigen::ArrayXd> spectra(spectrum_replicates);
+  parallel::for_each_index(spectrum_replicates, [&](std::size_t i) {
     ReplicateNoise random(i);
     const double phase = 0.5 * std::erfc(random.next() / std::numbers::sqrt2);  // between two counts
     const Eigen::VectorXd moved = path.array() + phase;
@@ -99,8 +99,8 @@ UsualPower usual_power(const TestRecord& record, const Eigen::VectorXd& path, do
   });
   constexpr double rounding = 1e-9;  // of the arithmetic, where the readings do not change
   UsualPower usual{Eigen::ArrayXd::Constant(static_cast<Eigen::Index>(bins.size()), rounding), 0.0};
-  for (std::size_t i = 0; i < replicates / 2; ++i) usual.power = usual.power.max(spectra[i]);
-  for (std::size_t i = replicates / 2; i < replicates; ++i) {
+  for (std::size_t i = 0; i < spectrum_replicates / 2; ++i) usual.power = usual.power.max(spectra[i]);
+  for (std::size_t i = spectrum_replicates / 2; i < spectrum_replicates; ++i) {
     usual.max_ratio = std::max(usual.max_ratio, (spectra[i] / usual.power).maxCoeff());
   }
   return usual;

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "analysis/records/raw_series.hpp"
-#include "analysis/sliding_identification/sliding_fit.hpp"
+#include "analysis/sliding_identification/position_torque.hpp"
 #include "core/motion/torque_course.hpp"
 #include "experiments/parameters/study_units.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/identification/contact_coordinates.hpp"
+#include "analysis/identification/joint_draws.hpp"
 #include "core/numerics/interval.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/analysis/identification/material_tests.hpp"

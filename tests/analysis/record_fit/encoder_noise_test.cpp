@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/record_fit/angle_observations.hpp"
+#include "analysis/record_fit/encoder_noise.hpp"
 #include "tests/analysis/record_fit/wandering_path.hpp"
 
 namespace zerocount::testing {

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include "analysis/sliding_identification/sliding_record.hpp"
+
+namespace zerocount::sliding_identification {
+
+constexpr Eigen::Index balance_terms = 6;
+constexpr Eigen::Index direction_term = 1;
+constexpr Eigen::Index offset_term = 3;
+
+/// The torque about a sample, and what it is linear in while the axis slides:
+///
+///   u = J·a + d·Fc + cs·v + u0 + g1·sin(2π·x/pitch) + g2·cos(2π·x/pitch)
+///
+/// with the last two terms 0 where the record moves by less than a fiftieth of the pitch, or knows none.
+/// The other terms are means with the same triangular weights over 4·smoothing samples, which turn the second
+/// differences of the positions into a mean acceleration: smoothing adds no error to the balance.
+struct TorqueBalance {
+  Eigen::Vector<double, balance_terms> terms;  ///< acceleration, direction, velocity, 1, sine and cosine
+  double torque{0.0};                          ///< N m or N
+};
+
+/// Samples before and after the sample that a balance is from.
+inline std::size_t balance_reach(const SlidingRecord& record) {
+  return 2 * record.smoothing;
+}
+
+/// The balance at sample k, at least balance_reach() from both ends of the record. The errors of the readings
+/// bias a fit by it.
+TorqueBalance torque_balance(const SlidingRecord& record, std::size_t k, double direction);
+
+}  // namespace zerocount::sliding_identification

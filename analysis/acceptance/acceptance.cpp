@@ -1,16 +1,23 @@
 #include "analysis/acceptance/acceptance.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/iso230/columns.hpp"
+#include "analysis/iso230/repeatability.hpp"
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/trial_value.hpp"
+#include "analysis/statistics/clusters/observed_test.hpp"
 #include "core/failure/failure.hpp"
+#include "core/random/number_source.hpp"
+#include "experiments/designs/random_key.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "results/layout/layout.hpp"
 
@@ -29,45 +36,43 @@ std::string settling_measure_of(const study::Goal& goal) {
 /// @param axis of the study
 const std::vector<double>& values_of(const monitor::MoveLog& log, const std::string& measure,
                                      parameters::AxisKind axis) {
-  const monitor::MoveLog::Column* const column = log.find(measure);
+  const monitor::Moves::Column* const column = log.find(measure);
   if (column == nullptr)
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: has no column {}, which the goal asks for", log.name(), measure));
+                  fmt::format("{}: has no column {}, which the goal asks for", log.name, measure));
   const std::string unit = parameters::unit_on(axis, column->measure.unit);
   if (!monitor::have_same_dimension(column->unit, unit))
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: {} is in '{}', and in the study in '{}'; expected a unit of the same "
                               "dimension",
-                              log.name(), measure, column->unit, unit));
+                              log.name, measure, column->unit, unit));
   return column->values;
 }
 
-/// [row] whether the goal is about it.
+/// Whether the goal is about this row.
 /// @param moves of a trial
-std::vector<bool> asked_rows(const study::Goal& goal, const monitor::MoveLog& log, std::int64_t moves) {
-  if (goal.on.empty()) return std::vector<bool>(static_cast<std::size_t>(log.moves()), true);
-  if (log.numbers().empty())
+bool is_asked(const study::Goal& goal, const monitor::MoveLog& log, std::size_t row, std::int64_t moves) {
+  if (goal.on.empty()) return true;
+  if (!log.labels.numbered)
     throw Failure(
         ExitCode::bad_input,
         fmt::format("{}: a goal is about some moves of a trial ('on'); expected a column 'move' with "
                     "the number of each in the sequence, from 0",
-                    log.name()));
-  std::vector<bool> asked;
-  for (const std::int64_t number : log.numbers()) {
-    if (number < 0 || number >= moves)
-      throw Failure(ExitCode::bad_data,
-                    fmt::format("{}: row {}: its 'move' is not a number in the sequence; expected 0 to {}",
-                                log.name(), asked.size() + 1, moves - 1));
-    asked.push_back(std::ranges::find(goal.on, number) != goal.on.end());
-  }
-  return asked;
+                    log.name));
+  const std::int64_t number = log.labels.of(row).number.value_or(-1);
+  if (number < 0 || number >= moves)
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: row {}: its 'move' is not a number in the sequence; expected 0 to {}",
+                              log.name, row + 1, moves - 1));
+  return std::ranges::find(goal.on, number) != goal.on.end();
 }
 
 /// [move that the goal is about] whether it meets the goal.
 std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log,
                             const reading::AllTrialsFile& file) {
-  const double latest = measures::latest({.within = goal.within});
-  const std::vector<bool> asked = asked_rows(goal, log, file.moves());
+  std::vector<bool> asked;
+  for (std::size_t row = 0; row < static_cast<std::size_t>(log.moves); ++row)
+    asked.push_back(is_asked(goal, log, row, file.moves()));
   const std::vector<double>& times = values_of(log, settling_measure_of(goal), file.axis());
   std::vector<const std::vector<double>*> limited;
   for (const study::GoalLimit& limit : goal.limits)
@@ -75,7 +80,7 @@ std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log
   std::vector<bool> met;
   for (std::size_t row = 0; row < times.size(); ++row) {
     if (!asked[row]) continue;
-    bool all = times[row] <= latest;
+    bool all = times[row] <= measures::latest({.within = goal.within});
     for (std::size_t i = 0; i < limited.size(); ++i)
       all = all && std::abs((*limited[i])[row]) <= goal.limits[i].largest;
     met.push_back(all);
@@ -84,7 +89,7 @@ std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log
     throw Failure(ExitCode::bad_data,
                   fmt::format("{}: has none of the moves that the goal is about; expected "
                               "{} in its column 'move'",
-                              log.name(), fmt::join(goal.on, ", ")));
+                              log.name, fmt::join(goal.on, ", ")));
   return met;
 }
 
@@ -192,6 +197,143 @@ void judge(Acceptance& acceptance, std::span<const study::Goal> goals,
     acceptance.needed_machines = goal::needs_of(goals, measured, 1).rigs;
 }
 
+using Sequence = std::span<const study::SequenceMove>;
+using Values = std::vector<iso230::AxisRepeatability>;
+
+/// By the encoder, for which the true positions of the moves do not matter.
+std::optional<iso230::AxisRepeatability> values_of_run(Sequence sequence,
+                                                       std::span<const trial::MoveOutcome> moves) {
+  trial::TrialParameters parameters;
+  parameters.command.targets.resize(sequence.size());
+  const auto values = iso230::trial_repeatability(sequence, parameters, moves);
+  return values ? std::optional(values->from_encoder.axis) : std::nullopt;
+}
+
+Values simulated_values(const reading::AllTrialsFile& file, std::int64_t point) {
+  Values values;
+  const Sequence sequence = file.study().sequence;
+  measures::visit_trials(file, file.rows_of(point),
+                         [&](std::int64_t, std::span<const trial::MoveOutcome> moves) {
+                           if (const auto of_trial = values_of_run(sequence, moves))
+                             values.push_back(*of_trial);
+                         });
+  return values;
+}
+
+/// The values of each whole run in a log.
+void add_measured(Sequence sequence, const monitor::MoveLog& log, Values& values) {
+  const std::vector<double>& errors = log.find("final_error")->written;
+  std::vector<trial::MoveOutcome> run;
+  for (std::size_t row = 0; row < errors.size(); ++row) {
+    const auto continues = [&] {
+      return log.labels.of(row).number == std::ssize(run) && std::isfinite(errors[row]);
+    };
+    if (!continues()) run.clear();
+    if (!continues()) continue;
+    trial::MoveOutcome move;
+    move.outcome = trial::Outcome::zero_count;
+    move.final_error = std::llround(errors[row]);
+    run.push_back(move);
+    if (run.size() < sequence.size()) continue;
+    if (const auto of_run = values_of_run(sequence, run)) values.push_back(*of_run);
+    run.clear();
+  }
+}
+
+/// Between the values of a sorted sample.
+double sample_quantile(const std::vector<double>& sorted, double p) {
+  const double place = p * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
+}
+
+constexpr int draws = 9999;
+
+/// How many of `wanted` random moves of the machine meet the requirement, without replacement.
+std::int64_t thinned(const statistics::RigMoves& machine, std::int64_t wanted,
+                     random::NumberSource& numbers) {
+  std::int64_t left = machine.moves;
+  std::int64_t met = machine.met;
+  for (std::int64_t i = 0; i < wanted; ++i, --left)
+    if (numbers.uniform() * static_cast<double>(left) < static_cast<double>(met)) --met;
+  return machine.met - met;
+}
+
+std::size_t below(std::size_t count, random::NumberSource& numbers) {
+  return std::min(count - 1, static_cast<std::size_t>(numbers.uniform() * static_cast<double>(count)));
+}
+
+/// 1/(N + R over N), the probability of one choice of N.
+double chance_of_a_choice(std::size_t measured, std::size_t simulated) {
+  double chance = 1.0;
+  for (std::size_t i = 1; i <= measured; ++i)
+    chance *= static_cast<double>(i) / static_cast<double>(simulated + i);
+  return chance;
+}
+
+/// Moves that meet the requirement of as many of the machines as are measured, chosen at random from those
+/// from `first` on: the measured ones come before the simulated ones.
+std::int64_t drawn(std::span<const std::int64_t> met, std::int64_t moves,
+                   std::span<const statistics::RigMoves> simulated, std::size_t first,
+                   std::vector<std::size_t>& order, random::NumberSource& numbers) {
+  const std::size_t measured = met.size();
+  order.resize(measured + simulated.size() - first);
+  std::iota(order.begin(), order.end(), first);
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < measured; ++i) {
+    std::swap(order[i], order[i + below(order.size() - i, numbers)]);
+    const std::size_t machine = order[i];
+    sum += machine < measured ? met[machine] : thinned(simulated[machine - measured], moves, numbers);
+  }
+  return sum;
+}
+
+bool have_as_many_moves(std::span<const statistics::RigMoves> machines) {
+  return std::ranges::all_of(machines,
+                             [&](const statistics::RigMoves& one) { return one.moves == machines[0].moves; });
+}
+
+double rank_test_of(std::int64_t met, std::int64_t moves, std::span<const statistics::RigMoves> simulated) {
+  std::vector<std::int64_t> successes;
+  for (const statistics::RigMoves& machine : simulated) successes.push_back(machine.met);
+  return statistics::rig_rank_test({met, moves}, successes, simulated[0].moves).p;
+}
+
+/// The values of the axis, where the study has a sequence of moves and each log the columns `final_error` and
+/// `move`; empty otherwise. A run of the test is as many rows with the numbers 0 to the last one in this
+/// order; other rows are left out.
+std::vector<StandardValue> standard_values(const reading::AllTrialsFile& file, std::int64_t point,
+                                           std::span<const monitor::MoveLog> logs) {
+  const Sequence sequence = file.study().sequence;
+  const bool told = std::ranges::all_of(logs, [](const monitor::MoveLog& log) {
+    return log.find("final_error") != nullptr && log.labels.numbered;
+  });
+  if (sequence.empty() || !told) return {};
+  Values measured;
+  for (const monitor::MoveLog& log : logs) add_measured(sequence, log, measured);
+  if (measured.empty()) return {};
+  const Values simulated = simulated_values(file, point);
+  std::vector<StandardValue> values;
+  for (const auto& field : iso230::axis_fields()) {
+    std::vector<double> sorted;
+    for (const iso230::AxisRepeatability& one : simulated)
+      if (std::isfinite(one.*field.value)) sorted.push_back(one.*field.value);
+    if (sorted.empty()) continue;
+    std::ranges::sort(sorted);
+    StandardValue value{.name = field.name, .symbol = field.symbol};
+    value.median = sample_quantile(sorted, 0.5);
+    value.low = sample_quantile(sorted, 0.025);
+    value.high = sample_quantile(sorted, 0.975);
+    for (const iso230::AxisRepeatability& one : measured) {
+      value.measured.push_back(one.*field.value);
+      value.within += one.*field.value >= value.low && one.*field.value <= value.high ? 1 : 0;
+    }
+    values.push_back(std::move(value));
+  }
+  return values;
+}
+
 }  // namespace
 
 Status status_of(const Claim& claim) {
@@ -200,12 +342,13 @@ Status status_of(const Claim& claim) {
 }
 
 Status status_of(const Acceptance& acceptance) {
-  constexpr std::array worst_first{Status::rejected, Status::undecided};
-  for (const Status status : worst_first) {
-    for (const Claim& claim : acceptance.claims)
-      if (status_of(claim) == status) return status;
-  }
-  return Status::accepted;
+  const auto any = [&](Status status) {
+    return std::ranges::any_of(acceptance.claims,
+                               [&](const Claim& claim) { return status_of(claim) == status; });
+  };
+  return any(Status::rejected)    ? Status::rejected
+         : any(Status::undecided) ? Status::undecided
+                                  : Status::accepted;
 }
 
 ExitCode exit_code_of(Status status) {
@@ -225,10 +368,10 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
   Acceptance acceptance{.study = path, .point = file.point_labels()[static_cast<std::size_t>(point)]};
   acceptance.judged = judged;
   for (const monitor::MoveLog& log : logs) {
-    if (log.moves() == 0)
+    if (log.moves == 0)
       throw Failure(ExitCode::bad_data,
-                    fmt::format("{}: has no moves; expected a row for each move of the machine", log.name()));
-    acceptance.machines.push_back({.name = log.name()});
+                    fmt::format("{}: has no moves; expected a row for each move of the machine", log.name));
+    acceptance.machines.push_back({.name = log.name});
   }
   const std::vector<measures::CellCounts> simulated = simulated_counts(file, point);
   std::vector<measures::CellCounts> measured;
@@ -251,6 +394,37 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
   for (const study::Premise& premise : study.premises)
     if (premise.state == study::PremiseState::assumed) acceptance.assumed.emplace_back(premise.assumption);
   return acceptance;
+}
+
+Agreement agreement_of(std::span<const std::int64_t> met, std::int64_t moves,
+                       std::span<const statistics::RigMoves> simulated, std::uint64_t seed) {
+  random::NumberSource numbers(designs::random_key(seed, "acceptance"));
+  Agreement agreement{.moves = moves, .met = std::accumulate(met.begin(), met.end(), std::int64_t{0})};
+  std::vector<std::size_t> order;
+  int at_most = 0;
+  int at_least = 0;
+  std::vector<std::int64_t> predicted;
+  for (int i = 0; i < draws; ++i) {
+    const std::int64_t any = drawn(met, moves, simulated, 0, order, numbers);
+    at_most += any <= agreement.met ? 1 : 0;
+    at_least += any >= agreement.met ? 1 : 0;
+    // As many simulated machines as are measured, or all where there are fewer.
+    predicted.push_back(drawn(met.first(std::min(met.size(), simulated.size())), moves, simulated,
+                              std::min(met.size(), simulated.size()), order, numbers));
+  }
+  const double low = (1.0 + at_most) / (draws + 1.0);
+  const double high = (1.0 + at_least) / (draws + 1.0);
+  agreement.p = std::min(1.0, 2.0 * std::min(low, high));
+  agreement.is_lower = low < high;
+  agreement.lowest_p =
+      std::min(1.0, 2.0 * std::max(1.0 / (draws + 1.0), chance_of_a_choice(met.size(), simulated.size())));
+  if (met.size() == 1 && have_as_many_moves(simulated)) agreement.p = rank_test_of(met[0], moves, simulated);
+  std::ranges::sort(predicted);
+  const auto of_moves =
+      static_cast<double>(moves) * static_cast<double>(std::min(met.size(), simulated.size()));
+  agreement.predicted = {static_cast<double>(predicted[draws / 40]) / of_moves,
+                         static_cast<double>(predicted[draws - 1 - draws / 40]) / of_moves};
+  return agreement;
 }
 
 }  // namespace zerocount::acceptance

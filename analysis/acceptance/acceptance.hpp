@@ -7,10 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/acceptance/agreement.hpp"
 #include "analysis/document/answer.hpp"
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/monitor/move_log.hpp"
+#include "analysis/statistics/clusters/rig_proportion.hpp"
+#include "analysis/statistics/proportion.hpp"
 #include "results/reading/all_trials_file.hpp"
 
 /// Machines that were built, beside the study that they were built after.
@@ -26,6 +27,17 @@ enum class Status {
 enum class Judged {
   all_machines,   ///< all of which the measured ones are a sample: the goal's claim (goal_verdict.hpp)
   these_machines  ///< the measured ones alone
+};
+
+/// Whether measured machines are like simulated ones.
+struct Agreement {
+  std::int64_t moves{0};  ///< of each machine that are compared: as many as all have
+  std::int64_t met{0};    ///< of the measured machines, by their first so many moves
+  double p{1.0};          ///< two-sided
+  double lowest_p{1.0};   ///< that so many machines could have
+  bool is_lower{false};   ///< fewer moves than simulated meet what is asked
+  /// 95 % of as many simulated machines meet it in this proportion of as many moves.
+  statistics::ConfidenceInterval predicted{0.0, 1.0};
 };
 
 /// One goal: what was predicted, and what was measured.
@@ -102,12 +114,19 @@ ExitCode exit_code_of(Status status);
 Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
                   std::span<const monitor::MoveLog> logs, Judged judged = Judged::all_machines);
 
-/// The values of the axis, where the study has a sequence of moves and each log the columns `final_error` and
-/// `move`; empty otherwise. A run of the test is as many rows with the numbers 0 to the last one in this
-/// order; other rows are left out.
-std::vector<StandardValue> standard_values(const reading::AllTrialsFile& file, std::int64_t point,
-                                           std::span<const monitor::MoveLog> logs);
-
 document::AnswerDescription<Acceptance> acceptance_answer();
+
+/// If N measured machines are further draws from the machines that were simulated, R, any N of all N + R are
+/// as likely as any other to be those. With T the moves that meet the requirement, of N random ones of all,
+/// each in n of its moves, and k those of the measured machines,
+///
+///   p₋ = (1 + #{T ≤ k})/(B + 1),  p₊ = (1 + #{T ≥ k})/(B + 1),  p = min(1, 2·min(p₋, p₊)),  B = 9999:
+///
+/// a permutation test. The n of a simulated machine are a random choice of its moves. For one machine it is
+/// rig_rank_test(), which needs no random choices, where all simulated machines have as many moves.
+/// @param met [measured machine] in its first n moves @param simulated with n or more moves each
+/// @param seed of the random choices
+Agreement agreement_of(std::span<const std::int64_t> met, std::int64_t moves,
+                       std::span<const statistics::RigMoves> simulated, std::uint64_t seed);
 
 }  // namespace zerocount::acceptance

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/comparison/comparison.hpp"
-#include "analysis/comparison/comparison_report.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
 #include "experiments/yaml/yaml_tree.hpp"

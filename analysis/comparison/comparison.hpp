@@ -10,6 +10,7 @@
 
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/judgement.hpp"
+#include "analysis/document/answer.hpp"
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/measures/undecided_moves.hpp"
 #include "experiments/manifest_text/manifest_values.hpp"
@@ -137,5 +138,22 @@ std::filesystem::path baseline_log(const std::filesystem::path& baseline);
 /// @throws Failure where `file` is not a complete results file, or something cannot be written
 BaselineUpdate update_baseline(const std::filesystem::path& file, const std::filesystem::path& output,
                                const std::string& reason);
+
+/// The verdict in a sentence.
+std::string verdict_sentence(const StudyComparison& comparison);
+
+/// A value of a measure or requirement with its unit: proportions in per cent.
+std::string value_text(double value, std::string_view quantity, std::string_view unit);
+
+/// A number of trials to two digits, rounded up.
+std::string trials_text(double trials);
+
+/// The answer of `compare`. A long table shows only the noteworthy rows to people, with the number of the
+/// others.
+document::AnswerDescription<StudyComparison> comparison_answer();
+
+/// JUnit XML: a test suite with one case per point and measure or requirement. What fails the gate is a
+/// failure, an inconclusive verdict an error, and a measure without values is skipped.
+std::string comparison_junit(const StudyComparison& comparison);
 
 }  // namespace zerocount::comparison

@@ -7,12 +7,13 @@
 #include <optional>
 #include <ranges>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/comparison/comparison_report.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/text/text.hpp"
@@ -27,6 +28,121 @@ using document::in_data;
 using document::to_people;
 using document::with_words;
 using Comparison = const StudyComparison&;
+
+/// A judgement as people read it: a row of the table, and a case of JUnit.
+struct Row {
+  const StudyComparison& comparison;
+  const PointComparison& point;
+  const Judgement& one;
+
+  std::string text(double value) const { return value_text(value, one.measure, one.unit); }
+  std::string place() const { return text::printable(point.label); }
+  std::string name() const { return one.is_measure() ? one.measure : "require " + one.measure; }
+  std::string_view verdict() const {
+    return one.is_measure() ? to_string(one.change) : to_string(one.verdict);
+  }
+  std::string baseline() const { return text(one.baseline); }
+  std::string current() const { return text(one.current); }
+  std::string effect() const { return text(one.effect); }
+  std::string detects() const { return text(one.detectable_change); }
+  std::string bounds() const;
+  std::string margin() const;
+  std::string p() const;
+  std::string note() const;
+  bool has(GateVerdict wanted) const { return one.verdict == wanted; }
+  bool has(ChangeVerdict wanted) const { return one.is_measure() && one.change == wanted; }
+  /// It did not simply pass.
+  bool is_noteworthy() const { return !has(GateVerdict::passed) || one.change == ChangeVerdict::better; }
+};
+
+std::vector<Row> all_rows(Comparison comparison) {
+  std::vector<Row> rows;
+  for (const PointComparison& point : comparison.points)
+    for (const Judgement& one : point.judgements) rows.push_back({comparison, point, one});
+  return rows;
+}
+
+/// Judgements with a verdict of the gate, or measures with one on their change.
+template <class Verdict>
+std::int64_t count(Comparison comparison, Verdict verdict) {
+  return std::ranges::count_if(all_rows(comparison), [&](const Row& row) { return row.has(verdict); });
+}
+
+std::int64_t failed(Comparison comparison) {
+  return count(comparison, GateVerdict::regression) + count(comparison, GateVerdict::changed);
+}
+
+/// Judgements that have enough values.
+std::int64_t judged(Comparison comparison) {
+  return std::ranges::count_if(all_rows(comparison),
+                               [](const Row& row) { return !row.has(GateVerdict::not_measured); });
+}
+
+/// "3 of 40 judgements failed (1 worse, 2 better)"; empty where none did.
+std::string failures_text(Comparison comparison) {
+  if (failed(comparison) == 0) return "";
+  std::string text = fmt::format("{} of {} judgements failed", failed(comparison), judged(comparison));
+  if (const std::int64_t changed = count(comparison, GateVerdict::changed); changed > 0)
+    text += fmt::format(" ({} worse or below a requirement, {} better, where every change fails)",
+                        count(comparison, GateVerdict::regression), changed);
+  return text;
+}
+
+/// The advice on how many trials would decide the comparison.
+std::string advice_text(Comparison comparison) {
+  if (comparison.trials_to_decide)
+    return fmt::format("; {} trials per design point would decide, with a probability of {:.0f} %",
+                       trials_text(*comparison.trials_to_decide), 100.0 * decision_probability);
+  if (std::isnan(comparison.max_trials_to_decide)) return "";
+  std::vector<std::string> open;
+  for (const Row& row : all_rows(comparison)) {
+    if (row.one.is_measure() && !std::isnan(row.one.max_trials_margin))
+      open.push_back(fmt::format("{} at {} (margin {}; {} would be decided)", row.one.measure, row.place(),
+                                 row.text(row.one.margin), row.text(row.one.max_trials_margin)));
+    if (!row.one.is_measure() && row.one.is_open() && !row.one.trials_to_decide)
+      open.push_back(fmt::format("{} at {}", row.one.requirement, row.place()));
+  }
+  return fmt::format("; {} trials per design point would not decide{}{}",
+                     trials_text(comparison.max_trials_to_decide), open.empty() ? " all of them" : ": ",
+                     fmt::join(open, ", "));
+}
+
+/// "better: success_rate, settling_time; worse: none; ..." of the point that is compared with another, under
+/// each condition.
+std::string answer_text(Comparison comparison) {
+  std::string text = fmt::format("{} against {}", text::printable(comparison.points.front().design_point),
+                                 text::printable(comparison.baseline_label));
+  for (const ChangeVerdict change : {ChangeVerdict::better, ChangeVerdict::worse, ChangeVerdict::equivalent,
+                                     ChangeVerdict::not_worse, ChangeVerdict::undecided}) {
+    std::vector<std::string> names;
+    for (const Row& row : all_rows(comparison)) {
+      if (!row.has(change)) continue;
+      names.push_back(row.one.measure);
+      if (!row.point.condition.empty()) names.back() += " under " + text::printable(row.point.condition);
+    }
+    if (!names.empty()) text += fmt::format("; {}: {}", to_string(change), fmt::join(names, ", "));
+  }
+  return text;
+}
+
+/// The smallest changes for the worse that the trials find with decision_probability, of each measure over
+/// the points: "Detectable changes: success_rate 3.4 % to 6.7 %, ...". Empty where nothing was measured.
+std::string detectable_sentence(Comparison comparison) {
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<Row>> measured;
+  for (const Row& row : all_rows(comparison)) {
+    if (std::isnan(row.one.detectable_change)) continue;
+    if (measured[row.one.measure].empty()) names.push_back(row.one.measure);
+    measured[row.one.measure].push_back(row);
+  }
+  for (std::string& name : names) {
+    const auto change = [](const Row& row) { return row.one.detectable_change; };
+    const auto lowest = std::ranges::min_element(measured[name], {}, change)->detects();
+    const auto highest = std::ranges::max_element(measured[name], {}, change)->detects();
+    name += " " + lowest + (lowest == highest ? "" : " to " + highest);
+  }
+  return names.empty() ? "" : fmt::format("Detectable changes: {}", fmt::join(names, ", "));
+}
 
 std::optional<std::int64_t> whole(const std::optional<double>& trials) {
   return trials ? std::optional(static_cast<std::int64_t>(*trials)) : std::nullopt;
@@ -191,32 +307,6 @@ Description<StudyComparison> counts_description() {
   return counts;
 }
 
-/// A judgement as people read it: a row of the table, and a case of JUnit.
-struct Row {
-  const StudyComparison& comparison;
-  const PointComparison& point;
-  const Judgement& one;
-
-  std::string text(double value) const { return value_text(value, one.measure, one.unit); }
-  std::string place() const { return text::printable(point.label); }
-  std::string name() const { return one.is_measure() ? one.measure : "require " + one.measure; }
-  std::string_view verdict() const {
-    return one.is_measure() ? to_string(one.change) : to_string(one.verdict);
-  }
-  std::string baseline() const { return text(one.baseline); }
-  std::string current() const { return text(one.current); }
-  std::string effect() const { return text(one.effect); }
-  std::string detects() const { return text(one.detectable_change); }
-  std::string bounds() const;
-  std::string margin() const;
-  std::string p() const;
-  std::string note() const;
-  /// It did not simply pass.
-  bool is_noteworthy() const {
-    return one.verdict != GateVerdict::passed || one.change == ChangeVerdict::better;
-  }
-};
-
 /// A requirement on a quantile has the bounds of the proportion within its limit.
 std::string Row::bounds() const {
   if (std::isnan(one.bounds.low)) return "–";
@@ -266,14 +356,6 @@ std::string Row::note() const {
     notes.back() += fmt::format(", {} trials one of {}", trials_text(comparison.max_trials_to_decide),
                                 text(one.max_trials_margin));
   return fmt::format("{}", fmt::join(notes, "; "));
-}
-
-std::vector<Row> all_rows(Comparison comparison) {
-  std::vector<Row> rows;
-  for (const PointComparison& point : comparison.points) {
-    for (const Judgement& one : point.judgements) rows.push_back({comparison, point, one});
-  }
-  return rows;
 }
 
 Description<Row> row_description() {
@@ -420,6 +502,52 @@ void add_judgements(Description<StudyComparison>& items) {
 }
 
 }  // namespace
+
+std::string_view to_string(ComparisonLayer layer) {
+  if (layer == ComparisonLayer::bits) return "bits";
+  return layer == ComparisonLayer::paired ? "paired" : "two_samples";
+}
+
+std::string verdict_sentence(const StudyComparison& comparison) {
+  const std::int64_t all = judged(comparison);
+  const bool open = comparison.verdict == GateVerdict::inconclusive;
+  if (compares_points(comparison) && all > 0)
+    return answer_text(comparison) + (open ? advice_text(comparison) : "");
+  switch (comparison.verdict) {
+    case GateVerdict::regression:
+      if (!is_unequal(comparison)) return "regression: " + failures_text(comparison);
+      return fmt::format("regression: the data must be equal to the bit and are not: {}{}{}",
+                         comparison.first_difference, failed(comparison) > 0 ? "; " : "",
+                         failures_text(comparison));
+    case GateVerdict::changed:
+      return "changed: " + failures_text(comparison);
+    case GateVerdict::passed:
+      if (comparison.equal_to_the_bit) return "passed: every dataset is equal to the bit";
+      return fmt::format(
+          "passed: all {} judgements at {} design points are within their margins or better; {} better", all,
+          comparison.points.size(), count(comparison, ChangeVerdict::better));
+    case GateVerdict::inconclusive:
+    case GateVerdict::not_measured:
+      break;
+  }
+  if (all == 0) return "inconclusive: nothing was measured";
+  return fmt::format("inconclusive: {} of {} judgements are open{}",
+                     count(comparison, GateVerdict::inconclusive), all, advice_text(comparison));
+}
+
+std::string value_text(double value, std::string_view quantity, std::string_view unit) {
+  if (std::isnan(value)) return "–";
+  if (std::isinf(value)) return value > 0.0 ? "∞" : "−∞";
+  const std::string_view measure = without_goal(quantity);
+  if (measure.ends_with("_rate") || measure == "goal_machines") return fmt::format("{:.4g} %", 100.0 * value);
+  return unit == "1" ? text::short_number(value) : fmt::format("{} {}", text::short_number(value), unit);
+}
+
+std::string trials_text(double trials) {
+  if (trials < 100.0) return fmt::format("{:.0f}", trials);
+  const double step = std::pow(10.0, std::floor(std::log10(trials)) - 1.0);
+  return fmt::format("{:.0f}", std::ceil(trials / step) * step);
+}
 
 document::AnswerDescription<StudyComparison> comparison_answer() {
   document::AnswerDescription<StudyComparison> answer{

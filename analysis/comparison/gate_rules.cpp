@@ -3,12 +3,23 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/failure/failure.hpp"
+#include "core/numerics/interval.hpp"
+#include "experiments/parameters/unknown_key.hpp"
+#include "experiments/study/point_label.hpp"
+#include "experiments/yaml/nearest_name.hpp"
+#include "experiments/yaml/scalars.hpp"
+#include "experiments/yaml/text_file.hpp"
+#include "experiments/yaml/yaml_tree.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount::comparison {
@@ -84,14 +95,25 @@ std::vector<std::string> names_in_rules(const std::string& measure) {
   return names;
 }
 
+/// The rules of all points, then those of each that has its own.
+std::vector<const PointRules*> all_rules(const GateRules& rules) {
+  std::vector<const PointRules*> all{&rules};
+  for (const auto& [label, own] : rules.points) all.push_back(&own);
+  return all;
+}
+
+std::vector<const Requirement*> all_requirements(const GateRules& rules) {
+  std::vector<const Requirement*> all;
+  for (const PointRules* const one : all_rules(rules))
+    for (const Requirement& requirement : one->requirements) all.push_back(&requirement);
+  return all;
+}
+
 /// The names of all measures that the rules name, in the list of measures or with a margin.
 std::vector<std::string> named_measures(const GateRules& rules) {
   std::vector<std::string> names = rules.measures;
-  const auto add = [&](const std::map<std::string, GateMargin>& margins) {
-    for (const auto& [name, margin] : margins) names.push_back(name);
-  };
-  add(rules.margins);
-  for (const auto& [label, margins] : rules.margins_at) add(margins);
+  for (const PointRules* const one : all_rules(rules))
+    for (const auto& [name, margin] : one->margins) names.push_back(name);
   return names;
 }
 
@@ -104,9 +126,8 @@ bool is_listed(const GateRules& rules, const std::string& measure) {
 
 /// Whether the rules give the measure a margin, at every point or at some.
 bool has_margin(const GateRules& rules, const std::string& name) {
-  return rules.margins.contains(name) || std::ranges::any_of(rules.margins_at, [&](const auto& point) {
-           return point.second.contains(name);
-         });
+  return std::ranges::any_of(all_rules(rules),
+                             [&](const PointRules* one) { return one->margins.contains(name); });
 }
 
 const GateMargin* margin_in(const std::map<std::string, GateMargin>& margins, const std::string& measure) {
@@ -133,13 +154,233 @@ std::vector<Requirement> for_each_goal(const std::vector<Requirement>& requireme
   return all;
 }
 
-std::vector<const Requirement*> all_requirements(const GateRules& rules) {
-  std::vector<const Requirement*> all;
-  for (const Requirement& one : rules.requirements) all.push_back(&one);
-  for (const auto& [label, own] : rules.requirements_at) {
-    for (const Requirement& one : own) all.push_back(&one);
+template <class List>
+std::vector<std::string> names_of(const List& all) {
+  std::vector<std::string> names;
+  std::transform(all.begin(), all.end(), std::back_inserter(names),
+                 [](const auto& one) { return std::string(one.name); });
+  return names;
+}
+
+/// A key of a map, and what reads its value.
+struct Key {
+  std::string name;
+  std::function<void(const yaml::Field&)> read;
+  bool is_earlier{false};  ///< what files called it once: not offered
+};
+
+std::vector<std::string> names_offered(const std::vector<Key>& keys) {
+  std::vector<std::string> names;
+  for (const Key& key : keys)
+    if (!key.is_earlier) names.push_back(key.name);
+  return names;
+}
+
+void read_keys(const yaml::Field& map, const std::vector<Key>& keys, yaml::Problems& problems) {
+  for (const yaml::YamlEntry& entry : map.node->entries) {
+    const auto key = find_named(keys, entry.key);
+    if (key == keys.end())
+      parameters::add_unknown_key(map, entry, names_offered(keys), problems);
+    else
+      key->read(yaml::entry_of(map, entry));
   }
-  return all;
+}
+
+/// `worse` or `changed`: whether a change for the better fails too.
+bool read_changed_fails(const yaml::Field& field, yaml::Problems& problems) {
+  const std::optional<std::string> word = yaml::read_text(field, problems);
+  if (!word) return false;
+  if (*word != "worse" && *word != "changed") {
+    problems.add(field.node->place, field.path,
+                 fmt::format("{} is not a kind of failure", yaml::in_quotes(*word)), "worse or changed");
+  }
+  return *word == "changed";
+}
+
+/// A number by itself is the absolute margin.
+std::optional<GateMargin> read_margin(const yaml::Field& field, yaml::Problems& problems) {
+  GateMargin margin;
+  if (field.node->kind == yaml::YamlNode::Kind::scalar) {
+    const std::optional<double> absolute = yaml::read_real(field, numerics::at_least(0.0), problems);
+    if (absolute) margin.absolute = *absolute;
+    return absolute ? std::optional(margin) : std::nullopt;
+  }
+  if (!yaml::check_map(field, "a number, or a map with absolute, relative, fail_on", problems))
+    return std::nullopt;
+  bool sized = false;
+  const auto size_of = [&](double& part) {
+    return [&](const yaml::Field& value) {
+      part = yaml::read_real(value, numerics::at_least(0.0), problems).value_or(0.0);
+      sized = true;
+    };
+  };
+  read_keys(field,
+            {{"absolute", size_of(margin.absolute)},
+             {"relative", size_of(margin.relative)},
+             {"fail_on",
+              [&](const yaml::Field& value) { margin.changed_fails = read_changed_fails(value, problems); }},
+             {"both_ways",
+              [&](const yaml::Field& value) {
+                margin.changed_fails = yaml::read_bool(value, problems).value_or(false);
+              },
+              true}},
+            problems);
+  if (!sized)
+    problems.add(field.node->place, field.path, "the margin has no size", "absolute or relative, or both");
+  return margin;
+}
+
+void read_margin_of(const yaml::Field& map, const yaml::YamlEntry& entry,
+                    std::map<std::string, GateMargin>& margins, yaml::Problems& problems) {
+  const std::optional<GateMeasure> measure = find_gate_measure(entry.key);
+  if (!measure) return parameters::add_unknown_key(map, entry, names_of(all_gate_measures()), problems);
+  const yaml::Field field = yaml::entry_of(map, entry);
+  const std::optional<GateMargin> margin = read_margin(field, problems);
+  if (!margin) return;
+  if (measure->proportion() && (margin->absolute >= 1.0 || margin->relative >= 1.0))
+    return problems.add(field.node->place, field.path, "no proportion of trials can be worse by so much",
+                        "less than 1, such as 0.02 for two percent points");
+  margins[entry.key] = *margin;
+}
+
+const char* const requirement_form = "a text such as 'success_rate ≥ 0.995' (or >=, ≤, <=), or goal";
+
+/// The parts of a text such as "success_rate ≥ 0.995".
+struct RequirementParts {
+  std::string name, relation, number;
+};
+
+std::optional<RequirementParts> parts_of(std::string_view text) {
+  constexpr std::string_view blanks = " \t\n\v\f\r";
+  const auto take = [&](std::size_t end) {
+    const std::string_view taken = text.substr(0, end);
+    text.remove_prefix(taken.size());
+    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    return std::string(taken);
+  };
+  take(0);
+  RequirementParts parts;
+  parts.name = take(text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_.0123456789[]+-"));
+  for (const std::string_view relation : {"≥", ">=", "≤", "<="}) {
+    if (parts.relation.empty() && text.starts_with(relation)) parts.relation = take(relation.size());
+  }
+  parts.number = take(text.find_first_of(blanks));
+  const bool limited = !parts.relation.empty() && !parts.number.empty();
+  const bool complete = !parts.name.empty() && (limited || parts.name == "goal");
+  return complete && text.empty() ? std::optional(parts) : std::nullopt;
+}
+
+std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Problems& problems) {
+  const std::optional<std::string> text = yaml::read_text(field, problems);
+  if (!text) return std::nullopt;
+  constexpr std::size_t max_length = 200;  // bytes; no requirement is so long
+  const std::optional<RequirementParts> parts = text->size() <= max_length ? parts_of(*text) : std::nullopt;
+  Requirement requirement{*text, {}, true, 0.0};
+  const auto refuse = [&](const std::string& what, const std::string& expected) {
+    problems.add(field.node->place, field.path, what, expected);
+    return std::nullopt;
+  };
+  if (!parts) return refuse(fmt::format("{} cannot be understood", yaml::in_quotes(*text)), requirement_form);
+  const std::optional<RequirableQuantity> quantity = find_requirable(parts->name);
+  if (quantity) requirement.quantity = *quantity;
+  if (quantity && quantity->kind == RequirementKind::goal) {
+    if (!parts->relation.empty())
+      return refuse("a goal with a limit", "goal by itself: its limits stand in the manifest");
+    return requirement;
+  }
+  requirement.at_least = parts->relation == "≥" || parts->relation == ">=";
+  const std::string& number = parts->number;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), requirement.limit);
+  if (!quantity) {
+    return refuse(fmt::format("{} cannot be required", yaml::in_quotes(parts->name)),
+                  fmt::format("one of {}", fmt::join(names_of(requirable_quantities()), ", ")));
+  }
+  if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(requirement.limit)) {
+    return refuse(fmt::format("{} is not a number", yaml::in_quotes(number)), requirement_form);
+  }
+  const bool proportion = quantity->kind == RequirementKind::proportion;
+  if (proportion && (requirement.limit < 0.0 || requirement.limit > 1.0)) {
+    return refuse(fmt::format("{} is not a proportion", number), "a number from 0 to 1");
+  }
+  if (!proportion && requirement.at_least) {
+    return refuse(fmt::format("a least {} is asked for", quantity->name), "≤ and a limit");
+  }
+  return requirement;
+}
+
+/// One requirement, or a list of them.
+void read_requirements(const yaml::Field& field, std::vector<Requirement>& requirements,
+                       yaml::Problems& problems) {
+  const auto add = [&](const yaml::Field& one) {
+    if (auto requirement = read_requirement(one, problems)) requirements.push_back(*std::move(requirement));
+  };
+  if (field.node->kind != yaml::YamlNode::Kind::list) return add(field);
+  for (std::size_t i = 0; i < field.node->items.size(); ++i) add(yaml::item_of(field, i));
+}
+
+/// Margins of measures; with `require` among them where a point has its own.
+void read_point(const yaml::Field& field, bool is_own, PointRules& rules, yaml::Problems& problems) {
+  const char* const expected =
+      is_own ? "a map from measures to margins, and require" : "a map from measures to margins";
+  if (!yaml::check_map(field, expected, problems)) return;
+  for (const yaml::YamlEntry& entry : field.node->entries) {
+    if (is_own && entry.key == "require")
+      read_requirements(yaml::entry_of(field, entry), rules.requirements, problems);
+    else
+      read_margin_of(field, entry, rules.margins, problems);
+  }
+}
+
+void read_points(const yaml::Field& field, std::span<const std::string> labels, GateRules& rules,
+                 yaml::Problems& problems) {
+  if (!yaml::check_map(field, "a map from labels of design points to margins and requirements", problems))
+    return;
+  for (const yaml::YamlEntry& entry : field.node->entries) {
+    const yaml::Field point = yaml::entry_of(field, entry);
+    if (const auto named = study::point_named(entry.key, labels)) {
+      read_point(point, true, rules.points[labels[static_cast<std::size_t>(*named)]], problems);
+      continue;
+    }
+    const std::string nearest = yaml::in_quotes(yaml::nearest_name(entry.key, labels));
+    problems.add(entry.place, point.path, "no design point of the files has this label",
+                 fmt::format("one of theirs, such as {}", nearest));
+  }
+}
+
+void read_measures(const yaml::Field& field, std::vector<std::string>& measures, yaml::Problems& problems) {
+  const std::vector<std::string> known = names_of(all_gate_measures());
+  const std::string expected = fmt::format("a list of some of {}", fmt::join(known, ", "));
+  if (!yaml::check_list(field, expected, problems)) return;
+  if (field.node->items.empty()) problems.add(field.node->place, field.path, "the list is empty", expected);
+  for (std::size_t i = 0; i < field.node->items.size(); ++i) {
+    const yaml::Field item = yaml::item_of(field, i);
+    const std::optional<std::string> name = yaml::read_text(item, problems);
+    if (!name) continue;
+    if (!find_gate_measure(*name)) {
+      problems.add(item.node->place, item.path,
+                   fmt::format("unknown measure {}, nearest known: {}", yaml::in_quotes(*name),
+                               yaml::nearest_name(*name, known)),
+                   expected);
+    }
+    measures.push_back(*name);
+  }
+}
+
+/// The keys of the file. @param labels of design points
+std::vector<Key> keys_of(GateRules& rules, std::span<const std::string> labels, yaml::Problems& problems) {
+  using yaml::Field;
+  const auto number = [&](double& to, double low, double high) {
+    return [&, low, high](const Field& field) {
+      to = yaml::read_real(field, numerics::closed(low, high), problems).value_or(to);
+    };
+  };
+  return {{"confidence", number(rules.confidence, 0.5, 0.999999)},
+          {"false_discovery_rate", number(rules.false_discovery_rate, 1e-6, 0.5)},
+          {"fail_on", [&](const Field& field) { rules.changed_fails = read_changed_fails(field, problems); }},
+          {"measures", [&](const Field& field) { read_measures(field, rules.measures, problems); }},
+          {"margins", [&](const Field& field) { read_point(field, false, rules, problems); }},
+          {"require", [&](const Field& field) { read_requirements(field, rules.requirements, problems); }},
+          {"points", [&, labels](const Field& field) { read_points(field, labels, rules, problems); }}};
 }
 
 }  // namespace
@@ -269,8 +510,8 @@ bool judges_by_goal(const GateRules& rules) {
 }
 
 GateMargin margin_of(const GateRules& rules, const std::string& label, const GateMeasure& measure) {
-  if (const auto point = rules.margins_at.find(label); point != rules.margins_at.end()) {
-    if (const GateMargin* own = margin_in(point->second, measure.name)) return *own;
+  if (const auto point = rules.points.find(label); point != rules.points.end()) {
+    if (const GateMargin* own = margin_in(point->second.margins, measure.name)) return *own;
   }
   const GateMargin* const general = margin_in(rules.margins, measure.name);
   return general == nullptr ? measure.margin : *general;
@@ -279,23 +520,43 @@ GateMargin margin_of(const GateRules& rules, const std::string& label, const Gat
 GateRules expanded(GateRules rules, const std::multimap<std::string, std::string>& others,
                    std::span<const std::string> goals) {
   rules.requirements = for_each_goal(rules.requirements, goals);
-  for (auto& [label, own] : rules.requirements_at) own = for_each_goal(own, goals);
+  for (auto& [label, own] : rules.points) own.requirements = for_each_goal(own.requirements, goals);
   for (const auto& [label, other] : others) {
-    if (label == other) continue;
-    if (const auto own = rules.margins_at.find(label); own != rules.margins_at.end())
-      rules.margins_at[other] = own->second;
-    if (const auto own = rules.requirements_at.find(label); own != rules.requirements_at.end())
-      rules.requirements_at[other] = own->second;
+    if (const auto own = rules.points.find(label); own != rules.points.end() && label != other)
+      rules.points[other] = own->second;
   }
   return rules;
 }
 
 std::vector<Requirement> requirements_of(const GateRules& rules, const std::string& label) {
   std::vector<Requirement> all = rules.requirements;
-  if (const auto own = rules.requirements_at.find(label); own != rules.requirements_at.end()) {
-    all.insert(all.end(), own->second.begin(), own->second.end());
-  }
+  if (const auto own = rules.points.find(label); own != rules.points.end())
+    all.insert(all.end(), own->second.requirements.begin(), own->second.requirements.end());
   return all;
+}
+
+GateRules parse_gate_rules(const std::string& text, std::string_view source,
+                           std::span<const std::string> labels) {
+  yaml::Problems problems;
+  GateRules rules;
+  const std::vector<Key> keys = keys_of(rules, labels, problems);
+  const std::string expected = fmt::format("a map with some of {}", fmt::join(names_offered(keys), ", "));
+  if (text.size() > yaml::max_manifest_size) {
+    problems.add({source, 1, 1}, "margins", "the file is too large",
+                 fmt::format("at most {} bytes", yaml::max_manifest_size));
+    problems.raise_if_any();
+  }
+  const yaml::YamlPointer root = yaml::parse_yaml(text, source, false, problems);
+  if (!root && problems.empty()) problems.add({source, 1, 1}, "margins", "the file is empty", expected);
+  const yaml::Field top{root.get(), ""};
+  if (root && yaml::check_map(top, expected, problems)) read_keys(top, keys, problems);
+  problems.raise_if_any();
+  return rules;
+}
+
+GateRules read_gate_rules(const std::filesystem::path& path, std::span<const std::string> labels) {
+  return parse_gate_rules(yaml::read_text(path, yaml::max_manifest_size, "margins in YAML"),
+                          yaml::name_of_text(path), labels);
 }
 
 }  // namespace zerocount::comparison

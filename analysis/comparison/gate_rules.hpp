@@ -107,17 +107,20 @@ struct Requirement {
 /// take less than 0.5 GB.
 constexpr std::int64_t default_compared_moves = 1'000'000;
 
-struct GateRules {
+/// The rules of all design points, or of one.
+struct PointRules {
+  std::map<std::string, GateMargin> margins{};  ///< [measure]
+  std::vector<Requirement> requirements{};      ///< of one point beside those of all
+};
+
+struct GateRules : PointRules {
   double confidence{statistics::summary_confidence};  ///< of every bound, one-sided
   double false_discovery_rate{0.05};                  ///< over all measures at all points
   bool changed_fails{false};                          ///< of every measure, a change for the better fails too
-  std::vector<std::string> measures;  ///< that are judged; empty: judged_measures() says which
+  std::vector<std::string> measures{};  ///< that are judged; empty: judged_measures() says which
   /// Trials of each point that are compared, the first ones; default: default_compared_moves / moves of each.
-  std::optional<std::int64_t> max_trials;
-  std::map<std::string, GateMargin> margins;
-  std::vector<Requirement> requirements;                                ///< at every point
-  std::map<std::string, std::map<std::string, GateMargin>> margins_at;  ///< [label][measure]
-  std::map<std::string, std::vector<Requirement>> requirements_at;  ///< [label], beside those of every point
+  std::optional<std::int64_t> max_trials{};
+  std::map<std::string, PointRules> points{};  ///< [label] that have rules of their own
 };
 
 /// A goal by which two studies are judged.

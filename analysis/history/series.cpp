@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/comparison/comparison_report.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/statistics/change_point.hpp"
 #include "analysis/text/text.hpp"

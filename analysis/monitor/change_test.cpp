@@ -244,9 +244,6 @@ void RankedBag::insert(double value) {
   }
 }
 
-ChangeTest::ChangeTest(std::vector<double> baseline, const random::RandomKey& ties)
-    : ChangeTest(std::vector<std::vector<double>>{std::move(baseline)}, ties) {}
-
 ChangeTest::ChangeTest(std::vector<std::vector<double>> baseline, const random::RandomKey& ties)
     : bags_(bags_of(std::move(baseline))),
       martingale_(size_of(bags_)),
@@ -267,17 +264,19 @@ double ChangeTest::update(double value, std::size_t of_class) {
   return p;
 }
 
+double mid_rank(std::span<const double> sorted, double value) {
+  const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), value);
+  return 0.5 * static_cast<double>((first - sorted.begin()) + (last - sorted.begin()));
+}
+
 std::vector<double> ranks_within(std::span<const double> values, std::span<const std::size_t> classes) {
   std::vector<double> ranks(values.size());
   for (const std::vector<std::size_t>& places : places_of(classes)) {
     std::vector<double> sorted;
     for (const std::size_t place : places) sorted.push_back(values[place]);
     std::ranges::sort(sorted);
-    for (const std::size_t place : places) {
-      const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), values[place]);
-      ranks[place] = 0.5 * static_cast<double>((first - sorted.begin()) + (last - sorted.begin())) /
-                     static_cast<double>(sorted.size());
-    }
+    for (const std::size_t place : places)
+      ranks[place] = mid_rank(sorted, values[place]) / static_cast<double>(sorted.size());
   }
   return ranks;
 }

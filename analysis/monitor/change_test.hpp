@@ -98,7 +98,6 @@ class RankedBag {
 /// w(s, i) the random bits of the key with the stream s and the index i.
 class ChangeTest {
  public:
-  ChangeTest(std::vector<double> baseline, const random::RandomKey& ties);
   /// @param baseline [class] values
   ChangeTest(std::vector<std::vector<double>> baseline, const random::RandomKey& ties);
 
@@ -136,6 +135,9 @@ struct Dependence {
 /// @param classes [value]
 Dependence dependence_of(std::span<const double> values, std::span<const std::size_t> classes,
                          const random::RandomKey& key);
+
+/// The number of sorted values below this one and half of those equal to it.
+double mid_rank(std::span<const double> sorted, double value);
 
 /// [value] its rank within its class, as a part of the class in (0, 1); equal values have the same.
 std::vector<double> ranks_within(std::span<const double> values, std::span<const std::size_t> classes);

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,17 +24,6 @@ constexpr int sequences = 200;
 constexpr int max_misses = sequences / 10;
 constexpr std::size_t max_resample = 5000;
 
-double middle_of(std::span<const double> values) {
-  std::vector<double> copy(values.begin(), values.end());
-  const auto middle = copy.begin() + static_cast<std::ptrdiff_t>(copy.size() / 2);
-  std::nth_element(copy.begin(), middle, copy.end());
-  return *middle;
-}
-
-double mean_of(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 bool can_be(const MonitoredMeasure& measure, double value) {
   if (measure.row->values.magnitude && value < 0.0) return false;
   const layout::ValidValues& valid = measure.row->field.valid;
@@ -51,7 +39,7 @@ struct ChangeOfClass {
 ChangeOfClass change_of_class(const MonitoredMeasure& measure, std::span<const double> baseline,
                               std::optional<double> change) {
   if (baseline.empty()) return {};
-  const double middle = measure.quality ? mean_of(baseline) : middle_of(baseline);
+  const double middle = typical_value(measure, {baseline.begin(), baseline.end()});
   ChangeOfClass to_see;
   const auto allow = [&](bool higher, bool lower) {
     if (higher) to_see.directions.push_back(Direction::higher);
@@ -87,7 +75,7 @@ class ChangedValue {
         is_binary_(question.measure.quality &&
                    std::ranges::all_of(baseline_, [](double x) { return x == 0.0 || x == 1.0; })) {
     if (!is_binary_ || baseline_.empty()) return;
-    const double rate = mean_of(baseline_);
+    const double rate = typical_value(question.measure, {baseline_.begin(), baseline_.end()});
     flipped_ = size_ / (sign_ > 0.0 ? 1.0 - rate : rate);
   }
 
@@ -157,14 +145,6 @@ std::vector<std::size_t> ends_of(const Baseline& baseline, const MonitorSettings
   return ends;
 }
 
-double typical_value(const MonitoredMeasure& measure, std::vector<double> values) {
-  if (measure.quality)
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// The unit in which values are stored, where a column has this unit.
 std::string shown_unit(const MonitoredMeasure& measure, const std::string& unit) {
   return have_same_dimension(unit, measure.unit) ? measure.unit : linear_unit(measure);
@@ -193,8 +173,8 @@ bool is_wanted(const MonitorSettings& settings, const MonitoredMeasure& measure)
   throw Failure(
       ExitCode::bad_input,
       fmt::format("{}: no measure to compare{}: it has {}, and {} has {}; expected columns named alike",
-                  log.name(), settings.measures.empty() ? "" : " among those of --measure",
-                  names(log.columns()), baseline.name, names(baseline.columns)));
+                  log.name, settings.measures.empty() ? "" : " among those of --measure", names(log.columns),
+                  baseline.name, names(baseline.columns)));
 }
 
 }  // namespace
@@ -249,8 +229,8 @@ std::optional<std::int64_t> values_to_see(const DelayQuestion& question) {
 MachineMonitor::MachineMonitor(const Baseline& baseline, const MoveLog& log, MonitorSettings settings)
     : settings_(with_own_names(std::move(settings))),
       baseline_ends_(ends_of(baseline, settings_)),
-      likes_(likes_of(baseline.labels, static_cast<std::size_t>(baseline.moves), baseline_ends_, log.labels(),
-                      log.name())),
+      likes_(likes_of(baseline.labels, static_cast<std::size_t>(baseline.moves), baseline_ends_, log.labels,
+                      log.name)),
       last_group_(baseline.groups.empty() ? std::string() : baseline.groups.back()) {
   for (const std::string& name : log.others()) {
     const std::string label = column_head(name).name;
@@ -277,9 +257,9 @@ std::vector<MachineMonitor::Pair> MachineMonitor::common_columns(const Baseline&
   for (const std::string& name : settings_.measures)
     if (log.find(name) == nullptr || baseline.find(name) == nullptr)
       throw Failure(ExitCode::bad_input, fmt::format("--measure {}: {} has no such measure", name,
-                                                     log.find(name) == nullptr ? log.name() : baseline.name));
+                                                     log.find(name) == nullptr ? log.name : baseline.name));
   std::vector<Pair> common;
-  for (const MoveLog::Column& column : log.columns()) {
+  for (const MoveLog::Column& column : log.columns) {
     const MoveLog::Column* const before = baseline.find(column.measure.name);
     const bool named = !settings_.measures.empty();
     const bool wanted = before != nullptr && is_wanted(settings_, column.measure);
@@ -288,7 +268,7 @@ std::vector<MachineMonitor::Pair> MachineMonitor::common_columns(const Baseline&
     if (!have_same_dimension(before->unit, column.unit))
       throw Failure(ExitCode::bad_input,
                     fmt::format("{}: {} is in '{}', and in {} in '{}'; expected units of the same dimension",
-                                log.name(), column.measure.name, column.unit, baseline.name, before->unit));
+                                log.name, column.measure.name, column.unit, baseline.name, before->unit));
     common.emplace_back(before, &column);
   }
   return common;
@@ -369,21 +349,21 @@ void MachineMonitor::update_measure(std::size_t number, std::size_t of_class, do
 
 /// A block ends with its last move, a group with the first move of the next one.
 void MachineMonitor::take_move(const MoveLog& log, const Columns& columns, std::size_t move) {
-  const std::optional<std::size_t> like = likes_.of(log.labels().of(move));
+  const std::optional<std::size_t> like = likes_.of(log.labels.of(move));
   like_at_.push_back(like);
   const bool grouped = !settings_.group.empty();
   if (grouped) {
-    const std::string& group = log.groups()[move];
+    const std::string& group = log.groups[move];
     continues_baseline_ = continues_baseline_ && group == last_group_;
     if (continues_baseline_) {
       like_at_.back().reset();
       ++continued_;
       return;
     }
-    if (move > 0 && group != log.groups()[move - 1]) finish_unit(columns);
+    if (move > 0 && group != log.groups[move - 1]) finish_unit(columns);
   }
   if (!like) {
-    if (unlike_++ == 0) first_unlike_ = likes_.name_of(log.labels().of(move));
+    if (unlike_++ == 0) first_unlike_ = likes_.name_of(log.labels.of(move));
     return;
   }
   open_.push_back(move);
@@ -413,9 +393,9 @@ void MachineMonitor::finish_unit(const Columns& columns) {
 void MachineMonitor::update(const MoveLog& log) {
   Columns columns;
   for (const MeasureState& state : states_) columns.push_back(&log.find(state.measure.name)->values);
-  for (auto move = static_cast<std::size_t>(moves_); move < static_cast<std::size_t>(log.moves()); ++move)
+  for (auto move = static_cast<std::size_t>(moves_); move < static_cast<std::size_t>(log.moves); ++move)
     take_move(log, columns, move);
-  moves_ = log.moves();
+  moves_ = log.moves;
   for (MeasureState& state : states_) update_median(state, log);
 }
 

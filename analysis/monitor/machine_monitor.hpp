@@ -8,9 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/document/answer.hpp"
 #include "analysis/monitor/change_test.hpp"
 #include "analysis/monitor/monitor_baseline.hpp"
 #include "analysis/monitor/move_log.hpp"
+#include "analysis/monitor/parameter_change.hpp"
 
 namespace zerocount::monitor {
 
@@ -177,5 +179,19 @@ class MachineMonitor {
   std::int64_t unlike_{0};
   std::int64_t continued_{0};
 };
+
+/// What the answer of `monitor` is made of.
+struct MonitorReading {
+  const MachineMonitor& monitor;
+  const Baseline& baseline;
+  MonitorState state;
+  std::string log{};                              ///< name of the file of the moves
+  const ChangeExplanation* explanation{nullptr};  ///< of an alarm beside a simulated study; null: none
+};
+
+document::AnswerDescription<MonitorReading> monitor_answer();
+
+/// regression for a machine that changed, success for one that did not, inconclusive.
+ExitCode exit_code_of(MachineStatus status);
 
 }  // namespace zerocount::monitor

@@ -1,5 +1,3 @@
-#include "analysis/monitor/monitor_answer.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/monitor/machine_monitor.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
@@ -212,22 +211,26 @@ document::Item number(std::string key, std::string heading, std::string meaning,
 Description<MeasureState> measure_description() {
   using State = const MeasureState&;
   const auto shown = [](std::optional<double> MeasureState::*member) {
-    return [member](State s) -> std::optional<std::string> {
-      if (!(s.*member)) return std::nullopt;
+    return [member](State s) -> std::string {
+      if (!(s.*member)) return "–";
       return s.measure.quality ? text::percent_near(*(s.*member)) : text::short_number(*(s.*member));
     };
+  };
+  const auto right = [](const char* key, const char* heading, const char* meaning) {
+    document::Item item = everywhere(key, heading, meaning);
+    item.numeric = true;  // the table aligns these texts as numbers
+    return item;
   };
   return Description<MeasureState>()
       .value(everywhere("measure", "measure", "name of the measure"), [](State s) { return s.measure.name; })
       .value(everywhere("unit", "unit", "its unit"), &MeasureState::unit)
-      .value(everywhere(
-                 "baseline", "baseline",
-                 "median of the baseline, of a quality its proportion; null: never, or one for each like: "
-                 "see `likes`"),
+      .value(right("baseline", "baseline",
+                   "median of the baseline, of a quality its proportion; null: never, or one for each like: "
+                   "see `likes`"),
              &MeasureState::baseline_median)
       .shown_as(shown(&MeasureState::baseline_median))
-      .value(everywhere("moves", "moves",
-                        "likewise of the moves, since the change if there is one; null: none, or never"),
+      .value(right("moves", "moves",
+                   "likewise of the moves, since the change if there is one; null: none, or never"),
              &MeasureState::median)
       .shown_as(shown(&MeasureState::median))
       .value(number("evidence", "evidence",

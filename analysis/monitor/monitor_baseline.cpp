@@ -80,32 +80,19 @@ std::vector<MoveLabel> labels_of(const trial::TrialParameters& parameters) {
   return labels;
 }
 
-const MoveLog::Column* Baseline::find(std::string_view measure) const {
-  return column_of(columns, measure);
-}
-
 Baseline baseline_of(const MoveLog& log) {
   log.require_header();
-  if (log.moves() == 0)
+  if (log.moves == 0)
     throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: has no moves; expected a row for each move of the baseline", log.name()));
-  return {.name = log.name(),
-          .columns = log.columns(),
-          .moves = log.moves(),
-          .labels = log.labels(),
-          .groups = log.groups()};
+                  fmt::format("{}: has no moves; expected a row for each move of the baseline", log.name));
+  return {log};
 }
 
 Baseline baseline_of(const reading::AllTrialsFile& file, const ModelMoves& moves) {
   const study::Study& study = file.study();
   const auto of_trial = static_cast<std::size_t>(file.moves());
-  Baseline baseline{.name = file.path().string(),
-                    .columns = {},
-                    .moves = 0,
-                    .is_model = true,
-                    .machines = moves.rig        ? 1
-                                : study.rigs > 0 ? study.rigs
-                                                 : file.header().trials};
+  Baseline baseline{{.name = file.path().string()}, true, moves.rig ? 1 : study.rigs};
+  if (baseline.machines == 0) baseline.machines = file.header().trials;
   std::vector<const layout::RecordField<trial::MoveOutcome>*> fields;
   for (const auto& field : file.measures()) {
     const std::optional<MonitoredMeasure> measure = measure_named(field.column.name);
@@ -220,7 +207,7 @@ double value_of(const MonitoredMeasure& measure, const Likes& likes, std::span<c
     alike.clear();
     for (std::size_t i = 0; i < values.size(); ++i)
       if (classes[i] == like) alike.push_back(likes.oriented(measure, like, values[i]));
-    sum += block_value(measure, alike);
+    sum += typical_value(measure, alike);
   }
   return set.size() == 1 ? sum : sum / static_cast<double>(set.size());
 }

@@ -18,16 +18,9 @@
 namespace zerocount::monitor {
 
 /// Moves that later ones are compared with.
-struct Baseline {
-  std::string name;  ///< of the file
-  std::vector<MoveLog::Column> columns;
-  std::int64_t moves{0};
+struct Baseline : Moves {
   bool is_model{false};      ///< simulated, not of the machine
   std::int64_t machines{0};  ///< of a model: rigs, or trials that share none
-  MoveLabels labels{};
-  std::vector<std::string> groups{};  ///< [move] of a log that is read with a group
-
-  const MoveLog::Column* find(std::string_view measure) const;
 };
 
 /// The labels of the moves of a trial, which begins at 0.
@@ -106,7 +99,7 @@ Likes likes_of(const MoveLabels& baseline, std::size_t moves, std::span<const st
 /// The sorted classes of these moves, each once.
 std::vector<std::size_t> set_of(std::span<const std::size_t> likes);
 
-/// The value of consecutive moves: the mean over their classes of block_value(), of oriented values.
+/// The value of consecutive moves: the mean over their classes of typical_value(), of oriented values.
 double value_of(const MonitoredMeasure& measure, const Likes& likes, std::span<const std::size_t> classes,
                 std::span<const double> values);
 

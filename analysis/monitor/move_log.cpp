@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/monitor/change_test.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
@@ -199,10 +200,7 @@ double serial_correlation(std::span<const double> values) {
   std::ranges::sort(sorted);
   const double middle = 0.5 * static_cast<double>(values.size());
   std::vector<double> ranks;  // of the values, those of equal ones alike, minus their mean
-  for (const double value : values) {
-    const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), value);
-    ranks.push_back(0.5 * static_cast<double>((first - sorted.begin()) + (last - sorted.begin())) - middle);
-  }
+  for (const double value : values) ranks.push_back(mid_rank(sorted, value) - middle);
   double squares = 0.0;
   double steps = 0.0;
   for (std::size_t i = 0; i < ranks.size(); ++i) {
@@ -212,11 +210,16 @@ double serial_correlation(std::span<const double> values) {
   return squares > 0.0 ? 1.0 - 0.5 * steps / squares : 0.0;
 }
 
-double block_value(const MonitoredMeasure& measure, std::span<const double> moves) {
-  if (moves.size() == 1) return moves.front();
+double typical_value(const MonitoredMeasure& measure, std::vector<double> values) {
   if (measure.quality)
-    return std::accumulate(moves.begin(), moves.end(), 0.0) / static_cast<double>(moves.size());
-  return statistics::upper_median({moves.begin(), moves.end()});
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  return statistics::upper_median(std::move(values));
+}
+
+const Moves::Column* Moves::find(std::string_view measure) const {
+  for (const Column& column : columns)
+    if (column.measure.name == measure) return &column;
+  return nullptr;
 }
 
 std::size_t MoveLog::read(std::string_view text) {
@@ -238,7 +241,7 @@ void MoveLog::require_header() const {
         ExitCode::bad_input,
         fmt::format("{}: is empty; expected a header with names of measures, such as settling_time, "
                     "and a row for each move",
-                    name_));
+                    name));
 }
 
 void MoveLog::read_line(std::string_view line) {
@@ -268,11 +271,11 @@ void MoveLog::require_line_feeds(std::string_view line) const {
   throw Failure(ExitCode::bad_input,
                 fmt::format("{}:{}: a carriage return stands alone within the line; expected lines that end "
                             "with a line feed, or with both",
-                            name_, line_));
+                            name, line_));
 }
 
 void MoveLog::refuse_twice(std::string_view column) const {
-  throw Failure(ExitCode::bad_input, fmt::format("{}:{}: two columns are named '{}'", name_, line_, column));
+  throw Failure(ExitCode::bad_input, fmt::format("{}:{}: two columns are named '{}'", name, line_, column));
 }
 
 void MoveLog::read_header(std::string_view line) {
@@ -287,7 +290,7 @@ void MoveLog::read_header(std::string_view line) {
       label_cells_.group = heads_.size();
     }
     heads_.emplace_back(cell);
-    column_at_.push_back(columns_.size());
+    column_at_.push_back(columns.size());
     if (!measure) {
       column_at_.back() = std::string::npos;
       if (!cell.empty()) others_.emplace_back(cell);
@@ -297,22 +300,21 @@ void MoveLog::read_header(std::string_view line) {
     if (find(measure->name) != nullptr) refuse_twice(measure->name);
     if (!can_be_in(*measure, head.unit))
       throw Failure(ExitCode::bad_input,
-                    fmt::format("{}:{}: {} is in '{}'; expected '{}', or a unit of the same dimension", name_,
+                    fmt::format("{}:{}: {} is in '{}'; expected '{}', or a unit of the same dimension", name,
                                 line_, head.name, text::printable(head.unit), measure->unit));
-    columns_.push_back({*measure, head.unit, {}});
+    columns.push_back({*measure, head.unit, {}});
   }
   if (!group_.empty() && !label_cells_.group)
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{}:{}: has no column '{}' (--group); expected one of {}", name_, line_,
+                  fmt::format("{}:{}: has no column '{}' (--group); expected one of {}", name, line_,
                               text::printable(group_),
                               text::printable(fmt::format("{}", fmt::join(heads_, ", ")).substr(0, 200))));
-  if (columns_.empty())
+  if (columns.empty())
     throw Failure(
         ExitCode::bad_input,
         fmt::format("{}:{}: no column is named like a measure of moves ({}); expected names such as "
                     "settling_time, band_settling_time[1], overshoot, outcome",
-                    name_, line_,
-                    text::printable(fmt::format("{}", fmt::join(heads_, ", ")).substr(0, 200))));
+                    name, line_, text::printable(fmt::format("{}", fmt::join(heads_, ", ")).substr(0, 200))));
 }
 
 void MoveLog::read_row(std::string_view line) {
@@ -320,36 +322,36 @@ void MoveLog::read_row(std::string_view line) {
   if (cells.size() == heads_.size() + 1 && cells.back().empty()) cells.pop_back();
   if (cells.size() != heads_.size())
     throw Failure(ExitCode::bad_data, fmt::format("{}:{}: a row of {} cells; expected {}, as the header has",
-                                                  name_, line_, cells.size(), heads_.size()));
+                                                  name, line_, cells.size(), heads_.size()));
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     if (column_at_[cell] == std::string::npos) continue;
-    Column& column = columns_[column_at_[cell]];
+    Column& column = columns[column_at_[cell]];
     std::optional<double> value = value_in(cells[cell], separator_, column.measure);
     if (value && !column.unit.empty()) *value *= si_factor(column.unit);
     if (!value || !is_possible(*value, column.measure))
       throw Failure(ExitCode::bad_data,
-                    fmt::format("{}:{}: {}: '{}'; expected {}", name_, line_, column.measure.name,
+                    fmt::format("{}:{}: {}: '{}'; expected {}", name, line_, column.measure.name,
                                 text::printable(cells[cell].substr(0, 40)), expected_of(column.measure)));
     column.values.push_back(ranked_value(column.measure, *value));
     if (column.measure.name == "final_error") column.written.push_back(*value);
   }
   read_labels(cells);
-  ++moves_;
+  ++moves;
 }
 
 void MoveLog::note_label(std::size_t cell, const ColumnHead& head) {
-  const auto note = [&](std::string_view name, std::optional<std::size_t>& place) {
-    if (head.name != name) return;
-    if (place) refuse_twice(name);
+  const auto note = [&](std::string_view label, std::optional<std::size_t>& place) {
+    if (head.name != label) return;
+    if (place) refuse_twice(label);
     place = cell;
   };
   note("move", label_cells_.move);
   note("target", label_cells_.target);
   note("trial", label_cells_.trial);
-  labels_.numbered = label_cells_.move.has_value();
-  labels_.targeted = label_cells_.target.has_value();
+  labels.numbered = label_cells_.move.has_value();
+  labels.targeted = label_cells_.target.has_value();
   if (label_cells_.target != cell) return;
-  labels_.target_unit = head.unit;
+  labels.target_unit = head.unit;
   target_factor_ = si_factor(head.unit);
 }
 
@@ -359,13 +361,12 @@ void MoveLog::read_labels(const std::vector<std::string_view>& cells) {
     // A column of whole numbers with a gap is written as 0.0, 1.0, … by some programs.
     const double number = text::parse_number<double>(cells[*label_cells_.move]).value_or(-1.0);
     const bool is_whole = number >= 0.0 && number < 1e15 && number == std::floor(number);
-    numbers_.push_back(is_whole ? static_cast<std::int64_t>(number) : -1);
-    if (numbers_.back() >= 0) label.number = numbers_.back();
+    if (is_whole) label.number = static_cast<std::int64_t>(number);
   }
   std::optional<double> before;
-  if (!labels_.moves.empty()) before = labels_.moves.back().target;
+  if (!labels.moves.empty()) before = labels.moves.back().target;
   if (label_cells_.trial) {
-    if (labels_.moves.empty() || cells[*label_cells_.trial] != trial_) before = 0.0;
+    if (labels.moves.empty() || cells[*label_cells_.trial] != trial_) before = 0.0;
     trial_ = cells[*label_cells_.trial];
   }
   if (label_cells_.target) {
@@ -375,13 +376,13 @@ void MoveLog::read_labels(const std::vector<std::string_view>& cells) {
     if (label.target && before)
       label.direction = static_cast<int>(*label.target > *before) - static_cast<int>(*label.target < *before);
   }
-  if (labels_.numbered || labels_.targeted) labels_.moves.push_back(label);
+  if (labels.numbered || labels.targeted) labels.moves.push_back(label);
   if (!label_cells_.group) return;
   const std::string_view group = cells[*label_cells_.group];
   if (group.empty())
-    throw Failure(ExitCode::bad_data, fmt::format("{}:{}: {} is empty; expected the group of the move", name_,
+    throw Failure(ExitCode::bad_data, fmt::format("{}:{}: {} is empty; expected the group of the move", name,
                                                   line_, text::printable(group_)));
-  groups_.emplace_back(group);
+  groups.emplace_back(group);
 }
 
 }  // namespace zerocount::monitor

@@ -82,16 +82,29 @@ double ranked_value(const MonitoredMeasure& measure, double number);
 /// For n independent values it has about the standard deviation 1/√n.
 double serial_correlation(std::span<const double> values);
 
-/// The value of a block of consecutive moves: the median, or of a quality the proportion that have it.
-double block_value(const MonitoredMeasure& measure, std::span<const double> moves);
+/// The value that stands for several: the upper median, or of a quality the proportion that have it.
+double typical_value(const MonitoredMeasure& measure, std::vector<double> values);
 
-/// The column of the measure; null if there is none.
-template <class Column>
-const Column* column_of(const std::vector<Column>& columns, std::string_view measure) {
-  for (const Column& column : columns)
-    if (column.measure.name == measure) return &column;
-  return nullptr;
-}
+/// Moves of a machine, or of a simulated study, in their order.
+struct Moves {
+  struct Column {
+    MonitoredMeasure measure;
+    std::string unit;               ///< in the header; empty: none
+    std::vector<double> values{};   ///< [move] as ranked_value() has them, in SI where the column has a unit
+    std::vector<double> written{};  ///< [move] of final_error: with their signs
+  };
+
+  std::string name{};  ///< of the file
+  std::vector<Column> columns{};
+  std::int64_t moves{0};
+  /// By the columns `move` and `target` of a log. The target before is that of the row before; a trial
+  /// (column `trial`) begins at 0. A `move` that is not a whole number is none.
+  MoveLabels labels{};
+  std::vector<std::string> groups{};  ///< [move] the cell of the group, of a log that is read with one
+
+  /// Null if there is none.
+  const Column* find(std::string_view measure) const;
+};
 
 /// A log of moves as text: a header with the names of measures, then one row a move in their order. It may be
 /// read in pieces, as it grows.
@@ -99,18 +112,12 @@ const Column* column_of(const std::vector<Column>& columns, std::string_view mea
 /// Cells are separated by the first of tab, semicolon and comma that the header has. Blank lines, which have
 /// no separator, and lines that begin with '#' or '%' are skipped. An empty cell, or NaN, is what never
 /// happened; so is a blank line between the rows of a log of one column.
-class MoveLog {
+class MoveLog : public Moves {
  public:
-  /// @param name in messages @param group name of the column whose rows of one value belong together; none
-  explicit MoveLog(std::string name, std::string group = {})
-      : name_(std::move(name)), group_(std::move(group)) {}
-
-  struct Column {
-    MonitoredMeasure measure;
-    std::string unit;               ///< in the header; empty: none
-    std::vector<double> values;     ///< [move] as ranked_value() has them, in SI where the column has a unit
-    std::vector<double> written{};  ///< [move] of final_error: with their signs
-  };
+  /// @param file its name in messages @param group name of the column whose rows of one value belong
+  /// together; none
+  explicit MoveLog(std::string file, std::string group = {})
+      : Moves{.name = std::move(file)}, group_(std::move(group)) {}
 
   /// Reads the lines that end in `text`. @returns the number of its characters that were read
   /// @throws Failure: bad_input for a header without a measure, with one twice or in a unit that it cannot
@@ -122,21 +129,9 @@ class MoveLog {
   /// @throws Failure (bad_input) if there was no header
   void require_header() const;
 
-  const std::string& name() const { return name_; }
   bool has_header() const { return !heads_.empty(); }
-  const std::vector<Column>& columns() const { return columns_; }
-  const Column* find(std::string_view measure) const { return column_of(columns_, measure); }
   /// Names of the columns that are not measures, as the header has them.
   const std::vector<std::string>& others() const { return others_; }
-  std::int64_t moves() const { return moves_; }
-  /// [move] its number in the sequence of a trial, from 0, by the column `move`; −1 where that has no whole
-  /// number. Empty without such a column.
-  const std::vector<std::int64_t>& numbers() const { return numbers_; }
-  /// By the columns `move` and `target`. The target before is that of the row before; a trial (column
-  /// `trial`) begins at 0.
-  const MoveLabels& labels() const { return labels_; }
-  /// [move] the cell of the group. Empty without one.
-  const std::vector<std::string>& groups() const { return groups_; }
 
  private:
   void read_line(std::string_view line);
@@ -153,20 +148,14 @@ class MoveLog {
     std::optional<std::size_t> move{}, target{}, trial{}, group{};
   };
 
-  std::string name_;
   std::string group_;
   records::Separator separator_{records::Separator::comma};
   std::vector<std::string> heads_;      ///< of all columns
-  std::vector<std::size_t> column_at_;  ///< [cell] its place in columns_; heads_.size() if it has none
-  std::vector<Column> columns_;
+  std::vector<std::size_t> column_at_;  ///< [cell] its place among the columns; npos if it has none
   std::vector<std::string> others_;
   LabelCells label_cells_{};
   double target_factor_{1.0};  ///< to SI, or counts
   std::string trial_;          ///< of the last row
-  std::vector<std::int64_t> numbers_;
-  MoveLabels labels_;
-  std::vector<std::string> groups_;
-  std::int64_t moves_{0};
   std::int64_t line_{0};
   std::int64_t blank_lines_{0};  ///< since the last row, in a log of one column
 };

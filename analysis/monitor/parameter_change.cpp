@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/monitor/change_test.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "core/numerics/dense.hpp"
 #include "core/numerics/normal_distribution.hpp"
@@ -43,10 +44,7 @@ class NormalScores {
     Matrix scores(measures, moves.size() / measures);
     for (std::size_t i = 0; i < moves.size(); ++i) {
       const std::vector<double>& values = sorted_[i % measures];
-      const auto [first, last] = std::equal_range(values.begin(), values.end(), moves[i]);
-      const auto below = static_cast<double>(first - values.begin());
-      const auto equal = static_cast<double>(last - first);
-      const double part = (below + 0.5 * equal + 0.5) / (static_cast<double>(values.size()) + 1.0);
+      const double part = (mid_rank(values, moves[i]) + 0.5) / (static_cast<double>(values.size()) + 1.0);
       scores(static_cast<Eigen::Index>(i % measures), static_cast<Eigen::Index>(i / measures)) =
           numerics::normal_quantile(part);
     }

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/comparison/comparison_report.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/forecast.hpp"
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/point_judgements.hpp"

@@ -216,8 +216,7 @@ class RanksAmongLikes {
     for (std::size_t i = 0; i < moves.size(); ++i) {
       const std::size_t like = likes[i / watched_.size()];
       const std::vector<double>& values = sorted_[place_of(like, i)];
-      const auto [first, last] = std::equal_range(values.begin(), values.end(), oriented(like, i, moves[i]));
-      moves[i] = (0.5 * static_cast<double>((first - values.begin()) + (last - values.begin())) + 0.5) /
+      moves[i] = (monitor::mid_rank(values, oriented(like, i, moves[i])) + 0.5) /
                  static_cast<double>(values.size() + 1);
     }
   }
@@ -251,8 +250,8 @@ monitor::ChangeExplanation Simulations::explained(std::vector<monitor::ChangeCan
   std::vector<std::int64_t> numbers;  // in the log, from 1, of the moves that have a like
   std::vector<std::size_t> likes_of_log;
   monitor::MachineMoves observed;
-  for (std::size_t move = 0; move < static_cast<std::size_t>(of_.log.moves()); ++move) {
-    const std::optional<std::size_t> like = of_.likes.of(of_.log.labels().of(move));
+  for (std::size_t move = 0; move < static_cast<std::size_t>(of_.log.moves); ++move) {
+    const std::optional<std::size_t> like = of_.likes.of(of_.log.labels.of(move));
     if (!like || !ranks.knows(*like)) continue;
     numbers.push_back(static_cast<std::int64_t>(move) + 1);
     likes_of_log.push_back(*like);

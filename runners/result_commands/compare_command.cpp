@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "analysis/comparison/comparison.hpp"
-#include "analysis/comparison/comparison_report.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/text/text.hpp"
 #include "experiments/yaml/text_file.hpp"

@@ -64,10 +64,10 @@ bool GrowingLog::read() {
   const auto size = static_cast<std::size_t>(end);
   require_log_size(path_, size);
   require_same_beginning(file, size);
-  const std::int64_t before = log_.moves();
+  const std::int64_t before = log_.moves;
   const std::string text = bytes_at(file, read_, size - read_);
   remember(std::string_view(text).substr(0, log_.read(text)));
-  return log_.moves() > before;
+  return log_.moves > before;
 }
 
 void GrowingLog::require_same_beginning(std::ifstream& file, std::size_t size) const {
@@ -80,7 +80,7 @@ void GrowingLog::require_same_beginning(std::ifstream& file, std::size_t size) c
                               path_.string()));
   throw Failure(ExitCode::bad_data,
                 fmt::format("{}: another log took its place after {} moves; expected a file that only grows",
-                            path_.string(), log_.moves()));
+                            path_.string(), log_.moves));
 }
 
 void GrowingLog::refuse_replaced(std::string_view first) const {

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "analysis/monitor/machine_monitor.hpp"
-#include "analysis/monitor/monitor_answer.hpp"
 #include "analysis/monitor/monitor_baseline.hpp"
 #include "analysis/monitor/move_log.hpp"
 #include "experiments/yaml/text_file.hpp"
@@ -133,7 +132,7 @@ ExitCode print_state(const command_line::Arguments& arguments, monitor::MachineM
   machine.update(log);
   const monitor::MonitorState state = machine.state();
   const auto explanation = explanation_of(baseline, machine, state, log, stop);
-  const monitor::MonitorReading reading{machine, baseline.moves, state, log.name(),
+  const monitor::MonitorReading reading{machine, baseline.moves, state, log.name,
                                         explanation ? &*explanation : nullptr};
   const ExitCode code = monitor::exit_code_of(state.status);
   if (!arguments.has("follow")) return answers::print(arguments, monitor::monitor_answer(), reading, code);

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/comparison/comparison_report.hpp"
+#include "analysis/comparison/comparison.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/text/percent.hpp"
 

@@ -1,6 +1,4 @@
 // Measured machines beside simulated ones.
-#include "analysis/acceptance/agreement.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/acceptance/acceptance.hpp"
 #include "analysis/statistics/clusters/observed_test.hpp"
 #include "tests/support/draws.hpp"
 

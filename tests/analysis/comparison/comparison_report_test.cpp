@@ -1,12 +1,11 @@
 // The answer of a comparison, and its JUnit XML.
-#include "analysis/comparison/comparison_report.hpp"
-
 #include <cstdlib>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/comparison/comparison.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::testing {

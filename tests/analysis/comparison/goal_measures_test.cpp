@@ -102,7 +102,7 @@ TEST(GoalMeasures, AreJudgedInPlaceOfTheOthersUnlessTheRulesNameThese) {
   EXPECT_EQ(names({}, of_moves), (Names{"goal_rate", "goal_settling_time"}));
   EXPECT_EQ(names({}, of_machines), (Names{"goal_rate", "goal_machines", "goal_settling_time"}));
   comparison::GateRules rules;
-  rules.margins_at["b"]["jerk_count"] = {};  // a margin that had no effect would be ignored
+  rules.points["b"].margins["jerk_count"] = {};  // a margin that had no effect would be ignored
   EXPECT_EQ(names(rules, of_moves), (Names{"goal_rate", "goal_settling_time", "jerk_count"}));
   rules.measures = {"stable_rate", "goal_machines"};
   EXPECT_EQ(names(rules, of_machines), (Names{"goal_machines", "stable_rate"}));

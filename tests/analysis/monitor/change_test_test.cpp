@@ -95,7 +95,7 @@ TEST(ChangeMartingale, SeesAChangeAndItsTime) {
       random::NumberSource numbers = numbers_of("since", i);
       std::vector<double> baseline;
       for (int k = 0; k < 200; ++k) baseline.push_back(move_value(Moves::lognormal, numbers));
-      monitor::ChangeTest test(baseline, {1, 2});
+      monitor::ChangeTest test({baseline}, {1, 2});
       std::vector<double> p;
       while (test.martingale().capital() < 1000.0 && std::ssize(p) < 2000)
         p.push_back(test.update(move_value(Moves::lognormal, numbers, std::ssize(p) >= 500 ? factor : 1.0)));

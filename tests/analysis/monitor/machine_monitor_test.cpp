@@ -540,7 +540,7 @@ TEST(ValuesToSee, IsWhatRealSequencesTake) {
     constexpr int sequences = 200;
     for (std::uint32_t i = 0; i < sequences; ++i) {
       random::NumberSource numbers = numbers_of("real", i);
-      monitor::ChangeTest test(sorted_values(kind, 500, 100 + i), {5, 6});
+      monitor::ChangeTest test({sorted_values(kind, 500, 100 + i)}, {5, 6});
       for (std::int64_t t = 0; t < values && test.martingale().capital() < 1000.0; ++t) {
         const double before = move_value(kind, numbers, kind == Moves::binary ? 0.85 / 0.95 : 1.0);
         test.update(kind == Moves::binary ? before : before - size);

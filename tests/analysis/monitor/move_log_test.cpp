@@ -36,7 +36,7 @@ TEST(MoveLog, ReadsMeasuresByNameWithBandsUnitsAndMissingValues) {
       "2,,NaN,0,1,0,1.5e1\r\n"
       "\r\n"
       "3,+75.5,inf,1,\"off_target\",True,NA\r\n");
-  EXPECT_EQ(log.moves(), 3);
+  EXPECT_EQ(log.moves, 3);
   EXPECT_EQ(log.others(), std::vector<std::string>{"move"});
   EXPECT_EQ(log.find("settling_time")->values, (Values{0.05, never, 0.0755}));
   EXPECT_EQ(log.find("band_settling_time[1]")->values, (Values{0.04, never, never}));
@@ -56,7 +56,7 @@ TEST(MoveLog, TakesMagnitudesOfErrorsAndDecimalCommas) {
 TEST(MoveLog, ReadsBlankLinesOfOneColumnAsMovesThatNeverSettled) {
   EXPECT_EQ(log_of("settling_time\n0.1\n\n0.2\n\"\"\n0.3").find("settling_time")->values,
             (Values{0.1, never, 0.2, never, 0.3}));
-  EXPECT_EQ(log_of("settling_time\n0.1\n\n\n").moves(), 1) << "what ends the file is no move";
+  EXPECT_EQ(log_of("settling_time\n0.1\n\n\n").moves, 1) << "what ends the file is no move";
 }
 
 TEST(MoveLog, ReadsLinesOfSeparatorsAsMovesThatNeverSettled) {
@@ -65,7 +65,7 @@ TEST(MoveLog, ReadsLinesOfSeparatorsAsMovesThatNeverSettled) {
     std::ranges::replace(text, ',', separator);
     EXPECT_EQ(log_of(text).find("settling_time")->values, (Values{0.1, never, never, 0.3})) << separator;
   }
-  EXPECT_EQ(log_of("settling_time,final_settling_time\n\t\n1,2\n").moves(), 1);
+  EXPECT_EQ(log_of("settling_time,final_settling_time\n\t\n1,2\n").moves, 1);
 }
 
 TEST(MoveLog, NamesBandsAndTolerancesAsTheProgramDoes) {

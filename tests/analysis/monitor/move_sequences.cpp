@@ -15,7 +15,7 @@ constexpr std::uint64_t seed = 20261127;
 monitor::ChangeTest test_after_baseline(const Sequence& sequence, random::NumberSource& numbers) {
   std::vector<double> baseline;
   for (std::int64_t i = 0; i < sequence.baseline; ++i) baseline.push_back(move_value(sequence.kind, numbers));
-  return monitor::ChangeTest(std::move(baseline), designs::random_key(seed, "ties"));
+  return monitor::ChangeTest({std::move(baseline)}, designs::random_key(seed, "ties"));
 }
 
 std::string experiment_of(const Sequence& sequence) {

@@ -42,7 +42,7 @@ class GrowingLogTest : public ::testing::TestWithParam<bool> {
       return fmt::format("{}{}", static_cast<int>(failure.code()),
                          std::string(failure.what()).substr((folder_.path() / "moves.csv").string().size()));
     }
-    return fmt::format("{} moves", log.log().moves());
+    return fmt::format("{} moves", log.log().moves);
   }
 
   TemporaryFolder folder_;
@@ -75,7 +75,7 @@ TEST_P(GrowingLogTest, ReadsOnWhereTheFileBeginsWithWhatWasRead) {
   EXPECT_TRUE(log.read());
   write(head + rows(5000, 40) + "41.5,2\n" + rows(3, 40));
   EXPECT_TRUE(log.read());
-  EXPECT_EQ(log.log().moves(), 5004);
+  EXPECT_EQ(log.log().moves, 5004);
   write(head + rows(4999, 40) + "39.9,1\n41.5,2\n" + rows(9, 40));
   EXPECT_THROW(log.read(), Failure);
 }

@@ -2,13 +2,17 @@
 #include "results/hdf5/library_use.hpp"
 
 #include <cstdint>
+#include <cstring>
+#include <span>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "results/hdf5/chunk_filters.hpp"
 #include "results/hdf5/hdf5.hpp"
+#include "tests/support/draws.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::testing {
@@ -50,6 +54,49 @@ TEST(LibraryUse, ThatFailsPrintsNothingInAnyThread) {
   fail();
   in_another_thread(fail);
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+// The size of encoded chunks: digits that are random are stored as they are, and repetitions are compressed.
+
+constexpr std::size_t elements = 16384;
+
+/// Encoded size of a chunk over that of its elements.
+double ratio_of(const std::vector<double>& values) {
+  const auto bytes = std::as_bytes(std::span(values));
+  const auto stored = hdf5::encode_chunk({sizeof(double), 1}, bytes);
+  EXPECT_TRUE(stored);
+  return stored ? static_cast<double>(stored->size()) / static_cast<double>(bytes.size()) : 1.0;
+}
+
+std::vector<double> draws_with_period(std::size_t period, Draws& draws) {
+  std::vector<double> values(elements);
+  for (std::size_t i = 0; i < elements; ++i)
+    values[i] = i < period ? draws.uniform(1.0, 2.0) : values[i - period];
+  return values;
+}
+
+TEST(ChunkFilters, RandomDigitsTakeLittleMoreThanTheirOwnSize) {
+  Draws draws(20260105);
+  for (int round = 0; round < 10; ++round) EXPECT_LE(ratio_of(draws_with_period(elements, draws)), 0.88);
+}
+
+// Each design point, or each trial of a rig, has the same draws.
+TEST(ChunkFilters, RepeatedDrawsAreCompressed) {
+  Draws draws(20260106);
+  for (const std::size_t period : {100U, 1000U, 2000U, 4096U, 5000U, 8192U}) {
+    const double once = static_cast<double>(period) / elements;
+    EXPECT_LE(ratio_of(draws_with_period(period, draws)), 0.01 + 1.1 * once) << period;
+  }
+}
+
+TEST(ChunkFilters, RepeatedValuesAreCompressed) {
+  Draws draws(20260107);
+  for (const std::size_t times : {2U, 4U, 16U}) {
+    std::vector<double> values(elements);
+    for (std::size_t i = 0; i < elements; ++i)
+      values[i] = i % times == 0 ? draws.uniform(1.0, 2.0) : values[i - 1];
+    EXPECT_LE(ratio_of(values), times == 2 ? 0.75 : 0.5) << times;
+  }
 }
 
 }  // namespace

@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
+#include "core/trial/named_measures.hpp"
+#include "results/layout/header.hpp"
+#include "results/layout/measure_table.hpp"
 #include "tests/results/equality.hpp"
+#include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/support/says.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -31,8 +38,8 @@ std::vector<layout::Table> all_tables() {
 TEST(Layout, OfALinearAxisSpeaksOfForcesAndPositions) {
   const auto expect_linear = [](const layout::Column& column) {
     for (const char* word : {"rad", "N m", "rotor", "torque", "angle", "$"}) {
-      EXPECT_EQ(column.unit.find(word), std::string::npos) << column.name << " " << column.unit;
-      EXPECT_EQ(column.long_name.find(word), std::string::npos) << column.name << ": " << column.long_name;
+      EXPECT_FALSE(says(column.unit, word)) << column.name << " " << column.unit;
+      EXPECT_FALSE(says(column.long_name, word)) << column.name << ": " << column.long_name;
     }
   };
   for (const layout::Table& table : all_tables()) {
@@ -136,6 +143,93 @@ TEST(Fields, ScatterIsTheReverseOfGather) {
                     std::span(records_back));
   }
   expect_equal_records(layout::trace_fields(study.features), records, records_back);
+}
+
+}  // namespace
+}  // namespace zerocount::testing
+
+namespace zerocount::layout {
+namespace {
+
+bool matches(const std::string& text, const std::string& expression) {
+  return ::testing::Matcher<std::string>(::testing::MatchesRegex(expression)).Matches(text);
+}
+
+TEST(Provenance, NamesVersionCommitCompilerProcessorAndTime) {
+  const Provenance provenance = current_provenance();
+  EXPECT_TRUE(matches(provenance.zerocount_version, "[0-9]+[.][0-9]+[.][0-9]+"))
+      << provenance.zerocount_version;
+  EXPECT_TRUE(matches(provenance.git_commit, "unknown|[0-9a-f]{40}(-dirty)?")) << provenance.git_commit;
+  EXPECT_TRUE(matches(provenance.compiler, "[A-Za-z]+ [0-9.]+")) << provenance.compiler;
+  EXPECT_FALSE(provenance.cpu.empty());
+  EXPECT_TRUE(matches(provenance.created, "[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z"))
+      << provenance.created;
+}
+
+TEST(Provenance, IsOfTheSameBuildByVersionAndCommit) {
+  const auto build = [](const char* version, const char* commit) {
+    return Provenance{version, commit, "GNU 12.2.0", "some processor", "2002-07-21T12:00:00Z"};
+  };
+  EXPECT_TRUE(same_build(build("0.1.0", "a1b2"), build("0.1.0", "a1b2")));
+  EXPECT_TRUE(same_build(build("0.1.0", "unknown"), build("0.1.0", "unknown")));
+  EXPECT_TRUE(same_build(build("0.1.0", "a1b2-dirty"), build("0.1.0", "a1b2")));
+  EXPECT_TRUE(same_build(build("0.1.0", "a1b2"), build("0.1.0", "a1b2-dirty")));
+  EXPECT_FALSE(same_build(build("0.1.0", "a1b2"), build("0.1.0", "c3d4")));
+  EXPECT_FALSE(same_build(build("0.1.0", "a1b2-dirty"), build("0.1.0", "c3d4-dirty")));
+  EXPECT_FALSE(same_build(build("0.1.0", "a1b2"), build("0.1.0", "unknown")));
+  EXPECT_FALSE(same_build(build("0.1.0", "a1b2"), build("0.2.0", "a1b2")));
+  EXPECT_TRUE(is_dirty(build("0.1.0", "a1b2-dirty")));
+  EXPECT_FALSE(is_dirty(build("0.1.0", "a1b2")));
+}
+
+}  // namespace
+}  // namespace zerocount::layout
+
+// The measures that a goal can limit are those of the file.
+
+namespace zerocount::testing {
+namespace {
+
+TEST(NamedMeasures, AreColumnsOfTheFile) {
+  const study::StudyFeatures features{.bands = {{3}, 1}, .tolerances = {{1e-8}, 1}};
+  const layout::MeasureTable& measures = layout::measure_table(features);
+  const auto expect_column = [&](std::string_view name) {
+    EXPECT_TRUE(std::ranges::any_of(measures, [name](const layout::Measure& measure) {
+      return measure.field.column.name == name;
+    })) << name;
+  };
+  for (const trial::NamedMeasure& named : trial::named_measures()) expect_column(named.name);
+  for (const std::string_view named : trial::named_band_measures())
+    expect_column(layout::name_of_band(named, 3));
+  expect_column(layout::name_of_tolerance(trial::tolerance_measure, 1e-8));
+}
+
+// The study of a results file, by its manifest and overrides, has the trials that the file has.
+
+layout::FileHeader header_of(std::int64_t points, std::int64_t trials) {
+  layout::FileHeader header;
+  header.manifest =
+      "zerocount: 1\nname: recorded\nseed: 1\ntrials: 2\ncommand: {targets: [1], hold: 0.5}\n"
+      "sweep: {grid: {controller.kp: [0, 1.0e-4, 2.0e-4]}}\n";
+  header.points = points;
+  header.trials = trials;
+  return header;
+}
+
+TEST(RecordedStudy, HasTheTrialsOfTheFile) {
+  EXPECT_EQ(study::trial_count(layout::recorded_study(header_of(3, 2), "study.h5")), 6);
+}
+
+// Statistics of the trials of a file by another study wrote beyond the end of their vectors.
+TEST(RecordedStudy, OfOtherTrialsThanThoseOfTheFileIsRefused) {
+  layout::FileHeader more = header_of(3, 2);
+  more.overrides = {"trials=4"};
+  expect_failure(ExitCode::bad_data,
+                 "study.h5: damaged: it has 3 design points with 2 trials each; its manifest and overrides "
+                 "have 3 with 4",
+                 [&] { layout::recorded_study(more, "study.h5"); });
+  expect_failure(ExitCode::bad_data, "it has 4 design points with 2 trials each",
+                 [&] { layout::recorded_study(header_of(4, 2), "study.h5"); });
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/says.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -105,8 +106,7 @@ TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const shards::ShardProblem& found = survey.problems[i];
     EXPECT_EQ(found.path.filename(), expected[i].file);
-    EXPECT_NE(found.problem.find(expected[i].phrase), std::string::npos) << found.problem;
-    EXPECT_NE(found.problem.find(expected[i].file), std::string::npos) << found.problem;
+    EXPECT_TRUE(says(found.problem, expected[i].phrase, expected[i].file));
     EXPECT_EQ(found.kind, expected[i].kind) << found.problem;
   }
   ASSERT_EQ(survey.unfinished.size(), 1U);

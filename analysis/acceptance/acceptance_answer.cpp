@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include "analysis/acceptance/acceptance.hpp"
-#include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"

@@ -14,7 +14,6 @@
 #include <fmt/ranges.h>
 
 #include "analysis/comparison/comparison.hpp"
-#include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/text/text.hpp"
 

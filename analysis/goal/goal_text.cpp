@@ -254,4 +254,21 @@ std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_
                      goal.machines ? "if machines are as these" : "by what these leave likely");
 }
 
+std::vector<std::string> status_words() {
+  std::vector<std::string> words;
+  for (const Status status : {Status::met, Status::missed, Status::undecided})
+    words.emplace_back(text_of(status));
+  return words;
+}
+
+document::Description<Needs> needs_description() {
+  return document::Description<Needs>()
+      .value(document::in_data("rigs", "machines; 0 without rigs"), &Needs::rigs)
+      .value(document::in_data("trials", "trials of a design point"), &Needs::trials);
+}
+
+const Needs* practicable(const std::optional<Needs>& needs) {
+  return needs && needs->trials > 0 ? &*needs : nullptr;
+}
+
 }  // namespace zerocount::goal

@@ -2,7 +2,9 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
+#include "analysis/document/description.hpp"
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/goal/question.hpp"
 #include "analysis/statistics/clusters/rig_proportion.hpp"
@@ -44,5 +46,19 @@ std::string one_machine_text(const study::Goal& goal, const statistics::RigStudy
 /// "About 300 rigs with 100 trials each decide it with a probability of 90 %, …", or that no study does.
 /// @param on_rigs whether trials share rigs
 std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_rigs);
+
+/// "met", "missed", "undecided": the words of text_of().
+std::vector<std::string> status_words();
+
+/// A proportion with its bounds.
+inline document::Bounded bounded(const BoundedProportion& proportion) {
+  return {proportion.value, proportion.low, proportion.high};
+}
+
+/// Rigs and trials; for data only, because needs_sentence() says them.
+document::Description<Needs> needs_description();
+
+/// Needs that a study of practicable size has; nothing where none is.
+const Needs* practicable(const std::optional<Needs>& needs);
 
 }  // namespace zerocount::goal

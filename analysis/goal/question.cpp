@@ -2,13 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <ranges>
+#include <type_traits>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "analysis/goal/success_bounds.hpp"
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
+#include "analysis/statistics/clusters/rig_proportion.hpp"
+#include "analysis/statistics/clusters/rig_statistics.hpp"
+#include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/statistics/proportion.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/layout.hpp"
 
@@ -311,6 +319,178 @@ std::string_view judged_meeting(const Question& question) {
 
 double confidence_of(const Question& question, double others) {
   return question.claim() ? question.claim()->confidence : others;
+}
+
+statistics::SuccessClaim claim_of_chosen(const measures::PointSummary& point, std::size_t points,
+                                         bool stopped) {
+  const std::int64_t successes = point.claim.trials - point.claim.failures;
+  const double confidence = statistics::confidence_of_each(point.claim.confidence, points);
+  statistics::SuccessClaim claim =
+      stopped ? statistics::success_claim_at_any_time(successes, point.claim.trials, confidence)
+              : statistics::success_claim(successes, point.claim.trials, confidence);
+  if (point.rigs.n > 0) {
+    const statistics::SuccessClaim over_rigs =
+        statistics::success_claim_on_rigs(point.rigs.successes, confidence);
+    claim = stopped ? statistics::weaker_claim(over_rigs, claim) : over_rigs;
+  }
+  claim.confidence = point.claim.confidence;
+  return claim;
+}
+
+statistics::ConfidenceInterval bounds_of_chosen(const measures::PointSummary& point, std::size_t points,
+                                                bool stopped, double confidence) {
+  const double each = statistics::confidence_of_each(confidence, points);
+  const statistics::ConfidenceInterval fixed =
+      point.rigs.n > 0 ? statistics::clustered_proportion(point.rigs.successes, each).korn_graubard
+                       : statistics::clopper_pearson(point.outcomes.zero_count, point.judged, each);
+  if (!stopped) return fixed;
+  const statistics::ConfidenceInterval sequential =
+      statistics::confidence_sequence_bounds(point.outcomes.zero_count, point.judged, each);
+  if (point.rigs.n == 0) return sequential;
+  return {std::min(sequential.low, fixed.low), std::max(sequential.high, fixed.high)};
+}
+
+namespace {
+
+/// One goal under one condition at one age.
+struct ClaimAtAge {
+  study::Goal goal;  ///< on machines: the bounds of a goal on moves are those of such a claim
+  measures::CellCounts counts;
+  std::vector<statistics::RigMoves> rigs;  ///< of the counts
+
+  bool is_met_by(std::size_t rig) const {
+    return statistics::rate(rigs[rig].met, rigs[rig].moves) >= goal.moves;
+  }
+};
+using ClaimsAtAge = std::vector<std::vector<ClaimAtAge>>;  ///< [goal][condition]
+
+ClaimsAtAge claims_at_age(const Question& question, const std::vector<measures::CellCounts>& counts,
+                          std::size_t age) {
+  constexpr double usual_machines = 0.9;
+  const std::size_t of_age = question.conditions.size() / question.ages.at.size();
+  ClaimsAtAge claims;
+  for (const JudgedPart& part : question.parts) {
+    study::Goal goal = *part.claim;
+    goal.machines = goal.machines.value_or(usual_machines);
+    std::vector<ClaimAtAge>& of_goal = claims.emplace_back();
+    for (std::size_t c = 0; c < of_age; ++c) {
+      measures::CellCounts one = counts[part.number].under(age * of_age + c);
+      std::vector<statistics::RigMoves> rigs = one.sum().rigs;
+      of_goal.push_back({goal, std::move(one), std::move(rigs)});
+    }
+  }
+  return claims;
+}
+
+bool meets_all(const ClaimsAtAge& claims, std::size_t rig) {
+  return std::ranges::all_of(std::views::join(claims),
+                             [rig](const ClaimAtAge& claim) { return claim.is_met_by(rig); });
+}
+
+std::size_t rig_count(const ClaimsAtAge& claims) {
+  return claims.front().front().rigs.size();
+}
+
+/// The least of what is found of the rigs of each world; without worlds it is of all rigs.
+template <class Value, class Of>
+double least_of_worlds(std::size_t rigs, std::int64_t worlds, const Value& value, const Of& of) {
+  const auto groups = static_cast<std::size_t>(std::max<std::int64_t>(worlds, 1));
+  double least = 1.0;
+  for (std::size_t world = 0; world < groups; ++world) {
+    std::vector<std::invoke_result_t<Value, std::size_t>> values;
+    for (std::size_t rig = world; rig < rigs; rig += groups) values.push_back(value(rig));
+    least = std::min(least, of(values));
+  }
+  return least;
+}
+
+/// The proportion of the rigs that meet all claims.
+double proportion_meeting(const ClaimsAtAge& claims, std::int64_t worlds) {
+  return least_of_worlds(
+      rig_count(claims), worlds, [&](std::size_t rig) { return meets_all(claims, rig); },
+      [](const std::vector<bool>& meeting) {
+        return statistics::rate(std::ranges::count(meeting, true), std::ssize(meeting));
+      });
+}
+
+/// The upper bound of the machines that meet one of so many claims.
+double most_of(const ClaimAtAge& claim, std::size_t claims) {
+  study::Goal goal = claim.goal;
+  goal.confidence = statistics::confidence_of_each(goal.confidence, claims);
+  return judge_goal(goal, claim.counts, 1).machines.high;
+}
+
+/// The moves of a rig in which it meets one goal, under the condition where these are the fewest; as if the
+/// moves that it made under some conditions only met the goal, and were left out.
+statistics::RigMoves least_moves(const std::vector<ClaimAtAge>& conditions, std::size_t rig) {
+  statistics::RigMoves least = conditions.front().rigs[rig];
+  for (const ClaimAtAge& claim : conditions) {
+    const statistics::RigMoves& one = claim.rigs[rig];
+    const std::int64_t missed = std::max(least.moves - least.met, one.moves - one.met);
+    least.trials = std::min(least.trials, one.trials);
+    least.moves = std::min(least.moves, one.moves);
+    least.met = least.moves - missed;
+  }
+  return least;
+}
+
+/// The lower bound of the machines that meet one of so many goals under every condition.
+double least_of(const std::vector<ClaimAtAge>& conditions, std::int64_t worlds, std::size_t goals) {
+  const study::Goal& goal = conditions.front().goal;
+  const statistics::RigClaim claim{.proportion = goal.moves,
+                                   .wanted = *goal.machines,
+                                   .confidence = statistics::confidence_of_each(goal.confidence, goals),
+                                   .of_least = conditions.size() > 1};
+  return least_of_worlds(
+      conditions.front().rigs.size(), worlds, [&](std::size_t rig) { return least_moves(conditions, rig); },
+      [&](const std::vector<statistics::RigMoves>& rigs) {
+        return statistics::rig_proportion(rigs, claim).low;
+      });
+}
+
+}  // namespace
+
+std::vector<BoundedProportion> machines_at_ages(const Question& question,
+                                                const std::vector<measures::CellCounts>& counts) {
+  std::vector<BoundedProportion> machines;
+  for (std::size_t age = 0; age < question.ages.at.size(); ++age) {
+    const ClaimsAtAge claims = claims_at_age(question, counts, age);
+    BoundedProportion all{proportion_meeting(claims, question.worlds), 1.0, 1.0};
+    double lost = 0.0;
+    for (const std::vector<ClaimAtAge>& conditions : claims)
+      lost += 1.0 - least_of(conditions, question.worlds, claims.size());
+    all.low = std::max(1.0 - lost, 0.0);
+    for (const ClaimAtAge& claim : std::views::join(claims))
+      all.high = std::min(all.high, most_of(claim, claims.size() * claims.front().size()));
+    machines.push_back(all);
+  }
+  return machines;
+}
+
+std::vector<double> lives_of_rigs(const Question& question, const std::vector<measures::CellCounts>& counts) {
+  std::vector<double> lives;
+  for (std::size_t age = 0; age < question.ages.at.size(); ++age) {
+    const ClaimsAtAge claims = claims_at_age(question, counts, age);
+    lives.resize(rig_count(claims), statistics::unknown);
+    for (std::size_t rig = 0; rig < lives.size(); ++rig) {
+      const bool lived = age == 0 || lives[rig] == question.ages.at[age - 1];
+      if (lived && meets_all(claims, rig)) lives[rig] = question.ages.at[age];
+    }
+  }
+  return lives;
+}
+
+std::vector<Survival> survival_of(const std::vector<double>& lives, const std::vector<double>& ages,
+                                  double confidence) {
+  std::vector<Survival> curve;
+  const std::int64_t all = std::ssize(lives);
+  for (const double age : ages) {
+    const std::int64_t living = std::ranges::count_if(lives, [age](double life) { return life >= age; });
+    curve.push_back({living,
+                     {statistics::rate(living, all), statistics::proportion_at_least(living, all, confidence),
+                      statistics::proportion_at_most(living, all, confidence)}});
+  }
+  return curve;
 }
 
 }  // namespace zerocount::goal

@@ -12,6 +12,7 @@
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/point_statistics.hpp"
+#include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "experiments/study/study.hpp"
 
@@ -184,5 +185,41 @@ inline bool is_of_worst_world(const Question& question) {
 
 /// The confidence of its bounds: of the claim, or that of all others.
 double confidence_of(const Question& question, double others);
+
+/// The claim of a point that was chosen from `points`.
+/// @param stopped whether the outcomes decided the number of trials (`stop`)
+statistics::SuccessClaim claim_of_chosen(const measures::PointSummary& point, std::size_t points,
+                                         bool stopped);
+
+/// Two-sided bounds of the success rate of a point that was chosen from `points`: Clopper–Pearson, with rigs
+/// Korn–Graubard, with `stop` the confidence sequence, or the outer of the two.
+statistics::ConfidenceInterval bounds_of_chosen(const measures::PointSummary& point, std::size_t points,
+                                                bool stopped, double confidence);
+
+/// [age] the proportion of machines that meet the question at the age, with one-sided bounds.
+///
+/// The bounds of one goal under one condition are those of a claim on machines (judge_goal()).
+///
+/// A machine that misses a goal under some condition shows c or more good moves under all of them no more
+/// often than under that one. So the fewest good moves of a machine under any condition bound the machines
+/// that meet the goal under all, as its good moves bound those that meet it under one (statistics::RigClaim),
+/// however the moves under the conditions depend on each other. Of G goals the lower bound is 1 − Σ(1 − low
+/// of each), each at the confidence 1 − (1 − γ)/G. The upper bound is the least of the K goals and
+/// conditions, each at 1 − (1 − γ)/K (Bonferroni). With worlds they are those of the worst of them.
+/// @param counts [goal of the study] (PointSummary::goals)
+std::vector<BoundedProportion> machines_at_ages(const Question& question,
+                                                const std::vector<measures::CellCounts>& counts);
+
+/// [rig] the last age up to and including which it meets the question; NaN if it does not at the first.
+std::vector<double> lives_of_rigs(const Question& question, const std::vector<measures::CellCounts>& counts);
+
+/// Rigs that meet the question at every age up to one.
+struct Survival {
+  std::int64_t rigs{0};      ///< those
+  BoundedProportion living;  ///< of the rigs, with one-sided Clopper–Pearson bounds
+};
+/// [age] the survival curve of these lives. @param confidence of each bound
+std::vector<Survival> survival_of(const std::vector<double>& lives, const std::vector<double>& ages,
+                                  double confidence);
 
 }  // namespace zerocount::goal

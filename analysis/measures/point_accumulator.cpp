@@ -70,17 +70,14 @@ MoveKind move_kind(const study::Study& study, std::int64_t version) {
 }
 
 OutcomeCounts& OutcomeCounts::operator+=(const OutcomeCounts& other) {
-  zero_count += other.zero_count;
-  one_count += other.one_count;
-  off_target += other.off_target;
-  oscillating += other.oscillating;
-  nonfinite += other.nonfinite;
-  open_loop += other.open_loop;
+  for (const auto counter : outcome_counters) this->*counter += other.*counter;
   return *this;
 }
 
 std::int64_t OutcomeCounts::total() const {
-  return zero_count + one_count + off_target + oscillating + nonfinite + open_loop;
+  std::int64_t sum = 0;
+  for (const auto counter : outcome_counters) sum += this->*counter;
+  return sum;
 }
 
 PointCounts& PointCounts::operator+=(const PointCounts& other) {
@@ -94,20 +91,8 @@ PointCounts& PointCounts::operator+=(const PointCounts& other) {
 }
 
 std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome) {
-  switch (outcome) {
-    case trial::Outcome::zero_count:
-      return &OutcomeCounts::zero_count;
-    case trial::Outcome::one_count:
-      return &OutcomeCounts::one_count;
-    case trial::Outcome::off_target:
-      return &OutcomeCounts::off_target;
-    case trial::Outcome::oscillating:
-      return &OutcomeCounts::oscillating;
-    case trial::Outcome::nonfinite:
-      return &OutcomeCounts::nonfinite;
-    case trial::Outcome::open_loop:
-      return &OutcomeCounts::open_loop;
-  }
+  const auto number = static_cast<std::size_t>(outcome);
+  if (number < outcome_counters.size()) return outcome_counters[number];
   throw Failure(ExitCode::bad_data,
                 fmt::format("a move with outcome {}; expected 0 to 5", static_cast<int>(outcome)));
 }
@@ -329,9 +314,9 @@ bool PointAccumulator::is_valid(std::int64_t moves) const {
 bool PointAccumulator::has_valid_counts(std::int64_t moves) const {
   constexpr std::int64_t max_trials = std::int64_t{1} << 53;  // sums of counts up to this do not overflow
   const auto complete = [this](const OutcomeCounts& counts) {
-    const std::array all{counts.zero_count,  counts.one_count, counts.off_target,
-                         counts.oscillating, counts.nonfinite, counts.open_loop};
-    return statistics::are_counts(all, counted_.trials) && counts.total() == counted_.trials;
+    return counts.total() == counted_.trials && std::ranges::all_of(outcome_counters, [&](auto counter) {
+             return counts.*counter >= 0 && counts.*counter <= counted_.trials;
+           });
   };
   return counted_.trials > 0 && counted_.trials <= max_trials && counted_.moves % moves == 0 &&
          counted_.moves / moves == counted_.trials && complete(counted_.outcomes) &&

@@ -1,14 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "analysis/measures/goal_counts.hpp"
-#include "analysis/measures/goal_settling.hpp"
 #include "analysis/measures/measure_statistics.hpp"
-#include "analysis/measures/moves_of_trials.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/statistics/clusters/clustered_mean.hpp"
 #include "analysis/statistics/clusters/trial_clusters.hpp"
@@ -18,6 +17,15 @@
 #include "core/trial/outcome.hpp"
 
 namespace zerocount::measures {
+
+/// The moves of trials of a design point that follow one another.
+struct MovesOfTrials {
+  std::int64_t first_trial{0};                       ///< its index at the point
+  std::size_t of_trial{1};                           ///< moves
+  std::span<const trial::MoveOutcome* const> moves;  ///< [trial, move]
+
+  std::int64_t trials() const { return std::ssize(moves) / static_cast<std::int64_t>(of_trial); }
+};
 
 /// Properties that all moves of a study share.
 struct MoveKind {

@@ -1,15 +1,26 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "analysis/document/description.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/text/report_field.hpp"
 #include "analysis/theory/theory_prediction.hpp"
+#include "experiments/parameters/study_units.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
 
@@ -65,5 +76,121 @@ std::vector<LevelField> level_fields(const layout::MeasureTable& measures = layo
 /// The qualities by which trials are counted in a study with these features, in the order of the report.
 std::vector<const layout::Measure*> counted_qualities(const study::StudyFeatures& features,
                                                       const layout::MeasureTable& measures);
+
+/// Adds one number. @param subject_of gives the subject of a row, by reference
+template <class Row, class Subject, class Get>
+void add_field(document::Description<Row>& description, const text::ReportField<Subject>& field,
+               const std::string& key, parameters::AxisKind axis, document::Shown shown, Get subject_of) {
+  document::Item item{.key = key,
+                      .meaning = parameters::text_on(axis, field.long_name),
+                      .unit = parameters::unit_on(axis, field.unit),
+                      .shown = shown};
+  if (!field.whole) {
+    description.value(std::move(item),
+                      [value = field.value, subject_of](const Row& row) { return value(subject_of(row)); });
+    return;
+  }
+  description.value(std::move(item),
+                    [value = field.value, subject_of](const Row& row) -> std::optional<std::int64_t> {
+                      const double number = value(subject_of(row));
+                      if (std::isnan(number)) return std::nullopt;
+                      return static_cast<std::int64_t>(number);
+                    });
+}
+
+/// Adds the fields: those of a group as an object, so that their names in CSV are those of flat_name().
+template <class Row, class Subject, class Get>
+void add_fields(document::Description<Row>& description,
+                const std::vector<text::ReportField<Subject>>& fields, parameters::AxisKind axis,
+                Get subject_of) {
+  using Field = text::ReportField<Subject>;
+  std::vector<std::string> groups;
+  for (const Field& field : fields) {
+    if (field.group.empty()) {
+      add_field(description, field, field.name, axis, document::Shown::in_data, subject_of);
+      continue;
+    }
+    if (std::ranges::find(groups, field.group) != groups.end()) continue;
+    groups.push_back(field.group);
+    document::Description<Subject> group;
+    for (const Field& member : fields) {
+      if (member.group != field.group) continue;
+      add_field(group, member, member.name, axis, document::Shown::in_data,
+                [](const Subject& subject) -> const Subject& { return subject; });
+    }
+    std::string meaning = "statistics of " + field.group;
+    std::ranges::replace(meaning, '_', ' ');
+    description.object({.key = field.group, .meaning = std::move(meaning), .shown = document::Shown::in_data},
+                       std::move(group), subject_of);
+  }
+}
+
+/// An error band, or a tolerance, and what its numbers are of.
+template <class Subject>
+struct LimitReading {
+  const Subject& subject;
+  std::size_t limit;  ///< in rising order
+};
+
+/// A list of an answer with a row for each error band, or tolerance.
+struct LimitList {
+  document::Item list;   ///< "bands"
+  document::Item limit;  ///< of a row: "band", its largest error
+};
+
+inline LimitList list_of_bands() {
+  return {{.key = "bands", .meaning = "statistics by error band", .shown = document::Shown::in_json},
+          {.key = "band", .meaning = "largest error of the band", .unit = "count"}};
+}
+inline LimitList list_of_tolerances(parameters::AxisKind axis) {
+  return {{.key = "tolerances",
+           .meaning = "statistics by tolerance of the position error",
+           .shown = document::Shown::in_json},
+          {.key = "tolerance",
+           .meaning = "largest position error within the tolerance",
+           .unit = parameters::unit_on(axis, "rad")}};
+}
+
+/// Adds the fields of error bands, or of tolerances: in JSON a list, in CSV columns by flat_name().
+template <class Row, class Subject, class Get>
+void add_by_limit(document::Description<Row>& description,
+                  const std::vector<text::ReportField<Subject>>& fields, LimitList list,
+                  parameters::AxisKind axis, Get subject_of) {
+  using Reading = LimitReading<Subject>;
+  std::map<double, std::vector<text::ReportField<Subject>>> by_limit;
+  for (const text::ReportField<Subject>& field : fields)
+    by_limit[text::limit_of(field).value()].push_back(field);
+  if (by_limit.empty()) return;
+  const auto limits =
+      std::make_shared<const std::vector<std::pair<double, std::vector<text::ReportField<Subject>>>>>(
+          by_limit.begin(), by_limit.end());
+  std::vector<text::ReportField<Reading>> columns;
+  for (std::size_t i = 0; i < limits->front().second.size(); ++i) {
+    const text::ReportField<Subject>& first = limits->front().second[i];
+    columns.push_back({first.group, first.name, first.unit, first.long_name, first.whole,
+                       [limits, i](const Reading& reading) {
+                         return (*limits)[reading.limit].second.at(i).value(reading.subject);
+                       }});
+  }
+  document::Description<Reading> row;
+  if (fields.front().band) {
+    row.value(std::move(list.limit), [limits](const Reading& reading) {
+      return static_cast<std::int64_t>((*limits)[reading.limit].first);
+    });
+  } else {
+    row.value(std::move(list.limit),
+              [limits](const Reading& reading) { return (*limits)[reading.limit].first; });
+  }
+  add_fields(row, columns, axis, [](const Reading& reading) -> const Reading& { return reading; });
+  description.table(std::move(list.list), std::move(row),
+                    [number = limits->size(), subject_of](const Row& of) {
+                      std::vector<Reading> readings;
+                      for (std::size_t limit = 0; limit < number; ++limit)
+                        readings.push_back({subject_of(of), limit});
+                      return readings;
+                    });
+  for (const text::ReportField<Subject>& field : fields)
+    add_field(description, field, text::flat_name(field), axis, document::Shown::in_csv, subject_of);
+}
 
 }  // namespace zerocount::measures

@@ -36,6 +36,11 @@ struct OutcomeCounts {
   }
 };
 
+/// Where each outcome is counted, by its number in files.
+inline constexpr std::array outcome_counters{&OutcomeCounts::zero_count,  &OutcomeCounts::one_count,
+                                             &OutcomeCounts::oscillating, &OutcomeCounts::nonfinite,
+                                             &OutcomeCounts::open_loop,   &OutcomeCounts::off_target};
+
 /// Where an outcome is counted.
 /// @throws Failure (bad_data) for a value that is not an outcome: the file is damaged.
 std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome);

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/success_bounds.hpp"
+#include "analysis/goal/question.hpp"
 #include "analysis/summary/cells_of_point.hpp"
-#include "analysis/summary/point_names.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/quantity.hpp"
 #include "analysis/text/text.hpp"

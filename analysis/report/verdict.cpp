@@ -7,14 +7,12 @@
 
 #include "analysis/document/markup.hpp"
 #include "analysis/goal/goal_text.hpp"
-#include "analysis/goal/success_bounds.hpp"
+#include "analysis/goal/question.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/statistics/sample_size.hpp"
-#include "analysis/summary/judged_point.hpp"
-#include "analysis/summary/point_names.hpp"
-#include "analysis/summary/undecided.hpp"
-#include "analysis/summary/worlds_of_point.hpp"
+#include "analysis/summary/cells_of_point.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 

@@ -2,11 +2,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "analysis/goal/goal_verdict.hpp"
 #include "analysis/summary/summary.hpp"
+#include "experiments/study/study.hpp"
 
 /// The design point that all outputs of a study speak of.
 namespace zerocount::summary {
@@ -56,5 +61,67 @@ std::string claim_of_chosen_point(const StudySummary& summary, const ChosenPoint
 /// What stands beside the verdict on the chosen point: points as good, and ends of swept ranges. Whole lines,
 /// or empty.
 std::string competition_text(const StudySummary& summary, const ChosenPoint& chosen);
+
+/// The swept parameters with different values at different points, or with a distribution; without "case".
+std::vector<const study::SweepAxis*> varying_parameters(std::span<const study::SweepAxis> axes);
+
+/// The end of the dotted path of the axis that no other swept parameter has: "ki", or "coarse.kp" beside a
+/// "kp".
+std::string short_name(std::span<const study::SweepAxis> axes, const study::SweepAxis& axis);
+
+/// [point] its label as tables show it: the paths in the labels of a grid are shortened to their ends, as in
+/// "kp=400 ki=8e4".
+std::vector<std::string> short_labels(std::vector<std::string> labels,
+                                      std::span<const study::SweepAxis> axes);
+
+/// [point] its number and short label: "3 (kp=400 ki=8e4)". Only the label where it does not name swept
+/// values, as that of a case.
+std::vector<std::string> point_names(const StudySummary& summary);
+
+/// A design point judged by the goal of its study.
+struct JudgedPoint {
+  ChosenPoint chosen;  ///< the bounds allow for its choice (Bonferroni)
+  goal::Verdict verdict;
+  std::optional<goal::Needs> needs{};  ///< of a verdict that is undecided
+};
+
+/// @param summary of a study with a goal
+JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen);
+
+/// "the goal is met", "the goal is missed", "it is undecided whether the goal is met".
+std::string_view verdict_words(goal::Status status);
+
+/// "best of 8 points: 3 (kp=400): the goal is met".
+std::string judgement_headline(const StudySummary& summary, const JudgedPoint& judged);
+
+/// What the verdict rests on, whole lines: its bounds, what would decide it, the competitors of the point.
+std::string judgement_details(const StudySummary& summary, const JudgedPoint& judged);
+
+/// The judgement as a paragraph: the goal, judgement_headline() and judgement_details().
+std::string judgement_text(const StudySummary& summary, const JudgedPoint& judged);
+
+/// In how many moves that miss a goal, and in how many that meet it, the converter clipped.
+struct SaturatedMoves {
+  std::int64_t missed{0}, missed_saturated{0};
+  std::int64_t met{0}, met_saturated{0};
+
+  double of_missed() const { return static_cast<double>(missed_saturated) / static_cast<double>(missed); }
+  double of_met() const { return static_cast<double>(met_saturated) / static_cast<double>(met); }
+};
+
+/// A goal of a study at a design point under a condition.
+struct JudgedClaim {
+  std::int64_t point;
+  std::size_t goal;
+  std::size_t condition;
+};
+
+/// The moves of a results file that the claim is about; nothing where the file does not keep every trial.
+std::optional<SaturatedMoves> saturated_moves(const std::filesystem::path& path, const study::Study& study,
+                                              const JudgedClaim& claim);
+
+/// "of the 80 moves that miss the goal 78 saturate the converter, of the 20 others 1: …"; empty unless most
+/// of the moves that miss it saturate, and more of them than of the others.
+std::string saturation_sentence(const SaturatedMoves& moves);
 
 }  // namespace zerocount::summary

@@ -16,11 +16,11 @@ namespace zerocount::summary {
 
 /// The stored statistics of consecutive points: point_columns, prediction_columns, the levels of an open-loop
 /// study, and the counts of rigs and worlds. All bounds have 95 %.
-/// @param points, predictions [point] of all their trials. @param first number of the first point
+/// @param points, predictions [point] of all their trials.
 layout::StoredStatistics stored_statistics(std::span<const measures::PointSummary> points,
                                            const study::Study& study,
                                            std::span<const theory::PointPrediction> predictions,
-                                           const layout::MeasureTable& table, std::int64_t first = 0);
+                                           const layout::MeasureTable& table);
 
 /// Gives those of all points of a file to `take`, in blocks of a chunk of the file: the memory does not grow
 /// with the number of points.

@@ -47,7 +47,7 @@ struct StudySummary {
   std::optional<study::StoppingRule> stop{};  ///< of a complete study that decided how many trials it took
   std::optional<iso230::RepeatabilitySummary> repeatability{};  ///< of a study with a sequence
   /// Points with all statistics, in their order; empty: every point. Of the others only those are known that
-  /// points are chosen by (selected_summary.hpp), and they are in no table.
+  /// points are chosen by (summary_answer::summarise_selected), and they are in no table.
   std::vector<std::int64_t> complete{};
 
   /// The measures that the points have statistics of.

@@ -4,11 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary/cells_of_point.hpp"
-#include "analysis/summary/worlds_of_point.hpp"
 #include "analysis/summary_answer/parts.hpp"
 #include "analysis/text/percent.hpp"
 
@@ -18,11 +16,6 @@ namespace {
 using document::Shown;
 using Point = const PointReading&;
 using Verdict = const goal::ClaimVerdict&;
-
-bool has_several_claims(const summary::StudySummary& summary) {
-  return summary.question.claim() && !summary.features.open_loop &&
-         (has_several(summary.question) || !summary.conditions.empty());
-}
 
 std::optional<summary::WorldsReading> worlds_at(Point p) {
   if (!p.worlds) return std::nullopt;
@@ -94,7 +87,7 @@ document::Description<goal::ClaimVerdict> verdict_description(const goal::Questi
                });
   }
   if (on_rigs)
-    description.value({.key = "rigs_without_miss", .meaning = "rigs all of whose moves meet the goal"},
+    description.value(document::in_data("rigs_without_miss", "rigs all of whose moves meet the goal"),
                       &goal::ClaimVerdict::rigs_without_miss);
   return description;
 }
@@ -125,16 +118,21 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
         {.key = "goals", .meaning = "each of the goals, by name", .shown = Shown::in_data, .free_keys = true},
         goals_description(question, summary.features.rigs), &PointReading::verdict);
   if (!several && question.conditions.empty()) return;
-  point.value(
-      {.key = "machines_together",
-       .meaning = "proportion of rigs that meet all goals on machines, as observed; nothing where only one "
+  point.value(document::in_data(
+                  "machines_together",
+                  "proportion of rigs that meet all goals on machines, as observed; nothing where only one "
                   "claim is on machines",
-       .unit = "1"},
-      [question](const PointReading& p) -> std::optional<double> {
-        const auto all = goal::rigs_meeting_all(question, p.statistics());
-        if (!all) return std::nullopt;
-        return statistics::rate(all->rigs, all->of);
-      });
+                  "1"),
+              [question](const PointReading& p) -> std::optional<double> {
+                const auto all = goal::rigs_meeting_all(question, p.statistics());
+                if (!all) return std::nullopt;
+                return statistics::rate(all->rigs, all->of);
+              });
+}
+
+bool has_several_claims(const summary::StudySummary& summary) {
+  return summary.question.claim() && !summary.features.open_loop &&
+         (has_several(summary.question) || !summary.conditions.empty());
 }
 
 void add_cells(PointDescription& point, const summary::StudySummary& summary) {
@@ -150,10 +148,9 @@ void add_cells(PointDescription& point, const summary::StudySummary& summary) {
                   .note = "bounds of one side each, of the lowest rate of all worlds, with " + confidence},
                  summary::worlds_description(question), worlds_at);
   if (has_several_claims(summary))
-    point.table(
-        {.key = "claims", .meaning = "each goal under each condition at the point", .shown = Shown::in_json},
-        summary::cell_description({}, summary::CellsBy::claim),
-        [](Point p) { return summary::claims_of_point(p.summary, p.point); });
+    point.table(in_json("claims", "each goal under each condition at the point"),
+                summary::cell_description({}, summary::CellsBy::claim),
+                [](Point p) { return summary::claims_of_point(p.summary, p.point); });
   if (!summary.conditions.empty())  // with a goal the table of claims has them for people
     point.table({.key = "conditions",
                  .meaning = "the point under each condition",

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/measures/field_description.hpp"
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/summary_answer/parts.hpp"
 #include "analysis/text/text.hpp"
@@ -107,8 +106,7 @@ document::Description<LevelReading> level_description(const summary::StudySummar
   for (const study::SweepAxis& swept : summary.axes)
     level.value({.key = swept.name, .meaning = swept.meaning, .unit = swept.unit, .shown = Shown::in_csv},
                 [&swept](Level l) { return value_at(swept, l.point); });
-  level.value({.key = "level", .heading = "level", .meaning = "number of the torque level"},
-              &LevelReading::level);
+  level.value({"level", "level", "number of the torque level"}, &LevelReading::level);
   measures::add_fields(level, measures::level_fields(summary.table()), axis,
                        [](Level l) -> const measures::LevelStatistics& { return l.statistics(); });
   add_people_columns(level, summary);

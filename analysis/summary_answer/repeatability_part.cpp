@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "analysis/iso230/columns.hpp"
-#include "analysis/measures/field_description.hpp"
+#include "analysis/measures/point_columns.hpp"
 #include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/summary_answer/parts.hpp"
 #include "analysis/text/percent.hpp"
@@ -64,8 +64,8 @@ void add_values(SourceDescription& description, std::span<const RepeatabilityFie
     SourceDescription value;
     for (const iso230::ValueStatisticField& statistic : iso230::value_statistic_fields()) {
       if (of_targets && !statistic.of_targets) continue;
-      value.value({.key = std::string(statistic.name),
-                   .meaning = fmt::format("{} {}", statistic.long_name, fields[i].long_name)},
+      value.value(document::in_data(std::string(statistic.name),
+                                    fmt::format("{} {}", statistic.long_name, fields[i].long_name)),
                   [i, number = statistic.value, statistics](Source s) { return number(statistics(s)[i]); });
     }
     description.object({.key = std::string(fields[i].name), .meaning = std::string(fields[i].long_name)},
@@ -83,14 +83,14 @@ std::vector<SourceReading> targets_of(Source s) {
 SourceDescription source_object(parameters::AxisKind axis) {
   SourceDescription values, target, source;
   add_values(values, iso230::axis_fields(), false, of_axis);
-  target.value({.key = "target", .meaning = "number of the target"}, &SourceReading::target)
-      .value({.key = "position_min", .meaning = "smallest position in a trial", .unit = "count"},
+  target.value(document::in_data("target", "number of the target"), &SourceReading::target)
+      .value(document::in_data("position_min", "smallest position in a trial", "count"),
              [](Source s) { return s.position().min; })
-      .value({.key = "position_max", .meaning = "largest position in a trial", .unit = "count"},
+      .value(document::in_data("position_max", "largest position in a trial", "count"),
              [](Source s) { return s.position().max; });
   add_values(target, iso230::target_fields(), true, of_target);
   return source
-      .value({.key = "unit", .meaning = "of all values"},
+      .value(document::in_data("unit", "of all values"),
              [axis](Source s) { return parameters::unit_on(axis, s.from().unit); })
       .object({.key = "axis", .meaning = "values of the axis"}, values, same_source)
       .table({.key = "targets", .meaning = "values of the targets"}, target, targets_of);
@@ -285,7 +285,7 @@ constexpr std::string_view repeatability_legend =
 
 void add_repeatability(PointDescription& point, const summary::StudySummary& summary) {
   if (!summary.repeatability) return;
-  point.object({.key = "repeatability", .meaning = "values of ISO 230-2", .shown = Shown::in_json},
+  point.object(in_json("repeatability", "values of ISO 230-2"),
                repeatability_object(summary.repeatability->axis),
                [](Point p) -> const PointReading& { return p; });
   add_csv_columns(point, *summary.repeatability);

@@ -11,7 +11,8 @@
 
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/summary/judged_point.hpp"
+#include "analysis/summary/cells_of_point.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary_answer/parts.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
@@ -91,8 +92,8 @@ std::string points_shown(Summary s) {
 document::Description<summary::UnfinishedStudy> unfinished_description() {
   using Unfinished = summary::UnfinishedStudy;
   return document::Description<Unfinished>()
-      .value({.key = "finished", .meaning = "trials that the summary is of"}, &Unfinished::finished)
-      .value({.key = "trials", .meaning = "trials of the study; the maximum if 'stop' decides"},
+      .value(document::in_data("finished", "trials that the summary is of"), &Unfinished::finished)
+      .value(document::in_data("trials", "trials of the study; the maximum if 'stop' decides"),
              &Unfinished::trials);
 }
 
@@ -112,22 +113,22 @@ std::vector<EndReading> ends_of(Summary s) {
 SummaryDescription chosen_description() {
   using End = const EndReading&;
   document::Description<EndReading> ends;
-  ends.value({.key = "parameter", .meaning = "dotted path"},
+  ends.value(document::in_data("parameter", "dotted path"),
              [](End e) { return e.summary.axes[e.end.axis].name; })
-      .value({.key = "value", .meaning = "value at the point, in the unit of the parameter"},
+      .value(document::in_data("value", "value at the point, in the unit of the parameter"),
              [](End e) { return summary::value_at(e.summary, e.end, e.point); })
       .value({.key = "end", .meaning = "which end of the range it is", .words = {"lowest", "highest"}},
              [](End e) { return e.end.lowest ? "lowest" : "highest"; });
   return SummaryDescription()
-      .value({.key = "point", .meaning = "number of the design point"},
+      .value(document::in_data("point", "number of the design point"),
              [](Summary s) { return s.chosen.point; })
-      .value({.key = "label", .meaning = "label of the design point"},
+      .value(document::in_data("label", "label of the design point"),
              [](Summary s) { return s.summary.labels[static_cast<std::size_t>(s.chosen.point)]; })
-      .value({.key = "chosen_from", .meaning = "points that it is the best of; 1 if it was named"},
+      .value(document::in_data("chosen_from", "points that it is the best of; 1 if it was named"),
              [](Summary s) { return s.chosen.chosen_from; })
-      .value({.key = "runner_up", .meaning = "number of the best of the other points"},
+      .value(document::in_data("runner_up", "number of the best of the other points"),
              [](Summary s) { return s.chosen.runner_up; })
-      .value({.key = "as_good", .meaning = "numbers of the points that are not shown to be worse"},
+      .value(document::in_data("as_good", "numbers of the points that are not shown to be worse"),
              [](Summary s) { return s.chosen.as_good; })
       .table({.key = "ends_of_ranges", .meaning = "swept numbers of the point at an end of their range"},
              ends, ends_of);
@@ -175,26 +176,22 @@ std::optional<ConfirmationReading> confirmation_of(Summary s) {
 document::Description<ConfirmationReading> confirmation_description(const StudySummary& summary) {
   document::Description<ConfirmationReading> description;
   description
-      .value({.key = "point", .meaning = "number of the design point"},
+      .value(document::in_data("point", "number of the design point"),
              [](Confirmed c) { return c.confirmed.point; })
-      .value({.key = "seed", .heading = "seed", .meaning = "seed of the new trials"},
-             [](Confirmed c) { return c.confirmed.seed; })
-      .value({.key = "trials", .heading = "trials", .meaning = "new trials"},
-             [](Confirmed c) { return c.confirmed.trials; })
+      .value({"seed", "seed", "seed of the new trials"}, [](Confirmed c) { return c.confirmed.seed; })
+      .value({"trials", "trials", "new trials"}, [](Confirmed c) { return c.confirmed.trials; })
       .shown_as([](Confirmed c) { return c.size_text(); })
-      .value({.key = "zero_count", .heading = "succeeded", .meaning = "new trials that succeeded"},
+      .value({"zero_count", "succeeded", "new trials that succeeded"},
              [](Confirmed c) { return c.confirmed.successes; })
-      .value({.key = "success_rate",
-              .heading = "success rate [bounds]",
-              .meaning = "their proportion, with bounds of Clopper and Pearson unless trials share rigs",
-              .unit = "1",
-              .notation = document::Notation::percent},
+      .value({"success_rate", "success rate [bounds]",
+              "their proportion, with bounds of Clopper and Pearson unless trials share rigs", "1",
+              document::Notation::percent},
              [](Confirmed c) {
                const statistics::ConfidenceInterval bounds = c.bounds().value_or(
                    statistics::ConfidenceInterval{statistics::unknown, statistics::unknown});
                return document::Bounded{c.rate(), bounds.low, bounds.high};
              })
-      .value({.key = "one_trial_per_rig", .meaning = "whether every new trial has a rig of its own"},
+      .value(document::in_data("one_trial_per_rig", "whether every new trial has a rig of its own"),
              &ConfirmationReading::has_one_trial_per_rig);
   if (summary.question.claim())
     description.object({.key = "goal", .meaning = "whether the new trials meet the goal"},
@@ -312,9 +309,11 @@ SummaryDescription point_tables(const StudySummary& summary) {
   const std::string legend = legend_of(levels ? level.items() : point.items());
   SummaryDescription tables;
   add_claims(tables, summary);
-  tables.table(
-      {.key = "points", .meaning = "the design points", .shown = levels ? Shown::in_json : Shown::everywhere},
-      point, &SummaryReading::points);
+  tables.table({.key = "points",
+                .heading = has_several_claims(summary) ? "by point" : "",  // after the table "by claim"
+                .meaning = "the design points",
+                .shown = levels ? Shown::in_json : Shown::everywhere},
+               point, &SummaryReading::points);
   if (levels)
     tables.table({.key = "levels", .meaning = "the torque levels of the points", .shown = Shown::not_in_json},
                  level, &SummaryReading::levels);
@@ -332,24 +331,18 @@ document::AnswerDescription<SummaryReading> summary_description(const StudySumma
       {}};
   answer.items.headline(headline)
       .sentence(details)
-      .value({.key = "name", .meaning = "name of the study", .shown = Shown::in_data},
-             [](Summary s) { return s.summary.name; })
-      .value({.key = "design", .meaning = "how trials are drawn", .shown = Shown::in_data},
-             [](Summary s) { return s.summary.design; })
-      .value({.key = "conservative_bounds",
-              .meaning = "whether the design makes bounds wider than needed",
-              .shown = Shown::in_data},
+      .value(document::in_data("name", "name of the study"), [](Summary s) { return s.summary.name; })
+      .value(document::in_data("design", "how trials are drawn"), [](Summary s) { return s.summary.design; })
+      .value(document::in_data("conservative_bounds", "whether the design makes bounds wider than needed"),
              [](Summary s) { return s.summary.features.spread_trials; })
-      .value({.key = "confidence", .meaning = "of all bounds", .unit = "1", .shown = Shown::in_data},
+      .value(document::in_data("confidence", "of all bounds", "1"),
              [](Summary s) { return s.summary.confidence; });
   if (summary.unfinished)
-    answer.items.object({.key = "unfinished", .meaning = "how far the run has come", .shown = Shown::in_data},
-                        unfinished_description(), [](Summary s) { return s.summary.unfinished; });
+    answer.items.object(document::in_data("unfinished", "how far the run has come"), unfinished_description(),
+                        [](Summary s) { return s.summary.unfinished; });
   answer.items.sentence(study_lines);
   if (!summary.features.open_loop)
-    answer.items.object({.key = "best",
-                         .meaning = "the point that the headline is of, and its competitors",
-                         .shown = Shown::in_data},
+    answer.items.object(document::in_data("best", "the point that the headline is of, and its competitors"),
                         chosen_description(), same_summary);
   answer.items.include(point_tables(summary), same_summary).sentence([](Summary s) -> std::string {
     return s.legend ? "" : "(zerocount summary --legend explains the columns)";
@@ -377,6 +370,39 @@ document::AnswerType summary_type() {
 
 document::Answer summary_answer(const StudySummary& summary, const SummaryForm& form) {
   return summary_description(summary).of(read_summary(summary, form));
+}
+
+std::vector<LevelReading> SummaryReading::levels() const {
+  std::vector<LevelReading> levels;
+  for (const PointReading& point : points) {
+    for (std::size_t level = 0; level < point.statistics().levels.size(); ++level)
+      levels.push_back({point, level});
+  }
+  return levels;
+}
+
+PointReading read_point(const summary::StudySummary& summary, std::int64_t point) {
+  PointReading reading{summary, point};
+  const measures::PointSummary& statistics = reading.statistics();
+  if (summary.question.claim() && statistics.trials > 0)
+    reading.verdict = goal::verdict_on(summary.question, statistics);
+  if (summary.question.worlds > 0) reading.worlds = summary::worlds_of_point(summary, point);
+  if (const auto counts = summary.observed_counts.find(reading.label());
+      counts != summary.observed_counts.end())
+    reading.observed = summary::compare_observed(statistics, counts->second);
+  return reading;
+}
+
+SummaryReading read_summary(const summary::StudySummary& summary, const SummaryForm& form) {
+  summary::require_consistent(summary);
+  SummaryReading reading{summary, summary::choose_point(summary, form.chosen), {}, form.legend};
+  const std::vector<std::int64_t> points =
+      form.points.empty() ? summary::complete_points(summary) : form.points;
+  for (const std::int64_t point : points) {
+    reading.points.push_back(read_point(summary, point));
+    reading.points.back().marked = summary.points.size() > 1 && point == reading.chosen.point;
+  }
+  return reading;
 }
 
 }  // namespace zerocount::summary_answer

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "analysis/document/answer.hpp"
-#include "analysis/summary_answer/point_reading.hpp"
+#include "analysis/summary_answer/parts.hpp"
 
 namespace zerocount::summary_answer {
 

@@ -119,7 +119,7 @@ std::string key_of_limit(double content) {
 
 PointDescription assurance_of_rigs(const summary::StudySummary& summary) {
   return PointDescription()
-      .value({.key = "content", .meaning = "proportion of rigs", .unit = "1", .shown = Shown::in_json},
+      .value(in_json("content", "proportion of rigs", "1"),
              [](Point p) { return p.statistics().rigs.tolerance.content; })
       .value({.key = "zero_at_least",
               .heading = shows_rigs(summary) ? "90 % of rigs ≥" : "",
@@ -129,7 +129,7 @@ PointDescription assurance_of_rigs(const summary::StudySummary& summary) {
               .column = "rigs_zero_at_least"},
              [](Point p) { return p.statistics().rigs.tolerance.zero_at_least; })
       .shown_as([](Point p) { return shown_at_least(p.statistics().rigs.tolerance.zero_at_least); })
-      .value({.key = "statement", .meaning = "the same in words", .shown = Shown::in_json},
+      .value(in_json("statement", "the same in words"),
              [](Point p) { return statistics::tolerance_sentence(p.statistics().rigs.tolerance); });
 }
 
@@ -138,7 +138,7 @@ PointDescription assurance_of_rigs(const summary::StudySummary& summary) {
 void add_undecided(PointDescription& point, const summary::StudySummary& summary) {
   if (summary.features.open_loop) return;
   PointDescription object;
-  object.value({.key = "moves", .meaning = "moves of all trials", .shown = Shown::in_json},
+  object.value(in_json("moves", "moves of all trials"),
                [](Point p) { return p.statistics().undecided.moves; });
   for (const measures::UndecidedCount& each : measures::undecided_counts)
     object.value({.key = each.name, .meaning = each.long_name, .column = each.column},
@@ -183,10 +183,7 @@ void add_observed(PointDescription& point, const summary::StudySummary& summary)
               .unit = "1",
               .column = "observed_p_value"},
              [](Point p) { return p.observed->test ? p.observed->test->p : statistics::unknown; })
-      .value({.key = "lowest_p_value",
-              .meaning = "lowest p-value that any result can have",
-              .unit = "1",
-              .shown = Shown::in_json},
+      .value(in_json("lowest_p_value", "lowest p-value that any result can have", "1"),
              [](Point p) { return p.observed->test ? p.observed->test->lowest_p : statistics::unknown; })
       .value({.key = "verdict",
               .meaning = "whether the simulation and the real rig are consistent",
@@ -207,9 +204,6 @@ void add_observed(PointDescription& point, const summary::StudySummary& summary)
 
 void add_stopping(PointDescription& point, const summary::StudySummary& summary) {
   if (!summary.stop) return;
-  const auto item = [](const char* key, const char* meaning) {
-    return document::Item{.key = key, .meaning = meaning, .unit = "1", .shown = Shown::in_json};
-  };
   const auto bound = [](const std::string& key, const char* side, const std::string& heading) {
     return document::Item{
         .key = key,
@@ -218,7 +212,7 @@ void add_stopping(PointDescription& point, const summary::StudySummary& summary)
         .unit = "1",
         .column = "stopped_" + key};
   };
-  document::Item half = item("halfwidth", "half the width of the bounds that the rule is about");
+  document::Item half = in_json("halfwidth", "half the width of the bounds that the rule is about", "1");
   half.heading = fmt::format("asked for: ± {:.4g} %, came to", 100.0 * summary.stop->success_rate_halfwidth);
   half.shown = Shown::not_in_csv;
   PointDescription object;
@@ -232,24 +226,20 @@ void add_stopping(PointDescription& point, const summary::StudySummary& summary)
       })
       .value(bound("success_rate_high", "upper", ""),
              [](Point p) { return stopped_bounds(p, p.summary.confidence).high; })
-      .value(item("confidence", "confidence of these bounds"), [](Point p) { return p.summary.confidence; })
+      .value(in_json("confidence", "confidence of these bounds", "1"),
+             [](Point p) { return p.summary.confidence; })
       .value(std::move(half), halfwidth)
       .shown_as([](Point p) {
         return fmt::format("± {} %{}", text::rounded_up(100.0 * halfwidth(p), 2),
                            is_reached(p) ? "" : ": not reached");
       })
-      .value(item("halfwidth_asked", "half-width that the rule asks for"),
+      .value(in_json("halfwidth_asked", "half-width that the rule asks for", "1"),
              [](Point p) { return p.summary.stop->success_rate_halfwidth; })
-      .value(item("halfwidth_confidence", "confidence of the bounds that the rule is about"),
+      .value(in_json("halfwidth_confidence", "confidence of the bounds that the rule is about", "1"),
              [](Point p) { return p.summary.stop->confidence; })
-      .value({.key = "reached",
-              .meaning = "whether the bounds are as narrow as asked for",
-              .shown = Shown::in_json},
-             is_reached);
+      .value(in_json("reached", "whether the bounds are as narrow as asked for"), is_reached);
   if (summary.features.rigs)
-    object.value({.key = "of_rigs",
-                  .meaning = "rigs of the study, over whose mean the bounds are",
-                  .shown = Shown::in_json},
+    object.value(in_json("of_rigs", "rigs of the study, over whose mean the bounds are"),
                  [](Point p) { return p.statistics().rigs.n; });
   point.object({.key = "stopping",
                 .meaning = "what the rule that ended the study asked for, and what was reached",
@@ -262,9 +252,8 @@ void add_assurance(PointDescription& point, const summary::StudySummary& summary
   if (summary.features.open_loop || summary.features.dependent_trials) return;
   using Limit = statistics::ToleranceLimit;
   document::Description<Limit> limit;
-  limit.value({.key = "content", .meaning = "proportion of axes", .unit = "1"}, &Limit::content)
-      .value({.key = "within", .meaning = "time in which at least these settle", .unit = "s"},
-             &Limit::within);
+  limit.value(document::in_data("content", "proportion of axes", "1"), &Limit::content)
+      .value(document::in_data("within", "time in which at least these settle", "s"), &Limit::within);
   PointDescription object;
   object
       .value({.key = "success_at_least",
@@ -280,12 +269,10 @@ void add_assurance(PointDescription& point, const summary::StudySummary& summary
               .unit = "1",
               .column = "failure_at_most"},
              [](Point p) { return p.statistics().claim.failure_at_most; })
-      .value({.key = "rule_of_three",
-              .meaning = "approximation of failure_at_most without a failure; null where there was one",
-              .unit = "1",
-              .shown = Shown::in_json},
+      .value(in_json("rule_of_three",
+                     "approximation of failure_at_most without a failure; null where there was one", "1"),
              [](Point p) { return statistics::rule_of_three(p.statistics().claim); })
-      .table({.key = "settling_time", .meaning = "upper tolerance limits", .shown = Shown::in_json}, limit,
+      .table(in_json("settling_time", "upper tolerance limits"), limit,
              [](Point p) { return p.statistics().settles_within; });
   for (std::size_t i = 0; i < std::size(statistics::tolerance_contents); ++i) {
     const double content = statistics::tolerance_contents[i];
@@ -298,8 +285,7 @@ void add_assurance(PointDescription& point, const summary::StudySummary& summary
                   .column = key_of_limit(content)},
                  [i](Point p) { return p.statistics().settles_within.at(i).within; });
   }
-  object.value({.key = "statement", .meaning = "the same in words", .shown = Shown::in_json},
-               assurance_statement);
+  object.value(in_json("statement", "the same in words"), assurance_statement);
   if (summary.features.rigs)
     object.object({.key = "rigs", .meaning = "what is shown of single rigs"}, assurance_of_rigs(summary),
                   [](Point p) { return p.statistics().rigs.tolerance.min_rigs > 0 ? &p : nullptr; });

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "analysis/worlds/derived_quantities.hpp"
-#include "analysis/worlds/permutations.hpp"
+#include "analysis/worlds/world_rule.hpp"
 #include "experiments/designs/random_key.hpp"
 
 namespace zerocount::worlds {

@@ -8,11 +8,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/goal/question.hpp"
-#include "analysis/summary/judged_point.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/forecast/cost.hpp"

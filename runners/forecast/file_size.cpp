@@ -10,7 +10,7 @@
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/summary/summed_point.hpp"
+#include "analysis/summary/study_statistics.hpp"
 #include "core/friction/profile.hpp"
 #include "core/trial/outcome.hpp"
 #include "results/layout/header.hpp"

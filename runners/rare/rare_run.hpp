@@ -10,7 +10,7 @@
 
 #include "analysis/document/answer.hpp"
 #include "analysis/document/figure.hpp"
-#include "analysis/measures/move_event.hpp"
+#include "analysis/measures/goal_counts.hpp"
 #include "experiments/randomness/random_coordinates.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"

@@ -4,12 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/summary/cells_of_point.hpp"
-#include "analysis/summary/judged_point.hpp"
-#include "analysis/summary/missed_moves.hpp"
-#include "analysis/summary/worlds_of_point.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "results/shards/pieces.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
@@ -83,10 +80,10 @@ document::AnswerDescription<Judgement> judge_answer(const goal::Question& questi
   document::AnswerDescription<Judgement> answer{
       {.name = "judge", .meaning = "whether a study meets its goal", .csv_table = "claims"}, {}};
   answer.items.headline([](Of j) { return summary::judgement_headline(j.summary, j.judged); })
-      .value({.key = "point", .meaning = "number of the design point"},
+      .value(document::in_data("point", "number of the design point"),
              [](Of j) { return j.judged.chosen.point; })
-      .value({.key = "label", .meaning = "label of the design point"}, &Judgement::label)
-      .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
+      .value(document::in_data("label", "label of the design point"), &Judgement::label)
+      .value({"goal", "goal", "the goal in words"},
              [](Of j) { return goal::claim_sentence(j.summary.question); })
       .value({.key = "worst_goal",
               .meaning = "name of the goal that the numbers are of, the worst of several",
@@ -98,32 +95,30 @@ document::AnswerDescription<Judgement> judge_answer(const goal::Question& questi
              &Judgement::condition)
       .value({.key = "status", .meaning = "verdict on the goal", .words = goal::status_words()},
              [](Of j) { return goal::text_of(j.judged.verdict.status); })
-      .value({.key = "rate",
-              .meaning = "proportion of moves that meet the goal, with one-sided bounds",
-              .unit = "1"},
+      .value(document::in_data("rate", "proportion of moves that meet the goal, with one-sided bounds", "1"),
              [](Of j) { return goal::bounded(j.judged.verdict.moves); })
       .value(
-          {.key = "machines_low",
-           .meaning = "lower bound of the proportion of machines that meet the goal, if it is about machines",
-           .unit = "1"},
+          document::in_data(
+              "machines_low",
+              "lower bound of the proportion of machines that meet the goal, if it is about machines", "1"),
           [](Of j) { return j.of_machines(j.judged.verdict.machines.low); })
-      .value({.key = "machines_high", .meaning = "its upper bound", .unit = "1"},
+      .value(document::in_data("machines_high", "its upper bound", "1"),
              [](Of j) { return j.of_machines(j.judged.verdict.machines.high); })
       .sentence([](Of j) { return summary::judgement_details(j.summary, j.judged); })
-      .value(
-          {.key = "missed_saturated",
-           .meaning = "proportion of the moves that miss the goal in which the converter clipped; null: the "
-                      "goal is met, or the file does not keep every trial",
-           .unit = "1"},
-          &Judgement::missed_saturated)
+      .value(document::in_data(
+                 "missed_saturated",
+                 "proportion of the moves that miss the goal in which the converter clipped; null: the "
+                 "goal is met, or the file does not keep every trial",
+                 "1"),
+             &Judgement::missed_saturated)
       .sentence([](Of j) { return j.saturated ? summary::saturation_sentence(*j.saturated) : ""; })
       .value(
-          {.key = "chosen_from", .meaning = "design points that the point is the best of; 1 if it was named"},
+          document::in_data("chosen_from", "design points that the point is the best of; 1 if it was named"),
           [](Of j) { return j.judged.chosen.chosen_from; })
       .object({.key = "needed", .meaning = "study that would decide the goal"}, goal::needs_description(),
               [](Of j) { return goal::practicable(j.judged.needs); })
-      .object({.key = "worlds", .meaning = "the worlds at the point", .shown = Shown::in_data},
-              summary::worlds_description(question), &Judgement::worlds_reading)
+      .object(document::in_data("worlds", "the worlds at the point"), summary::worlds_description(question),
+              &Judgement::worlds_reading)
       .table({.key = "claims", .meaning = "each goal under each condition", .shown = Shown::in_json},
              summary::cell_description({}, summary::CellsBy::claim), &Judgement::claims)
       .table({.heading = "by claim"}, summary::cell_description({}, summary::CellsBy::claim),

@@ -11,10 +11,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_description.hpp"
-#include "analysis/summary/judged_point.hpp"
-#include "analysis/summary/point_names.hpp"
-#include "analysis/summary/worlds_of_point.hpp"
+#include "analysis/goal/goal_text.hpp"
+#include "analysis/summary/cells_of_point.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/worlds/learning.hpp"
 #include "runners/answers/answer_format.hpp"
@@ -248,7 +247,11 @@ document::AnswerDescription<Outcome> learn_answer() {
       })
       .table({.key = "unknowns", .meaning = "what a measurement of each unknown decides"},
              measurement_description(), &Outcome::measurements)
-      .sentence(text_below_table);
+      .sentence(text_below_table)
+      .sentence([](Of o) {
+        return fmt::format("nothing was simulated: this follows from the trials of {} worlds in the file",
+                           o.worlds.bad.size());
+      });
   return answer;
 }
 

@@ -11,7 +11,6 @@
 #include "analysis/document/blocks.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/summary/chosen_point.hpp"
-#include "analysis/summary/judged_point.hpp"
 #include "analysis/summary/summary.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"

@@ -13,7 +13,7 @@
 #include "analysis/document/markup.hpp"
 #include "analysis/goal/question.hpp"
 #include "analysis/report/page.hpp"
-#include "analysis/summary/judged_point.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "core/failure/failure.hpp"
 #include "runners/commands/study_argument.hpp"
 #include "runners/design_commands/design_commands.hpp"

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/summary/point_names.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/summary.hpp"
-#include "analysis/summary_answer/selected_summary.hpp"
+#include "analysis/summary_answer/point_selection.hpp"
 #include "analysis/summary_answer/summary_answer.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"

@@ -11,7 +11,7 @@
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/sample_size.hpp"
-#include "analysis/summary/point_names.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "analysis/theory/hunting_prediction.hpp"
 #include "analysis/theory/point_theory.hpp"
 #include "core/loop/encoder.hpp"

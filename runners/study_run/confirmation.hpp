@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "analysis/summary_answer/point_reading.hpp"
+#include "analysis/summary_answer/parts.hpp"
 #include "core/plugin/controller_plugin.hpp"
 #include "experiments/study/study.hpp"
 #include "results/reading/results_file.hpp"

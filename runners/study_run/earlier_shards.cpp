@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/summary/summed_point.hpp"
+#include "analysis/summary/study_statistics.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/recorded_values.hpp"

@@ -10,7 +10,7 @@
 
 #include <oneapi/tbb/task_group.h>
 
-#include "analysis/summary/summed_point.hpp"
+#include "analysis/summary/study_statistics.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/study/study.hpp"
 #include "results/hdf5/element.hpp"

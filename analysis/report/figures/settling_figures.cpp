@@ -6,7 +6,7 @@
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/statistics/spread_over.hpp"
 #include "analysis/statistics/sums/histogram.hpp"
-#include "analysis/summary/worlds_of_point.hpp"
+#include "analysis/summary/cells_of_point.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/quantity.hpp"
 #include "analysis/text/text.hpp"

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/goal/goal_description.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "runners/design_commands/tune/tune_answer.hpp"
 #include "runners/tuning/search/proof_runner.hpp"

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "analysis/measures/goal_counts.hpp"
-#include "analysis/measures/move_event.hpp"
 #include "core/failure/failure.hpp"
 #include "core/random/number_source.hpp"
 #include "experiments/designs/random_key.hpp"

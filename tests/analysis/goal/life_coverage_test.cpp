@@ -10,7 +10,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include "analysis/goal/lives.hpp"
+#include "analysis/goal/question.hpp"
 #include "tests/support/draws.hpp"
 
 namespace zerocount::goal {

@@ -1,5 +1,5 @@
 // The settling times of the moves that a goal asks, under each condition.
-#include "analysis/measures/goal_settling.hpp"
+#include "analysis/measures/goal_counts.hpp"
 
 #include <algorithm>
 #include <cmath>

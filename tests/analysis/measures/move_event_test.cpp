@@ -1,4 +1,4 @@
-#include "analysis/measures/move_event.hpp"
+#include "analysis/measures/goal_counts.hpp"
 
 #include <limits>
 

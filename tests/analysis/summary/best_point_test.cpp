@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/goal/success_bounds.hpp"
+#include "analysis/goal/question.hpp"
 #include "analysis/measures/point_accumulator.hpp"
 #include "analysis/summary/chosen_point.hpp"
 #include "tests/analysis/summary/swept_study.hpp"

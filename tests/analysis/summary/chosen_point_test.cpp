@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/measures/point_accumulator.hpp"
-#include "analysis/summary/point_names.hpp"
 #include "analysis/summary_answer/point_selection.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/summary/swept_study.hpp"

@@ -15,7 +15,7 @@
 
 #include "analysis/measures/point_accumulator.hpp"
 #include "analysis/measures/point_columns.hpp"
-#include "analysis/summary/point_names.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/summary_forms.hpp"
 

@@ -1,11 +1,10 @@
 // Moves that are off target: how many, and the hold that would decide them.
-#include "analysis/summary/undecided.hpp"
-
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "analysis/measures/undecided_moves.hpp"
 #include "core/trial/last_half.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/analysis/summary/swept_study.hpp"
@@ -33,10 +32,10 @@ TEST(TimeToZero, IsThatOfAnExponentialDecay) {
     if (final_error < 20 || final_error == midway) continue;
     const double zero = tau * std::log(2.0 * start);
     const double decay = std::log(static_cast<double>(midway) / static_cast<double>(final_error));
-    EXPECT_NEAR(time_to_zero(midway, final_error, samples, sample_time), zero,
+    EXPECT_NEAR(measures::time_to_zero(midway, final_error, samples, sample_time), zero,
                 zero * (0.01 + 1.5 / (static_cast<double>(final_error) * decay)));
-    EXPECT_EQ(time_to_zero(-midway, -final_error, samples, sample_time),
-              time_to_zero(midway, final_error, samples, sample_time));
+    EXPECT_EQ(measures::time_to_zero(-midway, -final_error, samples, sample_time),
+              measures::time_to_zero(midway, final_error, samples, sample_time));
   }
 }
 
@@ -54,7 +53,7 @@ TEST(TimeToZero, DecidesMostMovesOfASlowLoop) {
           std::abs(move.final_error) >= std::abs(move.midway_error))
         continue;
       ++off_target;
-      p.command.hold = time_to_zero(move.midway_error, move.final_error, trial::samples_of_move(p, 0),
+      p.command.hold = measures::time_to_zero(move.midway_error, move.final_error, trial::samples_of_move(p, 0),
                                     1.0 / p.controller.sample_rate) +
                        p.verdict.dwell;
       const trial::Outcome later = trial::run_trial(p).moves[0].outcome;

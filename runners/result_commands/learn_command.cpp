@@ -25,6 +25,8 @@
 namespace zerocount::result_commands {
 namespace {
 
+using document::in_data;
+
 constexpr double usual_precision = 0.1;
 constexpr double significance = 0.05;
 
@@ -117,12 +119,15 @@ struct Outcome {
 constexpr std::array<const char*, 5> next_words{"nothing", "change_axis", "more_trials", "measure",
                                                 "no_single_measurement"};
 
-/// What the table takes for granted, and what its derived quantities are, a line each.
+/// What the numbers rest on, what the table takes for granted, and what its derived quantities are, a line
+/// each.
 std::string text_below_table(const Outcome& outcome) {
-  if (outcome.learned.empty()) return {};
   const std::size_t all = outcome.worlds.bad.size();
-  std::string text = fmt::format("without a measurement: to call all worlds good is right in {} of {}\n",
-                                 all - outcome.bad(), all);
+  std::string text =
+      fmt::format("nothing was simulated: this follows from the trials of {} worlds in the file\n", all);
+  if (outcome.learned.empty()) return text;
+  text += fmt::format("without a measurement: to call all worlds good is right in {} of {}\n",
+                      all - outcome.bad(), all);
   if (const std::size_t undecided = outcome.worlds_that(goal::Status::undecided); undecided > 0)
     text += fmt::format(
         "{} of {} worlds are undecided, and count by their observed rates here; more trials decide them\n",
@@ -183,7 +188,6 @@ std::optional<std::string_view> record_of(const Measurement& measurement) {
 }
 
 document::Description<Measurement> measurement_description() {
-  using document::in_data;
   using Of = const Measurement&;
   return document::Description<Measurement>()
       .value({"parameter", "unknown", "dotted path of the unknown, or name of a derived quantity"},
@@ -218,7 +222,6 @@ document::Description<Measurement> measurement_description() {
 }
 
 document::AnswerDescription<Outcome> learn_answer() {
-  using document::in_data;
   using Of = const Outcome&;
   document::AnswerDescription<Outcome> answer{
       {.name = "learn", .meaning = "which unknown to measure next", .csv_table = "unknowns"}, {}};
@@ -247,11 +250,7 @@ document::AnswerDescription<Outcome> learn_answer() {
       })
       .table({.key = "unknowns", .meaning = "what a measurement of each unknown decides"},
              measurement_description(), &Outcome::measurements)
-      .sentence(text_below_table)
-      .sentence([](Of o) {
-        return fmt::format("nothing was simulated: this follows from the trials of {} worlds in the file",
-                           o.worlds.bad.size());
-      });
+      .sentence(text_below_table);
   return answer;
 }
 

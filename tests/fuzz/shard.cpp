@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "analysis/summary/summary.hpp"
 #include "analysis/summary/study_statistics.hpp"
+#include "analysis/summary/summary.hpp"
 #include "analysis/summary_answer/summary_answer.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"

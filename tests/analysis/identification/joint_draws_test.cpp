@@ -1,5 +1,7 @@
 // Joint draws: their ranks are those of the replicates, their limits those of the intervals, and each is a
 // value that a manifest may have.
+#include "analysis/identification/joint_draws.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -7,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/identification/joint_draws.hpp"
 #include "core/numerics/interval.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/analysis/identification/material_tests.hpp"

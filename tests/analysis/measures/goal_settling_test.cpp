@@ -1,6 +1,4 @@
 // The settling times of the moves that a goal asks, under each condition.
-#include "analysis/measures/goal_counts.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/measures/goal_counts.hpp"
 #include "analysis/statistics/sums/state.hpp"
 #include "experiments/study/study.hpp"
 #include "tests/support/draws.hpp"

@@ -1,9 +1,8 @@
-#include "analysis/measures/goal_counts.hpp"
-
 #include <limits>
 
 #include <gtest/gtest.h>
 
+#include "analysis/measures/goal_counts.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 

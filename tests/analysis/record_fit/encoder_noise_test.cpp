@@ -1,3 +1,5 @@
+#include "analysis/record_fit/encoder_noise.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -5,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/record_fit/encoder_noise.hpp"
 #include "tests/analysis/record_fit/wandering_path.hpp"
 
 namespace zerocount::testing {

@@ -53,8 +53,8 @@ TEST(TimeToZero, DecidesMostMovesOfASlowLoop) {
           std::abs(move.final_error) >= std::abs(move.midway_error))
         continue;
       ++off_target;
-      p.command.hold = measures::time_to_zero(move.midway_error, move.final_error, trial::samples_of_move(p, 0),
-                                    1.0 / p.controller.sample_rate) +
+      p.command.hold = measures::time_to_zero(move.midway_error, move.final_error,
+                                              trial::samples_of_move(p, 0), 1.0 / p.controller.sample_rate) +
                        p.verdict.dwell;
       const trial::Outcome later = trial::run_trial(p).moves[0].outcome;
       decided += later == trial::Outcome::zero_count || later == trial::Outcome::one_count;

@@ -17,7 +17,8 @@
 #include "runners/tuning/effects/effects.hpp"
 #include "runners/tuning/worst_machines/worst_machines.hpp"
 
-/// The questions of `plan`, but that of --margin (equivalence_plan.hpp).
+/// The verbs that design an axis: plan, tune, limits, worst and rare, their answers for the report, and what
+/// they share.
 namespace zerocount::design_commands {
 
 /// A study, and the point of it that is asked for.

@@ -24,19 +24,24 @@ SHOWN_WIDTH = 600
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Figure:
-    """A figure of the report, by its Vega-Lite specification. A notebook shows it as a picture.
+    """A figure of the report. A notebook shows it as a picture.
 
     Parameters
     ----------
     name : str
         As ``Results.figures`` lists it.
-    specification : dict
-        Vega-Lite, with the data and the theme.
     """
 
     name: str
-    specification: dict[str, Any] = dataclasses.field(repr=False)
     _options: tuple[str, ...] = dataclasses.field(repr=False)
+
+    @functools.cached_property
+    def specification(self) -> dict[str, Any]:
+        """Vega-Lite, with the data and the theme. It needs node, as the pictures do."""
+        with tempfile.TemporaryDirectory() as folder:
+            text = self.save(pathlib.Path(folder, "figure.json")).read_text(encoding="utf-8")
+        specification: dict[str, Any] = json.loads(text)
+        return specification
 
     def save(self, output: str | os.PathLike[str]) -> pathlib.Path:
         """Write the figure.
@@ -129,7 +134,4 @@ def figure(path: str | os.PathLike[str], name: str | None, point: int | None) ->
     if not fitting:
         raise ManifestError(f"{path}: there is no figure {name!r}; expected one of {', '.join(known)}", 2)
     options = [os.fspath(path), "--figure", fitting[0]] + (["--point", str(point)] if point is not None else [])
-    with tempfile.TemporaryDirectory() as folder:
-        output = pathlib.Path(folder, "figure.json")
-        program.run(["plot", *options, "-o", output])
-        return Figure(fitting[0], json.loads(output.read_text(encoding="utf-8")), tuple(options))
+    return Figure(fitting[0], tuple(options))

@@ -66,9 +66,9 @@ TEST_F(LinearAxis, HasItsUnitsInFilesTablesAndReports) {
   ASSERT_EQ(run({"report", "stage.h5", "-o", "stage.html"}).code, 0);
   std::stringstream html;
   html << std::ifstream(folder / "stage.html").rdbuf();
-  expect_parts(html.str(), {"Along the travel", "friction.k1 along the travel", "force (N)"});
+  expect_parts(html.str(), {"Along the travel", "friction.k1 along the travel", "\"force\",\"N\"]"});
   for (const char* word :
-       {"rotor angle", "along the rotor", "torque (N m)", "(rad)", "$torque", "$rotor", "$angle"}) {
+       {"rotor angle", "along the rotor", "\"N m\"]", "\"rad\"]", "$torque", "$rotor", "$angle"}) {
     EXPECT_EQ(html.str().find(word), std::string::npos) << word;
   }
 }

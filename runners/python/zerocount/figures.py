@@ -87,7 +87,7 @@ class Figure:
         --------
         >>> picture = zc.open("my-axis.h5").plot("settled").matplotlib()
         >>> picture.axes[0].get_xlabel()
-        'time since the start of the move (ms)'
+        'settled for good from (ms)'
         """
         return drawn(self.specification)
 

@@ -1,4 +1,4 @@
-"""Each folder includes only itself and those below it and is a namespace; no type is defined in two headers.
+"""Each folder includes only itself and those below it and is a namespace; no type is defined in two headers; every test is built.
 
 The order of the folders of a layer is that of zerocount_layer() in its CMakeLists.txt. The folders inside one of these are part of it.
 """
@@ -9,6 +9,7 @@ import re
 import sys
 
 LAYERS = ["core", "experiments", "results", "analysis", "runners"]  # lowest first
+SOURCE = re.compile(r"[\w./-]+\.cpp")
 LISTED = re.compile(r"^zerocount_layer\(([^)]*)\)", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)/[^"/]+"', re.MULTILINE)
 # core computes: no files, no streams, no threads.
@@ -62,8 +63,18 @@ def listed_folder(folder, folders):
     return next((one for one in inside if one in folders and (one == folder or "/" in one)), None)
 
 
+def tests_not_built(root):
+    """A test that is in no CMakeLists.txt never fails."""
+    lists = (root / "tests").rglob("CMakeLists.txt")
+    built = {(file.parent / name).resolve() for file in lists for name in SOURCE.findall(file.read_text(encoding="utf-8"))}
+    for path in sorted((root / "tests").rglob("*_test.cpp")):
+        if path.resolve() not in built:
+            yield f"{path.relative_to(root)}: is in no CMakeLists.txt"
+
+
 def problems(root):
     yield from types_defined_twice(root)
+    yield from tests_not_built(root)
     folders = list(folders_in_order(root))
     for path in sorted(path for layer in LAYERS for path in (root / layer).rglob("*.[ch]pp")):
         name = path.relative_to(root)

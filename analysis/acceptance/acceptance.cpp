@@ -408,7 +408,7 @@ Agreement agreement_of(std::span<const std::int64_t> met, std::int64_t moves,
     const std::int64_t any = drawn(met, moves, simulated, 0, order, numbers);
     at_most += any <= agreement.met ? 1 : 0;
     at_least += any >= agreement.met ? 1 : 0;
-    // As many simulated machines as are measured, or all where there are fewer.
+    // The prediction takes as many simulated machines as are measured, or all if there are fewer.
     predicted.push_back(drawn(met.first(std::min(met.size(), simulated.size())), moves, simulated,
                               std::min(met.size(), simulated.size()), order, numbers));
   }

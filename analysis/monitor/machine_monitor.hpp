@@ -180,7 +180,7 @@ class MachineMonitor {
   std::int64_t continued_{0};
 };
 
-/// What the answer of `monitor` is made of.
+/// A monitored machine, its baseline and its state: the answer of `monitor` describes them.
 struct MonitorReading {
   const MachineMonitor& monitor;
   const Baseline& baseline;

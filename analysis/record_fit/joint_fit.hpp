@@ -17,7 +17,7 @@ class Problem;
 }  // namespace ceres
 namespace zerocount::record_fit {
 
-/// How far and how carefully to search. The defaults are those of Ceres.
+/// When a search by least squares ends, and how it steps. The defaults are those of Ceres.
 struct SearchSetting {
   int max_steps{50};
   int max_invalid_steps{5};  ///< in a row: the residuals are not finite there

@@ -385,7 +385,7 @@ std::vector<std::size_t> bad_worlds_of(const worlds::PointWorlds& point) {
   return bad;
 }
 
-/// Of the rate that the study is judged by, which people are shown.
+/// Adds, for people, the worst, the median and the best world by the rate that the study is judged by.
 void add_judged_rates(Description<WorldsReading>& description, const goal::Question& question) {
   using Reading = const WorldsReading&;
   const auto column = [](std::string heading) {

@@ -94,7 +94,7 @@ std::string_view verdict_words(goal::Status status);
 /// "best of 8 points: 3 (kp=400): the goal is met".
 std::string judgement_headline(const StudySummary& summary, const JudgedPoint& judged);
 
-/// What the verdict rests on, whole lines: its bounds, what would decide it, the competitors of the point.
+/// The reasons of the verdict, a line each: its bounds, what would decide it, the competitors of the point.
 std::string judgement_details(const StudySummary& summary, const JudgedPoint& judged);
 
 /// The judgement as a paragraph: the goal, judgement_headline() and judgement_details().

@@ -264,8 +264,8 @@ bool any_undecided(const StudySummary& summary) {
   return any_point(summary, [](Statistics point) { return point.outcomes.off_target > 0; });
 }
 
-/// What keeps a trial from being stable, by its worst move. With the stable trials and the undecided ones,
-/// which ended off target, these are all.
+/// An outcome of a trial, that of its worst move, that is not stable. With the stable trials and the
+/// undecided ones, which ended off target, these are all.
 struct NotStable {
   const char* head;
   std::int64_t (*trials)(Statistics point);

@@ -348,7 +348,8 @@ bool needs_outcomes(const measures::CountedGoal& goal) {
   return !goal.on.empty() || !goal.limits.empty() || goal.tolerance;
 }
 
-/// What points are compared by, of all points; nothing where the file does not store it.
+/// Reads the statistics of all points by which they are compared. Returns false if the file does not store
+/// them.
 bool outline_points(StudySummary& summary, const reading::AllTrialsFile& file, const study::Study& study,
                     const layout::MeasureTable& table) {
   if (has_several(summary.question) || needs_outcomes(summary.question.counted())) return false;

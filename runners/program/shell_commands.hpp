@@ -18,10 +18,9 @@ commands::Command completion_command();
 commands::Command manual_command();
 commands::Command schema_command();
 
-/// What may stand in place of the last of the words that follow the program's name, a line each: the
-/// candidate, or after a tab its help. Before them ":files" stands for files, ":keys" says that no blank
-/// follows, ":list" that the word is a list with commas. For a word in the form --option=value: of the value
-/// alone.
+/// Prints the completions of the last of `words`, which follow the program's name: a line for each candidate,
+/// with its help after a tab. A line before them says how the shell completes: ":files" adds files, ":keys"
+/// adds no blank, ":list" completes in a list with commas. Of --option=value it completes the value alone.
 void print_candidates(std::span<const commands::Command> commands, std::span<const std::string> words);
 
 /// @param shell bash, zsh or fish

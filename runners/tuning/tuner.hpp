@@ -97,7 +97,7 @@ struct TuneAnswer {
 
   bool is_met() const { return status == goal::Status::met; }
 
-  /// What the extra of this type has found; null if it was not made.
+  /// The result of the extra of this type; null if the extra did not run.
   template <class Found>
   const Found* extra() const {
     for (const std::any& one : extras) {

@@ -154,15 +154,14 @@ std::string detail_of(const reading::ResultsFile& file, const study::Study& stud
   if (file.trials()) {
     const reading::TrialTables& trials = *file.trials();
     values = fmt::format(
-        "{} inputs and {} measures of {} trials with {} moves, {} jerks and {} sample records "
-        "in their ranges; ",
+        "{} inputs and {} measures of {} trials with {} moves, {} jerks and {} sample records in their "
+        "ranges; ",
         trials.input_columns().size(), trials.measures().size(), trials.count(),
         trials.count() * trials.moves(), trials.jerk_count(), trials.trace_count());
   }
   return fmt::format(
-      "{}, trials {} to {} of {}: header as its manifest says; {}all {} datasets, with the statistics of {}, "
-      "as "
-      "they are when made again{}",
+      "{}, trials {} to {} of {}: header as its manifest says; {}all {} datasets, the statistics of {} among "
+      "them, equal to those made again{}",
       header.name, header.rows.first, header.rows.end() - 1, header.trials * header.points, values,
       datasets_in(file.root()), text::counted(study::point_count(study), "design point"),
       equality_of(header) == Equality::bits ? "" : ", to a relative 1e-9");

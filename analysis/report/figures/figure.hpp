@@ -31,7 +31,7 @@ std::span<const EmbeddedFile> embedded_files();
 /// @throws Failure (machine_failed) if the program was built without it; the message says how to include it.
 std::string_view embedded_file(std::string_view name);
 
-/// What a page needs to draw figures, in loading order: the libraries, then our own.
+/// The scripts that draw figures in a page, in loading order: the libraries, then the project's own.
 inline constexpr std::array<std::string_view, 4> drawing_scripts{"vega.min.js", "vega-lite.min.js",
                                                                  "vega-embed.min.js", "figures.js"};
 

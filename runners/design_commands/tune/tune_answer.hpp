@@ -86,7 +86,7 @@ document::Item criterion_item();
 /// "band_settling_time.p95 (s)": the quantity that is minimised.
 std::string criterion_title(const study::Study& study);
 
-/// What the extra of this type has found; an empty value if it was not made.
+/// The result of the extra of this type; an empty one if the extra did not run.
 template <class Found>
 const Found& found_by_extra(Of tuning) {
   static const Found none{};
@@ -99,12 +99,12 @@ bool is_drawn(Of tuning);
 
 /// "met: the goal is met by controller.ki = 5000", or that nothing is proven.
 std::string tune_headline(Of tuning);
-/// The same for a page that shows the values below it.
+/// The headline of a page, which leaves out the values: the page shows them below it.
 std::string page_headline(Of tuning);
 
 void add_refusals(Items& items);
 void add_proof(Items& items);
-/// What people are shown of add_proof() beside its table.
+/// Adds the sentences that stand beside the table of add_proof().
 void add_proof_sentences(Items& items);
 void add_behaviour(Items& items);
 void add_margins(Items& items);

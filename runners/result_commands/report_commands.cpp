@@ -61,10 +61,10 @@ constexpr const char* report_help =
     "  zerocount report gains.h5 -o gains.html --with limits,worst --budget 2min\n";
 
 constexpr const char* plot_help =
-    "Draws one figure of the report as a file, for a paper: a picture, for which it needs node, and\n"
-    "for PNG also rsvg-convert (Debian: nodejs, librsvg2-bin); a page (*.html); or a specification\n"
-    "of Vega-Lite with its data (*.json). Without --figure it prints the names of the figures that\n"
-    "this study has.\n"
+    "Draws one figure of the report as a file, for a paper: a picture or a specification of Vega-Lite\n"
+    "with its data (*.json), for which it needs node, and for PNG also rsvg-convert (Debian: nodejs,\n"
+    "librsvg2-bin); or a page (*.html). Without --figure it prints the names of the figures that this\n"
+    "study has.\n"
     "\n"
     "Example: zerocount plot gains.h5 --figure success -o success.svg\n";
 

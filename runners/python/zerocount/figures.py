@@ -83,6 +83,11 @@ class Figure:
         matplotlib.figure.Figure
             Its axes have the units of the data, their labels SI prefixes.
 
+        Raises
+        ------
+        MachineError
+            If node is missing, which makes the specification.
+
         Examples
         --------
         >>> picture = zc.open("my-axis.h5").plot("settled").matplotlib()

@@ -98,12 +98,12 @@ document::Description<JudgedMachine> found_description(const std::string& other_
 using NamedMachine = std::pair<std::string, JudgedMachine>;
 
 std::vector<NamedMachine> machine_rows(const Search& search) {
-  const auto& [of_study, again, in_box, likely, with_profiles, edges] = search.found;
-  std::vector<NamedMachine> rows{{"worst of the study, by new trials", again}};
-  if (in_box.is_previous) rows.back().first += ", also in the box";
-  if (!in_box.is_previous) rows.emplace_back("worst in the box", in_box);
-  if (likely.is_previous) rows.back().first += ", also of the likely machines";
-  if (!likely.is_previous) rows.emplace_back("worst of the likely machines", likely);
+  const tuning::WorstMachines& found = search.found;
+  std::vector<NamedMachine> rows{{"worst of the study, by new trials", found.again}};
+  if (found.in_box.is_previous) rows.back().first += ", also in the box";
+  if (!found.in_box.is_previous) rows.emplace_back("worst in the box", found.in_box);
+  if (found.likely.is_previous) rows.back().first += ", also of the likely machines";
+  if (!found.likely.is_previous) rows.emplace_back("worst of the likely machines", found.likely);
   return rows;
 }
 
@@ -113,24 +113,33 @@ document::Description<NamedMachine> machine_columns() {
       .include(judged_description(), &NamedMachine::second);
 }
 
-/// An input of these machines, and of the box.
+/// The inputs of the box, and of the machines that differ, each below its heading; null for one that does
+/// not.
+auto inputs_side_by_side(const WorstMachines& found) {
+  const auto if_other = [](const JudgedMachine& one) { return one.is_previous ? nullptr : &one.inputs; };
+  return std::vector<std::pair<const char*, const NamedValues*>>{{"box from", &found.edges.low},
+                                                                 {"median", &found.edges.median},
+                                                                 {"to", &found.edges.high},
+                                                                 {"worst of the study", &found.again.inputs},
+                                                                 {"worst in the box", if_other(found.in_box)},
+                                                                 {"likely", if_other(found.likely)}};
+}
+
+/// An input and its values in inputs_side_by_side().
 struct InputRow {
   std::string name;
-  std::vector<std::optional<double>> values;  ///< [column]
+  std::vector<std::optional<double>> values{};
 };
 
 std::vector<InputRow> input_rows(const Search& search) {
-  const auto& [of_study, again, in_box, likely, with_profiles, edges] = search.found;
   std::vector<InputRow> rows;
-  for (const auto& [name, value] : in_box.inputs) {
-    InputRow& row = rows.emplace_back(InputRow{name, {}});
-    for (const NamedValues* one :
-         {&edges.low, &edges.median, &edges.high, &again.inputs,
-          in_box.is_previous ? nullptr : &in_box.inputs, likely.is_previous ? nullptr : &likely.inputs}) {
+  for (const auto& [name, in_box] : search.found.in_box.inputs) {
+    InputRow& row = rows.emplace_back(InputRow{name});
+    for (const auto& [heading, inputs] : inputs_side_by_side(search.found)) {
       row.values.emplace_back();
-      if (one == nullptr) continue;
-      const auto found = std::ranges::find(*one, name, &NamedValues::value_type::first);
-      if (found != one->end()) row.values.back() = found->second;
+      if (inputs == nullptr) continue;
+      const auto found = std::ranges::find(*inputs, name, &NamedValues::value_type::first);
+      if (found != inputs->end()) row.values.back() = found->second;
     }
   }
   return rows;
@@ -139,10 +148,8 @@ std::vector<InputRow> input_rows(const Search& search) {
 document::Description<InputRow> input_columns() {
   document::Description<InputRow> columns;
   columns.value({.heading = "input"}, &InputRow::name);
-  std::size_t column = 0;
-  for (const char* const heading :
-       {"box from", "median", "to", "worst of the study", "worst in the box", "likely"})
-    columns.value({.heading = heading}, [i = column++](const InputRow& row) { return row.values[i]; });
+  for (std::size_t i = 0; const auto& [heading, inputs] : inputs_side_by_side({}))
+    columns.value({.heading = heading}, [i = i++](const InputRow& row) { return row.values[i]; });
   return columns;
 }
 
@@ -163,7 +170,8 @@ document::AnswerDescription<Search> worst_answer() {
               found_description("in_box", "the machine of the box"),
               [](const Search& s) { return s.found.likely; })
       .table(document::to_people("each machine by trials of its own"), machine_columns(), machine_rows)
-      .table(document::to_people("what differs between machines"), input_columns(), input_rows)
+      .table(document::to_people("what differs between machines, in the units of the manifest"),
+             input_columns(), input_rows)
       .sentence(replay_sentence);
   return answer;
 }

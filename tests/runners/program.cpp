@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <fcntl.h>
+#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -50,6 +51,19 @@ ProgramResult zerocount_program(const std::vector<std::string>& words, const fs:
   const fs::path err = outputs.path() / "err";
   const int code = wait_for(start(words, directory, out, err, environment));
   return {code, read_bytes(out), read_bytes(err)};
+}
+
+nlohmann::json ProgramTest::json_of(std::vector<std::string> words, std::optional<int> code) const {
+  words.insert(words.end(), {"--format", "json"});
+  const ProgramResult result = program(words);
+  EXPECT_EQ(result.code, code.value_or(result.code)) << result.out << result.err;
+  return nlohmann::json::parse(result.out, nullptr, false);
+}
+
+std::string ProgramTest::refusal(const std::vector<std::string>& words, int code) const {
+  const ProgramResult result = program(words);
+  EXPECT_EQ(result.code, code) << result.out << result.err;
+  return result.err;
 }
 
 RunningProgram::RunningProgram(const std::vector<std::string>& words, const fs::path& directory,

@@ -2,12 +2,15 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json_fwd.hpp>
 #include <sys/types.h>
 
+#include "tests/support/says.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::testing {
@@ -30,6 +33,10 @@ class ProgramTest : public ::testing::Test {
   ProgramResult program(const std::vector<std::string>& words) const {
     return zerocount_program(words, folder_.path());
   }
+  /// What the program says in JSON. @param code the exit code that is expected; without, any
+  nlohmann::json json_of(std::vector<std::string> words, std::optional<int> code = {}) const;
+  /// What a command that ends with this exit code says of the reason.
+  std::string refusal(const std::vector<std::string>& words, int code = 2) const;
 
   TemporaryFolder folder_;
 };

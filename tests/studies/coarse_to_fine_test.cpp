@@ -120,21 +120,6 @@ TEST_P(WithoutIntegral, TheRotorStallsAwayFromItsTarget) {
   EXPECT_TRUE(share_below(0.15, near, trials));
 }
 
-TEST_P(WithoutIntegral, TheTorqueThatIsLeftIsTheProportionalGainTimesTheError) {
-  const study::Study study = shipped_study("coarse-to-fine");
-  for (std::int64_t index = 0; index < 60; ++index) {
-    const WatchedTrial trial = watched(trial_of(study, GetParam(), index));
-    const loop::ControllerParameters& controller = trial.parameters.controller;
-    const double resolution = trial.parameters.dac.resolution;
-    const std::vector<trial::SampleRecord> end = last_part(trial, 0.5);
-    for (std::size_t k = 1; k < end.size(); ++k) {
-      const double rate = static_cast<double>(end[k].count - end[k - 1].count);
-      const double wanted = controller.kp * static_cast<double>(end[k].error) - controller.kd * rate;
-      ASSERT_NEAR(end[k].torque, wanted, 0.5 * resolution + 1e-12) << index;
-    }
-  }
-}
-
 // Without creep the rotor comes to rest altogether, but where it balances at the very edge of a count. The
 // spring's torque at rest, by stop elements that follow the recorded elongation from the virgin contact, is
 // what is left of the control's: kp·e. At zero error that would be 0, and a spring that has been stretched to

@@ -1,6 +1,8 @@
 // friction-models, hunting, deadband, observer, resonance and notch: what other laws of friction and other
 // blocks of the controller change.
+#include <cmath>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "core/friction/sliding/stribeck.hpp"
@@ -117,6 +119,71 @@ TEST(Resonance, LimitsALoopWithTheEncoderAtTheLoad) {
 TEST(Notch, HelpsWhereItIsWideEnough) {
   EXPECT_TRUE(share_below(0.75, stable_moves("notch", "none", 100), 100));
   EXPECT_TRUE(share_above(0.9, stable_moves("notch", "wide", 100), 100));
+}
+
+// air-bearing: without friction the loop hunts by one count wherever a torque acts that the converter cannot
+// balance, as the paper says of such systems (section 1); on a ball bearing the spring holds the difference.
+
+constexpr std::int64_t air_trials = 150;
+
+std::int64_t moves_ending_in(const std::string& bearing, trial::Outcome outcome) {
+  return moves_with(outcomes_of(shipped_study("air-bearing"), bearing, air_trials),
+                    [outcome](const trial::MoveOutcome& move) { return move.outcome == outcome; });
+}
+
+TEST(AirBearing, HoldsZeroCountsOnlyWhereNothingDisturbsIt) {
+  EXPECT_TRUE(share_above(0.95, moves_ending_in("air", trial::Outcome::zero_count), air_trials));
+  EXPECT_TRUE(share_below(0.10, moves_ending_in("air-disturbed", trial::Outcome::zero_count), air_trials));
+}
+
+TEST(AirBearing, HuntsByOneCountUnderATorqueThatNoCodeBalances) {
+  EXPECT_TRUE(share_above(0.90, moves_ending_in("air-disturbed", trial::Outcome::one_count), air_trials));
+  EXPECT_TRUE(share_above(0.70, moves_ending_in("air-fine-dac", trial::Outcome::one_count), air_trials))
+      << "nor does a fine converter help";
+}
+
+TEST(AirBearing, ABallBearingHoldsZeroCountsUnderTheSameDisturbance) {
+  EXPECT_TRUE(share_above(0.86, moves_ending_in("ball", trial::Outcome::zero_count), air_trials));
+}
+
+// contact-variation: the loop holds zero counts whether its contacts are alike or not (paper, QN1 and QN2).
+
+constexpr std::int64_t contact_trials = 60;
+
+class Contacts : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(ContactVariation, Contacts, ::testing::Values("same", "varied"));
+
+TEST_P(Contacts, EndTheirMovesInZeroCounts) {
+  const auto outcomes = outcomes_of(shipped_study("contact-variation"), GetParam(), contact_trials);
+  const std::int64_t moves = 6 * contact_trials;
+  EXPECT_TRUE(share_above(0.97, moves_with(outcomes, [](const auto& move) { return move.stable; }), moves));
+  EXPECT_TRUE(share_above(
+      0.93, moves_with(outcomes, [](const auto& move) { return move.outcome == trial::Outcome::zero_count; }),
+      moves));
+  EXPECT_EQ(moves_with(outcomes, [](const auto& move) { return move.broke_away; }), moves)
+      << "each move makes a new contact";
+}
+
+// encoder-noise and compensators: what noise leaves of zero counts, and what a dead zone of one count does.
+
+constexpr std::int64_t machine_trials = 100;
+
+TEST(EncoderNoise, HidesZeroCountsWhateverTheGains) {
+  EXPECT_TRUE(share_below(0.45, moves_at_zero("encoder-noise", "x1-zero", machine_trials), machine_trials))
+      << "an axis in the middle of its count shows 100 zeros in a row with a probability of 0.287";
+}
+
+TEST(EncoderNoise, LeavesOneCountAtTheResolutionOfThePaper) {
+  const auto one_count = [](const auto& move) { return move.outcome == trial::Outcome::one_count; };
+  const auto outcomes = outcomes_of(shipped_study("encoder-noise"), "x1", machine_trials);
+  EXPECT_TRUE(share_above(0.5, moves_with(outcomes, one_count), machine_trials));
+}
+
+TEST(Compensators, LoseZeroCountsInAZoneOfOneCount) {
+  EXPECT_TRUE(share_above(0.8, moves_at_zero("compensators", "plain", machine_trials), machine_trials));
+  EXPECT_TRUE(share_above(0.8, moves_at_zero("compensators", "standstill", machine_trials), machine_trials));
+  EXPECT_TRUE(
+      share_below(0.45, moves_at_zero("compensators", "integral-zone-1", machine_trials), machine_trials));
 }
 
 }  // namespace

@@ -52,41 +52,6 @@ TEST(PaperFig4, ClosedLoopsLeaveNoTrace) {
   });
 }
 
-// Beyond the loops that have closed, the spring goes on along the curve that it left for them.
-TEST(PaperFig4, BeyondClosedLoopsTheSpringGoesOnAsIfTheyHadNotBeen) {
-  const study::Study direct = shipped_study("paper-fig4", {"command.torque.levels=[0.012, 0.018, -0.018]"});
-  const study::Study by_loops = shipped_study(
-      "paper-fig4",
-      {"command.torque.levels=[0.012, -0.004, 0.004, -0.004, 0.012, 0.004, 0.012, 0.018, -0.018]"});
-  for (std::int64_t index = 0; index < trials; ++index) {
-    const trial::TrialParameters parameters = trial_of(direct, "all", index);
-    const std::vector<trial::MoveOutcome> straight = trial::run_trial(parameters).moves;
-    const std::vector<trial::MoveOutcome> looped = trial::run_trial(trial_of(by_loops, "all", index)).moves;
-    const double tolerance = position_tolerance(parameters);
-    EXPECT_NEAR(looped[7].final_position, straight[1].final_position, tolerance);
-    EXPECT_NEAR(looped[8].final_position, straight[2].final_position, tolerance);
-    EXPECT_EQ(looped[8].reversal_depth, straight[2].reversal_depth);
-  }
-}
-
-TEST(PaperFig4, LoopsBetweenTheSameTorquesAreCongruent) {
-  look_at_trials([](const trial::TrialParameters& parameters, const std::vector<trial::MoveOutcome>& at) {
-    const std::vector<double>& levels = parameters.command.torque.levels;
-    ASSERT_NEAR(levels[2] - levels[1], levels[6] - levels[5], 1e-15) << "from 2 to 3 as from 5 to 1";
-    const double lower = at[2].final_position - at[1].final_position;
-    const double upper = at[6].final_position - at[5].final_position;
-    EXPECT_NEAR(lower, upper, 2.0 * position_tolerance(parameters));
-    EXPECT_GT(at[5].final_position, at[2].final_position + 1e-5) << "they are not the same loop";
-  });
-}
-
-TEST(PaperFig4, OppositeTorquesOfTheVirginCurveAreAtOppositePositions) {
-  look_at_trials([](const trial::TrialParameters& parameters, const std::vector<trial::MoveOutcome>& at) {
-    ASSERT_EQ(parameters.command.torque.levels[7], -parameters.command.torque.levels[0]);
-    EXPECT_NEAR(at[7].final_position, -at[0].final_position, position_tolerance(parameters));
-  });
-}
-
 TEST(PaperFig4, TheSpringRemembersReversalPointsUntilTheyAreWipedOut) {
   look_at_trials([](const trial::TrialParameters& parameters, const std::vector<trial::MoveOutcome>& at) {
     // The same torque at 3 and 5, but another place: friction is no function of position.

@@ -48,31 +48,6 @@ TEST(PaperFig6, EachLevelCreepsToItsHardeningAndNoFurther) {
   }
 }
 
-TEST(PaperFig6, ALevelThatIsRepeatedOrReversedCreepsNoMore) {
-  const study::Study study = shipped_study("paper-fig6");
-  int repeated = 0;
-  for (std::int64_t index = 0; index < 25; ++index) {
-    const trial::TrialParameters parameters = trial_of(study, "all", index);
-    const std::vector<double>& levels = parameters.command.torque.levels;
-    const double left = std::exp(-parameters.friction.uniform.alpha * parameters.command.hold);
-    const trial::TrialOutcome outcome = trial::run_trial(parameters);
-    double hardened = asked(parameters, levels[0]);
-    for (std::size_t level = 1; level < levels.size(); ++level) {
-      const double creep = outcome.moves[level].creep - outcome.moves[level - 1].creep;
-      const double asks = asked(parameters, levels[level]);
-      if (goes_beyond(levels, level)) {
-        EXPECT_GT(std::abs(creep), 0.3 * asks) << level;
-        EXPECT_EQ(std::signbit(creep), std::signbit(levels[level])) << "towards the torque";
-        hardened = asks;
-      } else {
-        EXPECT_LE(std::abs(creep), (left + 1e-4) * hardened) << level << ": what was left to do, at most";
-        ++repeated;
-      }
-    }
-  }
-  EXPECT_GE(repeated, 25 * 3);
-}
-
 TEST(PaperFig6, HardeningIsNeverUndoneAndIsWhatHasCreptEitherWay) {
   const study::Study study = shipped_study("paper-fig6");
   for (std::int64_t index = 0; index < 8; ++index) {

@@ -108,25 +108,6 @@ TEST_P(StudyDeterminism, DatasetsDoNotDependOnThreadsPartsOrTheirOrder) {
   expect_same_datasets(folder_ / "whole.h5", folder_ / "merged.h5");
 }
 
-TEST_P(StudyDeterminism, InterruptedAndKilledRunsGoOnToTheSameDatasets) {
-  write(GetParam().trials);
-  complete("whole.h5");
-  std::mt19937 random(8);
-  std::uniform_int_distribution<int> moment(30, 150);
-  for (const int signal : {SIGINT, SIGKILL}) {
-    const std::string name = "hit" + std::to_string(signal) + ".h5";
-    for (int time = 0; time < 2; ++time) {
-      RunningProgram program({"run", "study.yaml", "-o", name, "--threads", "2"}, folder_.path());
-      std::this_thread::sleep_for(std::chrono::milliseconds(moment(random)));
-      program.send(signal);
-      const int code = program.wait();
-      EXPECT_TRUE(code == 0 || code == 130 || code == 128 + signal) << code;
-    }
-    complete(name);
-    expect_same_datasets(folder_ / "whole.h5", folder_ / name);
-  }
-}
-
 TEST_P(StudyDeterminism, ATrialThatIsReplayedIsTheRecordedOne) {
   write(5);
   complete("out.h5");
@@ -137,37 +118,6 @@ TEST_P(StudyDeterminism, ATrialThatIsReplayedIsTheRecordedOne) {
       EXPECT_EQ(run({"trace", "study.yaml", "--point", point, "--trial", trial}).out, replay.out);
     }
   }
-}
-
-TEST_P(StudyDeterminism, TheRetainedRecordIsTheReplayedOne) {
-  write(5);
-  complete("out.h5");
-  const reading::AllTrialsFile file(folder_ / "out.h5");
-  const std::vector<layout::TraceRecord> kept = file.trace_at(0, file.trace_count());
-  std::size_t next = 0;
-  for (const char* point : {"0", "1"}) {
-    for (const char* trial : {"1", "3"}) {
-      std::istringstream lines(run({"trace", "out.h5", "--point", point, "--trial", trial}).out);
-      std::string line;
-      std::getline(lines, line);
-      ASSERT_EQ(line.rfind("k,t,target,count,coarse_count,error,code,torque,theta,omega", 0), 0U);
-      while (std::getline(lines, line)) {
-        std::vector<double> cells;
-        std::istringstream row(line);
-        for (std::string cell; std::getline(row, cell, ',');)
-          cells.push_back(std::strtod(cell.c_str(), nullptr));
-        ASSERT_LT(next, kept.size());
-        const layout::TraceRecord& record = kept[next++];
-        EXPECT_EQ(cells[0], static_cast<double>(record.k));
-        EXPECT_EQ(cells[3], static_cast<double>(record.count));
-        EXPECT_EQ(cells[4], static_cast<double>(record.coarse_count));
-        EXPECT_EQ(cells[7], record.torque);
-        EXPECT_EQ(cells[8], record.theta);
-        EXPECT_EQ(cells[9], record.omega);
-      }
-    }
-  }
-  EXPECT_EQ(next, kept.size());
 }
 
 // Otherwise all of this could pass with the random numbers left out.

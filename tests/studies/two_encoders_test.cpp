@@ -138,17 +138,6 @@ TEST(TwoEncoders, AnEccentricScaleIsFollowedToItsError) {
   EXPECT_GE(unseen_small, 5);
 }
 
-TEST(TwoEncoders, AnInterpolationErrorStaysWithinItsAmplitude) {
-  const study::Study study = shipped_study("two-encoders");
-  for (std::int64_t index = 0; index < 60; ++index) {
-    const trial::TrialParameters parameters = trial_of(study, "fine-interpolation", index);
-    const trial::MoveOutcome move = trial::run_trial(parameters).moves[0];
-    if (move.final_error != 0) continue;
-    EXPECT_LE(std::abs(true_miss(parameters, move)),
-              0.5 + 2.0 * parameters.encoder.fine_errors.interpolation + 1e-6);
-  }
-}
-
 // A reading that trembles by a fifth of a count is at zero at every sample only by chance, even though the
 // rotor is there.
 TEST(TwoEncoders, NoiseCostsZeroCountsByItselfAndMissedCoarseCountsCostNothing) {

@@ -39,14 +39,6 @@ class Compare : public ProgramTest {
   }
 };
 
-TEST_F(Compare, TheSameStudyAgainPasses) {
-  study("a", gains("1.0e-4", 30));
-  study("b", gains("1.0e-4", 30), {"--threads", "1"});
-  const auto json = compared("a", "b", 0);
-  EXPECT_EQ(json["layer"], "bits");
-  EXPECT_EQ(json["verdict"], "passed");
-}
-
 // Without rigs there are no machines to count: the moves are judged.
 TEST_F(Compare, AGoalOnMachinesIsJudgedByMovesWhereTheOtherStudyHasNoRigs) {
   const std::string goal = "goal: {band: 1, within: 0.03, moves: 0.9";
@@ -55,8 +47,8 @@ TEST_F(Compare, AGoalOnMachinesIsJudgedByMovesWhereTheOtherStudyHasNoRigs) {
   for (const ProgramResult& result :
        {program({"compare", "rigs.h5", "alone.h5"}), program({"compare", "alone.h5", "rigs.h5"})}) {
     EXPECT_TRUE(result.code == 0 || result.code == 1 || result.code == 3) << result.code << result.err;
-    EXPECT_NE(result.out.find("goal_rate"), std::string::npos) << result.out;
-    EXPECT_EQ(result.out.find("goal_machines"), std::string::npos) << result.out;
+    EXPECT_TRUE(says(result.out, "goal_rate"));
+    EXPECT_FALSE(says(result.out, "goal_machines"));
   }
 }
 
@@ -75,7 +67,7 @@ TEST_F(Compare, JudgesAStudyWithAGoalByThatAndNothingElse) {
   const std::vector<std::string> of_goal{"goal_rate", "goal_settling_time"};
   const nlohmann::json better = compared("a", "b", 0);
   EXPECT_EQ(measures_of(better), of_goal);
-  EXPECT_NE(better["notes"].dump().find("judged by that of a.h5"), std::string::npos) << better["notes"];
+  EXPECT_TRUE(says(better["notes"].dump(), "judged by that of a.h5")) << better["notes"];
   const nlohmann::json worse = compared("a", "slow", 1);
   EXPECT_EQ(measures_of(worse), of_goal);
   EXPECT_EQ(worse["points"][0]["measures"][1]["verdict"], "worse");
@@ -84,27 +76,25 @@ TEST_F(Compare, JudgesAStudyWithAGoalByThatAndNothingElse) {
   EXPECT_EQ(measures_of(compared("plain", "plain", 0)).size(), 5u);
 
   const ProgramResult points = program({"compare", "a.h5", "--points", "low", "high"});
-  EXPECT_NE(points.out.find("goal_settling_time"), std::string::npos) << points.out;
-  EXPECT_EQ(points.out.find("jerk_count"), std::string::npos) << points.out;
+  EXPECT_TRUE(says(points.out, "goal_settling_time"));
+  EXPECT_FALSE(says(points.out, "jerk_count"));
   const ProgramResult junit = program({"compare", "a.h5", "slow.h5", "--format", "junit"});
-  EXPECT_NE(junit.out.find("name=\"low: goal_settling_time\"><failure"), std::string::npos) << junit.out;
+  EXPECT_TRUE(says(junit.out, "name=\"low: goal_settling_time\"><failure"));
   const ProgramResult markdown = program({"compare", "a.h5", "slow.h5", "--format", "markdown"});
-  EXPECT_NE(markdown.out.find("low goal\\_settling\\_time | worse |"), std::string::npos) << markdown.out;
+  EXPECT_TRUE(says(markdown.out, "low goal\\_settling\\_time | worse |"));
   program({"report", "slow.h5", "-o", "slow.html", "--baseline", "a.h5"});
-  EXPECT_NE(folder_.read("slow.html").find("goal_settling_time"), std::string::npos);
+  EXPECT_TRUE(says(folder_.read("slow.html"), "goal_settling_time"));
 
   folder_.write("others.yaml", "measures: [stable_rate]\n");
   const ProgramResult others = program({"compare", "a.h5", "slow.h5", "--margins", "others.yaml"});
-  EXPECT_NE(others.out.find("low stable_rate"), std::string::npos) << others.out;
-  EXPECT_EQ(others.out.find("goal"), std::string::npos) << others.out;
+  EXPECT_TRUE(says(others.out, "low stable_rate"));
+  EXPECT_FALSE(says(others.out, "goal"));
   folder_.write("goal.yaml", "measures: [goal_rate]\n");
-  const ProgramResult none = program({"compare", "plain.h5", "plain.h5", "--margins", "goal.yaml"});
-  EXPECT_EQ(none.code, 2);
-  EXPECT_NE(none.err.find("plain.h5: its manifest has no goal"), std::string::npos) << none.err;
+  EXPECT_TRUE(says(refusal({"compare", "plain.h5", "plain.h5", "--margins", "goal.yaml"}),
+                   "plain.h5: its manifest has no goal"));
   study("wide", gains("3.5e-5", 300) + "goal: {band: 3, within: 0.022, moves: 0.9}\n", {"--force"});
-  const ProgramResult no_band = program({"compare", "plain.h5", "wide.h5"});
-  EXPECT_EQ(no_band.code, 4);
-  EXPECT_NE(no_band.err.find("plain.h5: it cannot be judged by the goal"), std::string::npos) << no_band.err;
+  EXPECT_TRUE(
+      says(refusal({"compare", "plain.h5", "wide.h5"}, 4), "plain.h5: it cannot be judged by the goal"));
 }
 
 // The verdict of the goal is that of judge, the quantile of a band that of the stored statistics.
@@ -135,14 +125,11 @@ TEST_F(Compare, RequiresTheGoalAndTimesOfErrorBands) {
   EXPECT_EQ(judge_band(band["p95_high"].get<double>() + 0.05), 0);
   EXPECT_EQ(judge_band(band["median"].get<double>()), 1);
   folder_.write("gate.yaml", "require: band_settling_time[4].p95 <= 1\n");
-  const ProgramResult other = program({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"});
-  EXPECT_EQ(other.code, 2);
-  EXPECT_NE(other.err.find("one of its bands: 0, 1"), std::string::npos) << other.err;
+  EXPECT_TRUE(says(refusal({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"}), "one of its bands: 0, 1"));
   study("plain", gains("3.5e-5", 30));
   folder_.write("gate.yaml", "require: goal\n");
-  const ProgramResult none = program({"compare", "plain.h5", "plain.h5", "--margins", "gate.yaml"});
-  EXPECT_EQ(none.code, 2);
-  EXPECT_NE(none.err.find("its manifest has no goal"), std::string::npos) << none.err;
+  EXPECT_TRUE(says(refusal({"compare", "plain.h5", "plain.h5", "--margins", "gate.yaml"}),
+                   "its manifest has no goal"));
 }
 
 TEST_F(Compare, AnotherEngineIsComparedTrialByTrial) {
@@ -171,7 +158,7 @@ TEST_F(Compare, WhereEveryChangeFailsAnImprovementHasTheExitCodeOfARegression) {
   EXPECT_EQ(program({"compare", "a.h5", "b.h5"}).code, 0);
   const ProgramResult result = program({"compare", "a.h5", "b.h5", "--changed-fails"});
   EXPECT_EQ(result.code, 1) << result.out;
-  EXPECT_NE(result.out.find("changed: "), std::string::npos) << result.out;
+  EXPECT_TRUE(says(result.out, "changed: "));
   folder_.write("gate.yaml", "fail_on: changed\n");
   EXPECT_EQ(program({"compare", "a.h5", "b.h5", "--margins", "gate.yaml"}).code, 1);
 }
@@ -193,7 +180,7 @@ TEST_F(Compare, OtherDesignPointsAreIncompatible) {
   study("d", other);
   const ProgramResult result = program({"compare", "a.h5", "d.h5"});
   EXPECT_EQ(result.code, 4);
-  EXPECT_NE(result.err.find("'high'"), std::string::npos) << result.err;
+  EXPECT_TRUE(says(result.err, "'high'"));
   EXPECT_EQ(result.out, "");
 }
 
@@ -205,9 +192,8 @@ TEST_F(Compare, MarginsAndRequirementsComeFromAFile) {
   EXPECT_EQ(program({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"}).code,
             3);  // 30 of 30 do not show it
   folder_.write("gate.yaml", "margins: {success: 1}\n");
-  const ProgramResult result = program({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"});
-  EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("gate.yaml:1:11: margins.success: unknown key"), std::string::npos) << result.err;
+  EXPECT_TRUE(says(refusal({"compare", "a.h5", "a.h5", "--margins", "gate.yaml"}),
+                   "gate.yaml:1:11: margins.success: unknown key"));
 }
 
 TEST_F(Compare, WritesEveryFormatAtOnce) {
@@ -215,7 +201,7 @@ TEST_F(Compare, WritesEveryFormatAtOnce) {
   const ProgramResult result =
       program({"compare", "a.h5", "a.h5", "--json", "r.json", "--junit", "r.xml", "--markdown", "r.md"});
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(result.out.find("this shows nothing of the program"), std::string::npos);
+  EXPECT_TRUE(says(result.out, "this shows nothing of the program"));
   EXPECT_EQ(nlohmann::json::parse(folder_.read("r.json"))["verdict"], "passed");
   EXPECT_TRUE(folder_.read("r.xml").starts_with("<?xml"));
   EXPECT_TRUE(folder_.read("r.md").starts_with("**passed: "));
@@ -231,29 +217,13 @@ TEST_F(Compare, DamagedOrMissingFilesHaveTheirExitCodes) {
   EXPECT_EQ(program({"compare", "a.h5"}).code, 2);
 }
 
-TEST_F(Compare, NothingThatIsReadIsWrittenOver) {
-  study("a", gains("1.0e-4", 10));
-  const std::string before = folder_.read("a.h5");
-  folder_.write("gate.yaml", "confidence: 0.9\n");
-  for (const char* const option : {"--json", "--junit", "--markdown"}) {
-    const ProgramResult result = program({"compare", "a.h5", "a.h5", option, "a.h5"});
-    EXPECT_EQ(result.code, 2);
-    EXPECT_NE(result.err.find("a.h5 is an input"), std::string::npos) << result.err;
-    EXPECT_EQ(program({"compare", "a.h5", "a.h5", "--margins", "gate.yaml", option, "gate.yaml"}).code, 2);
-    EXPECT_EQ(program({"compare", "a.h5", "a.h5", option, "/dev/null"}).code, 2);
-  }
-  EXPECT_EQ(program({"compare", "a.h5", "a.h5", "--json", "r", "--junit", "./r"}).code, 2);
-  EXPECT_EQ(folder_.read("a.h5"), before);
-}
-
 TEST_F(Compare, ABaselineIsNotRecordedInABrokenLog) {
   study("a", gains("1.0e-4", 10));
   for (const char* const log : {"- date: yesterday", "not: [a list\n", "a: map\n"}) {
     folder_.write("base.h5.log.yaml", log);
     const ProgramResult result = program({"baseline", "a.h5", "-o", "base.h5", "--reason", "x"});
     EXPECT_EQ(result.code, 4) << log;
-    EXPECT_NE(result.err.find("base.h5.log.yaml: cannot append to this baseline log"), std::string::npos)
-        << result.err;
+    EXPECT_TRUE(says(result.err, "base.h5.log.yaml: cannot append to this baseline log"));
     EXPECT_EQ(folder_.read("base.h5.log.yaml"), log);
     EXPECT_FALSE(std::filesystem::exists(folder_.path() / "base.h5"));
   }
@@ -266,7 +236,7 @@ TEST_F(Compare, ABaselineNeedsAReason) {
   EXPECT_EQ(program({"baseline", "a.h5", "-o", "a.h5", "--reason", "x"}).code, 2);
   EXPECT_EQ(program({"baseline", "a.h5", "-o", "base.h5", "--reason", "the first"}).code, 0);
   EXPECT_EQ(program({"compare", "base.h5", "a.h5"}).code, 0);
-  EXPECT_NE(folder_.read("base.h5.log.yaml").find("the first"), std::string::npos);
+  EXPECT_TRUE(says(folder_.read("base.h5.log.yaml"), "the first"));
 }
 
 /// The two cases of gains() as a study of its own.
@@ -300,10 +270,10 @@ TEST_F(Compare, TheAnswerNamesWhatIsBetterAndWhatIsWorse) {
   study("both", gains("1.0e-4", 200));
   const std::string forward = program({"compare", "both.h5", "--points", "low", "high"}).out;
   const std::string backward = program({"compare", "both.h5", "--points", "high", "low"}).out;
-  EXPECT_NE(forward.find("high against low; worse: success_rate"), std::string::npos) << forward;
-  EXPECT_EQ(forward.find("better: "), std::string::npos) << forward;
-  EXPECT_NE(backward.find("low against high; better: success_rate"), std::string::npos) << backward;
-  EXPECT_EQ(backward.find("worse: "), std::string::npos) << backward;
+  EXPECT_TRUE(says(forward, "high against low; worse: success_rate"));
+  EXPECT_FALSE(says(forward, "better: "));
+  EXPECT_TRUE(says(backward, "low against high; better: success_rate"));
+  EXPECT_FALSE(says(backward, "worse: "));
 }
 
 TEST_F(Compare, RefusesPointsThatAreNotTwoOfOneFile) {

@@ -157,10 +157,8 @@ TEST_F(ConditionsOfResults, AreMatchedByName) {
   EXPECT_EQ(under(matched, "loaded").size(), 1U);
   const ProgramResult lonely = zerocount_program({"compare", "plain-both.h5", "other.h5"}, folder->path());
   EXPECT_EQ(lonely.code, 4);
-  EXPECT_NE(
-      lonely.err.find("not the same conditions; only plain-both.h5 has 'loaded'; only other.h5 has 'hot'"),
-      std::string::npos)
-      << lonely.err;
+  EXPECT_TRUE(
+      says(lonely.err, "not the same conditions; only plain-both.h5 has 'loaded'; only other.h5 has 'hot'"));
   EXPECT_EQ(zerocount_program({"compare", "plain-both.h5", "plain-empty.h5"}, folder->path()).code, 4);
 }
 
@@ -189,9 +187,7 @@ TEST_F(ConditionsOfResults, HaveTheMarginsAndRequirementsOfTheirPointAndGoal) {
   const ProgramResult unknown = zerocount_program(
       {"compare", "rigs-both.h5", "rigs-both-new.h5", "--margins", "unknown.yaml"}, folder->path());
   EXPECT_EQ(unknown.code, 2);
-  EXPECT_NE(unknown.err.find("'goal_rate[medium]'; expected one of its goals: large, small"),
-            std::string::npos)
-      << unknown.err;
+  EXPECT_TRUE(says(unknown.err, "'goal_rate[medium]'; expected one of its goals: large, small"));
 }
 
 TEST_F(ConditionsOfResults, HaveSensitivitiesAndJerksOfTheirOwn) {
@@ -208,13 +204,11 @@ TEST_F(ConditionsOfResults, HaveSensitivitiesAndJerksOfTheirOwn) {
 }
 
 TEST_F(ConditionsOfResults, AreNamedByVerdictsAndPlans) {
-  EXPECT_NE(run({"judge", "rigs-both.h5"}).find(": the goal 'large' is missed under condition loaded\n"),
-            std::string::npos)
+  EXPECT_TRUE(says(run({"judge", "rigs-both.h5"}), ": the goal 'large' is missed under condition loaded\n"))
       << run({"judge", "rigs-both.h5"});
   const std::string one_goal = said({"judge", "worlds-both.h5"}).at("headline");
-  EXPECT_NE(one_goal.find(" under condition "), std::string::npos) << one_goal;
-  EXPECT_NE(run({"plan", "rigs-both.yaml"}).find("under the conditions empty, loaded together"),
-            std::string::npos);
+  EXPECT_TRUE(says(one_goal, " under condition "));
+  EXPECT_TRUE(says(run({"plan", "rigs-both.yaml"}), "under the conditions empty, loaded together"));
 }
 
 TEST_F(ConditionsOfResults, ArePlannedLikeStudiesOfTheirOwn) {
@@ -251,8 +245,7 @@ TEST_F(ConditionsOfResults, AreNamedWhereTheyCannotBePlanned) {
   const json plan = said({"plan", "never.yaml", "--margin", "settling_time=20%"});
   ASSERT_EQ(plan.at("unplanned").size(), 1U);
   EXPECT_EQ(plan.at("unplanned")[0].at("condition"), "loaded");
-  EXPECT_NE(run({"plan", "never.yaml", "--margin", "settling_time=20%"}).find("Not planned: "),
-            std::string::npos);
+  EXPECT_TRUE(says(run({"plan", "never.yaml", "--margin", "settling_time=20%"}), "Not planned: "));
 }
 
 TEST_F(ConditionsOfResults, GiveThePlanThePilotWhoseRigsDifferMost) {

@@ -13,11 +13,9 @@ namespace {
 class Confirm : public ProgramTest {
  protected:
   nlohmann::json summary_of(const std::string& file, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> words{"summary", file, "--format", "json"};
+    std::vector<std::string> words{"summary", file};
     words.insert(words.end(), more.begin(), more.end());
-    const ProgramResult result = program(words);
-    EXPECT_EQ(result.code, 0) << result.err;
-    return nlohmann::json::parse(result.out, nullptr, false);
+    return json_of(words, 0);
   }
 };
 
@@ -51,10 +49,9 @@ TEST_F(Confirm, SaysThatTheBoundOfTheFileAllowsForTheChoice) {
   ASSERT_EQ(program({"run", "study.yaml", "-o", "out.h5"}).code, 0);
   const ProgramResult result = program({"summary", "out.h5", "--confirm", "100"});
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(result.out.find("best of 2 points: "), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("the bound allows for the choice of the point by these trials"),
-            std::string::npos);
-  EXPECT_NE(result.out.find("trials:                100\n"), std::string::npos) << result.out;
+  EXPECT_TRUE(says(result.out,
+                   "best of 2 points: ", "the bound allows for the choice of the point by these trials",
+                   "trials:                100\n"));
 }
 
 TEST_F(Confirm, IsRefusedWhereItMeansNothing) {

@@ -67,7 +67,7 @@ TEST_F(HistoryCommand, AddsAFileOnceAndItsComparison) {
   run("second.h5");
   ASSERT_NE(program({"compare", "first.h5", "second.h5", "--json", "compared.json"}).code, 2);
   EXPECT_EQ(program({"history", "add", "second.h5"}).code, 0);
-  EXPECT_NE(program({"history", "add", "second.h5"}).err.find("nothing to do"), std::string::npos);
+  EXPECT_TRUE(says(program({"history", "add", "second.h5"}).err, "nothing to do"));
   EXPECT_EQ(program({"history", "add", "second.h5", "--compare", "compared.json"}).code, 0);
   for (const json& series : series_shown()) {
     ASSERT_EQ(series.at("runs").size(), 1U);
@@ -78,7 +78,7 @@ TEST_F(HistoryCommand, AddsAFileOnceAndItsComparison) {
   const ProgramResult other = program({"history", "add", "first.h5", "--compare", "compared.json"});
   if (folder_.read("first.h5") != folder_.read("second.h5")) {  // they may be of the same second
     EXPECT_EQ(other.code, 2) << other.err;
-    EXPECT_NE(other.err.find("compares another run"), std::string::npos);
+    EXPECT_TRUE(says(other.err, "compares another run"));
   }
   folder_.write("no.json", "{\"current\": 1}");
   EXPECT_EQ(program({"history", "add", "first.h5", "--compare", "no.json"}).code, 4);
@@ -141,7 +141,7 @@ TEST_F(HistoryCommand, DrawsASeriesAndAPageOfAll) {
   EXPECT_EQ(plot("a.pdf").code, 2);
   EXPECT_EQ(program({"history", "plot", "-o", "b.svg"}).code, 2) << "a picture of several series";
   EXPECT_EQ(program({"history", "plot", "-o", "all.html"}).code, 0);
-  EXPECT_NE(folder_.read("all.html").find("small, high: jerk_count over time"), std::string::npos);
+  EXPECT_TRUE(says(folder_.read("all.html"), "small, high: jerk_count over time"));
   EXPECT_EQ(program({"history", "plot", "-o", "history.sqlite", "--force"}).code, 2);
 }
 
@@ -151,14 +151,12 @@ TEST_F(HistoryCommand, IsASectionOfTheReport) {
     return folder_.read("page.html");
   };
   ASSERT_EQ(program({"history", "add", "first.h5"}).code, 0);
-  EXPECT_NE(page_of("first.h5").find("The history has fewer than two runs of this study."),
-            std::string::npos);
+  EXPECT_TRUE(says(page_of("first.h5"), "The history has fewer than two runs of this study."));
   run("second.h5", "seed=4");
   run("other.h5", "controller.kp=1.0e-4");
   ASSERT_EQ(program({"history", "add", "second.h5"}).code, 0);
-  EXPECT_NE(page_of("first.h5").find("small, low: success_rate over time"), std::string::npos);
-  EXPECT_NE(page_of("other.h5").find("The history has fewer than two runs of this study."),
-            std::string::npos);
+  EXPECT_TRUE(says(page_of("first.h5"), "small, low: success_rate over time"));
+  EXPECT_TRUE(says(page_of("other.h5"), "The history has fewer than two runs of this study."));
   EXPECT_EQ(program({"report", "first.h5", "--history", "none.sqlite", "-o", "c.html"}).code, 2);
 }
 
@@ -192,7 +190,7 @@ TEST_F(HistoryCommand, TakesAnswersOfMonitor) {
     folder_.write(name, answer.out);
     EXPECT_EQ(program({"history", "add", name}).code, 0);
   }
-  EXPECT_NE(program({"history", "add", "week-0.json"}).err.find("already in"), std::string::npos);
+  EXPECT_TRUE(says(program({"history", "add", "week-0.json"}).err, "already in"));
   const json series = series_shown();
   ASSERT_EQ(series.size(), 1u);
   EXPECT_EQ(series[0].at("study"), "monitor of before.csv");

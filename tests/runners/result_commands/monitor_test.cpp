@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <thread>
@@ -12,8 +13,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/failure/failure.hpp"
 #include "results/reading/all_trials_file.hpp"
+#include "runners/result_commands/machine_logs.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -37,12 +41,6 @@ class Monitor : public ProgramTest {
     std::ofstream file(folder_.path() / name, append ? std::ios::app : std::ios::trunc);
     if (!append) file << "settling_time [ms]\n";
     for (int i = 0; i < moves; ++i) file << fmt::format("{}\n", factor * (41.0 + (7 * i + i / 10) % 10));
-  }
-  Json json_of(std::vector<std::string> words, int code) {
-    words.insert(words.end(), {"--format", "json"});
-    const ProgramResult result = program(words);
-    EXPECT_EQ(result.code, code) << result.out << result.err;
-    return Json::parse(result.out, nullptr, false);
   }
   void run_study(const std::string& more = "") {
     folder_.write("study.yaml", study + more);
@@ -84,7 +82,7 @@ TEST_F(Monitor, TakesAResultsFileAsTheBaseline) {
   EXPECT_EQ(same["measures"][0]["baseline"], same["measures"][0]["moves"]);
   EXPECT_EQ(json_of({"monitor", "study.h5", "tables/outcomes.csv", "--rig", "3"}, 3)["baseline_moves"], 40);
   const std::string text = program({"monitor", "study.h5", "tables/outcomes.csv"}).out;
-  EXPECT_NE(text.find("an alarm can mean that the model is wrong"), std::string::npos) << text;
+  EXPECT_TRUE(says(text, "an alarm can mean that the model is wrong"));
 }
 
 TEST_F(Monitor, AsksForThePointAndTheCondition) {
@@ -92,10 +90,9 @@ TEST_F(Monitor, AsksForThePointAndTheCondition) {
       "sweep: {grid: {controller.ki: [2.0e-5, 4.0e-5]}}\nconditions: {empty: {}, loaded: {plant.inertia: "
       "8.0e-4}}\n");
   write_log("moves.csv", 20);
-  EXPECT_NE(program({"monitor", "study.h5", "moves.csv", "--condition", "empty"}).err.find("2 points"),
-            std::string::npos);
-  EXPECT_NE(program({"monitor", "study.h5", "moves.csv", "--point", "1"}).err.find("one of empty, loaded"),
-            std::string::npos);
+  EXPECT_TRUE(says(program({"monitor", "study.h5", "moves.csv", "--condition", "empty"}).err, "2 points"));
+  EXPECT_TRUE(
+      says(program({"monitor", "study.h5", "moves.csv", "--point", "1"}).err, "one of empty, loaded"));
   const reading::AllTrialsFile file(folder_.path() / "study.h5");
   const reading::AllTrialsFile loaded = file.under_condition(1);
   const Json answer =
@@ -158,11 +155,11 @@ TEST_F(Monitor, RefusesBeforeItFollows) {
     EXPECT_EQ(result.code, 2) << result.out;
     return result.err;
   };
-  EXPECT_NE(followed({"moves.csv", "--alarm", "2"}).find("--alarm"), std::string::npos);
-  EXPECT_NE(followed({"moves.csv", "--change", "0"}).find("--change"), std::string::npos);
-  EXPECT_NE(followed({"moves.csv", "--measure", "overshoot"}).find("no such measure"), std::string::npos);
-  EXPECT_NE(followed({"other.csv"}).find("no measure to compare"), std::string::npos);
-  EXPECT_NE(followed({"."}).find("this is a directory"), std::string::npos);
+  EXPECT_TRUE(says(followed({"moves.csv", "--alarm", "2"}), "--alarm"));
+  EXPECT_TRUE(says(followed({"moves.csv", "--change", "0"}), "--change"));
+  EXPECT_TRUE(says(followed({"moves.csv", "--measure", "overshoot"}), "no such measure"));
+  EXPECT_TRUE(says(followed({"other.csv"}), "no measure to compare"));
+  EXPECT_TRUE(says(followed({"."}), "this is a directory"));
 }
 
 TEST_F(Monitor, FollowsUntilItIsInterrupted) {
@@ -193,8 +190,7 @@ TEST_F(Monitor, ComparesGroupsAndSaysThatNeighboursAreAlike) {
   EXPECT_TRUE(by_day["unused"].empty());
   const Json by_move = json_of({"monitor", "before.csv", "moves.csv"}, 0);
   EXPECT_LE(by_move["measures"][0]["dependence"], 0.01);
-  EXPECT_NE(program({"monitor", "before.csv", "moves.csv"}).out.find("neighbours resemble each other"),
-            std::string::npos);
+  EXPECT_TRUE(says(program({"monitor", "before.csv", "moves.csv"}).out, "neighbours resemble each other"));
   EXPECT_EQ(program({"monitor", "before.csv", "moves.csv", "--group", "shift"}).code, 2);
   EXPECT_EQ(program({"monitor", "before.csv", "moves.csv", "--group", "day", "--block", "2"}).code, 2);
   EXPECT_EQ(program({"monitor", "before.csv", "moves.csv", "--unchanged", "friction"}).code, 2)
@@ -230,15 +226,13 @@ command: {targets: [2, -60], hold: 0.2}
   folder_.write("answer.json", by_move.dump());
   ASSERT_EQ(program({"history", "add", "answer.json"}).code, 0);
   const std::string shown = program({"history", "show"}).out;
-  EXPECT_NE(shown.find("outcomes.csv, move 0"), std::string::npos) << shown;
+  EXPECT_TRUE(says(shown, "outcomes.csv, move 0"));
 }
 
 TEST_F(Monitor, AsksForTheAge) {
   run_study("ages: {at: [0, 100000]}\n");
   write_log("moves.csv", 20);
-  const ProgramResult none = program({"monitor", "study.h5", "moves.csv"});
-  EXPECT_EQ(none.code, 2);
-  EXPECT_NE(none.err.find("100000"), std::string::npos) << none.err;
+  EXPECT_TRUE(says(refusal({"monitor", "study.h5", "moves.csv"}), "100000"));
   EXPECT_EQ(program({"monitor", "study.h5", "moves.csv", "--age", "7"}).code, 2);
   EXPECT_EQ(json_of({"monitor", "study.h5", "moves.csv", "--age", "100000"}, 3)["baseline_moves"], 200);
   write_log("before.csv", 20);
@@ -276,7 +270,7 @@ command: {targets: [{integers: [5, 30]}, {integers: [-30, -5]}], hold: 0.2}
   folder_.write("deadband.csv", log_with({"friction.k1=110", "controller.deadband=2", "seed=72"}));
   const Json deadband = json_of({"monitor", "study.h5", "deadband.csv"}, 1);
   ASSERT_FALSE(deadband["parameters"].empty()) << deadband;
-  EXPECT_NE(deadband["parameters"][0]["parameter"].get<std::string>().find("deadband"), std::string::npos)
+  EXPECT_TRUE(says(deadband["parameters"][0]["parameter"].get<std::string>(), "deadband"))
       << deadband["parameters"];
   folder_.write("moves.csv", log_with({"friction.k1=88", "seed=72"}));
   const Json answer = json_of({"monitor", "study.h5", "moves.csv"}, 1);
@@ -293,14 +287,85 @@ command: {targets: [{integers: [5, 30]}, {integers: [-30, -5]}], hold: 0.2}
     EXPECT_NE(tried, "encoder.fine_errors.noise");
   }
   EXPECT_EQ(std::ranges::count(answer["tried"], "controller.deadband.enter"), 1);
-  const ProgramResult refused = program({"monitor", "study.h5", "moves.csv", "--unchanged", "friction.k3"});
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.err.find("'friction.k3' is not among the parameters that are tried"), std::string::npos);
+  EXPECT_TRUE(says(refusal({"monitor", "study.h5", "moves.csv", "--unchanged", "friction.k3"}),
+                   "'friction.k3' is not among the parameters that are tried"));
   // A log as the baseline has no parameters.
   write_log("before.csv", 200);
   write_log("slower.csv", 200, 1.3);
   EXPECT_TRUE(json_of({"monitor", "before.csv", "slower.csv"}, 1)["told"].is_null());
 }
+
+// A log that another process writes, replaces, moves or cuts.
+
+using result_commands::GrowingLog;
+
+std::string rows(int moves, int value) {
+  std::string text;
+  for (int i = 0; i < moves; ++i) text += fmt::format("{}.{},{}\n", value, i % 10, i % 3);
+  return text;
+}
+
+const std::string head = "settling_time [ms],overshoot\n";
+
+class GrowingLogTest : public ::testing::TestWithParam<bool> {
+ protected:
+  /// Writes the log in place, or as another file that takes its place.
+  void write(const std::string& text) {
+    folder_.write(GetParam() ? "moves.csv" : "new.csv", text);
+    if (!GetParam()) std::filesystem::rename(folder_.path() / "new.csv", folder_.path() / "moves.csv");
+  }
+  /// The message, with the exit code, of the reading after this text took the place of the log.
+  std::string refusal(const std::string& text) {
+    write(head + rows(30, 40));
+    GrowingLog log(folder_.path() / "moves.csv");
+    EXPECT_TRUE(log.read());
+    EXPECT_FALSE(log.read());
+    write(text);
+    try {
+      log.read();
+    } catch (const Failure& failure) {
+      return fmt::format("{}{}", static_cast<int>(failure.code()),
+                         std::string(failure.what()).substr((folder_.path() / "moves.csv").string().size()));
+    }
+    return fmt::format("{} moves", log.log().moves);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_P(GrowingLogTest, RefusesAnotherLog) {
+  EXPECT_EQ(refusal(head + rows(5, 41) + rows(60, 40)),
+            "4: another log took its place after 30 moves; expected a file that only grows");
+  EXPECT_EQ(refusal("overshoot,settling_time [ms]\n" + rows(60, 1)),
+            "4:1: the line became 'overshoot,settling_time [ms]' while the log was followed; expected "
+            "'settling_time [ms],overshoot', as it was");
+  EXPECT_EQ(refusal("settling_time [s],overshoot\n" + rows(60, 40)),
+            "4:1: the line became 'settling_time [s],overshoot' while the log was followed; expected "
+            "'settling_time [ms],overshoot', as it was");
+  EXPECT_EQ(refusal(head + rows(5, 40)),
+            "4: became shorter while it was followed; expected a file that only grows");
+  EXPECT_EQ(refusal(""), "4: became shorter while it was followed; expected a file that only grows");
+  // Far from the beginning: only the last rows that were read differ.
+  EXPECT_EQ(refusal(head + rows(29, 40) + rows(60, 50)),
+            "4: another log took its place after 30 moves; expected a file that only grows");
+}
+
+// As rsync copies a log that grows: each copy is another file.
+TEST_P(GrowingLogTest, ReadsOnWhereTheFileBeginsWithWhatWasRead) {
+  EXPECT_EQ(refusal(head + rows(30, 40) + rows(7, 45)), "37 moves");
+  EXPECT_EQ(refusal(head + rows(30, 40)), "30 moves");
+  // A longer log than what is compared, and a last line that was not complete.
+  write(head + rows(5000, 40) + "40.");
+  GrowingLog log(folder_.path() / "moves.csv");
+  EXPECT_TRUE(log.read());
+  write(head + rows(5000, 40) + "41.5,2\n" + rows(3, 40));
+  EXPECT_TRUE(log.read());
+  EXPECT_EQ(log.log().moves, 5004);
+  write(head + rows(4999, 40) + "39.9,1\n41.5,2\n" + rows(9, 40));
+  EXPECT_THROW(log.read(), Failure);
+}
+
+INSTANTIATE_TEST_SUITE_P(InPlaceAndMoved, GrowingLogTest, ::testing::Bool());
 
 }  // namespace
 }  // namespace zerocount::testing

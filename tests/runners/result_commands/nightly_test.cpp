@@ -46,10 +46,10 @@ class Nightly : public ::testing::Test {
 
 TEST_F(Nightly, PassesOnWhatItsBaselinesWereMadeOf) {
   ASSERT_EQ(script("make-baselines", "--reason 'the first ones'"), 0) << said_;
-  EXPECT_NE(folder_.read("baselines/small.h5.log.yaml").find("the first ones"), std::string::npos);
-  EXPECT_NE(folder_.read("baselines/small.h5.log.yaml").find("[\"trials=20\"]"), std::string::npos);
+  EXPECT_TRUE(says(folder_.read("baselines/small.h5.log.yaml"), "the first ones"));
+  EXPECT_TRUE(says(folder_.read("baselines/small.h5.log.yaml"), "[\"trials=20\"]"));
   ASSERT_EQ(night(), 0) << said_;
-  EXPECT_NE(said_.find("small: passed: every dataset is equal to the bit"), std::string::npos) << said_;
+  EXPECT_TRUE(says(said_, "small: passed: every dataset is equal to the bit"));
   for (const char* name :
        {"small.h5", "small.json", "small.xml", "small.md", "small.txt", "other.xml", "summary.md"}) {
     EXPECT_TRUE(std::filesystem::exists(last_night() / name)) << name;
@@ -65,14 +65,14 @@ TEST_F(Nightly, FindsTheRegression) {
   slower.replace(slower.find("3.85e-5"), 7, "1.50e-4");
   folder_.write("small.yaml", slower);
   EXPECT_EQ(night(), 1) << said_;
-  EXPECT_NE(read_bytes(last_night() / "summary.md").find("regression"), std::string::npos);
+  EXPECT_TRUE(says(read_bytes(last_night() / "summary.md"), "regression"));
 }
 
 TEST_F(Nightly, AddsItsResultsToTheHistory) {
   ASSERT_EQ(script("make-baselines", "--reason first"), 0) << said_;
   ASSERT_EQ(night(), 0) << said_;
-  EXPECT_NE(said_.find("history: No change is significant."), std::string::npos) << said_;
-  EXPECT_NE(read_bytes(last_night() / "summary.md").find("## History"), std::string::npos);
+  EXPECT_TRUE(says(said_, "history: No change is significant."));
+  EXPECT_TRUE(says(read_bytes(last_night() / "summary.md"), "## History"));
   const auto runs = [&](const std::string& database) {
     const ProgramResult shown =
         zerocount_program({"history", "show", "--database", database, "--study", "small", "--point", "low",
@@ -93,7 +93,7 @@ TEST_F(Nightly, AddsItsResultsToTheHistory) {
   EXPECT_EQ(runs("mine.sqlite"), 1);
   ASSERT_EQ(script("nightly", fmt::format("--out {}/none --history none", folder_.path().string())), 0)
       << said_;
-  EXPECT_EQ(said_.find("history"), std::string::npos) << said_;
+  EXPECT_FALSE(says(said_, "history"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none/history.sqlite"));
 }
 
@@ -106,12 +106,12 @@ TEST_F(Nightly, FindsWhatBecameBetterToo) {
   ASSERT_EQ(script("make-baselines", "--reason first"), 0) << said_;
   folder_.write("small.yaml", small_manifest(200));
   EXPECT_EQ(night(), 1) << said_;
-  EXPECT_NE(read_bytes(last_night() / "summary.md").find("| better |"), std::string::npos);
+  EXPECT_TRUE(says(read_bytes(last_night() / "summary.md"), "| better |"));
 }
 
 TEST_F(Nightly, NeverPassesWithoutABaselineOrAStudy) {
   EXPECT_EQ(night(), 4) << said_;
-  EXPECT_NE(said_.find("there is no baseline"), std::string::npos);
+  EXPECT_TRUE(says(said_, "there is no baseline"));
   folder_.write("studies.txt", "# none\n");
   EXPECT_EQ(night(), 3) << said_;
   EXPECT_EQ(script("nightly", "--whatever"), 2);
@@ -121,15 +121,14 @@ TEST_F(Nightly, RunsTheLastStudyOfAListWithoutALineBreakAtItsEnd) {
   folder_.write("studies.txt", "small small.yaml trials=20\nother small.yaml seed=7");
   ASSERT_EQ(script("make-baselines", "--reason first"), 0) << said_;
   EXPECT_EQ(night(), 0) << said_;
-  EXPECT_NE(said_.find("other: passed"), std::string::npos) << said_;
-  EXPECT_NE(said_.find("2 studies"), std::string::npos) << said_;
+  EXPECT_TRUE(says(said_, "other: passed", "2 studies"));
 }
 
 TEST_F(Nightly, GoesOnAfterAStudyThatFails) {
   ASSERT_EQ(script("make-baselines", "--reason first"), 0) << said_;
   folder_.write("studies.txt", "small none.yaml\nother small.yaml seed=7\n");
   EXPECT_EQ(night(), 2) << said_;
-  EXPECT_NE(said_.find("other: passed"), std::string::npos) << said_;
+  EXPECT_TRUE(says(said_, "other: passed"));
 }
 
 }  // namespace

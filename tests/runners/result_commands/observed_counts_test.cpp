@@ -61,10 +61,9 @@ TEST_F(ObservedCounts, AreTestedAgainstTheTrialsOfTheirPoint) {
     EXPECT_TRUE(stored);
   }
   const std::string table = program({"summary", "out.h5"}).out;
-  EXPECT_NE(table.find("Fisher's exact test, each point by itself"), std::string::npos) << table;
+  EXPECT_TRUE(says(table, "Fisher's exact test, each point by itself"));
   ASSERT_EQ(program({"report", "out.h5", "-o", "out.html"}).code, 0);
-  EXPECT_NE(folder_.read("out.html").find(points[0]["observed_counts"]["statement"].get<std::string>()),
-            std::string::npos);
+  EXPECT_TRUE(says(folder_.read("out.html"), points[0]["observed_counts"]["statement"].get<std::string>()));
 }
 
 TEST_F(ObservedCounts, AreOfOneOfTheRigs) {
@@ -90,11 +89,8 @@ TEST_F(ObservedCounts, OfAnOpenLoopAreRefused) {
       "study.yaml",
       "zerocount: 1\nname: open\nseed: 4\ntrials: 4\ncommand: {torque: {levels: [0.1]}, hold: 0.15}\n"
       "sweep: {cases: {low: {plant.inertia: 1.0e-3}}}\nobserved: {low: {successes: 1, of: 2}}\n");
-  const ProgramResult check = program({"check", "study.yaml"});
-  EXPECT_EQ(check.code, 2);
-  EXPECT_NE(check.err.find("an open-loop study has no successes to compare with; expected a text"),
-            std::string::npos)
-      << check.err;
+  EXPECT_TRUE(says(refusal({"check", "study.yaml"}),
+                   "an open-loop study has no successes to compare with; expected a text"));
 }
 
 }  // namespace

@@ -130,17 +130,16 @@ TEST_F(QuestionOfAStudy, IsWhatEveryVerbSpeaksOfFirst) {
     EXPECT_LE(of_goal.code, 3) << verb << of_goal.err;
     EXPECT_NE(of_goal.code, 2) << verb << of_goal.err;
     for (const std::string& said : answer.of_goal)
-      EXPECT_NE(of_goal.out.find(said), std::string::npos) << verb << ": " << said << "\n"
-                                                           << of_goal.out.substr(0, 2000);
+      EXPECT_TRUE(says(of_goal.out, said)) << verb << ": " << said << "\n" << of_goal.out.substr(0, 2000);
     EXPECT_LT(first_of(of_goal.out, {"goal"}), first_of(of_goal.out, words_of_success)) << verb;
     const ProgramResult of_success = say(answer.words, "success");
     EXPECT_EQ(of_success.code == 2, answer.of_success.empty()) << verb << of_success.err;
     if (answer.of_success.empty()) {
-      EXPECT_NE(of_success.err.find("no goal"), std::string::npos) << verb;
+      EXPECT_TRUE(says(of_success.err, "no goal")) << verb;
     }
     for (const std::string& said : answer.of_success)
-      EXPECT_NE(of_success.out.find(said), std::string::npos) << verb << ": " << said << "\n"
-                                                              << of_success.out.substr(0, 2000);
+      EXPECT_TRUE(says(of_success.out, said)) << verb << ": " << said << "\n"
+                                              << of_success.out.substr(0, 2000);
     EXPECT_EQ(first_of(of_success.out, {"the goal", "in goal", "goal_"}), std::string::npos)
         << verb << "\n"
         << of_success.out.substr(0, 2000);

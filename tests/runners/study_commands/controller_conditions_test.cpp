@@ -8,6 +8,7 @@
 #include "core/failure/failure.hpp"
 #include "results/layout/layout.hpp"
 #include "runners/program/commands.hpp"
+#include "tests/support/says.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace zerocount::testing {
@@ -46,17 +47,14 @@ TEST_F(ControllerOfConditions, IsThatOfTheConditionThatIsNamed) {
     FAIL() << "which of two controllers was written?";
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::bad_input);
-    EXPECT_NE(std::string(failure.what())
-                  .find("controller.feedforward.acceleration is 0.0007 under condition empty, 0.0027 under "
-                        "condition loaded; expected the one to write with --condition"),
-              std::string::npos)
-        << failure.what();
+    EXPECT_TRUE(says(failure.what(),
+                     "controller.feedforward.acceleration is 0.0007 under condition empty, 0.0027 under "
+                     "condition loaded; expected the one to write with --condition"));
   }
   const std::string loaded = written({"--condition", "loaded"});
-  EXPECT_NE(loaded.find("feedforward_acceleration = 0.0027"), std::string::npos) << loaded;
-  EXPECT_NE(loaded.find("joint, loaded"), std::string::npos) << loaded;
-  EXPECT_EQ(loaded.find("condition empty"), std::string::npos) << "margins of another controller";
-  EXPECT_NE(written({"--condition", "empty"}).find("feedforward_acceleration = 0.0007"), std::string::npos);
+  EXPECT_TRUE(says(loaded, "feedforward_acceleration = 0.0027", "joint, loaded"));
+  EXPECT_FALSE(says(loaded, "condition empty")) << "margins of another controller";
+  EXPECT_TRUE(says(written({"--condition", "empty"}), "feedforward_acceleration = 0.0007"));
   EXPECT_THROW(written({"--condition", "full"}), Failure);
 }
 
@@ -65,8 +63,7 @@ TEST_F(ControllerOfConditions, IsOneWhereOnlyThePlantDiffers) {
   folder_.write("joint.yaml",
                 std::string(manifest) + "conditions: {empty: {}, loaded: {plant.inertia: 2.2e-3}}\n");
   const std::string both = written({});
-  EXPECT_NE(both.find("under condition empty"), std::string::npos) << both;
-  EXPECT_NE(both.find("under condition loaded"), std::string::npos) << both;
+  EXPECT_TRUE(says(both, "under condition empty", "under condition loaded"));
 }
 
 // The help is written by hand; the columns are those of the layout.

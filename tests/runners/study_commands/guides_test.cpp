@@ -18,7 +18,7 @@ class NewGuide : public ::testing::Test {
   void expect_refused(const std::vector<std::string>& words, const std::string& message) const {
     const ProgramResult result = run(words);
     EXPECT_EQ(result.code, 2) << message;
-    EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+    EXPECT_TRUE(says(result.err, message));
   }
 
   TemporaryFolder folder;
@@ -47,7 +47,7 @@ TEST_F(NewGuide, ScalesItWithTheLoad) {
       {"new", "--guide", "ball-rail", "--preload", "800", "--mass", "12", "--resolution", "1e-9", "-o", "-"});
   EXPECT_NE(usual.out, more.out);
   for (const char* part : {"preload of 800 N", "inertia: 12 ", "resolution: 1e-09"})
-    EXPECT_NE(more.out.find(part), std::string::npos) << part << "\n" << more.out;
+    EXPECT_TRUE(says(more.out, part)) << part << "\n" << more.out;
 }
 
 TEST_F(NewGuide, StartsFromAMeasuredSpring) {
@@ -74,7 +74,7 @@ TEST_F(NewGuide, StartsFromAMeasuredSpring) {
 TEST_F(NewGuide, IsListed) {
   const std::string list = run({"new", "--list"}).out;
   for (const guides::Guide& guide : guides::guide_table())
-    EXPECT_NE(list.find("\n" + std::string(guide.name) + " "), std::string::npos) << list;
+    EXPECT_TRUE(says(list, "\n" + std::string(guide.name) + " "));
 }
 
 TEST_F(NewGuide, RefusesWhatItDoesNotKnow) {

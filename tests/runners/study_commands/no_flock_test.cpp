@@ -1,4 +1,5 @@
 // Runs on a file system without flock, such as some network file systems.
+#include <cerrno>
 #include <csignal>
 #include <string>
 #include <vector>
@@ -37,8 +38,7 @@ TEST_F(WithoutFlock, ARunGivesTheSameDataAndSaysHowItIsLocked) {
   folder_.write("study.yaml", small_manifest(8));
   const ProgramResult result = program({"run", "study.yaml", "-o", "out.h5"});
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(result.err.find("out.h5: the file system has no locks (flock); out.h5.owner-"), std::string::npos)
-      << result.err;
+  EXPECT_TRUE(says(result.err, "out.h5: the file system has no locks (flock); out.h5.owner-"));
   EXPECT_EQ(owner_files().size(), 0U);
   ASSERT_EQ(zerocount_program({"run", "study.yaml", "-o", "locked.h5"}, folder_.path()).code, 0);
   EXPECT_EQ(stored_datasets(folder_ / "out.h5"), stored_datasets(folder_ / "locked.h5"));
@@ -65,6 +65,29 @@ TEST_F(WithoutFlock, TheOwnerFileOfAKilledRunStopsNothing) {
   const ProgramResult result = program({"run", "study.yaml", "-q", "-o", "out.h5", "--force"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(owner_files().size(), 0U);
+}
+
+// Runs on a file system that cannot bring the entries of a folder to the disk, as some network and user-space
+// file systems.
+
+ProgramResult run_where_folders_fail_with(int error, const TemporaryFolder& folder) {
+  return zerocount_program(
+      {"run", "study.yaml", "-o", std::to_string(error) + ".h5"}, folder.path(),
+      {std::string("LD_PRELOAD=") + ZEROCOUNT_NO_FOLDER_FSYNC, "FSYNC_ERROR=" + std::to_string(error),
+       "ASAN_OPTIONS=verify_asan_link_order=0:detect_leaks=0"});
+}
+
+TEST(WithoutFsyncOfFolders, ARunIsCompleteAndADiskThatFailsIsNotForgiven) {
+  const TemporaryFolder folder;
+  folder.write("study.yaml", small_manifest(8));
+  for (const int missing : {EINVAL, EOPNOTSUPP, ENOSYS}) {
+    const ProgramResult result = run_where_folders_fail_with(missing, folder);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(zerocount_program({"summary", std::to_string(missing) + ".h5"}, folder.path()).code, 0);
+  }
+  const ProgramResult broken = run_where_folders_fail_with(EIO, folder);
+  EXPECT_EQ(broken.code, 5);
+  EXPECT_TRUE(says(broken.err, "cannot bring its name to the disk"));
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ TEST_F(Places, NoVerbReplacesWhatExistsWithoutForce) {
     folder_.write(verb.output, "my notes");
     const ProgramResult refused = program(verb.arguments);
     EXPECT_EQ(refused.code, 2) << refused.err;
-    EXPECT_NE(refused.err.find("--force"), std::string::npos) << refused.err;
+    EXPECT_TRUE(says(refused.err, "--force"));
     EXPECT_EQ(folder_.read(verb.output), "my notes");
 
     std::vector<std::string> forced = verb.arguments;
@@ -82,18 +82,33 @@ TEST_F(Places, NoVerbReplacesWhatExistsWithoutForce) {
     EXPECT_NE(folder_.read(verb.output), "my notes");
 
     const ProgramResult help = program({verb.arguments[0], "--help"});
-    EXPECT_NE(help.out.find("is replaced only with --force"), std::string::npos) << help.out;
+    EXPECT_TRUE(says(help.out, "is replaced only with --force"));
   }
 }
 
 TEST_F(Places, AnInputIsNeverReplaced) {
-  const ProgramResult traced = program({"trace", "study.yaml", "-o", "study.yaml", "--force"});
-  EXPECT_EQ(traced.code, 2) << traced.err;
-  const ProgramResult merged = program({"merge", "part1.h5", "part2.h5", "-o", "part1.h5", "--force"});
-  EXPECT_EQ(merged.code, 2) << merged.err;
-  const ProgramResult run = program({"run", "study.yaml", "-o", "./study.yaml", "--force"});
-  EXPECT_EQ(run.code, 2) << run.err;
+  folder_.write("gate.yaml", "confidence: 0.9\n");
+  fs::copy_file(at("all.h5"), at("other.h5"));
+  const std::string before = folder_.read("all.h5");
+  std::vector<std::vector<std::string>> writing{
+      {"trace", "study.yaml", "-o", "study.yaml"},
+      {"merge", "part1.h5", "part2.h5", "-o", "part1.h5"},
+      {"run", "study.yaml", "-o", "./study.yaml"},
+      {"compare", "all.h5", "all.h5", "--json", "r", "--junit", "./r"}};
+  for (const char* const output : {"all.h5", "other.h5", "/dev/null"})
+    writing.push_back({"report", "all.h5", "--baseline", "other.h5", "-o", output});
+  for (const char* const option : {"--json", "--junit", "--markdown"})
+    for (const char* const output : {"all.h5", "gate.yaml", "/dev/null"})
+      writing.push_back({"compare", "all.h5", "all.h5", "--margins", "gate.yaml", option, output});
+  for (std::vector<std::string>& words : writing) {
+    words.emplace_back("--force");
+    EXPECT_EQ(program(words).code, 2) << ::testing::PrintToString(words);
+  }
+  EXPECT_TRUE(says(program({"compare", "all.h5", "all.h5", "--json", "all.h5"}).err, "all.h5 is an input"));
   EXPECT_EQ(folder_.read("study.yaml"), small_manifest(40));
+  EXPECT_EQ(folder_.read("gate.yaml"), "confidence: 0.9\n");
+  EXPECT_EQ(folder_.read("all.h5"), before);
+  EXPECT_EQ(folder_.read("other.h5"), before);
 }
 
 TEST_F(Places, ADashIsTheStandardInput) {
@@ -108,7 +123,7 @@ TEST_F(Places, ADashIsTheStandardInput) {
   EXPECT_EQ(shell("echo 'margins: {success_rate: 0.2}' | $Z compare all.h5 all.h5 --margins - > gate.txt"), 0)
       << folder_.read("err");
   EXPECT_EQ(shell("printf 'zerocount: 1\\nname: broken\\nseeds: 3\\n' | $Z check -"), 2);
-  EXPECT_NE(folder_.read("err").find("<stdin>:3"), std::string::npos) << folder_.read("err");
+  EXPECT_TRUE(says(folder_.read("err"), "<stdin>:3")) << folder_.read("err");
 }
 
 TEST_F(Places, ADashIsTheStandardOutput) {
@@ -126,10 +141,10 @@ TEST_F(Places, DataForATerminalHaveNoControlCharacters) {
   fs::copy_file(at("all.h5"), at("a" + turned + "b.h5"));
   const std::string verify = fmt::format("$Z verify --format json a{}b.h5", turned);
   EXPECT_EQ(shell(verify + " > piped"), 0) << folder_.read("err");
-  EXPECT_NE(folder_.read("piped").find(turned), std::string::npos);
+  EXPECT_TRUE(says(folder_.read("piped"), turned));
   EXPECT_EQ(shell(fmt::format("export Z && script -qec '{}' typescript < /dev/null > shown", verify)), 0);
-  EXPECT_EQ(folder_.read("shown").find(turned), std::string::npos);
-  EXPECT_NE(folder_.read("shown").find("a\ufffdb.h5"), std::string::npos) << folder_.read("shown");
+  EXPECT_FALSE(says(folder_.read("shown"), turned));
+  EXPECT_TRUE(says(folder_.read("shown"), "a\ufffdb.h5")) << folder_.read("shown");
 }
 
 TEST_F(Places, APipeIsReadLikeAFile) {
@@ -153,11 +168,11 @@ TEST_F(Places, APipeForDataIsRefusedAndNotWaitedFor) {
         "trace all.h5 -o pipe.csv --force", "plot all.h5 --figure success -o pipe.svg --force",
         "run study.yaml -o pipe.h5 --force", "verify pipe.h5"}) {
     EXPECT_EQ(shell(fmt::format("timeout 20 $Z {}", line)), 2) << line << ": " << folder_.read("err");
-    EXPECT_NE(folder_.read("err").find("regular file"), std::string::npos) << folder_.read("err");
+    EXPECT_TRUE(says(folder_.read("err"), "regular file")) << folder_.read("err");
   }
   for (const char* line : {"run study.yaml -q -o new.h5", "trace all.h5 -o new.csv"}) {
     EXPECT_EQ(shell(fmt::format("timeout 20 $Z {}", line)), 5) << line << ": " << folder_.read("err");
-    EXPECT_NE(folder_.read("err").find("regular file"), std::string::npos) << folder_.read("err");
+    EXPECT_TRUE(says(folder_.read("err"), "regular file")) << folder_.read("err");
   }
   EXPECT_TRUE(fs::is_fifo(at("new.h5.part")) && fs::is_fifo(at("new.h5.lock")) &&
               fs::is_fifo(at("new.csv.part")));
@@ -175,7 +190,7 @@ TEST_F(Places, ALinkInTheWayIsNotFollowed) {
   for (const char* line :
        {"run study.yaml -q -o new.h5", "merge part1.h5 part2.h5 -o merged.h5", "trace all.h5 -o new.csv"}) {
     EXPECT_EQ(shell(fmt::format("$Z {}", line)), 5) << line << ": " << folder_.read("err");
-    EXPECT_NE(folder_.read("err").find("regular file"), std::string::npos) << folder_.read("err");
+    EXPECT_TRUE(says(folder_.read("err"), "regular file")) << folder_.read("err");
   }
   EXPECT_EQ(folder_.read("notes"), "my notes");
   for (const char* link : {"new.h5.lock", "merged.h5.part", "new.csv.part"})
@@ -189,7 +204,7 @@ TEST_F(Places, ALinkIsNoOutput) {
        {"run study.yaml -q -o link.h5 --force", "merge part1.h5 part2.h5 -o link.h5 --force",
         "trace all.h5 -o link.csv --force", "report all.h5 -o link.html --force"}) {
     EXPECT_EQ(shell(fmt::format("$Z {}", line)), 2) << line << ": " << folder_.read("err");
-    EXPECT_NE(folder_.read("err").find("regular file (a link)"), std::string::npos) << folder_.read("err");
+    EXPECT_TRUE(says(folder_.read("err"), "regular file (a link)")) << folder_.read("err");
   }
   EXPECT_EQ(folder_.read("notes"), "my notes");
   for (const char* name : {"link.h5", "link.csv", "link.html"}) EXPECT_TRUE(fs::is_symlink(at(name))) << name;
@@ -199,12 +214,12 @@ TEST_F(Places, TheNameOfAnOutputIsTheKindOfItsContents) {
   for (const char* name : {"report.pdf", "report", "report.svg"}) {
     const ProgramResult result = program({"report", "all.h5", "-o", name});
     EXPECT_EQ(result.code, 2) << name;
-    EXPECT_NE(result.err.find(".html"), std::string::npos) << result.err;
+    EXPECT_TRUE(says(result.err, ".html"));
     EXPECT_FALSE(fs::exists(at(name)));
   }
   const ProgramResult plotted = program({"plot", "all.h5", "--figure", "success", "-o", "success.pdf"});
   EXPECT_EQ(plotted.code, 2);
-  EXPECT_NE(plotted.err.find(".svg"), std::string::npos) << plotted.err;
+  EXPECT_TRUE(says(plotted.err, ".svg"));
 }
 
 TEST_F(Places, APointIsNamedByItsLabelOrItsNumber) {
@@ -216,7 +231,7 @@ TEST_F(Places, APointIsNamedByItsLabelOrItsNumber) {
             program({"jerks", "all.h5", "--point", "1"}).out);
   const ProgramResult wrong = program({"trace", "all.h5", "--point", "hihg"});
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_NE(wrong.err.find("'high'"), std::string::npos) << wrong.err;
+  EXPECT_TRUE(says(wrong.err, "'high'"));
   EXPECT_EQ(program({"trace", "all.h5", "--point", "2"}).code, 2);
 }
 
@@ -224,7 +239,7 @@ TEST_F(Places, TheVersionHasAShortOption) {
   const ProgramResult result = program({"-V"});
   EXPECT_EQ(result.code, 0);
   EXPECT_EQ(result.out, program({"--version"}).out);
-  EXPECT_NE(result.out.find("zerocount"), std::string::npos);
+  EXPECT_TRUE(says(result.out, "zerocount"));
 }
 
 }  // namespace

@@ -55,34 +55,20 @@ class Run : public ProgramTest {
   }
 };
 
-TEST_F(Run, GivesTheSameDatasetsForAnyNumberOfThreads) {
-  folder_.write("study.yaml", small_manifest(150, "retain: {trials: [0, 3]}\n"));
-  complete("study.yaml", "one.h5", {"--threads", "1"});
-  for (const char* threads : {"2", "5"}) {
-    const std::string name = std::string("threads") + threads + ".h5";
-    complete("study.yaml", name, {"--threads", threads});
-    expect_same_datasets(at("one.h5"), at(name));
-  }
-}
-
 TEST_F(Run, GivesTheSameDatasetsInParts) {
   folder_.write("study.yaml", small_manifest(101, "retain: {trials: [7]}\n"));
   complete("study.yaml", "whole.h5");
   for (const char* part : {"3/3", "1/3", "2/3"}) {
     complete("study.yaml", std::string("part") + part[0] + ".h5", {"--shard", part});
   }
-  const ProgramResult incomplete = program({"merge", "part1.h5", "part3.h5", "-o", "merged.h5"});
-  EXPECT_EQ(incomplete.code, 4);
-  EXPECT_NE(incomplete.err.find("missing"), std::string::npos) << incomplete.err;
+  EXPECT_TRUE(says(refusal({"merge", "part1.h5", "part3.h5", "-o", "merged.h5"}, 4), "missing"));
   EXPECT_EQ(program({"summary", "part1.h5"}).code, 4);
   const ProgramResult merged = program({"merge", "part3.h5", "part1.h5", "part2.h5", "-o", "merged.h5"});
   EXPECT_EQ(merged.code, 0) << merged.err;
   expect_same_datasets(at("whole.h5"), at("merged.h5"));
   EXPECT_EQ(program({"merge", "part3.h5", "part1.h5", "part2.h5", "-o", "merged.h5"}).code, 2);  // it exists
-  const ProgramResult twice =
-      program({"merge", "part1.h5", "part1.h5", "part2.h5", "part3.h5", "-o", "twice.h5"});
-  EXPECT_EQ(twice.code, 4);
-  EXPECT_NE(twice.err.find("part1.h5: is given twice"), std::string::npos) << twice.err;
+  EXPECT_TRUE(says(refusal({"merge", "part1.h5", "part1.h5", "part2.h5", "part3.h5", "-o", "twice.h5"}, 4),
+                   "part1.h5: is given twice"));
 }
 
 TEST_F(Run, SurvivesBeingKilledAtRandomMoments) {
@@ -112,9 +98,7 @@ TEST_F(Run, KeepsWhatIsFinishedWhenInterruptedAndGoesOn) {
   EXPECT_FALSE(fs::exists(at("long.h5")));
   EXPECT_FALSE(fs::is_empty(at("long.h5.shards")));
   folder_.write("other.yaml", small_manifest(20001));
-  const ProgramResult other = program({"run", "other.yaml", "-o", "long.h5"});
-  EXPECT_EQ(other.code, 2) << other.err;
-  EXPECT_NE(other.err.find("trials is 200000 there and 20001 here"), std::string::npos) << other.err;
+  EXPECT_TRUE(says(refusal({"run", "other.yaml", "-o", "long.h5"}), "trials is 200000 there and 20001 here"));
   RunningProgram again = start_long_run("long.h5");
   again.send(SIGTERM);
   EXPECT_EQ(again.wait(), 130);
@@ -177,9 +161,7 @@ TEST_F(Run, RunsAgainWhatADamagedShardHeld) {
   const std::string bytes = folder_.read("part.h5");
   fs::create_directory(at("new.h5.shards"));
   folder_.write("new.h5.shards/damaged.h5", bytes.substr(0, bytes.size() / 2));
-  const ProgramResult result = program({"run", "study.yaml", "-o", "new.h5"});
-  EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(result.err.find("warning"), std::string::npos) << result.err;
+  EXPECT_TRUE(says(refusal({"run", "study.yaml", "-o", "new.h5"}, 0), "warning"));
   EXPECT_EQ(folder_.read("new.h5.shards/damaged.h5.damaged").size(), bytes.size() / 2);
   expect_same_datasets(at("whole.h5"), at("new.h5"));
 }
@@ -191,10 +173,8 @@ TEST_F(Run, RunsAgainWhatAShardWithAnImpossibleInputHeld) {
   fs::create_directory(at("new.h5.shards"));
   complete("study.yaml", "new.h5.shards/wrong.h5", {"--shard", "1/2"});
   set_element(at("new.h5.shards/wrong.h5"), "/trial/input/friction.k2", 3, -1.0);
-  const ProgramResult result = program({"run", "study.yaml", "-o", "new.h5"});
-  EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(result.err.find("/trial/input/friction.k2: trial 3: it is -1; expected"), std::string::npos)
-      << result.err;
+  EXPECT_TRUE(says(refusal({"run", "study.yaml", "-o", "new.h5"}, 0),
+                   "/trial/input/friction.k2: trial 3: it is -1; expected"));
   expect_same_datasets(at("whole.h5"), at("new.h5"));
 }
 
@@ -208,9 +188,7 @@ TEST_F(Run, RunsAgainWhatASealedShardWithWrongDataHeld) {
     SCOPED_TRACE(dataset);
     fs::copy_file(at("part.h5"), at("new.h5.shards/wrong.h5"));
     damage_chunk(at("new.h5.shards/wrong.h5"), dataset);
-    const ProgramResult result = program({"run", "study.yaml", "-o", "new.h5"});
-    EXPECT_EQ(result.code, 0) << result.err;
-    EXPECT_NE(result.err.find("wrong.h5"), std::string::npos) << result.err;
+    EXPECT_TRUE(says(refusal({"run", "study.yaml", "-o", "new.h5"}, 0), "wrong.h5"));
     expect_same_datasets(at("whole.h5"), at("new.h5"));
     fs::remove(at("new.h5"));
     fs::remove(at("new.h5.shards/wrong.h5.damaged"));
@@ -245,9 +223,7 @@ TEST_F(Run, ASignalEndsALongTrial) {
 
 TEST_F(Run, RefusesASecondRunOnTheSameOutput) {
   RunningProgram first = start_long_run("out.h5");
-  const ProgramResult second = program({"run", "long.yaml", "-o", "out.h5"});
-  EXPECT_EQ(second.code, 5) << second.err;
-  EXPECT_NE(second.err.find("out.h5"), std::string::npos) << second.err;
+  EXPECT_TRUE(says(refusal({"run", "long.yaml", "-o", "out.h5"}, 5), "out.h5"));
   first.send(SIGKILL);
   first.wait();
   RunningProgram third = start_long_run("out.h5");  // the lock died with its holder
@@ -257,10 +233,7 @@ TEST_F(Run, RefusesASecondRunOnTheSameOutput) {
 
 TEST_F(Run, SaysWhyAnOutputCannotBeWritten) {
   folder_.write("study.yaml", small_manifest(4));
-  const ProgramResult result = program({"run", "study.yaml", "-o", "nowhere/out.h5"});
-  EXPECT_EQ(result.code, 5);
-  EXPECT_NE(result.err.find("nowhere"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("does not exist"), std::string::npos) << result.err;
+  EXPECT_TRUE(says(refusal({"run", "study.yaml", "-o", "nowhere/out.h5"}, 5), "nowhere", "does not exist"));
   EXPECT_EQ(program({"run", "study.yaml", "-o", "new/"}).code, 2);
   EXPECT_EQ(program({"run", "study.yaml", "-o", "."}).code, 2);
 }
@@ -273,7 +246,7 @@ TEST_F(Run, AFullDiskLosesNothingThatWasFinished) {
                               " && ulimit -f 60 && " ZEROCOUNT_PROGRAM " run study.yaml -o out.h5 2> err";
   const int status = std::system(("bash -c \"" + command + "\"").c_str());
   EXPECT_EQ(WEXITSTATUS(status), 5) << folder_.read("err");
-  EXPECT_NE(folder_.read("err").find("out.h5"), std::string::npos) << folder_.read("err");
+  EXPECT_TRUE(says(folder_.read("err"), "out.h5")) << folder_.read("err");
   EXPECT_FALSE(fs::exists(at("out.h5")));
   complete("study.yaml", "out.h5");
   expect_same_datasets(at("whole.h5"), at("out.h5"));

@@ -39,7 +39,7 @@ TEST_F(StatusOfARun, IsThatOfItsShards) {
   run.send(SIGINT);
   EXPECT_EQ(run.wait(), 130);
   EXPECT_EQ(watch.wait(), 4) << "nobody runs it any more";
-  EXPECT_NE(program({"status", "out.h5", "--watch", "1"}).err.find("has stopped"), std::string::npos);
+  EXPECT_TRUE(says(program({"status", "out.h5", "--watch", "1"}).err, "has stopped"));
   EXPECT_TRUE(during["running"].get<bool>());
   EXPECT_EQ(during["trials"], 400000);
   EXPECT_GT(during["finished"], 0);
@@ -47,10 +47,9 @@ TEST_F(StatusOfARun, IsThatOfItsShards) {
   EXPECT_FALSE(after["running"].get<bool>());
   EXPECT_GE(after["finished"], during["finished"]);
   const std::string text = program({"status", "out.h5"}).out;
-  EXPECT_NE(text.find(": not running, " + after["finished"].dump() + " of 400000 trials"), std::string::npos)
-      << text;
-  EXPECT_NE(text.find("unfinished"), std::string::npos) << text;  // the summary
-  folder_.write("out.h5.lock", "another machine");                // whose lock is not seen here
+  EXPECT_TRUE(says(text, ": not running, " + after["finished"].dump() + " of 400000 trials",
+                   "unfinished"));                  // the summary
+  folder_.write("out.h5.lock", "another machine");  // whose lock is not seen here
   EXPECT_TRUE(status()["running"].get<bool>());
 }
 
@@ -80,11 +79,11 @@ TEST_F(StatusOfARun, NamesFilesThatCannotBeRead) {
   folder_.write("out.h5.parts/part-2-of-4.h5", "nothing");
   const nlohmann::json found = status();
   ASSERT_EQ(found["problems"].size(), 1U);
-  EXPECT_NE(found["problems"][0].get<std::string>().find("part-2-of-4.h5"), std::string::npos);
+  EXPECT_TRUE(says(found["problems"][0].get<std::string>(), "part-2-of-4.h5"));
   EXPECT_EQ(found["parts"]["complete"], 1);
   const ProgramResult table = program({"status", "out.h5"});
   EXPECT_EQ(table.code, 0) << table.err;
-  EXPECT_NE(table.out.find("no summary: "), std::string::npos) << table.out;
+  EXPECT_TRUE(says(table.out, "no summary: "));
   fs::remove(folder_ / "out.h5.parts/part-1-of-4.h5");
   EXPECT_EQ(program({"status", "out.h5"}).code, 4);  // nothing but what cannot be read
 }
@@ -121,9 +120,7 @@ TEST_F(StatusOfARun, OfAFileThatIsThereIsComplete) {
   folder_.write("study.yaml", small_manifest(4));
   ASSERT_EQ(program({"run", "study.yaml", "-q", "-o", "out.h5"}).code, 0);
   const std::string text = program({"status", "out.h5"}).out;
-  EXPECT_NE(text.find(": complete, 8 of 8 trials (100.0 %)\nsee: zerocount summary out.h5\n"),
-            std::string::npos)
-      << text;
+  EXPECT_TRUE(says(text, ": complete, 8 of 8 trials (100.0 %)\nsee: zerocount summary out.h5\n"));
   EXPECT_EQ(program({"status", "out.h5", "--watch", "1"}).code, 0);
   const std::string json = program({"status", "out.h5", "--watch", "1", "--format", "json"}).out;
   EXPECT_EQ(json.find('\n'), json.size() - 1) << json;

@@ -1,5 +1,7 @@
 // Traces: the columns of the contract, numbers that read back, replay from the results file alone.
 #include <sstream>
+#include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +12,7 @@
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/shards/shard.hpp"
+#include "runners/study_commands/trace_writer.hpp"
 #include "runners/study_run/assembly.hpp"
 #include "runners/trials/trial_runner.hpp"
 #include "tests/runners/program.hpp"
@@ -112,15 +115,13 @@ TEST_F(Trace, ReportsAReplayThatIsNotTheRecordedTrial) {
   EXPECT_EQ(program({"trace", "altered.h5", "--trial", "2"}).code, 0);
   const ProgramResult altered = program({"trace", "altered.h5", "--trial", "3"});
   EXPECT_EQ(altered.code, 4);
-  EXPECT_NE(altered.err.find("move 0: holding_torque: recorded"), std::string::npos) << altered.err;
-  EXPECT_EQ(altered.err.find("creep"), std::string::npos) << altered.err;
+  EXPECT_TRUE(says(altered.err, "move 0: holding_torque: recorded"));
+  EXPECT_FALSE(says(altered.err, "creep"));
 }
 
 TEST_F(Trace, OfAnEmptyResultsFileSaysThatItIsDamaged) {
   folder_.write("empty.h5", "");
-  const ProgramResult result = program({"trace", "empty.h5"});
-  EXPECT_EQ(result.code, 4);
-  EXPECT_NE(result.err.find("empty.h5: not a results file of zerocount"), std::string::npos) << result.err;
+  EXPECT_TRUE(says(refusal({"trace", "empty.h5"}, 4), "empty.h5: not a results file of zerocount"));
 }
 
 TEST_F(Trace, LeavesNoHalfFile) {
@@ -128,7 +129,7 @@ TEST_F(Trace, LeavesNoHalfFile) {
                               " && bash -c \"ulimit -f 8; " ZEROCOUNT_PROGRAM
                               " trace study.yaml -o trial.csv 2> err\"";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 5);
-  EXPECT_NE(folder_.read("err").find("trial.csv"), std::string::npos) << folder_.read("err");
+  EXPECT_TRUE(says(folder_.read("err"), "trial.csv")) << folder_.read("err");
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "trial.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "trial.csv.part"));
 }
@@ -141,3 +142,71 @@ TEST_F(Trace, OfAPartHoldsOnlyItsTrials) {
 
 }  // namespace
 }  // namespace zerocount::testing
+
+// The columns of a trace are those of the study, whatever they are.
+
+namespace zerocount::study_commands {
+namespace {
+
+/// The trace of one sample, in a study with these further columns.
+std::string trace_of(const study::StudyFeatures& features, bool json) {
+  study::Study study;
+  study.name = "extras";
+  study.features = features;
+  const study::StudyTrial trial;
+  trial::SampleRecord record;
+  record.count = 5;
+  record.reference = 7;
+  record.phase = loop::ControlPhase::coarse;
+  record.drive_torque = 0.125;
+
+  std::string text;
+  TraceWriter writer([&text](std::string_view piece) { text += piece; }, json);
+  writer.begin({study, 0, 0, trial});
+  writer.write(record);
+  writer.end({});
+  return text;
+}
+
+TEST(TraceColumns, AreFourteenWhereTheStudyUsesNoMore) {
+  EXPECT_EQ(trace_of({}, false),
+            "k,t,target,count,coarse_count,error,code,torque,theta,omega,xp,xh,depth,mode\n"
+            "0,0,0,5,0,0,0,0,0,0,0,0,0,stick\n");
+}
+
+TEST(TraceColumns, ThatTheStudyUsesComeAfterTheMode) {
+  EXPECT_EQ(
+      trace_of({.travel = true, .phases = true, .drive_torque = true}, false),
+      "k,t,target,count,coarse_count,error,code,torque,theta,omega,xp,xh,depth,mode,reference,phase,drive_"
+      "torque\n"
+      "0,0,0,5,0,0,0,0,0,0,0,0,0,stick,7,coarse,0.125\n");
+  EXPECT_TRUE(trace_of({.phases = true}, false).ends_with(",stick,coarse\n"));
+}
+
+TEST(TraceColumns, OfJsonAreTheSame) {
+  const auto all = nlohmann::json::parse(
+      trace_of({.travel = true, .phases = true, .drive_torque = true}, true))["samples"][0];
+  EXPECT_EQ(all.size(), 17U);
+  EXPECT_EQ(all["reference"], 7);
+  EXPECT_EQ(all["phase"], "coarse");
+  EXPECT_EQ(all["drive_torque"], 0.125);
+  const auto few = nlohmann::json::parse(trace_of({}, true))["samples"][0];
+  EXPECT_EQ(few.size(), 14U);
+  EXPECT_FALSE(few.contains("reference"));
+}
+
+TEST(TraceOutcome, SaysWhetherItWasStoppedWhereTheStudyCanStop) {
+  study::Study study;
+  const study::StudyTrial trial;
+  for (const bool stopped : {false, true}) {
+    study.features.stopping = stopped;
+    std::string text;
+    TraceWriter writer([&text](std::string_view piece) { text += piece; }, true);
+    writer.begin({study, 0, 0, trial});
+    writer.end({{trial::MoveOutcome{}}});
+    EXPECT_EQ(nlohmann::json::parse(text)["outcome"][0].contains("stopped"), stopped);
+  }
+}
+
+}  // namespace
+}  // namespace zerocount::study_commands

@@ -65,7 +65,7 @@ function(zerocount_precompiled name header optimisation)
   target_link_libraries(zerocount_precompiled_${name} PRIVATE ${ARGN})
   zerocount_target(zerocount_precompiled_${name} ${optimisation})
   target_compile_options(zerocount_precompiled_${name} PRIVATE -fpch-preprocess)
-  target_precompile_headers(zerocount_precompiled_${name} PRIVATE "${CMAKE_SOURCE_DIR}/cmake/${header}")
+  target_precompile_headers(zerocount_precompiled_${name} PRIVATE "${CMAKE_SOURCE_DIR}/${header}")
 endfunction()
 
 # zerocount_use_precompiled(<target> <name>): lets a target use that precompiled header where there is one.

@@ -1,17 +1,9 @@
 // The pages of docs/manifest describe the language as it is.
-
-#include <algorithm>
-#include <fstream>
-#include <map>
-#include <sstream>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount {
 namespace {

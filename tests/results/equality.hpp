@@ -1,11 +1,8 @@
 #pragma once
 
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "results/layout/fields.hpp"
 #include "results/layout/layout.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 

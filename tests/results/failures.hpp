@@ -1,12 +1,9 @@
 #pragma once
 
-#include <functional>
 #include <regex>
-#include <string>
-
-#include <gtest/gtest.h>
 
 #include "core/failure/failure.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 

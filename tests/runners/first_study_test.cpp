@@ -1,14 +1,9 @@
 // The README's first study: its manifest and its commands do what it says of them.
-#include <algorithm>
-#include <fstream>
-#include <sstream>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/text/percent.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

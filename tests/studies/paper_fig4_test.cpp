@@ -5,18 +5,11 @@
 // leaves exp(−2πB·t) of that, over the spring's lowest stiffness. The rotor's own ringing dies faster, by
 // exp(−c·t/2J). Twice that, for two positions that are compared, is a few picometres on a radius of one
 // metre: far below a count.
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/studies/shipped_study.hpp"
 #include "tests/support/stop_elements.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

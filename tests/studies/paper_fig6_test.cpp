@@ -1,12 +1,7 @@
 // paper-fig6: creep and work hardening at held torques (paper, eq. 2 and Fig. 6) against the closed forms of
 // dxh/dt = α·(|σ|ⁿ/λ − xh).
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/studies/shipped_study.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,14 +1,8 @@
 // paper-gains: the five gains of section 4 behave as the paper reports, on axes whose friction differs. The
 // bounds are wider than those of a few tests: "all" is 98 % or more, "most" is 50 to 80 %.
-#include <algorithm>
-#include <set>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,19 +1,11 @@
 // Studies in which everything is random that can be while a trial runs: the same datasets for any number of
 // threads, for parts in any order and after any interruption, and every trial again from its number alone.
-#include <chrono>
 #include <csignal>
-#include <filesystem>
-#include <random>
-#include <sstream>
-#include <string>
-#include <thread>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

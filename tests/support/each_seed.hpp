@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 /// TEST_EACH_SEED(Fixture, Name) { body }: the test Fixture.Name, which runs the body as a member function of
 /// Fixture(seed) with each seed from 1 to Fixture::seeds. One CTest test instead of one per seed, most of

@@ -1,16 +1,9 @@
 #include "tests/support/raw_hdf5.hpp"
 
-#include <array>
-#include <cmath>
-#include <cstring>
-#include <functional>
-#include <stdexcept>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <hdf5.h>
 
 #include "results/storage/checksum_trailer.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

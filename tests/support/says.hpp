@@ -1,8 +1,6 @@
 #pragma once
 
-#include <string_view>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace zerocount {
 

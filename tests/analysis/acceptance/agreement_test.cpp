@@ -1,14 +1,8 @@
 // Measured machines beside simulated ones.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "analysis/acceptance/acceptance.hpp"
 #include "analysis/statistics/clusters/observed_test.hpp"
 #include "tests/support/draws.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,10 +1,9 @@
 // Making and replacing a baseline, with the reason on record.
-#include <gtest/gtest.h>
-
 #include "analysis/comparison/comparison.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/study_files.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,11 +1,4 @@
 // Two results files: what they have in common, which points belong together, and what comes of it.
-#include <cstdlib>
-#include <functional>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <gtest/gtest.h>
-
 #include "analysis/comparison/comparison.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
@@ -13,6 +6,7 @@
 #include "tests/analysis/study_files.hpp"
 #include "tests/support/merged_file.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

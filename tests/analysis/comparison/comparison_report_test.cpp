@@ -1,12 +1,9 @@
 // The answer of a comparison, and its JUnit XML.
-#include <cstdlib>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/comparison/comparison.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

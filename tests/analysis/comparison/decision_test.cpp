@@ -1,11 +1,7 @@
 // Verdicts from numbers that are made up.
-#include <algorithm>
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/point_judgements.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,14 +1,8 @@
 // How often a comparison is wrong, and how often it sees what there is, by simulation.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-
-#include <gtest/gtest.h>
-
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/point_judgements.hpp"
 #include "tests/analysis/comparison/synthetic_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

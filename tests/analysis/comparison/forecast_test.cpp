@@ -1,14 +1,10 @@
 // The number of trials that would decide a comparison: does it decide as often as promised?
 #include "analysis/comparison/forecast.hpp"
 
-#include <array>
-#include <cmath>
-#include <cstdlib>
-
-#include <gtest/gtest.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include "tests/analysis/comparison/synthetic_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

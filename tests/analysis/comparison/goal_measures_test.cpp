@@ -1,13 +1,7 @@
 // Studies with a goal are compared by it: how often that is wrong, and that it sees what there is.
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/point_judgements.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

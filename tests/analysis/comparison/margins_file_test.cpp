@@ -1,9 +1,8 @@
 // The YAML file of margins and requirements, and what it says of mistakes.
-#include <gtest/gtest.h>
-
 #include "analysis/comparison/gate_rules.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

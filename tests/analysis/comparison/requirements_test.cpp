@@ -1,13 +1,8 @@
 // Absolute requirements, judged by the bounds of one file.
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/point_judgements.hpp"
 #include "core/failure/failure.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

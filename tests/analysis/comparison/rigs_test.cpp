@@ -1,9 +1,5 @@
-#include <cmath>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "analysis/comparison/point_judgements.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::comparison {
 namespace {

@@ -1,13 +1,8 @@
 // What can be said of the tests and bounds in closed form.
-#include <algorithm>
-#include <cmath>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "analysis/comparison/point_judgements.hpp"
 #include "analysis/two_samples/exact_tests.hpp"
 #include "analysis/two_samples/sample.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

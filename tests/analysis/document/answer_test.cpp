@@ -1,18 +1,9 @@
 #include "analysis/document/answer.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <set>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/text/report_json.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::document {
 namespace {

@@ -1,12 +1,8 @@
 // What each audience of an answer is shown, from one description of a row.
-#include <string>
-#include <variant>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/document/answer.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::document {
 namespace {

@@ -1,10 +1,6 @@
 // Names that users give cannot become commands of a spreadsheet, links or layout.
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "analysis/document/answer.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::document {
 namespace {

@@ -1,7 +1,7 @@
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/document/answer.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::document {
 namespace {

@@ -1,12 +1,8 @@
 // Sections of an answer, and tables inside their rows.
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/document/answer.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::document {
 namespace {

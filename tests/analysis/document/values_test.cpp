@@ -1,13 +1,8 @@
 // Values of answers that read back to the same number.
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <string>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/document/answer.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::document {
 namespace {

@@ -1,10 +1,8 @@
 // Texts of several lines that are shown as they are, such as a part of a manifest.
-#include <string>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/document/answer.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::document {
 namespace {

@@ -1,13 +1,8 @@
 // The test for a change of level: how often it is wrong, and what it finds.
 #include "analysis/statistics/change_point.hpp"
 
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "tests/analysis/history/change_simulation.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,18 +1,12 @@
 // The SQLite file of a history: what is added is what is read, and nothing else is taken for it.
 #include "analysis/history/database.hpp"
 
-#include <cmath>
-#include <limits>
-#include <thread>
-#include <vector>
-
 #include <SQLiteCpp/SQLiteCpp.h>
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "core/failure/failure.hpp"
 #include "tests/analysis/history/runs.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,17 +1,11 @@
 // Runs as series, and the runs and commits at which they changed.
 #include "analysis/history/series.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <stdexcept>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/failure/failure.hpp"
 #include "tests/analysis/history/runs.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

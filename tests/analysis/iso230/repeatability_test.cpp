@@ -1,20 +1,10 @@
 #include "analysis/iso230/repeatability.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <functional>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/iso230/columns.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::iso230 {
 namespace {

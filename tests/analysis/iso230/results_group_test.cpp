@@ -1,19 +1,5 @@
-
 #include "analysis/iso230/results_group.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <cstdlib>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/iso230/columns.hpp"
@@ -26,6 +12,7 @@
 #include "tests/analysis/summary_forms.hpp"
 #include "tests/support/raw_hdf5.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::iso230 {
 namespace {

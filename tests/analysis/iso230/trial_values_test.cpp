@@ -1,12 +1,6 @@
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "analysis/iso230/repeatability.hpp"
 #include "core/failure/failure.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::iso230 {
 namespace {

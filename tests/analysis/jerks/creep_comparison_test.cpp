@@ -1,13 +1,7 @@
 #include "analysis/jerks/creep_comparison.hpp"
 
-#include <cmath>
-#include <fstream>
-#include <sstream>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "experiments/manifest/load_study.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::jerks {
 namespace {

@@ -1,17 +1,8 @@
-
 #include "analysis/jerks/jerk_statistics.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <random>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "analysis/statistics/mean_bounds.hpp"
 #include "core/failure/failure.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::jerks {
 namespace {

@@ -1,19 +1,9 @@
 #include "analysis/jerks/laplace_trend.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <iostream>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/support/goodness_of_fit.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::jerks {
 namespace {

@@ -1,18 +1,10 @@
 // Bets on a change: what keeps false alarms within their bound, and how soon a change is seen.
 #include "analysis/monitor/change_test.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/monitor/move_sequences.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

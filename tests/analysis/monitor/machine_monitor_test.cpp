@@ -1,18 +1,10 @@
 // A machine's moves beside those of its baseline.
 #include "analysis/monitor/machine_monitor.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "analysis/monitor/monitor_baseline.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/monitor/move_sequences.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

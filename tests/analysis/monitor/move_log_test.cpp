@@ -1,15 +1,9 @@
 // Logs of moves as machines write them.
 #include "analysis/monitor/move_log.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "tests/analysis/monitor/move_sequences.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -2,11 +2,7 @@
 // logarithms of two parameters.
 #include "analysis/monitor/parameter_change.hpp"
 
-#include <array>
-#include <cmath>
-#include <random>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace zerocount::monitor {
 namespace {

@@ -1,13 +1,8 @@
 // Loops on all cores, and what a timeline shows of them.
 #include "analysis/parallel/parallel.hpp"
 
-#include <atomic>
-#include <random>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "results/timeline/timeline.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,12 +1,10 @@
 // The processors of a container are those of its quota.
 #include "analysis/parallel/processors.hpp"
 
-#include <string>
-
-#include <gtest/gtest.h>
 #include <oneapi/tbb/info.h>
 
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::parallel {
 namespace {

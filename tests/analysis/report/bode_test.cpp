@@ -1,10 +1,4 @@
 // The Bode plot marks the margins.
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <string>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/report.hpp"
@@ -12,6 +6,7 @@
 #include "tests/analysis/report/run_studies.hpp"
 #include "tests/core/theory/frozen_loops.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::report {
 namespace {

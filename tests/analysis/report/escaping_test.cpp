@@ -1,11 +1,8 @@
-#include <cmath>
-#include <string>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/document/markup.hpp"
 #include "analysis/report/figures/figure.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::report {
 namespace {

@@ -1,13 +1,5 @@
 #include "analysis/report/report.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <map>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/comparison/comparison.hpp"
@@ -21,6 +13,7 @@
 #include "tests/analysis/study_files.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::report {
 namespace {

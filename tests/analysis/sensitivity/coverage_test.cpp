@@ -2,19 +2,11 @@
 // to 98 % are within three standard deviations of that, of 100 samples 88 % and more; of Sobol' indices that
 // are small, bounds may cover more. With 50 trials the normal distribution behind most bounds is rough, and
 // so much is let pass; what is lost must then not be more than 13 %.
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "analysis/sensitivity/correlations.hpp"
 #include "core/random/variates.hpp"
 #include "experiments/designs/random_key.hpp"
 #include "tests/analysis/sensitivity/test_functions.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sensitivity {
 namespace {

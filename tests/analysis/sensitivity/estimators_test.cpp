@@ -1,16 +1,9 @@
 // Edge cases and invariants of the estimators; that they are right is shown by judges and simulations.
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numeric>
-
-#include <gtest/gtest.h>
-
 #include "analysis/sensitivity/correlations.hpp"
 #include "analysis/sensitivity/sobol_indices.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/sensitivity/test_functions.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sensitivity {
 namespace {

@@ -1,21 +1,10 @@
 // How often bounds of first-order indices from any sample cover the index, by simulation with fixed seeds: of
 // factors that are smooth, skewed, discrete or of a few values, on outputs that are additive, interacting,
 // saturated, a step, heavy-tailed or a yes or no. All indices are known in closed form.
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "analysis/sensitivity/sobol_indices.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "tests/analysis/sensitivity/test_functions.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sensitivity {
 namespace {

@@ -1,11 +1,4 @@
 // The measures against OpenTURNS and SciPy on the same samples, and against what is known of test functions.
-
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/sensitivity/correlations.hpp"
@@ -13,6 +6,7 @@
 #include "experiments/designs/random_key.hpp"
 #include "tests/analysis/sensitivity/test_functions.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sensitivity {
 namespace {

@@ -1,11 +1,4 @@
 // From a results file to what drives its outputs. The outcomes are made up, so that it is known what does.
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/parallel/parallel.hpp"
@@ -15,6 +8,7 @@
 #include "results/shards/shard.hpp"
 #include "tests/support/merged_file.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sensitivity {
 namespace {

@@ -1,10 +1,6 @@
 #include "analysis/statistics/betting_bounds.hpp"
 
-#include <cmath>
-#include <functional>
-#include <random>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace zerocount::statistics {
 namespace {

@@ -2,12 +2,9 @@
 // after every block.
 #include "analysis/statistics/confidence_sequence.hpp"
 
-#include <cmath>
-#include <numeric>
-#include <random>
-
 #include <boost/math/special_functions/beta.hpp>
-#include <gtest/gtest.h>
+
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,9 +1,5 @@
-#include <cmath>
-#include <map>
-
-#include <gtest/gtest.h>
-
 #include "tests/analysis/statistics/coverage_simulation.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,16 +1,9 @@
 #include "analysis/statistics/mean_bounds.hpp"
 
-#include <cmath>
-#include <fstream>
-#include <random>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "results/reading/csv.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::statistics {
 namespace {

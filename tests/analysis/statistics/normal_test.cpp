@@ -1,10 +1,7 @@
 // The standard normal distribution, beside published values.
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "analysis/statistics/distributions.hpp"
 #include "core/failure/failure.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::statistics {
 namespace {

@@ -1,12 +1,7 @@
 #include "analysis/statistics/proportion.hpp"
 
-#include <cmath>
-#include <cstdint>
-#include <utility>
-
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::statistics {
 namespace {

@@ -1,14 +1,7 @@
 #include "analysis/statistics/quantile.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::statistics {
 namespace {

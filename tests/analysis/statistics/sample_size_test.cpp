@@ -1,15 +1,10 @@
 #include "analysis/statistics/sample_size.hpp"
 
-#include <cmath>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "analysis/statistics/clusters/rig_statistics.hpp"
 #include "analysis/statistics/confidence_sequence.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "core/failure/failure.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::statistics {
 namespace {

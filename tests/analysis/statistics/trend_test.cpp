@@ -1,11 +1,6 @@
 #include "analysis/statistics/trend.hpp"
 
-#include <cmath>
-#include <cstddef>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace zerocount::statistics {
 namespace {

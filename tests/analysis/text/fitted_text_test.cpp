@@ -1,14 +1,7 @@
 #include "analysis/text/fitted_text.hpp"
 
-#include <algorithm>
-#include <random>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "analysis/text/text.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::text {
 namespace {

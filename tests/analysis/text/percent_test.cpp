@@ -1,11 +1,6 @@
 #include "analysis/text/percent.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <string>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace zerocount::text {
 namespace {

@@ -1,14 +1,7 @@
 #include "analysis/text/quantity.hpp"
 
-#include <array>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "tests/support/draws.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::text {
 namespace {

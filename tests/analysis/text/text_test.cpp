@@ -1,9 +1,6 @@
 #include "analysis/text/text.hpp"
 
-#include <cmath>
-#include <string>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace zerocount::text {
 namespace {

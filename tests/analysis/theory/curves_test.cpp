@@ -1,19 +1,11 @@
 // The curve of a Bode plot is the open loop, thinned.
 #include "analysis/theory/curves.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <numbers>
-#include <random>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "core/loop/controller/controller.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/linear_loop.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::theory {
 namespace {

@@ -1,21 +1,12 @@
 // Hunting that is announced is that of long trials, from the move itself and from other starts.
 #include "analysis/theory/hunting_prediction.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <numbers>
-#include <string>
-#include <utility>
-
-#include <gtest/gtest.h>
-
 #include "core/friction/law.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/gains.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/core/loop/random_blocks.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::theory {
 namespace {

@@ -1,24 +1,13 @@
 // Goals that no loop can meet are told, with the bound that keeps them from it.
 #include "analysis/theory/plausibility.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "analysis/theory/theory_prediction.hpp"
 #include "analysis/theory/trial_loops.hpp"
 #include "core/theory/margins.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "tests/core/loop/random_blocks.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::theory {
 namespace {

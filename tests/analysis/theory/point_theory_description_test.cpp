@@ -1,11 +1,10 @@
 // What `check` says of the theory of points.
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/document/answer.hpp"
 #include "analysis/theory/point_theory.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::theory {
 namespace {

@@ -1,9 +1,4 @@
-
 #include "analysis/theory/theory_prediction.hpp"
-
-#include <memory>
-
-#include <gtest/gtest.h>
 
 #include "analysis/theory/trial_loops.hpp"
 #include "core/loop/controller/controller.hpp"
@@ -13,6 +8,7 @@
 #include "core/theory/sampled_stability.hpp"
 #include "core/trial/rig.hpp"
 #include "tests/core/theory/frozen_loops.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::theory {
 namespace {

@@ -1,16 +1,10 @@
 // SciPy judges every test statistic, p-value and bound of a comparison.
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <random>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/two_samples/exact_tests.hpp"
 #include "analysis/two_samples/sample.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -2,18 +2,10 @@
 // measurement name it, and not one of the coefficients that it consists of.
 #include "analysis/worlds/derived_quantities.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "analysis/worlds/learning.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "tests/support/draws.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::worlds {
 namespace {

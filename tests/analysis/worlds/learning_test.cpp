@@ -1,12 +1,8 @@
 // A measurement of the parameter that separates good worlds from bad ones decides most of them.
 #include "analysis/worlds/learning.hpp"
 
-#include <algorithm>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/support/draws.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::worlds {
 namespace {

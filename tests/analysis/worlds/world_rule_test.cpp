@@ -1,19 +1,8 @@
 // A rule that separates bad worlds is found if there is one, and rarely if there is none.
 #include "analysis/worlds/world_rule.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <numeric>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "tests/support/draws.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::worlds {
 namespace {

@@ -1,14 +1,8 @@
 // The lanes do not allocate while they run.
-#include <iostream>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/batch/batch.hpp"
 #include "tests/core/batch/allocation_count.hpp"
 #include "tests/core/batch/bench_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,11 +1,7 @@
 // The blocks of the controller in the lanes.
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/batch/expect_agreement.hpp"
 #include "tests/core/loop/random_blocks.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,12 +1,6 @@
 // The contact in the lanes: what it finds at the start, where it forms anew, and what it may be without.
-#include <cmath>
-#include <iostream>
-#include <memory>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/batch/expect_agreement.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

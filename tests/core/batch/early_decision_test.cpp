@@ -1,13 +1,8 @@
 // verdict.stop in the lanes: trials end at the same sample as in the reference, and like it.
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/batch/batched_trials.hpp"
 #include "tests/core/batch/bench_trials.hpp"
 #include "tests/core/batch/expect_agreement.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

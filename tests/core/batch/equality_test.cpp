@@ -1,15 +1,7 @@
 // The batch engine against the reference, over random trials of every kind.
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <iostream>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/batch/bench_trials.hpp"
 #include "tests/core/batch/expect_agreement.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

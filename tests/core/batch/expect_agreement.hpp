@@ -1,12 +1,7 @@
 #pragma once
 
-#include <iostream>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/batch/batch_agreement.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 

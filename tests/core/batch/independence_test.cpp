@@ -1,15 +1,8 @@
 // What comes of a trial depends on its parameters alone, to the last bit: not on the number of lanes, the
 // trials beside it, the instruction set, who watches, or what the engine ran before.
-#include <algorithm>
-#include <numeric>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/batch/batched_trials.hpp"
 #include "tests/core/batch/bench_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,9 +1,6 @@
-#include <set>
-
-#include <gtest/gtest.h>
-
 #include "core/batch/batch.hpp"
 #include "tests/core/batch/batched_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

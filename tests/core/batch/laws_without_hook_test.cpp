@@ -1,15 +1,9 @@
 // The batch engine against the reference under the laws that have no hook: an air bearing, Coulomb's, Dahl's,
 // LuGre's and the generalised Maxwell-slip model.
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/loop/encoder.hpp"
 #include "tests/core/batch/batched_trials.hpp"
 #include "tests/core/loop/random_blocks.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

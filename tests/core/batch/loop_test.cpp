@@ -1,10 +1,6 @@
 // The control loop in the lanes: delay, gains, anti-windup, and converters of any word.
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/batch/expect_agreement.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

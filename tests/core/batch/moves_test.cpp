@@ -1,11 +1,6 @@
 // Moves in the lanes: many of them, short ones, and how they are judged.
-#include <cmath>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/batch/expect_agreement.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

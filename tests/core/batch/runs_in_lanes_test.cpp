@@ -1,13 +1,7 @@
 // Which trials lanes run, and that those they do not run are told apart by every parameter that matters.
-#include <cmath>
-#include <functional>
-#include <memory>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/batch/batched_trials.hpp"
 #include "tests/core/batch/bench_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

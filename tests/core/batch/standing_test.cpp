@@ -1,15 +1,9 @@
 // Coulomb's friction in lanes where the torque on a standing rotor varies: by a second mass, a ripple, a
 // vibration, an amplifier, late samples. Rounding puts such a torque on either side of that of breakaway at
 // the instant of a release; no lane may wait there.
-#include <cmath>
-#include <iostream>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/batch/path_agreement.hpp"
 #include "tests/core/loop/random_blocks.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

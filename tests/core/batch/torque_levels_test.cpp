@@ -1,13 +1,8 @@
 // Torque levels and recorded torques in the lanes: counts, codes and measures are those of the reference.
-#include <cmath>
-#include <memory>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/loop/encoder.hpp"
 #include "tests/core/batch/expect_agreement.hpp"
 #include "tests/core/loop/random_blocks.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

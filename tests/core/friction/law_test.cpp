@@ -1,15 +1,8 @@
 // A friction law that only this test knows: the plant integrates it through the interface of all laws.
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <numbers>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "core/friction/profile.hpp"
 #include "core/plant/plant.hpp"
 #include "tests/core/friction/spring_damper.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::friction {
 namespace {

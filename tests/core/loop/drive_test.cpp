@@ -1,14 +1,8 @@
 // From decided torque to motor: converter errors, delay, amplifier.
 #include "core/loop/drive.hpp"
 
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/loop/dac.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::loop {
 namespace {

@@ -1,16 +1,9 @@
 // The encoder: floor, at edges and below zero.
 #include "core/loop/encoder.hpp"
 
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/loop/measurement.hpp"
 #include "tests/core/loop/random_encoders.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::loop {
 namespace {

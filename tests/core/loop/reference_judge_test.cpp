@@ -1,18 +1,8 @@
 // The reference against a linear programme that knows nothing of segments: in the time of a move no other
 // motion within the limits goes farther.
-#include <cmath>
-#include <cstdint>
-#include <cstdlib>
-#include <random>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/loop/reference.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::loop {
 namespace {

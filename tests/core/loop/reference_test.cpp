@@ -2,14 +2,7 @@
 // against the seven segments integrated one after the other.
 #include "core/loop/reference.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace zerocount::loop {
 namespace {

@@ -1,9 +1,7 @@
 // The course of a first-order amplifier: its value, its rest, its instants and its series.
 #include "core/motion/torque_course.hpp"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace zerocount::motion {
 namespace {

@@ -1,13 +1,7 @@
 #include "core/numerics/elementary_functions.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
-#include <gtest/gtest.h>
-
 #include "tests/support/draws.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

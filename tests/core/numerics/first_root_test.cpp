@@ -1,15 +1,9 @@
 // The first sign change of a polynomial: found, first, and never missed.
 #include "core/numerics/first_root.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/numerics/bisection.hpp"
 #include "core/numerics/power_series.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::numerics {
 namespace {

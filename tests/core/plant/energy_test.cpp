@@ -1,15 +1,8 @@
 // Energy: what the motor puts in is in the rotor and the spring, or has been dissipated, and never comes
 // back.
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/plant/plant.hpp"
 #include "tests/support/stop_elements.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

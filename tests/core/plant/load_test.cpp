@@ -1,15 +1,11 @@
 // A second mass behind an elastic coupling: the linear plant by its matrix exponential, rest, and the rigid
 // limit.
-#include <cmath>
-#include <random>
-#include <vector>
-
 #include <Eigen/Dense>
-#include <gtest/gtest.h>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "core/theory/held_plant.hpp"
 #include "tests/core/plant/held_plant.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::plant {
 namespace {

@@ -1,20 +1,11 @@
 // The plant against Boost.odeint, open loop: random torques, held or followed by a first-order amplifier, for
 // every friction model and every kind of start. What a trial adds to it is tested with the trial.
-#include <algorithm>
-#include <cmath>
-#include <iostream>
-#include <numbers>
-#include <random>
-#include <string>
-
-#include <fmt/core.h>
-#include <gtest/gtest.h>
-
 #include "core/plant/plant.hpp"
 #include "core/trial/random_history.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/odeint_motion.hpp"
 #include "tests/support/random_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,17 +1,9 @@
 // The rotor on its contact: closed forms where there are any, and invariants where there are not.
 #include "core/plant/plant.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <memory>
-#include <numbers>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "core/motion/plant_start.hpp"
 #include "tests/core/plant/held_plant.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::plant {
 namespace {

@@ -1,15 +1,9 @@
 // The numbers drawn while a trial runs: one for every trial, number and stream, by Philox.
 #include "core/random/random_numbers.hpp"
 
-#include <cmath>
-#include <random>
-#include <set>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/random/variates.hpp"
 #include "tests/support/goodness_of_fit.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::random {
 namespace {

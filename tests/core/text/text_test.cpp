@@ -1,21 +1,9 @@
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstdio>
-#include <limits>
-#include <random>
-#include <string>
-#include <string_view>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/text/counted.hpp"
 #include "core/text/csv_field.hpp"
 #include "core/text/number_text.hpp"
 #include "core/text/shell_word.hpp"
 #include "core/text/utf8.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,15 +1,7 @@
 // Poles of the closed loop, and what becomes of their motions within a move.
 #include "core/theory/frozen_loop.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <deque>
-#include <numbers>
-#include <random>
-
 #include <Eigen/Dense>
-#include <gtest/gtest.h>
 
 #include "core/loop/controller/control_chain.hpp"
 #include "core/loop/controller/controller.hpp"
@@ -19,6 +11,7 @@
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/core/loop/test_blocks.hpp"
 #include "tests/core/theory/frozen_loops.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::theory {
 namespace {

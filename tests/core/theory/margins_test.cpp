@@ -1,19 +1,14 @@
 // Gain and phase margins: what they say of the closed loop, and closed forms.
 #include "core/theory/margins.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <numbers>
-
 #include <Eigen/Dense>
-#include <gtest/gtest.h>
 
 #include "core/loop/controller/controller.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/linear_loop.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/core/theory/frozen_loops.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::theory {
 namespace {

@@ -1,17 +1,8 @@
 #include "core/theory/sampled_stability.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <cstddef>
-#include <deque>
-#include <numbers>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "core/theory/gains.hpp"
 #include "core/theory/stability.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::theory {
 namespace {

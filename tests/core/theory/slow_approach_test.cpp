@@ -1,16 +1,12 @@
 // A slow integral control: the time that it takes to its target, against closed forms and trials.
 #include "core/theory/slow_approach.hpp"
 
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
-
 #include "core/loop/encoder.hpp"
 #include "core/theory/sampled_stability.hpp"
 #include "core/theory/shortest_move.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/core/loop/random_blocks.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::theory {
 namespace {

@@ -1,16 +1,10 @@
 #include "core/theory/stability.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <numbers>
-#include <random>
-
 #include <Eigen/Dense>
-#include <gtest/gtest.h>
 
 #include "core/theory/gains.hpp"
 #include "core/theory/sampled_stability.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::theory {
 namespace {

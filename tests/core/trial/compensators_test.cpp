@@ -1,16 +1,10 @@
 // The compensators of real drives, missed samples and the converter's sigma-delta, against a computation of
 // each decision from the recorded counts by the equations (core/loop/equations.md).
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/random/random_numbers.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/support/random_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

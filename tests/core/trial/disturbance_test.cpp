@@ -1,14 +1,7 @@
 // The disturbance of a trial: lines drawn from a power spectral density, ripples along the rotor.
 #include "core/trial/disturbance.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <memory>
-#include <numbers>
-#include <random>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -2,20 +2,11 @@
 // that is not ended, and that the outcomes of the paper's loops stay what they are.
 #include "core/trial/divergence.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <iostream>
-#include <optional>
-#include <string>
-#include <tuple>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/trial/literal_command.hpp"
 #include "tests/core/trial/recorded_trials.hpp"
 #include "tests/core/trial/widened_trials.hpp"
 #include "tests/support/random_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,16 +1,10 @@
 // Trials on an air bearing, with all that a loop can have: their motion by Boost.odeint under the torque that
 // their drive should have, and what is told of a contact that is not there.
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <vector>
-
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
-#include <gtest/gtest.h>
 
 #include "tests/core/trial/literal_rig.hpp"
 #include "tests/core/trial/widened_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

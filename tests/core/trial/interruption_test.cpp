@@ -1,12 +1,10 @@
 // A request to stop ends a trial and a batch between two samples; a motion that takes steps without end is
 // given up.
 #include <stop_token>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "core/batch/batch.hpp"
 #include "core/trial/trial.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,14 +1,7 @@
 #include "tests/core/trial/literal_measures.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <cstdlib>
-#include <numbers>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/trial/literal_command.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,18 +1,11 @@
 // The measures of the true motion, from the samples of random trials by their definitions.
 #include "core/trial/motion_measures.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/trial/trial.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/core/trial/literal_command.hpp"
 #include "tests/core/trial/widened_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,16 +1,8 @@
 // The measures of a move, against their definitions and closed forms.
 #include "core/trial/move_measures.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <numbers>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/trial/literal_measures.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::trial {
 namespace {

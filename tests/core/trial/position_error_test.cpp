@@ -2,18 +2,12 @@
 // engines.
 #include "core/trial/position_error.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/core/batch/batched_trials.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/each_seed.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

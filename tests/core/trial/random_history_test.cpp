@@ -1,13 +1,8 @@
 // Random histories: by turns up and down, evenly between the last level and the largest torque.
 #include "core/trial/random_history.hpp"
 
-#include <cmath>
-#include <set>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/support/goodness_of_fit.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::trial {
 namespace {

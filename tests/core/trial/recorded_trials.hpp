@@ -1,16 +1,10 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/trial/trial.hpp"
 #include "tests/core/trial/literal_command.hpp"
 #include "tests/core/trial/literal_control.hpp"
 #include "tests/core/trial/widened_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 

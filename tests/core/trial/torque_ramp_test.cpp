@@ -1,17 +1,10 @@
 // The torque between two commanded levels: a constant rate, sampled, that ends at the level itself.
 #include "core/trial/torque_ramp.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/trial/parameters.hpp"
 #include "core/trial/torque_record.hpp"
 #include "core/trial/trial.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::trial {
 namespace {

@@ -1,16 +1,11 @@
 // The trial against an integration written apart from it, Boost.odeint with located events, in some hundred
 // random trials: counts and codes are equal, θ within the promised accuracy.
-#include <cmath>
-#include <iostream>
-#include <ostream>
-
-#include <gtest/gtest.h>
-
 #include "core/trial/trial.hpp"
 #include "tests/support/agreement.hpp"
 #include "tests/support/odeint_motion.hpp"
 #include "tests/support/odeint_trial.hpp"
 #include "tests/support/random_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,15 +1,8 @@
 // Where the rotor ended, against what the encoder says of it.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/support/random_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,17 +1,6 @@
 // All of a trial around its plant, from random runs of it: what was commanded, decided and driven at every
 // sample and what the encoders showed, each computed independently from the equations in core/README.md and
 // the recorded samples.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <iostream>
-#include <map>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/trial/random_history.hpp"
 #include "tests/core/trial/literal_command.hpp"
 #include "tests/core/trial/literal_control.hpp"
@@ -20,6 +9,7 @@
 #include "tests/core/trial/recorded_trials.hpp"
 #include "tests/support/agreement.hpp"
 #include "tests/support/odeint_motion.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

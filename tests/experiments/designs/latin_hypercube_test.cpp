@@ -1,15 +1,8 @@
 #include "experiments/designs/latin_hypercube.hpp"
 
-#include <cmath>
-#include <map>
-#include <numeric>
-#include <set>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/hash/sha256.hpp"
 #include "experiments/designs/random_key.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::designs {
 namespace {

@@ -1,17 +1,11 @@
 #include "experiments/designs/sobol.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numeric>
-#include <set>
-
 #include <boost/random/sobol.hpp>
-#include <gtest/gtest.h>
 
 #include "experiments/designs/random_key.hpp"
 #include "experiments/parameters/element_lists.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::designs {
 namespace {

@@ -1,16 +1,8 @@
 #include "experiments/distributions/distribution.hpp"
 
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <numeric>
-#include <optional>
-#include <random>
-#include <variant>
-#include <vector>
-
 #include <boost/math/distributions/normal.hpp>
-#include <gtest/gtest.h>
+
+#include "tests/support/test.hpp"
 
 namespace zerocount::distributions {
 namespace {

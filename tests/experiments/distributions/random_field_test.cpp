@@ -1,12 +1,7 @@
 #include "experiments/distributions/random_field.hpp"
 
-#include <cmath>
-#include <numbers>
-#include <numeric>
-
-#include <gtest/gtest.h>
-
 #include "experiments/designs/random_key.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::distributions {
 namespace {

@@ -1,12 +1,4 @@
 // Starting values of guides: their table, and what follows from it.
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <sstream>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "core/friction/presliding/spring.hpp"
 #include "experiments/guides/guide_manifest.hpp"
@@ -14,6 +6,7 @@
 #include "experiments/manifest/parameter_listing.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::guides {
 namespace {

@@ -1,12 +1,9 @@
 // Messages about a value say what to write in its place, and that is understood.
-#include <random>
 #include <regex>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::keys {
 namespace {

@@ -1,15 +1,11 @@
 #include "experiments/manifest/load_study.hpp"
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "core/failure/failure.hpp"
 #include "experiments/study/study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::manifest {
 namespace {

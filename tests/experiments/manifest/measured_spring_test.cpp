@@ -1,14 +1,9 @@
 // The friction spring by what one measures of it: stiffnesses, and the torque and travel at which it slides.
-#include <cmath>
-#include <set>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/friction/presliding/spring.hpp"
 #include "experiments/study/low_end.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::manifest {
 namespace {

@@ -1,14 +1,8 @@
 // Creep by what one measures of it: the extension at which it ends under a torque.
-#include <cmath>
-#include <random>
-#include <set>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "experiments/study/low_end.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::manifest {
 namespace {

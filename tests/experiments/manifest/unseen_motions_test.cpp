@@ -1,14 +1,8 @@
 // A commanded motion below the encoder's resolution is no motion for the loop, and would count as perfect.
-#include <cmath>
-#include <numbers>
-#include <random>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::manifest {
 namespace {

@@ -1,19 +1,7 @@
 // `worlds` in a manifest: the values that all trials of a world share, and what is refused.
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <map>
-#include <numbers>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "experiments/manifest/load_study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::manifest {
 namespace {

@@ -1,14 +1,8 @@
 // What makes two manifests the same study: their values, and the order where that numbers something.
 #include "experiments/manifest_text/manifest_values.hpp"
 
-#include <algorithm>
-#include <random>
-#include <string>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::manifest_text {
 namespace {

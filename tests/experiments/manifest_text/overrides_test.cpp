@@ -1,17 +1,10 @@
 #include "experiments/manifest_text/overrides.hpp"
 
-#include <cmath>
-#include <deque>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifests/shipped_manifests.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::manifest_text {
 namespace {

@@ -1,17 +1,9 @@
 // The same keys serve a galvanometer, a slide of half a tonne and a telescope: no range is that of one size.
-#include <array>
-#include <map>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 #include "tests/support/says.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount {
 namespace {

@@ -1,14 +1,10 @@
 #include "experiments/parameters/parameter_table.hpp"
 
-#include <map>
-#include <set>
-
-#include <gtest/gtest.h>
-
 #include "core/hash/sha256.hpp"
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "experiments/parameters/measured_parameters.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::parameters {
 namespace {

@@ -2,15 +2,8 @@
 // a given one.
 #include "experiments/randomness/discrete_draws.hpp"
 
-#include <cmath>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "experiments/manifest/load_study.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::randomness {
 namespace {

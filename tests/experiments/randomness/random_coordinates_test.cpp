@@ -1,13 +1,9 @@
 #include "experiments/randomness/random_coordinates.hpp"
 
-#include <cmath>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "core/friction/profile.hpp"
 #include "core/numerics/normal_distribution.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::randomness {
 namespace {

@@ -1,14 +1,8 @@
 #include "experiments/randomness/random_variables.hpp"
 
-#include <random>
-#include <string_view>
-#include <vector>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::randomness {
 namespace {

@@ -1,15 +1,10 @@
 // A key that would be ignored is refused.
-
 #include "experiments/rules/effect_rules.hpp"
-
-#include <algorithm>
-#include <ostream>
-
-#include <gtest/gtest.h>
 
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::rules {
 namespace {

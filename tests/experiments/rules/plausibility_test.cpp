@@ -1,12 +1,6 @@
 // Warnings of values that are allowed but absurd give the number and its place. Other values cause none.
-#include <cmath>
-#include <numbers>
-#include <random>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::rules {
 namespace {

@@ -1,18 +1,8 @@
 // What a study says of each effect that a real axis has: it acts, it is stated to be absent, or it is assumed
 // away.
-#include <array>
-#include <map>
-#include <random>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <gtest/gtest.h>
-
 #include "experiments/rules/value_sources.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::rules {
 namespace {

@@ -1,10 +1,6 @@
 // Values that do not fit one another are refused, wherever they can meet.
-
-#include <ostream>
-
-#include <gtest/gtest.h>
-
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::rules {
 namespace {

@@ -1,11 +1,6 @@
 // Three ways to say what the moves go to.
-
-#include <cmath>
-#include <set>
-
-#include <gtest/gtest.h>
-
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

@@ -1,9 +1,6 @@
 // The blocks of the controller in manifests: limits that are off, the short form of the deadband, sweeps.
-#include <limits>
-
-#include <gtest/gtest.h>
-
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

@@ -1,10 +1,6 @@
 // `goal` and `verdict.bands` in a manifest: what is read, and what is refused.
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

@@ -1,18 +1,9 @@
 // A linear axis: its keys, its units, and that it is its rotary twin bit for bit.
-#include <array>
-#include <cstring>
-#include <filesystem>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

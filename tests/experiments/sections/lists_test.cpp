@@ -1,13 +1,9 @@
 // Values in lists of the manifest other than that of the moves: elements of friction, and filters.
-
-#include <set>
-
-#include <gtest/gtest.h>
-
 #include "experiments/designs/random_key.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "experiments/study/plan.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

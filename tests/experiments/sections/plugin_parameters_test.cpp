@@ -1,13 +1,9 @@
 // The parameters of a user's controller in manifests, without its library: a description is enough.
-
-#include <limits>
-
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/plan.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

@@ -1,17 +1,8 @@
 // `samples` in a manifest: joint draws of several parameters, and what is refused.
-#include <algorithm>
-#include <map>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

@@ -1,10 +1,6 @@
 // Sections inside one another, as far as the names of parameters go.
-
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

@@ -1,14 +1,9 @@
 // Spectra of vibration in manifests: as lists, and as files of points.
-#include <map>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
 #include "tests/support/says.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

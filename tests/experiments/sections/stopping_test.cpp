@@ -1,7 +1,6 @@
 // `stop` in a manifest: what is read, and what is refused.
-#include <gtest/gtest.h>
-
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

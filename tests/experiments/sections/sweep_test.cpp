@@ -1,12 +1,8 @@
 #include "experiments/sections/sweep.hpp"
 
-#include <chrono>
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

@@ -1,23 +1,11 @@
 // `ages` and `aging` in a manifest: every machine bears each condition at each age on the same draws, its
 // values follow the law of aging, and what is refused.
-#include <cmath>
-#include <cstdint>
-#include <numeric>
-#include <optional>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <gtest/gtest.h>
-
 #include "core/friction/profile.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest_text/point_manifest.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

@@ -2,16 +2,11 @@
 // distribution, whatever the design and however often they are drawn.
 #include "experiments/study/copula.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-
 #include <Eigen/LU>
 #include <boost/math/distributions/normal.hpp>
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

@@ -1,14 +1,9 @@
 // A whole trial in closed loop with a friction law that only the tests know, from the text of a manifest.
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/theory/sampled_stability.hpp"
 #include "core/trial/trial_of.hpp"
 #include "tests/core/friction/spring_damper.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

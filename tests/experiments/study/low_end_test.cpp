@@ -1,17 +1,10 @@
 // The lowest value that a parameter is designed for, against closed forms.
 #include "experiments/study/low_end.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <string>
-#include <vector>
-
 #include <boost/math/distributions/normal.hpp>
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

@@ -1,15 +1,10 @@
 // What the checks between parameters look at: every combination of values that meets at some point.
 #include "experiments/study/point_limits.hpp"
 
-#include <set>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "experiments/study/point_label.hpp"
 #include "experiments/study/study_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

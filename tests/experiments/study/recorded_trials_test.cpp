@@ -1,11 +1,7 @@
 // Trials as earlier versions of this program drew them: a manifest has the same trials for ever.
-
-#include <filesystem>
-
-#include <gtest/gtest.h>
-
 #include "experiments/manifest/load_study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

@@ -1,11 +1,7 @@
 // What a sequence of moves promises, for random sequences.
-
 #include "experiments/study/sequence.hpp"
 
-#include <map>
-#include <random>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

@@ -1,10 +1,6 @@
-#include <string>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "experiments/study/study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

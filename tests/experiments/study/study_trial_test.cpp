@@ -1,15 +1,8 @@
-#include <chrono>
-#include <cmath>
-#include <functional>
-#include <set>
-#include <thread>
-
-#include <gtest/gtest.h>
-
 #include "core/trial/trial.hpp"
 #include "experiments/designs/random_key.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

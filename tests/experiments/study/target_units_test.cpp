@@ -1,15 +1,8 @@
 // Targets in SI units are the same moves with every encoder, to the nearest of its counts.
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <string>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/loop/encoder.hpp"
 #include "core/theory/gains.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

@@ -1,18 +1,11 @@
 // Draws with what trials share kept, beside single draws of the same trials.
 #include "experiments/study/trial_drawer.hpp"
 
-#include <bit>
-#include <cstdint>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_edit.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 #include "tests/support/draws.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

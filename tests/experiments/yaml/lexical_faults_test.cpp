@@ -1,16 +1,8 @@
-#include <array>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "experiments/manifests/shipped_manifests.hpp"
 #include "experiments/yaml/faults.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::yaml {
 namespace {

@@ -1,12 +1,8 @@
 #include "experiments/yaml/yaml_tree.hpp"
 
-#include <string>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "tests/support/says.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::yaml {
 namespace {

@@ -1,15 +1,6 @@
 // Chunks whose filters we apply are those of the HDF5 library: it reads ours, and we read its.
 #include "results/hdf5/chunk_transfer.hpp"
 
-#include <algorithm>
-#include <cstring>
-#include <functional>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
 #include "results/hdf5/encoded_rows.hpp"
@@ -19,6 +10,7 @@
 #include "tests/support/draws.hpp"
 #include "tests/support/raw_hdf5.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

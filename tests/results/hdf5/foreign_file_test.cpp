@@ -1,18 +1,9 @@
 // Files that were damaged on purpose, under a right checksum: the HDF5 library crashes on some.
 #include "results/hdf5/foreign_file.hpp"
 
-#include <chrono>
 #include <csignal>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <stdexcept>
 #include <stop_token>
-#include <string>
-#include <thread>
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -23,6 +14,7 @@
 #include "results/storage/checksum_trailer.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/support/says.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,19 +1,11 @@
 // The HDF5 library has one state for all files and no locks.
 #include "results/hdf5/library_use.hpp"
 
-#include <cstdint>
-#include <cstring>
-#include <span>
-#include <stdexcept>
-#include <thread>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "results/hdf5/chunk_filters.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,18 +1,10 @@
 // What was written is there, or it is said that it is not.
-#include <cstdint>
-#include <functional>
-#include <numeric>
-#include <stdexcept>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/table_io.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/support/raw_hdf5.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

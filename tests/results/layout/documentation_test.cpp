@@ -1,16 +1,8 @@
-#include <algorithm>
-#include <map>
-#include <optional>
-#include <set>
-#include <sstream>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "tests/results/samples.hpp"
 #include "tests/results/walk.hpp"
 #include "tests/support/raw_hdf5.hpp"
 #include "tests/support/says.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

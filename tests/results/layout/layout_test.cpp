@@ -1,12 +1,5 @@
 #include "results/layout/layout.hpp"
 
-#include <algorithm>
-#include <set>
-#include <string>
-#include <string_view>
-
-#include <gtest/gtest.h>
-
 #include "core/trial/named_measures.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/measure_table.hpp"
@@ -14,6 +7,7 @@
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/support/says.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,17 +1,6 @@
 // What parts the study of a file from another: whatever decides which trial is which.
 #include "results/layout/recorded_values.hpp"
 
-#include <algorithm>
-#include <array>
-#include <deque>
-#include <random>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest_text/overrides.hpp"
@@ -19,6 +8,7 @@
 #include "experiments/yaml/yaml_tree.hpp"
 #include "results/layout/header.hpp"
 #include "tests/support/says.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

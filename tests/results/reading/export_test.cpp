@@ -1,19 +1,11 @@
 #include "results/reading/export.hpp"
 
-#include <bit>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
-#include <random>
-#include <sstream>
-
-#include <gtest/gtest.h>
-
 #include "results/layout/header.hpp"
 #include "results/reading/csv.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/support/merged_file.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,10 +1,6 @@
-#include <cstdlib>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "tests/results/samples.hpp"
 #include "tests/support/merged_file.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,16 +1,10 @@
-#include <cstdint>
-#include <filesystem>
-#include <limits>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "results/hdf5/hdf5.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

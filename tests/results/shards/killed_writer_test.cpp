@@ -1,9 +1,3 @@
-#include <chrono>
-#include <random>
-#include <thread>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +6,7 @@
 #include "tests/results/samples.hpp"
 #include "tests/support/merged_file.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,13 +1,5 @@
 #include "results/shards/merge.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <stdexcept>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "results/layout/table_io.hpp"
 #include "results/storage/durable_file.hpp"
 #include "tests/results/equality.hpp"
@@ -16,6 +8,7 @@
 #include "tests/results/walk.hpp"
 #include "tests/support/merged_file.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

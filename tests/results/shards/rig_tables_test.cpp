@@ -1,15 +1,12 @@
 #include "results/shards/rig_tables.hpp"
 
-#include <algorithm>
-
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "results/reading/export.hpp"
 #include "results/reading/first_difference.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/support/merged_file.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,12 +1,5 @@
 #include "results/shards/shard.hpp"
 
-#include <fstream>
-#include <random>
-#include <set>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
-
 #include "results/shards/merge.hpp"
 #include "results/storage/durable_file.hpp"
 #include "tests/results/equality.hpp"
@@ -14,6 +7,7 @@
 #include "tests/results/samples.hpp"
 #include "tests/support/raw_hdf5.hpp"
 #include "tests/support/says.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

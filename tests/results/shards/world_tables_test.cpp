@@ -1,16 +1,4 @@
 // What a results file says of the worlds of its study: their inputs, and the counts of their trials.
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "experiments/study/plan.hpp"
 #include "results/hdf5/hdf5.hpp"
@@ -22,6 +10,7 @@
 #include "tests/results/samples.hpp"
 #include "tests/support/merged_file.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

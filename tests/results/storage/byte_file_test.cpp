@@ -1,11 +1,6 @@
 #include "results/storage/byte_file.hpp"
 
-#include <algorithm>
 #include <cerrno>
-#include <random>
-#include <string>
-
-#include <gtest/gtest.h>
 
 #include "core/hash/sha256.hpp"
 #include "results/storage/checksum_trailer.hpp"
@@ -13,6 +8,7 @@
 #include "tests/results/failures.hpp"
 #include "tests/support/says.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,13 +1,10 @@
-#include <filesystem>
-#include <optional>
-
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include "results/storage/durable_file.hpp"
 #include "results/storage/output_file.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,7 +1,3 @@
-#include <functional>
-#include <string>
-
-#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -16,6 +12,7 @@
 #include "tests/results/samples.hpp"
 #include "tests/support/merged_file.hpp"
 #include "tests/support/says.hpp"
+#include "tests/support/test.hpp"
 
 /// Read by the leak sanitizer, where there is one: the HDF5 library does not free everything of a file that
 /// it could not close.

@@ -1,15 +1,8 @@
 #include "results/storage/output_lock.hpp"
 
-#include <atomic>
-#include <chrono>
-#include <filesystem>
 #include <stop_token>
-#include <string>
-#include <thread>
-#include <vector>
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -17,6 +10,7 @@
 
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

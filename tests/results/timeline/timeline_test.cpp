@@ -1,14 +1,10 @@
 // A timeline is a text that viewers of the Trace Event Format open.
 #include "results/timeline/timeline.hpp"
 
-#include <map>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <oneapi/tbb/parallel_for.h>
+
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

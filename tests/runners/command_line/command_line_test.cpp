@@ -1,17 +1,14 @@
 // The command line: help, usage errors, exit codes.
 #include "runners/command_line/command_line.hpp"
 
-#include <algorithm>
 #include <csignal>
-#include <cstdlib>
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/failure/failure.hpp"
 #include "runners/program/commands.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,21 +1,10 @@
 // No command writes over one of its inputs, or two outputs into one file. The cases are made of the options
 // that the commands declare, so that a new command or option is among them.
-#include <algorithm>
-#include <array>
-#include <filesystem>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/program/commands.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,15 +1,9 @@
 // `--watch`: the page while the work is done, at its end, and where it ends too early.
-#include <chrono>
 #include <csignal>
-#include <filesystem>
-#include <string>
-#include <thread>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,16 +1,5 @@
 // The written controller in each language and precision: it decides as the built-in chain, or, in single
 // precision, as the law of which the program says what single precision changes, bit for bit.
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <memory>
-#include <string>
-#include <variant>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
 #include "runners/controller_code/chain_program.hpp"
@@ -20,6 +9,7 @@
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/random_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,15 +1,10 @@
 // `limits`: a study for each parameter that has an ideal value, in which this parameter is the cause of
 // failures. Every such parameter of the table has one here.
-#include <algorithm>
-#include <map>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,14 +1,9 @@
 // `tune`, `limits` and `worst` of several goals under several conditions: each claim is that of the study
 // whose manifest has the overrides of its condition in the sections.
-#include <algorithm>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

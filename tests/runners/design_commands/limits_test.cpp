@@ -1,15 +1,9 @@
 // `limits`: which causes a study has, and that the rate without one is that of the manifest which says so.
-#include <algorithm>
-#include <map>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/design_commands/tune_fixture.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,15 +1,9 @@
 // `rare`, from the manifest to the replayed failure.
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/numerics/normal_distribution.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

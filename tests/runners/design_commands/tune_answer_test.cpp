@@ -1,16 +1,11 @@
 // The sentences of an answer of `tune`, with numbers that are infinite, missing or not reached.
 #include "runners/design_commands/tune/tune_answer.hpp"
 
-#include <limits>
-#include <string>
-#include <vector>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "experiments/manifest/load_study.hpp"
 #include "runners/tuning/effects/effects.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::design_commands {
 namespace {

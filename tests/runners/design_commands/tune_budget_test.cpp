@@ -1,16 +1,10 @@
 // What a tuning does within its budget, and what it leaves out.
-#include <chrono>
 #include <csignal>
-#include <cstdint>
-#include <filesystem>
-#include <string>
-#include <thread>
-#include <vector>
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/design_commands/tune_fixture.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,13 +1,8 @@
 // The simpler controls beside a tuned one.
-#include <algorithm>
-#include <set>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/design_commands/tune_fixture.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

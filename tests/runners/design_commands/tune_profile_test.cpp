@@ -1,11 +1,8 @@
 // `tune` of trajectories: the limits of a profile and the feedforward are free.
-#include <cmath>
-#include <string>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/design_commands/tune_fixture.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,12 +1,8 @@
 // What `tune` refuses: sections, budgets, and files that are in its way.
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/design_commands/tune_fixture.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

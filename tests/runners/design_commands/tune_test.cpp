@@ -1,22 +1,12 @@
 // `tune`, from the manifest to the proof.
-#include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <csignal>
-#include <filesystem>
-#include <stdexcept>
-#include <string>
-#include <thread>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "experiments/study/study.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/design_commands/tune_fixture.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

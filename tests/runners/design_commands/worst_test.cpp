@@ -1,10 +1,4 @@
 // `worst`: the manifest of the worst machine repeats its trials, and no machine of the study is worse.
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "experiments/manifest/load_study.hpp"
@@ -14,6 +8,7 @@
 #include "runners/tuning/units/unit_runner.hpp"
 #include "tests/runners/design_commands/tune_fixture.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,17 +1,7 @@
 // What a column will take in the file, from few of its elements.
 #include "runners/forecast/stored_column.hpp"
 
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <random>
-#include <span>
-#include <string>
-#include <type_traits>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

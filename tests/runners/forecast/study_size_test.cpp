@@ -1,14 +1,6 @@
 // What a run is expected to take of the disk and of memory, beside what it takes.
 #include "runners/forecast/study_size.hpp"
 
-#include <algorithm>
-#include <cstdint>
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 
 #include "core/trial/trial.hpp"
@@ -18,6 +10,7 @@
 #include "results/shards/shard.hpp"
 #include "runners/trials/study_runner.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

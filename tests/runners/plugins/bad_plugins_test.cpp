@@ -1,9 +1,9 @@
 // Controllers of the user's own that cannot be used: each is refused, with its place in the manifest.
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/plugins/plugin_manifest.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

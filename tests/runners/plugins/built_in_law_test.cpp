@@ -1,12 +1,8 @@
 // The examples are the built-in PI with a conditional integrator, bit for bit.
-#include <random>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/plugins/plugin_manifest.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

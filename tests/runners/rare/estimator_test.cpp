@@ -1,14 +1,8 @@
 #include "runners/rare/estimator.hpp"
 
-#include <cmath>
-#include <functional>
-#include <string>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/numerics/elementary_functions.hpp"
 #include "core/numerics/normal_distribution.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::rare {
 namespace {

@@ -1,9 +1,6 @@
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "experiments/designs/random_key.hpp"
 #include "runners/rare/proposal.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::rare {
 namespace {

@@ -1,7 +1,6 @@
 // The figure of `rare`: where failures lie in the range of all trials.
-#include <gtest/gtest.h>
-
 #include "runners/rare/rare_run.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::rare {
 namespace {

@@ -1,17 +1,9 @@
 // Conditions in the verbs on results: what a verb says of a study under a condition is what it says of the
 // study whose manifest has the overrides of the condition in its sections.
-#include <algorithm>
-#include <map>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,15 +1,10 @@
 // A study with early decision from its manifest to its summary: the same outcomes as without, what was
 // stopped is told, and a trial replays.
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <optional>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -2,17 +2,12 @@
 //
 // The study has a gain at criterion (6), one beyond it, and one with a proportional part. Of each change 300
 // trials a point are enough on equal draws.
-#include <algorithm>
-#include <numeric>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/point_judgements.hpp"
 #include "analysis/comparison/point_trials.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "runners/trials/trial_runner.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,13 +1,8 @@
 // `zerocount history` on results files: what it adds is what `summary` says, once, and by many processes.
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

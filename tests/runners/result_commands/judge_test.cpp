@@ -1,14 +1,9 @@
 // Error bands and the goal, from the manifest to the answer of `judge`.
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,16 +1,6 @@
 // `monitor` as a program: results files and logs as baselines, growing logs, exit codes.
-#include <algorithm>
-#include <chrono>
 #include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <string>
-#include <thread>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/failure/failure.hpp"
@@ -18,6 +8,7 @@
 #include "runners/result_commands/machine_logs.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

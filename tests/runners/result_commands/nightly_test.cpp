@@ -1,12 +1,6 @@
 // The nightly job, run as it is on studies of a few trials.
-#include <algorithm>
-#include <array>
-#include <cstdio>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

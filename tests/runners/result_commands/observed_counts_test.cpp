@@ -1,17 +1,11 @@
 // Counts on a real rig beside the simulated trials: from the manifest to the summary, the file and the
 // report.
-#include <cmath>
-#include <string>
-#include <tuple>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/statistics/clusters/observed_test.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,13 +1,10 @@
 // Every output of a study speaks of the same design point.
-#include <random>
 #include <regex>
-#include <string>
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,18 +1,10 @@
 // A goal is the question of its study: every verb speaks of it first, and of success where there is none.
 #include "analysis/goal/question.hpp"
 
-#include <algorithm>
-#include <array>
-#include <map>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "analysis/report/figures/report_figures.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,16 +1,9 @@
-#include <chrono>
-#include <cstdlib>
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "runners/child_process/child_process.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

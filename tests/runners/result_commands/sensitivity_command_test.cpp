@@ -1,8 +1,8 @@
 // `zerocount sensitivity` from the command line, on studies that are run.
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,15 +1,10 @@
 // The summary of a run that has not ended: of its finished trials, and it says so.
-#include <algorithm>
 #include <csignal>
-#include <cstdint>
-#include <filesystem>
-#include <string>
-#include <vector>
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,15 +1,10 @@
 // A written controller is one controller: of conditions with different ones it is that of the one named.
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "results/layout/layout.hpp"
 #include "runners/program/commands.hpp"
 #include "tests/support/says.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,16 +1,9 @@
 // The engine of a run: the same integers from both on a stable study, the choice recorded in the file, and
 // trials of the two never mixed.
-#include <cmath>
-#include <filesystem>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

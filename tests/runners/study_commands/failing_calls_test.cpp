@@ -1,22 +1,13 @@
 // One call of the system fails at a time: a write that fails must never pass. Whatever call it is, the
 // command ends with exit code 5 and a message that names the file, and nothing wrong stands in place: the
 // output is the one from before (or none), or the right one.
-#include <algorithm>
-#include <array>
 #include <cerrno>
-#include <functional>
-#include <map>
 #include <regex>
-#include <set>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

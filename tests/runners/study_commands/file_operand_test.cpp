@@ -1,12 +1,8 @@
 // A results file where a command expects a manifest: it stands for the study whose trials it holds.
-#include <cstdlib>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,11 +1,9 @@
 // From the name of a guide to the results of a study of it.
-#include <sstream>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "experiments/guides/guide_table.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,17 +1,10 @@
 // The rates of a study against a Monte Carlo that has nothing in common with it: other random numbers, other
 // distributions code, another integrator, measures written again from their definitions.
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
 #include "runners/trials/study_runner.hpp"
 #include "tests/support/odeint_trial.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

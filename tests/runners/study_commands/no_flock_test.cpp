@@ -1,13 +1,10 @@
 // Runs on a file system without flock, such as some network file systems.
 #include <cerrno>
 #include <csignal>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,10 +1,5 @@
 // Torque levels in place of targets, from the manifest to the table; and the columns of sample records that a
 // study uses.
-#include <algorithm>
-#include <cmath>
-#include <sstream>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/trial/trial.hpp"
@@ -13,6 +8,7 @@
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

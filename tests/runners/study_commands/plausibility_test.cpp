@@ -1,10 +1,8 @@
 // check and run warn of the same absurd values, and go on; the command line helps with what is misspelt.
-#include <fstream>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,16 +1,7 @@
 // The trials of a study are the same on every processor.
-#include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,11 +1,4 @@
 // Studies with rigs, from the manifest to the file and back.
-#include <filesystem>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/friction/profile.hpp"
@@ -15,6 +8,7 @@
 #include "results/reading/first_difference.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

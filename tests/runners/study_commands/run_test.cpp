@@ -1,16 +1,11 @@
 // Runs: the same datasets for any threads, parts, interruptions and kills; nothing lost.
-#include <chrono>
 #include <csignal>
-#include <fstream>
-#include <random>
-#include <thread>
-
-#include <gtest/gtest.h>
 
 #include "results/reading/all_trials_file.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

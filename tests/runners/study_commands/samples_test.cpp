@@ -1,12 +1,7 @@
 // Joint draws of several parameters: what the program does with the table that a manifest names.
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

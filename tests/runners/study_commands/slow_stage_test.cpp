@@ -1,13 +1,10 @@
 // A linear stage whose integral gain is too low for its hold: nobody is told that it is unstable, and the
 // hold that is advised decides.
-#include <cstdlib>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

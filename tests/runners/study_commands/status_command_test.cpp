@@ -1,14 +1,10 @@
 // How far a run or an array job has come.
 #include <csignal>
-#include <filesystem>
-#include <string>
-#include <thread>
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,13 +1,8 @@
 // The timeline of a run: all trials, and the serial stages that limit how it grows with the threads.
-#include <cstdint>
-#include <fstream>
-#include <map>
-#include <string>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

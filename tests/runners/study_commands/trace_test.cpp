@@ -1,9 +1,4 @@
 // Traces: the columns of the contract, numbers that read back, replay from the results file alone.
-#include <sstream>
-#include <string>
-#include <string_view>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/trial/trial.hpp"
@@ -16,6 +11,7 @@
 #include "runners/study_run/assembly.hpp"
 #include "runners/trials/trial_runner.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

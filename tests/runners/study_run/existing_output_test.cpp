@@ -1,17 +1,10 @@
 // A run whose output exists: it is complete, or is extended by more trials, or is refused with what differs.
 #include <csignal>
-#include <filesystem>
-#include <random>
-#include <string>
-#include <thread>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,18 +1,11 @@
 // The blocks of a run: which rows they have, and that the last ones are small.
 #include "runners/trials/block_source.hpp"
 
-#include <algorithm>
-#include <cstdint>
-#include <numeric>
-#include <optional>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "experiments/manifest/load_study.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

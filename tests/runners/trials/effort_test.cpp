@@ -1,13 +1,7 @@
 // What a task may spend: trials and time, counted in one place.
 #include "runners/trials/effort.hpp"
 
-#include <chrono>
-#include <limits>
-#include <random>
-#include <thread>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace zerocount::trials {
 namespace {

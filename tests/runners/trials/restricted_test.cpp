@@ -1,14 +1,8 @@
 // A study under one condition, or at one age, has the machines and draws of the whole one.
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "runners/trials/variant.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::trials {
 namespace {

@@ -1,12 +1,8 @@
 // Rows that a runner runs together have the results that each has alone.
 #include "runners/trials/trial_runner.hpp"
 
-#include <cstdint>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "experiments/manifest/load_study.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

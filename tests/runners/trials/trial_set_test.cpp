@@ -1,12 +1,10 @@
 // Trials that are counted are divided evenly among the threads.
 #include "runners/trials/trial_set.hpp"
 
-#include <random>
-
-#include <gtest/gtest.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include "analysis/parallel/parallel.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

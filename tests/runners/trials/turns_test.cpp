@@ -1,13 +1,6 @@
 // The order in which the rows of a sweep run: points take turns.
-#include <algorithm>
-#include <cstdint>
-#include <map>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "runners/trials/block_source.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::trials {
 namespace {

@@ -1,21 +1,13 @@
 // A study with other values is the same, to the bit, as the one whose manifest has these values.
 #include "runners/trials/variant.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <vector>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::trials {
 namespace {

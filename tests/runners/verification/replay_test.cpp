@@ -1,9 +1,7 @@
 // A replayed trial is held against the recorded one: inputs, measures, jerks.
 #include "runners/verification/replay.hpp"
 
-#include <limits>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace zerocount {
 namespace {

@@ -1,13 +1,4 @@
 // `zerocount verify`: a file passes as it was written, and any change of it is found and named.
-#include <algorithm>
-#include <filesystem>
-#include <map>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "experiments/manifest/load_study.hpp"
@@ -16,6 +7,7 @@
 #include "runners/verification/verification.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

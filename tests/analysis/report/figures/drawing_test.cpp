@@ -1,25 +1,11 @@
 // What figures.js makes of a specification: the labels of axes, and that it needs nothing of the page.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <map>
-#include <random>
 #include <regex>
-#include <set>
-#include <string>
-#include <vector>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/figures/figure.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::report {
 namespace {

@@ -1,14 +1,9 @@
 #include "analysis/report/figures/figure.hpp"
 
-#include <cmath>
-#include <limits>
 #include <regex>
-#include <set>
-#include <string>
-
-#include <gtest/gtest.h>
 
 #include "tests/results/failures.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::report {
 namespace {

@@ -1,15 +1,8 @@
 // The figures of an identification: what is drawn of a record is what the fit left of it.
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "analysis/identification/identification.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/page.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

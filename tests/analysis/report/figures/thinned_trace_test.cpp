@@ -1,10 +1,5 @@
-#include <algorithm>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "analysis/report/figures/report_figures.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::report {
 namespace {

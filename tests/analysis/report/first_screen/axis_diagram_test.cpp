@@ -1,12 +1,7 @@
 // The block diagram: every block of the axis with its numbers. The browser's test looks at its layout.
-#include <algorithm>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "analysis/report/first_screen/first_screen.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::report {
 namespace {

@@ -1,14 +1,10 @@
 // The first screen: what is required and whether it is met, the gains in the open, and what is assumed.
 #include "analysis/report/first_screen/first_screen.hpp"
 
-#include <set>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "analysis/summary/move_behaviour.hpp"
 #include "tests/analysis/report/run_studies.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::report {
 namespace {

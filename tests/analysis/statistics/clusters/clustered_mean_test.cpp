@@ -1,19 +1,11 @@
 #include "analysis/statistics/clusters/clustered_mean.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <span>
-#include <utility>
-#include <vector>
-
 #include <boost/math/distributions/students_t.hpp>
-#include <gtest/gtest.h>
 
 #include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "core/failure/failure.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::statistics {
 namespace {

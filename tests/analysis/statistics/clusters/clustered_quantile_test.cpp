@@ -1,17 +1,9 @@
 #include "analysis/statistics/clusters/clustered_quantile.hpp"
 
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <random>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "analysis/statistics/clusters/tolerance.hpp"
 #include "results/reading/csv.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::statistics {
 namespace {

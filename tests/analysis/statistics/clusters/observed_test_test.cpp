@@ -1,16 +1,8 @@
 #include "analysis/statistics/clusters/observed_test.hpp"
 
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <random>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::statistics {
 namespace {

@@ -1,14 +1,8 @@
 // Bounds of the proportion of rigs that meet a requirement in a proportion of their moves.
 #include "analysis/statistics/clusters/rig_proportion.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "analysis/statistics/distributions.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::statistics {
 namespace {

@@ -1,14 +1,10 @@
 #include "analysis/statistics/clusters/rig_statistics.hpp"
 
-#include <cmath>
-#include <random>
-#include <vector>
-
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/random/beta_distribution.hpp>
-#include <gtest/gtest.h>
 
 #include "core/failure/failure.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::statistics {
 namespace {

@@ -1,15 +1,7 @@
 #include "analysis/statistics/clusters/tolerance.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/failure/failure.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::statistics {
 namespace {

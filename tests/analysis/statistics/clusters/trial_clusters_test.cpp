@@ -1,13 +1,8 @@
 #include "analysis/statistics/clusters/trial_clusters.hpp"
 
-#include <algorithm>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "analysis/statistics/sums/state.hpp"
 #include "analysis/statistics/unknown.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::statistics {
 namespace {

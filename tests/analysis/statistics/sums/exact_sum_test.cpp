@@ -1,16 +1,10 @@
 #include "analysis/statistics/sums/exact_sum.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
-
 #include <boost/multiprecision/cpp_int.hpp>
-#include <gtest/gtest.h>
 
 #include "analysis/statistics/sums/moments.hpp"
 #include "tests/support/draws.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::statistics {
 namespace {

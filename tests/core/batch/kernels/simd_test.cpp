@@ -1,11 +1,7 @@
 #include "core/batch/kernels/simd.hpp"
 
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
-
 #include "tests/support/draws.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

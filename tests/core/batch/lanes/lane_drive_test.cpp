@@ -2,19 +2,11 @@
 // under all laws that lanes have; and all together.
 #include "core/batch/lanes/lane_drive.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <iostream>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/trial/disturbance.hpp"
 #include "tests/core/batch/expect_agreement.hpp"
 #include "tests/core/batch/path_agreement.hpp"
 #include "tests/core/loop/random_blocks.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,13 +1,8 @@
 // Sampled loops beyond those of the ideal encoder in the lanes: noise, errors of encoders and converter,
 // missed samples, two phases, profiles, measures of the true motion; and all together.
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/batch/expect_agreement.hpp"
 #include "tests/core/loop/random_blocks.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,12 +1,7 @@
 // The generalised Maxwell-slip model: its memory, its levels, and its limits.
-#include <algorithm>
-#include <cmath>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "core/friction/presliding/spring.hpp"
 #include "core/plant/plant.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::friction {
 namespace {

@@ -1,13 +1,8 @@
 // The LuGre law against the experiments of Canudas de Wit, Olsson, Åström and Lischinsky, "A new model for
 // control of systems with friction", IEEE Trans. Automatic Control 40 (1995), sections III and IV, with their
 // parameters.
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/plant/plant.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::friction {
 namespace {

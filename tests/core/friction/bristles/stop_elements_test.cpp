@@ -1,14 +1,9 @@
 // The hysteretic spring against a brute-force sum of stop elements, which knows no reversal points and no
 // closure rule.
-
 #include "tests/support/stop_elements.hpp"
 
-#include <cmath>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "core/friction/presliding/spring.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

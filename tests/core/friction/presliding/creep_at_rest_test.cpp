@@ -2,19 +2,13 @@
 // mantissas, over random rigs.
 #include "core/friction/presliding/creep_at_rest.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <iostream>
-#include <random>
-
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
 #include <boost/numeric/odeint/stepper/generation.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
-#include <gtest/gtest.h>
 
 #include "core/friction/presliding/spring.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::friction {
 namespace {

@@ -1,7 +1,7 @@
 // The plastic module: its exact solution at constant torque, and the rules of the paper's Fig. 6.
 #include "core/friction/presliding/creep.hpp"
 
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace zerocount::friction {
 namespace {

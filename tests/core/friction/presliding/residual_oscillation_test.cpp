@@ -2,12 +2,10 @@
 // exponential, and by what they must be consistent with in themselves.
 #include "core/friction/presliding/residual_oscillation.hpp"
 
-#include <cmath>
-#include <random>
-
 #include <Eigen/Core>
-#include <gtest/gtest.h>
 #include <unsupported/Eigen/MatrixFunctions>
+
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

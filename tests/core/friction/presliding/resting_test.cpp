@@ -1,20 +1,12 @@
 // The rotor that comes to rest under a constant torque: against Boost.odeint, which follows every oscillation
 // and all of the creep, and in pieces of any length.
-#include <algorithm>
-#include <cmath>
-#include <iostream>
-#include <numbers>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/plant/plant.hpp"
 #include "core/trial/rig.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/odeint_motion.hpp"
 #include "tests/support/random_trials.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

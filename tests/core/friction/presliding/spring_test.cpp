@@ -1,17 +1,12 @@
 // The hysteretic spring: branch law, virgin curve, wiping-out, congruency, energy.
 #include "core/friction/presliding/spring.hpp"
 
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
-
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/special_functions/lambert_w.hpp>
-#include <gtest/gtest.h>
 
 #include "core/friction/presliding/measured_spring.hpp"
 #include "tests/support/each_seed.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::friction {
 namespace {

@@ -1,13 +1,7 @@
 // Amonton–Coulomb friction: it stands exactly, and moves as the closed forms say.
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "core/plant/plant.hpp"
 #include "tests/core/plant/held_plant.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::friction {
 namespace {

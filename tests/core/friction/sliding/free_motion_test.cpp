@@ -1,14 +1,11 @@
 // A rotor on an air bearing, against the textbook's solution in a hundred digits.
 #include "core/friction/sliding/free_motion.hpp"
 
-#include <cmath>
-#include <random>
-
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include <gtest/gtest.h>
 
 #include "core/friction/sliding/sliding.hpp"
 #include "core/plant/plant.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::friction {
 namespace {

@@ -2,15 +2,8 @@
 // sample.
 #include "core/loop/controller/control_chain.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/loop/test_blocks.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::loop {
 namespace {

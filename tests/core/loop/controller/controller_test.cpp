@@ -2,16 +2,9 @@
 // widened_trial_test.cpp.
 #include "core/loop/controller/controller.hpp"
 
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/loop/controller/count_difference.hpp"
 #include "core/loop/controller/integrator.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::loop {
 namespace {

@@ -2,17 +2,9 @@
 // on from a torque in force.
 #include "core/loop/controller/filter.hpp"
 
-#include <array>
-#include <cmath>
-#include <complex>
-#include <numbers>
-#include <optional>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "core/loop/controller/control_chain.hpp"
 #include "tests/core/loop/random_blocks.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::loop {
 namespace {

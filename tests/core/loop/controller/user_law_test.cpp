@@ -1,11 +1,7 @@
 #include "core/loop/controller/user_law.hpp"
 
-#include <stdexcept>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/plugin/controller_plugin.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::loop {
 namespace {

@@ -1,17 +1,10 @@
 // The age at which tuned values lose a goal, of machines whose rate at each age has a closed form.
 #include "runners/tuning/ages/lost_ages.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/numerics/bisection.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "runners/tuning/units/unit_runner.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

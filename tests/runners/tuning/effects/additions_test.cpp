@@ -1,15 +1,8 @@
 // `limits` with effects added: what each effect is, and that its rate is that of the manifest which states
 // it.
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "experiments/manifest/load_study.hpp"
 #include "runners/tuning/effects/effects.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

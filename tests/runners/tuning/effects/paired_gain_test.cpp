@@ -1,11 +1,7 @@
 // A cause is shown where more machines gain by it than chance explains.
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "runners/tuning/effects/effects.hpp"
 #include "tests/support/draws.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::tuning {
 namespace {

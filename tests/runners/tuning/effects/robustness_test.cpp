@@ -1,14 +1,7 @@
 // Premises of an answer: the rates with others are those of the manifests that state them.
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "experiments/manifest/load_study.hpp"
 #include "runners/tuning/effects/effects.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,13 +1,7 @@
 // Estimates and comparison of candidates.
 #include "runners/tuning/race/candidate.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace zerocount::tuning {
 namespace {

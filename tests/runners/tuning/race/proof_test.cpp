@@ -1,10 +1,9 @@
 // Claims of a proof hold, however the finalists were found; the rate of the best of a search does not.
 #include "runners/tuning/race/proof.hpp"
 
-#include <gtest/gtest.h>
-
 #include "runners/tuning/race/search.hpp"
 #include "tests/runners/tuning/race/made_up_problem.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::tuning {
 namespace {

@@ -1,7 +1,6 @@
 // The size of a search follows its effort.
-#include <gtest/gtest.h>
-
 #include "runners/tuning/race/search.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::tuning {
 namespace {

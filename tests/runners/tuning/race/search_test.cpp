@@ -1,14 +1,9 @@
 // The search, on problems with a known truth.
 #include "runners/tuning/race/search.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-
-#include <gtest/gtest.h>
-
 #include "runners/tuning/search/study_search.hpp"
 #include "tests/runners/tuning/race/made_up_problem.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::tuning {
 namespace {

@@ -1,13 +1,7 @@
 // The frontier between success and speed. Rates that led a search show that a goal is out of reach; a rate of
 // 0 nearly everywhere does not.
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "runners/tuning/race/candidate.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::tuning {
 namespace {

@@ -1,16 +1,8 @@
 // What a journal keeps of an evaluation is read back to the bit.
 #include "runners/tuning/search/tuning_journal.hpp"
 
-#include <cmath>
-#include <filesystem>
-#include <limits>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

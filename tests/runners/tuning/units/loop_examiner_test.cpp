@@ -1,17 +1,9 @@
 // Margins hold for every loop in which the machines of a study move.
 #include "runners/tuning/units/loop_examiner.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <optional>
-#include <string>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/condition_study.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::tuning {
 namespace {

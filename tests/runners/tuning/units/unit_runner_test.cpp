@@ -2,16 +2,11 @@
 // threads.
 #include "runners/tuning/units/unit_runner.hpp"
 
-#include <random>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include "analysis/parallel/parallel.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::tuning {
 

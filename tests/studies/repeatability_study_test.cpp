@@ -3,13 +3,18 @@
 // the target from either side.
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <numbers>
 #include <vector>
 
 #include "analysis/iso230/repeatability.hpp"
+#include "results/reading/all_trials_file.hpp"
+#include "tests/runners/program.hpp"
 #include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
+#include "tests/support/raw_hdf5.hpp"
+#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -98,6 +103,129 @@ TEST(RepeatabilityStudy, WithoutAnIntegralTheAxisStopsShortFromEitherSide) {
   }
   EXPECT_TRUE(share_above(0.97, short_of_target, approaches));
   EXPECT_TRUE(share_below(0.45, repeating, axes));
+}
+
+// Studies in which everything is random that can be while a trial runs: the same datasets for any number of
+// threads, for parts in any order and after any interruption, and every trial again from its number alone.
+
+namespace fs = std::filesystem;
+
+/// The keys that both studies have: instruments with noise and losses, and a random history.
+const char* const instruments =
+    "encoder:\n"
+    "  fine_errors: {noise: {uniform: [0, 0.3]}, missed: 2.0e-3, eccentricity: 1.0e-4,\n"
+    "                eccentricity_angle: {uniform: [0, 6]}, interpolation: {uniform: [0, 0.3]}}\n"
+    "  coarse_errors: {noise: 0.1, missed: {log_uniform: [1.0e-4, 1.0e-2]}}\n"
+    "dac: {noise: {uniform: [0, 2.0e-4]}, offset: {normal: {mean: 0, sd: 1.0e-4}},\n"
+    "      gain_error: {uniform: [-0.02, 0.02]}, nonlinearity: {uniform: [0, 2]}}\n"
+    "amplifier: {bandwidth: {uniform: [300, 900]}}\n"
+    "friction:\n"
+    "  k1: {profile: {mean: 110, cv: 0.1, correlation_length: 0.2}}\n"
+    "  breakaway: {profile: {mean: 0.3, cv: 0.1, correlation_length: 0.2}}\n"
+    "  alpha: {log_uniform: [0.2, 2.0]}\n"
+    "retain: {trials: [1, 3]}\n";
+
+std::string closed_loop(int trials) {
+  return "zerocount: 1\nname: all of a closed loop\nseed: 31\nindependent_points: true\n"
+         "trials: " +
+         std::to_string(trials) + "\n" + instruments +
+         "controller: {ki: 2.0e-5, coarse: {coarse_beyond: 300, kd: {uniform: [5.0e-3, 7.0e-3]}}}\n"
+         "command:\n"
+         "  sequence: {targets: [{integers: [-900, -800]}, 1500], cycles: 1, overrun: {integers: [300, "
+         "400]}}\n"
+         "  hold: 0.15\n"
+         "  profile: {shape: s_curve, velocity_limit: {uniform: [1, 2]}}\n"
+         "initial:\n"
+         "  encoder_phase: {uniform: [0, 1]}\n"
+         "  position: {uniform: [0, 6.283185307179586]}\n"
+         "  history: {reversals: {integers: [1, 9]}, torque: {uniform: [0.02, 0.15]}}\n"
+         "  integral: {uniform: [-0.02, 0.02]}\n"
+         "verdict: {dwell: 0.02, window: 0.02}\n"
+         "sweep:\n"
+         "  cases:\n"
+         "    stuck: {}\n"
+         "    sliding: {initial.mode: slide, initial.velocity: {log_uniform: [1.0e-3, 0.1]}}\n";
+}
+
+std::string open_loop(int trials) {
+  return "zerocount: 1\nname: all of an open loop\nseed: 32\ntrials: " + std::to_string(trials) + "\n" +
+         instruments +
+         "command:\n"
+         "  torque: {levels: [{uniform: [0.05, 0.15]}, 0, {triangular: [-0.1, 0, 0.1]}], rate: {uniform: [2, "
+         "5]}}\n"
+         "  hold: 0.2\n"
+         "initial: {history: {reversals: 4, torque: {uniform: [0.05, 0.15]}}, velocity: {uniform: [-0.05, "
+         "0.05]}}\n"
+         "sweep: {cases: {creeping: {}, elastic: {friction.model: spring}}}\n";
+}
+
+struct RandomStudy {
+  const char* name;
+  std::string (*manifest)(int trials);
+  int trials;  ///< for a run of a quarter of a second or so
+};
+
+void PrintTo(const RandomStudy& study, std::ostream* out) {
+  *out << study.name;
+}
+
+class StudyDeterminism : public ::testing::TestWithParam<RandomStudy> {
+ protected:
+  void write(int trials) { folder_.write("study.yaml", GetParam().manifest(trials)); }
+  ProgramResult run(const std::vector<std::string>& words) const {
+    return zerocount_program(words, folder_.path());
+  }
+  void complete(const std::string& output, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> words{"run", "study.yaml", "-o", output};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = run(words);
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+  TemporaryFolder folder_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Random, StudyDeterminism,
+                         ::testing::Values(RandomStudy{"closed loop", closed_loop, 30},
+                                           RandomStudy{"open loop", open_loop, 50}));
+
+TEST_P(StudyDeterminism, DatasetsDoNotDependOnThreadsPartsOrTheirOrder) {
+  write(16);
+  complete("whole.h5", {"--threads", "1"});
+  for (const char* part : {"1/3", "2/3", "3/3"}) {
+    complete(std::string("part") + part[0] + ".h5", {"--threads", "3", "--shard", part});
+  }
+  ASSERT_EQ(run({"merge", "part2.h5", "part3.h5", "part1.h5", "-o", "merged.h5"}).code, 0);
+  expect_same_datasets(folder_ / "whole.h5", folder_ / "merged.h5");
+}
+
+TEST_P(StudyDeterminism, ATrialThatIsReplayedIsTheRecordedOne) {
+  write(5);
+  complete("out.h5");
+  for (const char* point : {"0", "1"}) {
+    for (const char* trial : {"0", "4"}) {
+      const ProgramResult replay = run({"trace", "out.h5", "--point", point, "--trial", trial});
+      EXPECT_EQ(replay.code, 0) << replay.err;
+      EXPECT_EQ(run({"trace", "study.yaml", "--point", point, "--trial", trial}).out, replay.out);
+    }
+  }
+}
+
+// Otherwise all of this could pass with the random numbers left out.
+TEST_P(StudyDeterminism, EachSourceOfRandomnessChangesTheData) {
+  write(6);
+  complete("all.h5");
+  const reading::AllTrialsFile all(folder_ / "all.h5");
+  const auto theta = all.measure("final_position", all.rows());
+  int number = 0;
+  for (const char* without : {"encoder.fine_errors.noise=0", "encoder.fine_errors.missed=0", "dac.noise=0",
+                              "initial.history={reversals: 0}", "seed=77"}) {
+    const std::string name = std::to_string(number++) + ".h5";
+    complete(name, {"--set", without});
+    const reading::AllTrialsFile other(folder_ / name);
+    if (other.measure("final_position", other.rows()) != theta) continue;
+    // In an open loop the encoders only watch.
+    EXPECT_NE(other.measure("final_error", other.rows()), all.measure("final_error", all.rows())) << without;
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
+#include "tests/support/stop_elements.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -155,6 +156,163 @@ TEST(TwoEncoders, NoiseCostsZeroCountsByItselfAndMissedCoarseCountsCostNothing) 
     EXPECT_EQ(coarse.final_position, ideal.final_position) << "the coarse encoder only watches";
   }
   EXPECT_TRUE(share_below(0.5, zero_counts, trials));
+}
+
+// coarse-to-fine: two-phase control ends moves of degrees in zero counts; the fine gains alone destabilise
+// sliding (paper, practical issue 2), and without an integral the rotor stalls away from its target (paper,
+// section 2).
+
+/// The last `duration` (s) of a trial.
+std::vector<trial::SampleRecord> last_part(const WatchedTrial& trial, double duration) {
+  const auto samples = trial::samples_in(duration, trial.parameters.controller.sample_rate);
+  return {trial.samples.end() - samples, trial.samples.end()};
+}
+
+std::int64_t sign_changes_of_error(const std::vector<trial::SampleRecord>& samples) {
+  std::int64_t changes = 0;
+  for (std::size_t k = 1; k < samples.size(); ++k) changes += samples[k].error * samples[k - 1].error < 0;
+  return changes;
+}
+
+TEST(CoarseToFine, TwoPhaseControlEndsItsMovesInZeroCounts) {
+  const study::Study study = shipped_study("coarse-to-fine");
+  const std::int64_t trials = 160;
+  const auto outcomes = outcomes_of(study, "two-phase", trials);
+  EXPECT_TRUE(share_above(
+      0.95, moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable; }), trials));
+  EXPECT_TRUE(share_above(
+      0.90,
+      moves_with(outcomes,
+                 [](const trial::MoveOutcome& move) { return move.outcome == trial::Outcome::zero_count; }),
+      trials));
+  for (const trial::TrialOutcome& outcome : outcomes) {
+    const trial::MoveOutcome& move = outcome.moves[0];
+    EXPECT_TRUE(move.broke_away) << "the way is degrees long, the pre-sliding range is not";
+    EXPECT_GE(move.phase_changes, 2) << "to the coarse phase as it sets out, and back";
+  }
+}
+
+TEST(CoarseToFine, WhatMissesZeroCountsAtTheEndOfTwoPhaseMovesIsAJerk) {
+  const study::Study study = shipped_study("coarse-to-fine");
+  int missed = 0;
+  for (std::int64_t index = 0; index < study.trials && missed < 3; ++index) {
+    const trial::TrialParameters parameters = trial_of(study, "two-phase", index);
+    if (trial::run_trial(parameters).moves[0].outcome == trial::Outcome::zero_count) continue;
+    ++missed;
+    const WatchedTrial trial = watched(parameters);
+    ASSERT_FALSE(trial.jerks.empty());
+    const trial::Jerk& last = trial.jerks.back();
+    EXPECT_EQ(last.magnitude, 1);
+    EXPECT_GT(last.onset + last.duration, parameters.command.hold - parameters.verdict.window);
+    EXPECT_EQ(last.direction, trial.outcome.moves[0].holding_torque > 0.0 ? 1 : -1) << "creep's own";
+  }
+  EXPECT_EQ(missed, 3) << "otherwise nothing was looked at";
+}
+
+TEST(CoarseToFine, FineGainsAloneDestabiliseSliding) {
+  const study::Study study = shipped_study("coarse-to-fine");
+  const std::int64_t trials = 100;
+  std::int64_t stable = 0;
+  for (std::int64_t index = 0; index < trials; ++index) {
+    const WatchedTrial trial = watched(trial_of(study, "fine-alone", index));
+    stable += trial.outcome.moves[0].stable;
+    const std::vector<trial::SampleRecord> end = last_part(trial, 1.0);
+    EXPECT_GE(sign_changes_of_error(end), 20) << index;
+    std::int64_t sliding = 0, farthest = 0;
+    for (const trial::SampleRecord& sample : end) {
+      sliding += sample.mode == trial::HookMode::slide;
+      farthest = std::max(farthest, std::abs(sample.error));
+    }
+    EXPECT_GT(sliding, 1000) << "of 2000 samples";
+    EXPECT_GT(farthest, 1000) << "counts";
+    const loop::DacParameters& dac = trial.parameters.dac;
+    const double largest = (std::pow(2.0, dac.bits - 1) - 1.0) * dac.resolution;
+    EXPECT_GE(trial.outcome.moves[0].peak_torque, largest) << "what bounds it is the converter";
+  }
+  EXPECT_TRUE(share_below(0.07, stable, trials));
+}
+
+TEST(CoarseToFine, TheSameFineGainsAreStableWhereNothingSlides) {
+  const study::Study study = shipped_study(
+      "coarse-to-fine", {"command.targets.0={integers: [1, 30]}", "command.profile={shape: step}"});
+  const std::int64_t trials = 100;
+  const auto outcomes = outcomes_of(study, "fine-alone", trials);
+  EXPECT_TRUE(share_above(
+      0.93,
+      moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable && !move.broke_away; }),
+      trials));
+}
+
+class WithoutIntegral : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(CoarseToFine, WithoutIntegral, ::testing::Values("p-alone", "pd-alone"));
+
+TEST_P(WithoutIntegral, TheRotorStallsAwayFromItsTarget) {
+  const study::Study study = shipped_study("coarse-to-fine");
+  const std::int64_t trials = 200;
+  std::int64_t zero_counts = 0, near = 0;
+  for (std::int64_t index = 0; index < trials; ++index) {
+    const WatchedTrial trial = watched(trial_of(study, GetParam(), index));
+    const trial::MoveOutcome& move = trial.outcome.moves[0];
+    zero_counts += move.outcome == trial::Outcome::zero_count;
+    near += std::abs(move.final_error) <= 5;
+    // It has stopped, and what moves it still is creep: to one side, and less and less.
+    const std::vector<trial::SampleRecord> end = last_part(trial, 2.0);
+    EXPECT_EQ(sign_changes_of_error(end), 0) << index;
+    for (const trial::SampleRecord& sample : end) ASSERT_EQ(sample.mode, trial::HookMode::stick) << index;
+    const auto drift = [&end](std::size_t from, std::size_t to) {
+      return std::abs(end[to].theta - end[from].theta);
+    };
+    EXPECT_LT(drift(2000, 3999), drift(0, 1999) + 2.0 * 3.9e-6) << index;
+    const auto [low, high] = std::minmax_element(
+        end.end() - 100, end.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
+    EXPECT_LE(high->error - low->error, 1) << index;
+  }
+  EXPECT_TRUE(share_below(0.06, zero_counts, trials));
+  EXPECT_TRUE(share_below(0.15, near, trials));
+}
+
+// Without creep the rotor comes to rest altogether, but where it balances at the very edge of a count. The
+// spring's torque at rest, by stop elements that follow the recorded elongation from the virgin contact, is
+// what is left of the control's: kp·e. At zero error that would be 0, and a spring that has been stretched to
+// the target is not without torque there.
+TEST(CoarseToFine, AProportionalControlRestsWhereTheSpringBalancesIt) {
+  const study::Study study =
+      shipped_study("coarse-to-fine", {"command.targets.0={integers: [10, 60]}", "friction.alpha=0",
+                                       "command.profile={shape: step}", "command.hold=1"});
+  int resting = 0;
+  for (std::int64_t index = 0; index < 60; ++index) {
+    const WatchedTrial trial = watched(trial_of(study, "p-alone", index));
+    const trial::TrialParameters& parameters = trial.parameters;
+    ASSERT_FALSE(trial.outcome.moves[0].broke_away);
+    EXPECT_GT(trial.samples.back().error, 0) << "without one, nothing would hold the spring";
+    const trial::SampleRecord& end = trial.samples.back();
+    if (std::abs(end.omega) > 1e-9) continue;
+    ++resting;
+    StopElements spring(friction::friction_at(parameters.friction, parameters.initial.position), 3000);
+    for (const trial::SampleRecord& sample : trial.samples) spring.move_to(sample.theta);
+    const double control = parameters.controller.kp * static_cast<double>(end.error);
+    EXPECT_NEAR(spring.torque(), control, 0.5 * parameters.dac.resolution + 5e-5) << index;
+  }
+  EXPECT_GE(resting, 20);
+}
+
+// Practical issue 5: a count that comes or goes is a rate of one count per sample to a difference, and the
+// torque that the derivative then asks for moves the rotor by many counts.
+TEST(CoarseToFine, DifferencesOfTheCountKickTheRotorAtRest) {
+  const study::Study study = shipped_study("coarse-to-fine");
+  std::int64_t kicked = 0;
+  const std::int64_t trials = 40;
+  for (std::int64_t index = 0; index < trials; ++index) {
+    const WatchedTrial trial = watched(trial_of(study, "pd-alone", index));
+    const std::vector<trial::SampleRecord> end = last_part(trial, 2.0);
+    const auto [low, high] = std::minmax_element(
+        end.begin(), end.end(), [](const auto& a, const auto& b) { return a.torque < b.torque; });
+    kicked += high->torque - low->torque > 0.9 * trial.parameters.controller.kd;
+  }
+  EXPECT_TRUE(share_above(0.5, kicked, trials));
+  const trial::TrialParameters parameters = trial_of(study, "pd-alone", 0);
+  const double count_stiffness = 110.0 * 2.0 * 3.141592653589793 / parameters.encoder.fine;  // N m/count
+  EXPECT_GT(parameters.controller.kd, 10.0 * count_stiffness);
 }
 
 }  // namespace

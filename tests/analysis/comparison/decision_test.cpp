@@ -1,6 +1,8 @@
 // Verdicts from numbers that are made up.
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/point_judgements.hpp"
+#include "analysis/two_samples/exact_tests.hpp"
+#include "analysis/two_samples/sample.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {
@@ -167,6 +169,174 @@ TEST(Evidence, MovesAreComparedWithTheirPartners) {
   EXPECT_NEAR(measures[3].effect, 0.01, 1e-15);
   EXPECT_EQ(measures[3].baseline_n, 100);
   EXPECT_NEAR(measures[3].baseline, 0.01, 1e-15);
+}
+
+// What can be said of the tests and bounds in closed form.
+
+constexpr double z95 = 1.6448536269514722;
+
+TEST(ShareTests, NothingThatDiffersIsNoEvidence) {
+  EXPECT_EQ(two_samples::mcnemar({500, 0, 0}), 1.0);
+  EXPECT_EQ(two_samples::fisher({0, 300, 0, 200}), 1.0);
+  EXPECT_EQ(two_samples::fisher({300, 300, 200, 200}), 1.0);
+  EXPECT_EQ(two_samples::mcnemar({500, 0, 7}), 1.0);
+}
+
+TEST(ShareTests, SevenOfSevenIsOneInTwoToTheSeventh) {
+  EXPECT_NEAR(two_samples::mcnemar({500, 7, 0}), 1.0 / 128.0, 1e-15);
+  EXPECT_NEAR(two_samples::fisher({0, 7, 7, 7}), 1.0 / 3432.0, 1e-15);  // 14 choose 7
+}
+
+// With no pair that differs, Tango's bound solves n·λ/√(nλ(1 − λ)) = z.
+TEST(ShareTests, BoundsWithoutAnyDifferingPair) {
+  for (const std::int64_t n : {1, 20, 200, 5000}) {
+    const statistics::ConfidenceInterval bounds = two_samples::tango({n, 0, 0}, 0.95);
+    const double expected = z95 * z95 / (static_cast<double>(n) + z95 * z95);
+    EXPECT_NEAR(bounds.high, expected, 1e-12) << n;
+    EXPECT_NEAR(bounds.low, -expected, 1e-12) << n;
+  }
+}
+
+TEST(ShareTests, TheBoundsOfTheOppositeAreOpposite) {
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 200; ++i) {
+    const auto n = static_cast<std::int64_t>(1 + random() % 300);
+    const auto b = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(n + 1));
+    const auto c = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(n - b + 1));
+    const statistics::ConfidenceInterval one = two_samples::tango({n, b, c}, 0.95);
+    const statistics::ConfidenceInterval other = two_samples::tango({n, c, b}, 0.95);
+    EXPECT_NEAR(one.high, -other.low, 1e-11);
+    EXPECT_LE(one.low, static_cast<double>(b - c) / static_cast<double>(n) + 1e-12);
+    EXPECT_GE(one.high, static_cast<double>(b - c) / static_cast<double>(n) - 1e-12);
+  }
+}
+
+// The probability that the bound misses, summed over all tables, is near what it says.
+TEST(ShareTests, BoundsOfPairsHoldAsOftenAsTheySay) {
+  constexpr std::int64_t n = 60;
+  for (const double proportion : {0.02, 0.05, 0.1}) {
+    for (const double difference : {0.0, 0.05, 0.1}) {
+      const double p10 = proportion + difference;
+      double missed = 0.0;
+      for (std::int64_t b = 0; b <= n; ++b) {
+        for (std::int64_t c = 0; c <= n - b; ++c) {
+          const auto same = static_cast<double>(n - b - c);
+          const auto worse = static_cast<double>(b);
+          const auto better = static_cast<double>(c);
+          const double log_probability =
+              std::lgamma(static_cast<double>(n) + 1.0) - std::lgamma(worse + 1.0) -
+              std::lgamma(better + 1.0) - std::lgamma(same + 1.0) + worse * std::log(p10) +
+              better * std::log(proportion) + same * std::log(1.0 - p10 - proportion);
+          if (two_samples::tango({n, b, c}, 0.95).high < difference) missed += std::exp(log_probability);
+        }
+      }
+      EXPECT_LE(missed, 0.06) << proportion << " " << difference;
+      EXPECT_GE(missed, 0.005) << proportion << " " << difference;
+    }
+  }
+}
+
+TEST(RankTests, EqualSamplesAreNoEvidence) {
+  const std::vector<double> values{1.0, 2.0, 2.0, 3.0};
+  EXPECT_EQ(two_samples::smirnov(values, values), 1.0);
+  EXPECT_EQ(two_samples::smirnov(values, {}), 1.0);
+  EXPECT_EQ(two_samples::signed_rank(std::vector<double>{0.0, 0.0}), 1.0);
+}
+
+TEST(RankTests, AllOnOneSideIsTheRarestOfAll) {
+  EXPECT_NEAR(two_samples::signed_rank(std::vector<double>{1.0, 1.0, 2.0, 3.0, 3.0}), 1.0 / 32.0, 1e-16);
+  EXPECT_NEAR(two_samples::smirnov(std::vector<double>{1.0, 2.0, 3.0}, std::vector<double>{4.0, 5.0, 6.0}),
+              1.0 / 20.0, 1e-16);
+  EXPECT_EQ(two_samples::smirnov(std::vector<double>{4.0, 5.0, 6.0}, std::vector<double>{1.0, 2.0, 3.0}),
+            1.0);
+}
+
+// Where a sample is too large for the exact law, its limit takes over without a step.
+TEST(RankTests, TheLimitsJoinTheExactLaws) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  std::vector<double> differences;
+  while (differences.size() < 201) differences.push_back(normal(random) + 0.12);
+  const double limit = two_samples::signed_rank(differences);
+  differences.pop_back();
+  EXPECT_NEAR(std::log(two_samples::signed_rank(differences) / limit), 0.0, 0.25);
+
+  std::vector<double> one;
+  std::vector<double> two;
+  while (one.size() < 2000) {
+    one.push_back(normal(random));
+    two.push_back(normal(random) + 0.05);
+  }
+  const double exact = two_samples::smirnov(one, two);
+  one.push_back(0.0);
+  EXPECT_NEAR(std::log(two_samples::smirnov(one, two) / exact), 0.0, 0.1);
+}
+
+TEST(MeanTests, ManyTrialsThatAgreeBoundTheMeanAsTheRuleOfThree) {
+  for (const std::size_t n : {100u, 1000u, 10000u}) {
+    const statistics::ConfidenceInterval bounds =
+        two_samples::cautious_bounds(std::vector<double>(n, 0.0), 1.0, 0.95);
+    EXPECT_NEAR(bounds.high * static_cast<double>(n), 1.0 + z95, 0.03) << n;
+    EXPECT_EQ(bounds.low, -bounds.high);
+  }
+}
+
+TEST(MeanTests, TheBoundsEncloseTheMean) {
+  std::mt19937_64 random(7);
+  std::exponential_distribution<double> law;
+  for (int round = 0; round < 100; ++round) {
+    std::vector<double> differences;
+    while (differences.size() < 20 + static_cast<std::size_t>(round))
+      differences.push_back(law(random) - 0.5);
+    const two_samples::MeanDifference mean = two_samples::mean_difference(differences);
+    const statistics::ConfidenceInterval bounds = two_samples::cautious_bounds(differences, 0.5, 0.95);
+    EXPECT_LT(bounds.low, mean.value);
+    EXPECT_GT(bounds.high, mean.value);
+  }
+}
+
+TEST(MeanTests, WithoutSpreadTheMeanItselfDecides) {
+  EXPECT_EQ(two_samples::p_of(two_samples::mean_difference(std::vector<double>(30, 0.1))), 0.0);
+  EXPECT_EQ(two_samples::p_of(two_samples::mean_difference(std::vector<double>(30, 0.0))), 0.5);
+  EXPECT_EQ(two_samples::p_of(two_samples::mean_difference(std::vector<double>(30, -0.1))), 1.0);
+}
+
+/// The procedure itself: the largest i with p_(i) ≤ α·i/(m·H_m), and all below it.
+std::vector<bool> step_up(const std::vector<double>& p, double level) {
+  std::vector<double> sorted = p;
+  std::sort(sorted.begin(), sorted.end());
+  const auto m = static_cast<double>(p.size());
+  double harmonic = 0.0;
+  for (double i = 1.0; i <= m; i += 1.0) harmonic += 1.0 / i;
+  double largest = -1.0;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (sorted[i] <= level * static_cast<double>(i + 1) / (m * harmonic)) largest = sorted[i];
+  }
+  std::vector<bool> rejected;
+  for (const double one : p) rejected.push_back(one <= largest);
+  return rejected;
+}
+
+TEST(FalseDiscovery, AdjustedValuesRejectWhatTheProcedureRejects) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> uniform;
+  for (int round = 0; round < 500; ++round) {
+    std::vector<double> p(1 + random() % 40);
+    for (double& one : p) one = std::pow(uniform(random), 1.0 + static_cast<double>(random() % 5));
+    const std::vector<double> adjusted = comparison::benjamini_yekutieli(p);
+    const double level = 0.01 + 0.2 * uniform(random);
+    const std::vector<bool> rejected = step_up(p, level);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      EXPECT_EQ(adjusted[i] <= level, rejected[i]);
+      EXPECT_GE(adjusted[i], p[i]);
+      EXPECT_LE(adjusted[i], 1.0);
+    }
+  }
+}
+
+TEST(FalseDiscovery, OneTestNeedsNoAdjustment) {
+  EXPECT_EQ(comparison::benjamini_yekutieli(std::vector<double>{0.03}), std::vector<double>{0.03});
+  EXPECT_TRUE(comparison::benjamini_yekutieli({}).empty());
 }
 
 }  // namespace

@@ -194,5 +194,137 @@ TEST(AnswerSchema, HasOneDefinitionForEachType) {
   EXPECT_TRUE(schema["$defs"]["example"].contains("properties"));
 }
 
+TEST(ItemInData, IsInJsonAndItsSchemaAndNotShownToPeople) {
+  AnswerDescription<double> description{{.name = "example", .meaning = "an example"}, {}};
+  description.items
+      .value(in_data("travel", "distance from the start", "m"), [](double travel) { return travel; })
+      .value(with_words(in_data("side", "side of the start"), {"left", "right"}),
+             [](double travel) { return travel < 0.0 ? "left" : "right"; });
+  const Answer answer = description.of(-0.5);
+  EXPECT_EQ(json(answer)["travel"], -0.5);
+  EXPECT_EQ(json(answer)["side"], "left");
+  EXPECT_EQ(text(answer), "");
+  const nlohmann::ordered_json properties = json_schema(answer.type)["properties"];
+  EXPECT_EQ(properties["travel"]["description"], "distance from the start");
+  EXPECT_EQ(properties["travel"]["unit"], "m");
+  EXPECT_EQ(properties["side"]["enum"], nlohmann::ordered_json({"left", "right"}));
+}
+
+// Values of answers that read back to the same number.
+
+template <class Number>
+struct Holder {
+  Number number;
+};
+
+template <class Number>
+Answer answer_with(Number number) {
+  AnswerDescription<Holder<Number>> description{{.name = "holder", .meaning = "a number"}, {}};
+  description.items.value({.key = "number", .heading = "number"}, &Holder<Number>::number);
+  return description.of({number});
+}
+
+template <class Number>
+void expect_kept(Number number) {
+  const Answer answer = answer_with(number);
+  EXPECT_EQ(json(answer)["number"].get<Number>(), number);
+  EXPECT_NE(text(answer).find(std::to_string(number)), std::string::npos) << text(answer);
+}
+
+// A seed is any of 64 bits.
+TEST(Values, WholeNumbersKeepAllTheirBits) {
+  expect_kept(std::numeric_limits<std::uint64_t>::max());
+  expect_kept(std::numeric_limits<std::int64_t>::min());
+}
+
+TEST(Values, WithoutBoundsAreShownWithoutThem) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(text(answer_with(Bounded{0.5, unknown, unknown})), "number: 0.5\n");
+  EXPECT_EQ(text(answer_with(Bounded{0.5, unknown, 1.0})), "number: 0.5 [–, 1]\n");
+  EXPECT_EQ(text(answer_with(Bounded{unknown, unknown, unknown})), "");
+}
+
+// An answer without a table in CSV has one line there: its values, and those of its objects.
+TEST(Values, AreALineOfCsvWhereNoTableIs) {
+  using Inner = Holder<double>;
+  AnswerDescription<Inner> description{{.name = "holder", .meaning = "a number"}, {}};
+  description.items.value({.key = "number", .heading = "number"}, &Inner::number)
+      .object({.key = "part", .heading = "part"},
+              Description<Inner>().value({.key = "twice", .heading = "twice"},
+                                         [](const Inner& inner) { return 2.0 * inner.number; }),
+              [](const Inner& inner) { return inner; });
+  EXPECT_EQ(csv(description.of({0.1})), "number,part_twice\n0.1,0.2\n");
+}
+
+// The schema lets be null what may be missing, and nothing else.
+TEST(Values, OfAPartAreNullableWhereThePartMayBeMissing) {
+  using Part = Holder<double>;
+  const auto part = Description<Part>().value({.key = "number", .heading = "number"}, &Part::number);
+  const auto there = Description<Part>().include(part, [](const Part& whole) { return whole; });
+  EXPECT_FALSE(there.items()[0].nullable);
+  const auto missing = Description<Part>().include(part, [](const Part&) { return std::optional<Part>(); });
+  EXPECT_TRUE(missing.items()[0].nullable);
+  EXPECT_TRUE(missing.members_of({1.0}).contents[0].is_empty());
+}
+
+// Texts of several lines that are shown as they are, such as a part of a manifest.
+
+const std::string lines = "friction:\n  k1: 110   # <b>\n";
+
+Answer answer_with_lines() {
+  AnswerDescription<std::string> description{{.name = "example", .meaning = "an example"}, {}};
+  description.items.value({.key = "manifest", .heading = "To paste", .verbatim = true},
+                          [](const std::string& text) { return text; });
+  return description.of(lines);
+}
+
+TEST(VerbatimText, KeepsItsLinesInEveryFormat) {
+  const Answer answer = answer_with_lines();
+  EXPECT_EQ(json(answer)["manifest"], lines);
+  EXPECT_EQ(text(answer), "To paste:\n\n" + lines);
+  EXPECT_NE(markdown(answer).find("```\n" + lines + "```\n"), std::string::npos) << markdown(answer);
+  EXPECT_NE(html(answer).find("<pre>friction:\n  k1: 110   # &lt;b&gt;\n</pre>"), std::string::npos)
+      << html(answer);
+}
+
+struct Loop {
+  std::string name;
+  double rate;  // Hz
+  double gain;
+};
+
+Answer answer_of(const std::vector<Loop>& loops) {
+  AnswerDescription<std::vector<Loop>> description{
+      {.name = "example", .meaning = "an example", .csv_table = "loops"}, {}};
+  description.items.table({.key = "loops", .heading = "Loops", .common_above = true},
+                          Description<Loop>()
+                              .value({"name", "loop"}, &Loop::name)
+                              .value({"rate", "sample rate", "", "Hz"}, &Loop::rate)
+                              .value({"gain", "gain"}, &Loop::gain),
+                          [](const std::vector<Loop>& all) { return all; });
+  return description.of(loops);
+}
+
+TEST(CommonColumns, OfRowsThatAgreeStandOnceAboveTheTable) {
+  const std::string text = document::text(answer_of({{"a", 2000.0, 1.0}, {"b", 2000.0, 2.0}}));
+  EXPECT_TRUE(text.starts_with("Loops:\nsample rate: 2000 Hz\n\nloop  gain\n")) << text;
+}
+
+TEST(CommonColumns, OfASingleRowAreAll) {
+  EXPECT_EQ(document::text(answer_of({{"a", 2000.0, 1.0}})),
+            "Loops:\nloop:        a\nsample rate: 2000 Hz\ngain:        1\n");
+}
+
+TEST(CommonColumns, LeaveATableWhoseRowsDifferAsItIs) {
+  const std::string text = document::text(answer_of({{"a", 1.0, 1.0}, {"b", 2.0, 2.0}}));
+  EXPECT_TRUE(text.starts_with("Loops:\n\nloop  sample rate (Hz)  gain\n")) << text;
+}
+
+TEST(CommonColumns, AreInEachRowOfData) {
+  const Answer answer = answer_of({{"a", 2000.0, 1.0}, {"b", 2000.0, 2.0}});
+  EXPECT_EQ(json(answer)["loops"][1]["rate"], 2000.0);
+  EXPECT_EQ(csv(answer), "name,rate,gain\na,2000,1\nb,2000,2\n");
+}
+
 }  // namespace
 }  // namespace zerocount::document

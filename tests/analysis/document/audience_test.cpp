@@ -126,5 +126,131 @@ TEST(Csv, HasWholeNumbersAndTheNamesOfColumns) {
   EXPECT_EQ(cells.back(), (std::pair<std::string, std::string>{"hold_at_least", "2"}));
 }
 
+// Sections of an answer, and tables inside their rows.
+
+struct Rate {
+  double from;
+  std::optional<Bounded> rate;
+};
+
+struct Point {
+  std::string label;
+  std::vector<Rate> rates;
+};
+
+struct Report {
+  std::vector<Point> points;
+};
+
+AnswerDescription<Report> report_description() {
+  const auto rates = Description<Rate>()
+                         .value({.key = "from", .heading = "from", .unit = "s"}, &Rate::from)
+                         .value({.key = "rate", .heading = "rate", .unit = "1/s"}, &Rate::rate);
+  const auto points = Description<Point>()
+                          .title(&Point::label)
+                          .value(in_data("label", "label of the point"), &Point::label)
+                          .value({.key = "advice", .heading = "advice", .shown = Shown::in_json},
+                                 [](const Point&) { return "more trials"; })
+                          .table({.key = "rates", .heading = "rates"}, rates, &Point::rates);
+  AnswerDescription<Report> answer{{.name = "report", .meaning = "points", .csv_table = "points.rates"}, {}};
+  answer.items.headline([](const Report& report) { return std::to_string(report.points.size()) + " points"; })
+      .sections({.key = "points", .meaning = "the points"}, points, &Report::points);
+  return answer;
+}
+
+const Report two_points{
+    {{"low", {{0.5, Bounded{2.0, 1.0, 4.0}}, {1.0, {}}}}, {"b, high", {{0.25, Bounded{3.0, 2.0, 5.0}}}}}};
+
+TEST(Sections, StandOneBelowTheOtherForPeople) {
+  const std::string text = document::text(report_description().of(two_points));
+  EXPECT_EQ(text.find("2 points"), 0U);
+  EXPECT_LT(text.find("low:"), text.find("2 [1, 4]")) << text;
+  EXPECT_LT(text.find("2 [1, 4]"), text.find("b, high:")) << text;
+  EXPECT_LT(text.find("b, high:"), text.find("3 [2, 5]")) << text;
+  EXPECT_EQ(text.find("more trials"), std::string::npos) << text;
+}
+
+TEST(Sections, AreAListOfObjectsInJson) {
+  const auto json = document::json(report_description().of(two_points));
+  ASSERT_EQ(json["points"].size(), 2U);
+  EXPECT_EQ(json["points"][1]["label"], "b, high");
+  EXPECT_EQ(json["points"][1]["advice"], "more trials");
+  EXPECT_EQ(json["points"][0]["rates"][0]["rate_high"], 4.0);
+  EXPECT_TRUE(json["points"][0]["rates"][1]["rate"].is_null());
+  const auto schema = json_schema(report_description().complete_type());
+  EXPECT_EQ(schema["properties"]["points"]["items"]["properties"]["rates"]["type"], "array");
+}
+
+TEST(Sections, GiveTheLinesOfATableInThemTheirValues) {
+  EXPECT_EQ(csv(report_description().of(two_points)),
+            "label,from,rate,rate_low,rate_high\n"
+            "low,0.5,2,1,4\n"
+            "low,1,nan,nan,nan\n"
+            "\"b, high\",0.25,3,2,5\n");
+}
+
+// Names that users give cannot become commands of a spreadsheet, links or layout.
+
+struct NamedRow {
+  std::string name;
+};
+
+struct NamedAnswer {
+  std::string name;
+  std::vector<NamedRow> rows;
+  std::string lines{};
+};
+
+Answer named_answer(const std::string& name, const std::string& lines = "") {
+  AnswerDescription<NamedAnswer> description{{.name = "holder", .meaning = "names", .csv_table = "rows"}, {}};
+  description.items.headline(&NamedAnswer::name)
+      .sentence(&NamedAnswer::name)
+      .value({.key = "name", .heading = "name"}, &NamedAnswer::name)
+      .value({.key = "lines", .heading = "lines", .optional = true, .verbatim = true},
+             [](const NamedAnswer& holder) { return holder.lines; })
+      .table({.key = "rows", .heading = "names"},
+             Description<NamedRow>().value({.key = "name", .heading = "name"}, &NamedRow::name),
+             &NamedAnswer::rows);
+  return description.of({name, {{name}}, lines});
+}
+
+TEST(Escaping, ATextOfCsvIsNoFormula) {
+  EXPECT_EQ(csv(named_answer("=cmd|' /C calc'!A0")), "name\n'=cmd|' /C calc'!A0\n");
+  EXPECT_EQ(csv(named_answer("@SUM(1,2)")), "name\n\"'@SUM(1,2)\"\n");
+  EXPECT_EQ(csv(named_answer("+1+1")), "name\n'+1+1\n");
+  EXPECT_EQ(csv(named_answer("-3")), "name\n-3\n");
+}
+
+TEST(Escaping, AWholeAnswerOfCsvIsNoFormula) {
+  AnswerDescription<NamedRow> description{{.name = "holder", .meaning = "a name"}, {}};
+  description.items.value({.key = "name", .heading = "name"}, &NamedRow::name);
+  EXPECT_EQ(csv(description.of({"=1+1"})), "name\n'=1+1\n");
+}
+
+TEST(Escaping, NoNameIsALinkInMarkdown) {
+  const std::string link = markdown(named_answer("[x](javascript:alert(2))"));
+  EXPECT_EQ(link.find("]("),
+            link.find("\\](") == std::string::npos ? std::string::npos : link.find("\\](") + 1);
+  EXPECT_NE(link.find("[x\\](javascript:alert(2))"), std::string::npos) << link;
+  EXPECT_NE(markdown(named_answer("[x]: javascript:alert(2)")).find("[x\\]: "), std::string::npos);
+  EXPECT_NE(markdown(named_answer("[x][y]")).find("[x\\][y]"), std::string::npos);
+  // Brackets of bounds stay as they are.
+  EXPECT_NE(markdown(named_answer("90 [87, 95] %")).find("90 [87, 95] %"), std::string::npos);
+}
+
+TEST(Escaping, NoNameIsLayoutInMarkdown) {
+  EXPECT_EQ(markdown(named_answer("# a")).find("\n# a"), std::string::npos);
+  for (const char* const name : {"# a", "- a", "+ a", "> a", "1. a", "12) a", "=== a", "---"}) {
+    const std::string text = markdown(named_answer(name));
+    EXPECT_EQ(text.find(std::string("\n") + name), std::string::npos) << text;
+  }
+  EXPECT_NE(markdown(named_answer("a|b <i> `c` *d* _e_ ~f~ &lt;"))
+                .find("a\\|b \\<i> \\`c\\` \\*d\\* \\_e\\_ \\~f\\~ \\&lt;"),
+            std::string::npos);
+  // The block of lines ends where its lines end.
+  EXPECT_NE(markdown(named_answer("a", "x\n```\n# y\n")).find("````\nx\n```\n# y\n````\n"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace zerocount::document

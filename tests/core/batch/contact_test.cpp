@@ -1,5 +1,6 @@
 // The contact in the lanes: what it finds at the start, where it forms anew, and what it may be without.
 #include "tests/core/batch/expect_agreement.hpp"
+#include "tests/core/loop/random_blocks.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {
@@ -181,6 +182,210 @@ TEST(BatchContact, SoftensByAnyAmount) {
     trials.back().friction.profiled.clear();
   }
   expect_agreement_in_lanes(trials, "softening");
+}
+
+// The blocks of the controller in the lanes.
+
+std::vector<trial::TrialParameters> trials_with(BlockKind kind, int count) {
+  RandomBlocks draw(90000 + static_cast<std::uint64_t>(kind));
+  std::vector<trial::TrialParameters> trials;
+  for (int i = 0; i < count; ++i) {
+    const auto number = static_cast<std::uint64_t>(i);
+    trials.push_back(trial_for_lanes(i % 4 == 0 ? TrialKind::ringing : TrialKind::calm, 83000 + number));
+    trial::TrialParameters& p = trials.back();
+    p.controller.blocks = draw.blocks(kind, p.controller.sample_rate);
+    if (kind == BlockKind::all && i % 3 == 0)
+      p.controller.dither = {draw.log_uniform(1e-5, 3e-3),
+                             p.controller.sample_rate * draw.uniform(0.05, 0.5)};
+    p.dac.sigma_delta = kind == BlockKind::all && i % 5 == 0;
+    if (i % 7 == 0) p.disturbance.torque = draw.uniform(-0.05, 0.05);
+    p.initial.holding = i % 14 == 0 && p.initial.preload == 0.0 && p.initial.history.reversals == 0;
+    if (i % 3 == 0) p.command.targets.push_back(p.command.targets.back() + 7);
+    // Such that some arrive and rest.
+    if (i % 2 == 0) {
+      p.controller.ki = 1e-5;
+      p.controller.kp = p.controller.kd = 0.0;
+    }
+  }
+  return trials;
+}
+
+TEST(BatchBlocks, DecideAsThoseOfTheReference) {
+  std::vector<trial::TrialParameters> all;
+  for (int kind = 0; kind < block_kinds; ++kind) {
+    const std::vector<trial::TrialParameters> trials = trials_with(static_cast<BlockKind>(kind), 60);
+    all.insert(all.end(), trials.begin(), trials.end());
+    const BatchAgreement agreement = agreement_of(trials, block_kind_names[kind]);
+    EXPECT_GT(agreement.trials - agreement.slides, 40) << block_kind_names[kind];
+  }
+  expect_agreement_in_lanes(all, "blocks");
+}
+
+// Trials with blocks beside trials without, in few lanes that all of them go through.
+TEST(BatchBlocks, MixWithTrialsThatHaveNone) {
+  std::vector<trial::TrialParameters> trials;
+  for (int kind = 0; kind < block_kinds; ++kind) {
+    for (const trial::TrialParameters& p : trials_with(static_cast<BlockKind>(kind), 8)) trials.push_back(p);
+  }
+  std::vector<trial::TrialParameters> mixed;
+  for (std::size_t i = 0; i < trials.size(); ++i) mixed.push_back(trials[i * 37 % trials.size()]);
+  const std::vector<BatchedTrial> few = run_batch(mixed, {.lanes = 5});
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    EXPECT_EQ(difference_in_bits(few[i], run_batch({mixed[i]}, {.lanes = 1}).front()), "") << i;
+  }
+}
+
+// A deadband keeps the torque where the error is 0, so that a lane goes on from event to event; what
+// remembers more than the integral is sampled every time.
+TEST(BatchBlocks, AMemoryThatFadesIsNotSkipped) {
+  std::vector<trial::TrialParameters> trials;
+  for (const double leak : {0.02, 0.2, 2.0}) {
+    trials.push_back(trial_for_lanes(TrialKind::calm, 84000));
+    trial::TrialParameters& p = trials.back();
+    p.controller.ki = 1e-5;
+    p.controller.kp = p.controller.kd = 0.0;
+    p.controller.blocks.integrator_leak = leak;
+    p.command.hold = 2.0;
+  }
+  expect_agreement_in_lanes(trials, "leak");
+}
+
+// The control loop in the lanes: delay, gains, anti-windup, and converters of any word.
+
+TEST(BatchLoop, DelaysTheTorque) {
+  for (const int delay : {0, 1, 2, 3, 4, 5, 64}) {
+    std::vector<trial::TrialParameters> trials;
+    for (std::uint64_t i = 0; i < 30; ++i) {
+      trials.push_back(trial_for_lanes(i % 5 == 0 ? TrialKind::ringing : TrialKind::calm, 80000 + i));
+      trial::TrialParameters& p = trials.back();
+      p.controller.delay = delay;
+      if (i % 2 == 0) {  // such that some arrive and rest
+        p.controller.ki = delay < 10 ? 1e-5 : 1e-6;
+        p.controller.kp = p.controller.kd = 0.0;
+        p.command.hold = 1.0;
+      }
+    }
+    const BatchAgreement agreement =
+        expect_agreement_in_lanes(trials, "delay " + std::to_string(delay) + " samples");
+    EXPECT_GT(agreement.trials - agreement.slides, 5);
+  }
+}
+
+TEST(BatchLoop, HasProportionalAndDifferentialParts) {
+  std::vector<trial::TrialParameters> trials;
+  for (std::uint64_t i = 0; i < 120; ++i) {
+    trials.push_back(trial_for_lanes(TrialKind::calm, 81000 + i));
+    loop::ControllerParameters& c = trials.back().controller;
+    c.kp = 1e-4 * static_cast<double>(i % 7);
+    c.kd = 5e-5 * static_cast<double>(i % 5);
+    if (i % 12 == 0) c.ki = 0.0;  // which mostly ends in a limit cycle
+  }
+  const BatchAgreement agreement = expect_agreement_in_lanes(trials, "kp, ki and kd");
+  EXPECT_GT(agreement.trials - agreement.slides, 60);
+}
+
+/// Words so short that torques are clipped, and so fine that no code is the same for long.
+TEST(BatchLoop, ConvertsByAnyWord) {
+  std::vector<trial::TrialParameters> trials;
+  int clipped = 0;
+  for (std::uint64_t i = 0; i < 120; ++i) {
+    trials.push_back(trial_for_lanes(i % 2 == 0 ? TrialKind::calm : TrialKind::ringing, 82000 + i));
+    trial::TrialParameters& p = trials.back();
+    p.dac.bits = i % 3 == 0 ? 6 : (i % 3 == 1 ? 12 : 24);
+    p.dac.resolution = i % 3 == 0 ? 1e-3 : (i % 3 == 1 ? 1e-4 : 5e-8);
+    p.controller.anti_windup = i % 4 < 2 ? loop::AntiWindup::clamp : loop::AntiWindup::none;
+    p.initial.integral = i % 5 == 0 ? 0.05 : 0.0;
+    for (const trial::MoveOutcome& move : trial::run_trial(p).moves) clipped += move.saturated;
+  }
+  expect_agreement_in_lanes(trials, "converters");
+  EXPECT_GT(clipped, 20);
+}
+
+// Moves in the lanes: many of them, short ones, and how they are judged.
+
+class Choices {
+ public:
+  explicit Choices(std::uint64_t seed) : engine_(seed) {}
+  std::int64_t integer(std::int64_t low, std::int64_t high) {
+    return low + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(high - low + 1));
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+trial::TrialParameters with_targets(trial::TrialParameters p, Choices& choices) {
+  p.command.targets.clear();
+  const std::int64_t moves = choices.integer(2, 7);
+  for (std::int64_t move = 0; move < moves; ++move) {
+    const bool stay = move > 0 && choices.integer(0, 3) == 0;
+    p.command.targets.push_back(stay ? p.command.targets.back() : choices.integer(-30, 30));
+  }
+  return p;
+}
+
+TEST(BatchMoves, FollowOneAnother) {
+  Choices choices(1);
+  std::vector<trial::TrialParameters> trials;
+  for (std::uint64_t i = 0; i < 120; ++i) {
+    const TrialKind kind = i % 3 == 0 ? TrialKind::ringing : TrialKind::calm;
+    trials.push_back(with_targets(trial_for_lanes(kind, 70000 + i), choices));
+    trials.back().command.hold = static_cast<double>(choices.integer(60, 600)) / 2000.0;
+  }
+  const BatchAgreement agreement = expect_agreement_in_lanes(trials, "several moves");
+  EXPECT_GT(agreement.trials - agreement.slides, 50);
+}
+
+TEST(BatchMoves, MayBeOfOneSample) {
+  Choices choices(2);
+  std::vector<trial::TrialParameters> trials;
+  for (std::uint64_t i = 0; i < 120; ++i) {
+    trials.push_back(with_targets(trial_for_lanes(TrialKind::calm, 71000 + i), choices));
+    trial::TrialParameters& p = trials.back();
+    p.controller.sample_rate = 2000.0;
+    p.command.hold = static_cast<double>(choices.integer(1, 12)) / 2000.0;
+    p.verdict.dwell = static_cast<double>(choices.integer(1, 3)) / 2000.0;
+    p.verdict.window = static_cast<double>(choices.integer(1, 3)) / 2000.0;
+  }
+  expect_agreement_in_lanes(trials, "short moves");
+}
+
+/// Dwell and window from one sample to the whole move, and moves that arrive where they begin.
+TEST(BatchMoves, AreJudgedByAnyDwellAndWindow) {
+  Choices choices(3);
+  std::vector<trial::TrialParameters> trials;
+  int arrived = 0, jerks = 0;
+  for (std::uint64_t i = 0; i < 150; ++i) {
+    trials.push_back(trial_for_lanes(TrialKind::calm, 72000 + i));
+    trial::TrialParameters& p = trials.back();
+    p.controller.sample_rate = 2000.0;
+    p.controller.ki = std::min(p.controller.ki, 3e-5);
+    if (i % 3 == 0) p.command.targets.front() = 0;
+    const std::int64_t samples = choices.integer(100, 2000);
+    p.command.hold = static_cast<double>(samples) / 2000.0;
+    p.verdict.dwell = static_cast<double>(choices.integer(1, i % 2 == 0 ? 10 : samples)) / 2000.0;
+    p.verdict.window = static_cast<double>(choices.integer(1, i % 2 == 0 ? 10 : samples)) / 2000.0;
+    for (const trial::MoveOutcome& move : trial::run_trial(p).moves) {
+      arrived += move.arrived;
+      jerks += move.jerk_count > 0;
+    }
+  }
+  expect_agreement_in_lanes(trials, "dwell and window");
+  EXPECT_GT(arrived, 50);
+  EXPECT_GT(jerks, 30);
+}
+
+/// Jumps at rest go over thousands of samples; a move of more than a million is one of them.
+TEST(BatchMoves, MayBeLong) {
+  std::vector<trial::TrialParameters> trials;
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    trials.push_back(trial_for_lanes(TrialKind::calm, 73000 + i));
+    trials.back().controller.ki = 2e-5;
+    trials.back().controller.sample_rate = 2000.0;
+    trials.back().command.targets = {static_cast<std::int64_t>(5 + 5 * i)};
+    trials.back().command.hold = 150.0;
+  }
+  expect_agreement_in_lanes(trials, "long moves");
 }
 
 }  // namespace

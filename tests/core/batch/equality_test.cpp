@@ -1,6 +1,9 @@
 // The batch engine against the reference, over random trials of every kind.
+#include "core/loop/encoder.hpp"
+#include "tests/core/batch/batched_trials.hpp"
 #include "tests/core/batch/bench_trials.hpp"
 #include "tests/core/batch/expect_agreement.hpp"
+#include "tests/core/loop/random_blocks.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {
@@ -133,6 +136,146 @@ TEST(ASecondMass, ComesToRestWithTheRotorAsInTheReference) {
   const BatchAgreement agreement = expect_agreement_in_lanes(trials, "resonance");
   EXPECT_LT(agreement.theta, 3e-8);
   EXPECT_LT(agreement.slides, 20);
+}
+
+// The batch engine against the reference under the laws that have no hook: an air bearing, Coulomb's, Dahl's,
+// LuGre's and the generalised Maxwell-slip model.
+
+struct LawCase {
+  friction::FrictionModel model;
+  const char* name;
+};
+
+void PrintTo(const LawCase& law, std::ostream* out) {
+  *out << law.name;
+}
+
+class LawsWithoutHook : public ::testing::TestWithParam<LawCase> {};
+
+INSTANTIATE_TEST_SUITE_P(Random, LawsWithoutHook,
+                         ::testing::Values(LawCase{friction::FrictionModel::none, "none"},
+                                           LawCase{friction::FrictionModel::coulomb, "coulomb"},
+                                           LawCase{friction::FrictionModel::dahl, "dahl"},
+                                           LawCase{friction::FrictionModel::lugre, "lugre"},
+                                           LawCase{friction::FrictionModel::gms, "gms"}),
+                         [](const ::testing::TestParamInfo<LawCase>& law) {
+                           return std::string(law.param.name);
+                         });
+
+constexpr TrialKind kinds_under_laws[] = {TrialKind::calm,          TrialKind::ringing,
+                                          TrialKind::breaking_away, TrialKind::unlike_the_paper,
+                                          TrialKind::arriving,      TrialKind::loaded};
+
+/// Up to sixteen elements that together are about as stiff as the spring.
+std::vector<friction::GmsElement> random_elements(const friction::FrictionParameters& f,
+                                                  std::uint64_t index) {
+  RandomBlocks draw(index);
+  std::vector<friction::GmsElement> elements(index % 20 == 0 ? 16 : 1 + index % 5);
+  double weights = 0.0;
+  for (friction::GmsElement& element : elements) {
+    element = {(f.k1 + f.k2) * draw.log_uniform(0.1, 1.0) / static_cast<double>(elements.size()),
+               draw.log_uniform(1e-3, 1.0)};
+    weights += element.weight;
+  }
+  for (friction::GmsElement& element : elements) element.weight /= weights;
+  return elements;
+}
+
+/// A random trial under this law, with bristles about as stiff and as damped as its spring and its contact.
+trial::TrialParameters trial_under(friction::FrictionModel model, TrialKind kind, std::uint64_t index) {
+  trial::TrialParameters p = random_trial(kind, index);
+  p.amplifier = {};
+  p.friction.model = model;
+  // Without friction the lanes know delays of whole samples.
+  if (model == friction::FrictionModel::none) p.controller.delay = std::round(p.controller.delay);
+  friction::FrictionParameters& f = p.friction.uniform;
+  f.sigma0 = f.k1 + static_cast<double>(index % 5) * 0.25 * f.k2;
+  f.sigma1 = index % 4 == 0 ? 0.0 : 0.4 * static_cast<double>(index % 4) * p.plant.presliding_damping;
+  f.gms_attraction = 0.1 * std::pow(10.0, static_cast<double>(index % 5));
+  if (index % 2 == 0) p.friction.gms_elements = random_elements(f, index);
+  return p;
+}
+
+std::vector<trial::TrialParameters> trials_under(friction::FrictionModel model, std::uint64_t each) {
+  std::vector<trial::TrialParameters> trials;
+  for (const TrialKind kind : kinds_under_laws) {
+    for (std::uint64_t i = 0; i < each; ++i) trials.push_back(trial_under(model, kind, 70000 + i));
+  }
+  return trials;
+}
+
+/// How far a trial's samples agree: up to the first other count or code.
+struct SampleAgreement {
+  bool parts{false};       ///< there is one
+  double difference{0.0};  ///< largest of θ up to there, over 1e-6 count and 1e-9 of the travel
+};
+
+SampleAgreement agreement_of_samples(const BatchedTrial& one, const BatchedTrial& other, double resolution) {
+  SampleAgreement agreement;
+  double travel = 0.0;
+  for (std::size_t k = 0; k < other.samples.size(); ++k) {
+    const batch::BatchSample& a = one.samples[k];
+    const batch::BatchSample& b = other.samples[k];
+    if (k > 0) travel += std::abs(b.theta - other.samples[k - 1].theta) / resolution;
+    const double allowed = 1e-6 + 1e-9 * travel;
+    agreement.difference = std::max(agreement.difference, std::abs(a.theta - b.theta) / resolution / allowed);
+    agreement.parts = a.count != b.count || a.code != b.code;
+    if (agreement.parts) break;
+  }
+  return agreement;
+}
+
+// Counts, codes and measures are the same. A trial parts where θ is on the edge of a count to within that
+// accuracy.
+TEST_P(LawsWithoutHook, AgreeSampleBySample) {
+  // The reference takes long for many elements.
+  const std::uint64_t each = GetParam().model == friction::FrictionModel::gms ? 20 : 60;
+  const std::vector<trial::TrialParameters> trials = trials_under(GetParam().model, each);
+  const std::vector<BatchedTrial> batched = run_batch(trials);
+  int slid = 0;
+  int parted = 0;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    ASSERT_TRUE(batch::runs_in_lanes(trials[i])) << i;
+    const BatchedTrial reference = run_by_reference(trials[i]);
+    ASSERT_EQ(batched[i].samples.size(), reference.samples.size()) << i;
+    const SampleAgreement agreement =
+        agreement_of_samples(batched[i], reference, loop::fine_resolution(trials[i].encoder));
+    EXPECT_LT(agreement.difference, 1.0) << i;
+    parted += agreement.parts ? 1 : 0;
+    ASSERT_EQ(batched[i].outcome.moves.size(), reference.outcome.moves.size()) << i;
+    for (std::size_t m = 0; m < reference.outcome.moves.size() && !agreement.parts; ++m) {
+      const trial::MoveOutcome& one = batched[i].outcome.moves[m];
+      const trial::MoveOutcome& other = reference.outcome.moves[m];
+      EXPECT_EQ(one.outcome, other.outcome) << i;
+      EXPECT_EQ(one.arrival, other.arrival) << i;
+      EXPECT_EQ(one.jerk_count, other.jerk_count) << i;
+      EXPECT_EQ(one.broke_away, other.broke_away) << i;
+      EXPECT_EQ(one.reversal_depth, 0) << i;
+      slid += one.broke_away ? 1 : 0;
+    }
+  }
+  EXPECT_LE(parted, each < 60 ? 1 : 3);
+  EXPECT_EQ(slid > 20, GetParam().model != friction::FrictionModel::none);
+}
+
+// Beside trials with a hook, on any instruction set and any number of lanes, to the last bit.
+TEST_P(LawsWithoutHook, DoNotDependOnTheirNeighbours) {
+  std::vector<trial::TrialParameters> trials = trials_under(GetParam().model, 12);
+  const std::vector<BatchedTrial> alone = run_batch(trials);
+  std::vector<trial::TrialParameters> mixed;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    mixed.push_back(trials[i]);
+    mixed.push_back(random_trial(kinds_under_laws[i % 3], 80000 + i));
+  }
+  for (const batch::InstructionSet instructions : available_instruction_sets()) {
+    for (const int lanes : {7, 128}) {
+      const std::vector<BatchedTrial> among =
+          run_batch(mixed, {.lanes = lanes, .instructions = instructions});
+      for (std::size_t i = 0; i < trials.size(); ++i) {
+        ASSERT_EQ(difference_in_bits(among[2 * i], alone[i]), "") << i << " of " << lanes;
+      }
+    }
+  }
 }
 
 }  // namespace

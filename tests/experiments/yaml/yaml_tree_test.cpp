@@ -1,6 +1,8 @@
 #include "experiments/yaml/yaml_tree.hpp"
 
 #include "core/failure/failure.hpp"
+#include "experiments/manifests/shipped_manifests.hpp"
+#include "experiments/yaml/faults.hpp"
 #include "tests/support/says.hpp"
 #include "tests/support/test.hpp"
 
@@ -148,6 +150,198 @@ TEST(YamlTree, MutilatedTextsNeverEscape) {
     YamlPointer tree;
     ASSERT_NO_THROW(tree = parse(mutilated, problems)) << mutilated;
     ASSERT_TRUE(tree || !problems.empty()) << mutilated;
+  }
+}
+
+std::string problem_in(const std::string& text, bool one_line = false) {
+  Problems problems;
+  parse_yaml(text, "m.yaml", one_line, problems);
+  try {
+    problems.raise_if_any();
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
+void collect_scalars(const YamlNode& node, std::vector<Place>& places) {
+  if (node.kind == YamlNode::Kind::scalar) places.push_back(node.place);
+  for (const YamlPointer& item : node.items) collect_scalars(*item, places);
+  for (const YamlEntry& entry : node.entries) {
+    places.push_back(entry.place);
+    collect_scalars(*entry.value, places);
+  }
+}
+
+std::size_t offset_of(const std::string& text, const Place& place) {
+  std::size_t at = 0;
+  for (int line = 1; line < place.line; ++line) at = text.find('\n', at) + 1;
+  return at + static_cast<std::size_t>(place.column) - 1;
+}
+
+// A quotation mark too many swallows lines; whatever follows, the user must learn where it stands.
+TEST(LexicalFaults, AQuotationMarkBeforeAnyScalarOfAShippedManifestIsAnErrorOnItsLine) {
+  std::size_t tried = 0;
+  for (const auto& shipped : manifests::shipped_manifests()) {
+    const std::string text(shipped.bytes);
+    Problems problems;
+    const YamlPointer root = parse_yaml(text, "m.yaml", false, problems);
+    std::vector<Place> places;
+    collect_scalars(*root, places);
+    for (const Place& place : places) {
+      const std::size_t at = offset_of(text, place);
+      if (text[at] == '|' || text[at] == '>' || text[at] == '"' || text[at] == '\'') continue;
+      const char* const before = std::array{"\"", "'", "&x \"", "! '"}[tried++ % 4];
+      const std::string problem = problem_in(std::string(text).insert(at, before));
+      ASSERT_TRUE(problem.starts_with(fmt::format("m.yaml:{}:", place.line)))
+          << shipped.name << ", " << before << " at line " << place.line << ": " << problem;
+    }
+  }
+  EXPECT_GT(tried, 1000u);
+}
+
+TEST(LexicalFaults, TheUnclosedMarkItselfIsNamedAlsoWhereALaterOneEndsTheText) {
+  const auto unclosed_at = [](const std::string& text, int line, int column) {
+    const std::string problem = problem_in(text);
+    EXPECT_TRUE(
+        problem.starts_with(fmt::format("m.yaml:{}:{}: manifest: unclosed quotation mark", line, column)))
+        << text << "\n"
+        << problem;
+  };
+  for (const std::string end : {"", "\n"}) {  // yaml-cpp treats them differently
+    unclosed_at("a: 1\nb: \"two\nc: 3" + end, 2, 4);
+    unclosed_at("a: 1\nb: 'two\nc: 3" + end, 2, 4);
+    unclosed_at("a: 1\nb: &anchor 'two\nc: 3" + end, 2, 12);
+    unclosed_at("a: 1\nb: ! &anchor \"two\nc: 3" + end, 2, 14);
+  }
+  unclosed_at("a: \"one\nb: \"two\"\nc: 3\n", 1, 4);
+  unclosed_at("a: 'one\nb: 2 # the machine's\nc: 3\n", 1, 4);
+  unclosed_at("a: [1, \"two, 3]\nb: {c: \"\"}\n", 1, 8);
+  unclosed_at("a: {b: 'x, c: 2}\nd: 'y'\n", 1, 8);
+  unclosed_at("\"a: 1\nb\": 2\n", 1, 1);
+  unclosed_at("a: 1\n'b: 2\nc: 3\n", 2, 1);
+  unclosed_at("a:\n  - \"x\n  - y\"\n", 2, 5);
+  unclosed_at("a:\n  b: 'x\n  c: ''\n", 2, 6);
+  unclosed_at("a: |\n  it's \"text\nb: \"c\nd: 1\n", 3, 4);
+  unclosed_at("a: \"x\n---\nb: 1\"\n", 1, 4);
+  EXPECT_TRUE(problem_in("\"x", true).starts_with("m.yaml: manifest: unclosed quotation mark"));
+}
+
+// yaml-cpp begins the text right after a lone '!'.
+TEST(LexicalFaults, AQuotationMarkInATagOrAnAnchorIsAnError) {
+  for (const char* const value : {"!\"two", "!'two", "&a !\"two", "!x\"two\"", "&a\"two\""}) {
+    const std::string problem = problem_in(fmt::format("a: 1\nb: {}\nc: 3\n", value));
+    EXPECT_TRUE(problem.starts_with("m.yaml:2:")) << value << ": " << problem;
+  }
+}
+
+TEST(LexicalFaults, AFaultIsReportedWhereItBeginsAndNotWhereTheParserStumbles) {
+  const auto starts = [](const std::string& text, const std::string& problem) {
+    EXPECT_TRUE(problem_in(text).starts_with(problem)) << text << "\n" << problem_in(text);
+  };
+  starts("a: \"b\"c\nd: 1\n", "m.yaml:1:7: manifest: text after the closing quotation mark");
+  starts("a: [\"b\" c]\n", "m.yaml:1:9: manifest: text after the closing quotation mark");
+  starts("a:\n\tb: 1\n", "m.yaml:2:1: manifest: tab in the indentation");
+  starts("\ta: 1\n", "m.yaml:1:1: manifest: tab in the indentation");
+  starts("a:\n  b: 1\n \t c: 1\n", "m.yaml:3:2: manifest: tab in the indentation");
+  starts("a: 1\nb:2\nc: 3\n", "m.yaml:2:1: manifest: a text without the colon");
+  starts("a: {b: 1}\nc 5\nd: 3\n", "m.yaml:2:1: manifest: a text without the colon");
+  starts("<<: {a: 1}\n", "m.yaml:1:1: manifest: merge keys are not supported");
+}
+
+// Writes random documents in all styles of YAML, with marks and comments that are not quotation marks.
+class Writer {
+ public:
+  explicit Writer(unsigned seed) : random_(seed) {}
+
+  struct Written {
+    std::string text;
+    std::string meaning;  ///< flow_text() of the node
+  };
+
+  Written document() { return {block(0, 2)}; }
+
+ private:
+  std::size_t below(std::size_t n) { return random_() % n; }
+
+  // On one line, also inside brackets.
+  Written inline_scalar() {
+    static const std::vector<Written> scalars{{"5", "5"},
+                                              {"it's", "it's"},
+                                              {"a\"b", "a\"b"},
+                                              {"b#c", "b#c"},
+                                              {"x:y", "x:y"},
+                                              {"''", ""},
+                                              {"'it''s'", "it's"},
+                                              {"\"a\\\"b\"", "a\"b"},
+                                              {"\"# no: {comment\"", "# no: {comment"},
+                                              {"&id 'x'", "x"},
+                                              {"'['", "["}};
+    return scalars[below(scalars.size())];
+  }
+
+  Written flow(int depth) {
+    if (depth == 0 || below(2) == 0) return inline_scalar();
+    const bool map = below(2) == 0;
+    Written written{map ? "{" : "[", map ? "{" : "["};
+    for (std::size_t i = 0, n = below(4); i < n; ++i) {
+      const Written item = flow(depth - 1);
+      const std::string key = map ? fmt::format("k{}: ", i) : "";
+      if (i > 0) written = {written.text + ",", written.meaning + ", "};
+      const std::string gap = below(3) == 0 ? "  # isn't \"one\n     " : " ";
+      written = {written.text + (i > 0 ? gap : "") + key + item.text, written.meaning + key + item.meaning};
+    }
+    return {written.text + (map ? "}" : "]"), written.meaning + (map ? "}" : "]")};
+  }
+
+  // A value after "key:" or "-" in a column; it ends with a line feed.
+  Written value(std::size_t column, int depth) {
+    const std::string deeper(column + 1 + below(3), ' ');
+    switch (below(6)) {
+      case 0:
+        return {" \"one\n" + deeper + "'two\"  # three's\n", "one 'two"};
+      case 1:
+        return {" one\n\n" + deeper + "\"two\n", "one\n\"two"};
+      case 2:
+        return {" |-\n" + deeper + "it's\n\n" + deeper + "\"x: {\n", "it's\n\n\"x: {"};
+      case 3:
+        if (depth > 0) {
+          const Written inner = block(column + 1 + below(3), depth - 1);
+          return {(below(2) == 0 ? "  # what's next\n" : "\n") + inner.text, inner.meaning};
+        }
+        [[fallthrough]];
+      default: {
+        const Written inner = flow(2);
+        return {" " + inner.text + (below(2) == 0 ? " # it's\n" : "\n"), inner.meaning};
+      }
+    }
+  }
+
+  Written block(std::size_t column, int depth) {
+    const bool map = below(3) > 0;
+    const std::string indentation(column, ' ');
+    Written written{"", map ? "{" : "["};
+    for (std::size_t i = 0, n = 1 + below(4); i < n; ++i) {
+      const Written item = value(column, depth);
+      const std::string key = fmt::format("k{}: ", i);
+      const std::string shown = below(2) == 0 ? fmt::format("k{}:", i) : fmt::format("\"k{}\":", i);
+      written.text += indentation + (map ? shown : "-") + item.text;
+      if (below(4) == 0) written.text += "\n# don't\n";
+      written.meaning += (i > 0 ? ", " : "") + (map ? key : "") + item.meaning;
+    }
+    return {written.text, written.meaning + (map ? "}" : "]")};
+  }
+
+  std::mt19937 random_;
+};
+
+TEST(LexicalFaults, DocumentsInAllStylesOfYamlKeepTheirMeaning) {
+  for (unsigned seed = 0; seed < 3000; ++seed) {
+    const auto [text, meaning] = Writer(seed).document();
+    Problems problems;
+    const YamlPointer root = parse_yaml(text, "m.yaml", false, problems);
+    ASSERT_TRUE(root && problems.empty()) << problem_in(text) << "\n" << text;
+    ASSERT_EQ(flow_text(*root), meaning) << text;
   }
 }
 

@@ -1,4 +1,6 @@
 // Files of a study with a plugin: what is recorded, and what other commands do with them.
+#include <nlohmann/json.hpp>
+
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/plugins/plugin_manifest.hpp"
 #include "tests/runners/program.hpp"
@@ -136,6 +138,199 @@ TEST_F(PluginStudy, RunsOnEitherEngine) {
     const ProgramResult result = run_study({"--engine", engine, "--force"});
     EXPECT_EQ(result.code, 0) << result.err;
   }
+}
+
+// The examples are the built-in PI with a conditional integrator, bit for bit.
+
+struct Gains {
+  double kp;
+  double ki;
+  double zone;
+};
+
+std::string manifest(const std::string& controller, const std::string& more) {
+  return fmt::format("zerocount: 1\nname: law\nseed: 9\ntrials: 24\ncontroller: {}\n{}", controller, more);
+}
+
+std::string built_in(const Gains& g) {
+  return fmt::format("{{kp: {}, ki: {}, integrator_zone: {}}}", g.kp, g.ki, g.zone);
+}
+
+std::string plugin(const std::string& example, const Gains& g) {
+  return fmt::format("{{plugin: {}, parameters: {{kp: {}, ki: {}, zone: {}}}}}", example_controller(example),
+                     g.kp, g.ki, g.zone);
+}
+
+const std::vector<std::string> studies{
+    "command: {targets: [{integers: [1, 30]}, 0], hold: 0.2}\n"
+    "initial: {encoder_phase: {uniform: [0, 1]}, integral: {uniform: [-0.01, 0.01]}}\n",
+    "command: {targets: [400, -3], hold: 0.3, profile: {shape: s_curve, velocity_limit: 0.1}}\n"
+    "dac: {bits: 8}\nencoder: {fine_errors: {noise: 0.3}}\n",
+};
+
+TEST(BuiltInLaw, TracesAreEqualToTheBit) {
+  std::mt19937_64 random(20020721);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const TemporaryFolder folder;
+  for (const std::string& more : studies) {
+    for (int i = 0; i < 4; ++i) {
+      const Gains gains{1e-3 * uniform(random), 3e-4 * uniform(random),
+                        i == 0 ? 1e12 : 25.0 * uniform(random)};
+      folder.write("built-in.yaml", manifest(built_in(gains), more));
+      const std::string expected =
+          zerocount_program({"trace", "built-in.yaml", "--trial", std::to_string(i)}, folder.path()).out;
+      ASSERT_GT(expected.size(), 10000u);
+      for (const char* example : {"pi_c", "pi_cpp"}) {
+        folder.write("plugin.yaml", manifest(plugin(example, gains), more));
+        const ProgramResult own =
+            zerocount_program({"trace", "plugin.yaml", "--trial", std::to_string(i)}, folder.path());
+        EXPECT_EQ(own.code, 0) << own.err;
+        EXPECT_TRUE(own.out == expected) << example << " " << built_in(gains);
+      }
+    }
+  }
+}
+
+TEST(BuiltInLaw, WholeRunsAreEqualToTheBit) {
+  const TemporaryFolder folder;
+  const Gains gains{4e-4, 9.45e-5, 12};
+  folder.write("built-in.yaml", manifest(built_in(gains), studies[0]));
+  folder.write("plugin.yaml", manifest(plugin("pi_c", gains), studies[0]));
+  EXPECT_EQ(
+      zerocount_program({"run", "built-in.yaml", "-o", "a.h5", "--engine", "reference"}, folder.path()).code,
+      0);
+  EXPECT_EQ(
+      zerocount_program({"run", "plugin.yaml", "-o", "b.h5", "--engine", "reference"}, folder.path()).code,
+      0);
+  const reading::AllTrialsFile a(folder / "a.h5", reading::Require::complete);
+  const reading::AllTrialsFile b(folder / "b.h5", reading::Require::complete);
+  EXPECT_EQ(b.header().engine, study::Engine::reference);
+  for (const char* measure :
+       {"outcome", "settling_time", "final_position", "holding_torque", "jerk_count", "creep"}) {
+    const std::vector<double> one = a.measure(measure, a.rows());
+    const std::vector<double> other = b.measure(measure, b.rows());
+    ASSERT_EQ(one.size(), 48u);
+    for (std::size_t i = 0; i < one.size(); ++i)
+      EXPECT_TRUE(one[i] == other[i] || (std::isnan(one[i]) && std::isnan(other[i]))) << measure << " " << i;
+  }
+}
+
+// Controllers of the user's own that cannot be used: each is refused, with its place in the manifest.
+
+struct Fault {
+  int number;
+  const char* message;
+};
+
+class BadPlugin : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(BadPlugin, IsRefused) {
+  const TemporaryFolder folder;
+  folder.write("study.yaml", plugin_manifest(faulty_controller(GetParam().number)));
+  for (const std::string verb : {"check", "trace"}) {
+    const ProgramResult result = zerocount_program({verb, "study.yaml"}, folder.path());
+    EXPECT_EQ(result.code, 2) << verb;
+    EXPECT_NE(result.err.find("study.yaml:5:22: controller.plugin: "), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find(GetParam().message), std::string::npos) << result.err;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadPlugin,
+    ::testing::Values(
+        Fault{1, "it is made for version 99 of zerocount/controller.h; expected version 1"},
+        Fault{2, "its zerocount_controller has 16 bytes; expected size = sizeof(zerocount_controller)"},
+        Fault{3, "it has no name"}, Fault{4, "it lacks a function; expected start and step"},
+        Fault{5, "the name of its parameter 0 is 'Gain 1'; expected lower-case letters"},
+        Fault{6, "two of its parameters have the name ki"},
+        Fault{7, "the range of its parameter ki is from 2 to 1"},
+        Fault{8, "the default of its parameter ki is -1; expected a number from 0 to 1"},
+        Fault{9, "its state has 1073741824 bytes"}, Fault{10, "has no function zerocount_controller_entry"},
+        Fault{11, "zerocount_controller_entry() returned nothing"}));
+
+TEST(BadPlugins, AMissingFileIsRefused) {
+  const TemporaryFolder folder;
+  folder.write("study.yaml", plugin_manifest("none.so"));
+  const ProgramResult result = zerocount_program({"run", "study.yaml", "-o", "out.h5"}, folder.path());
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("controller.plugin: none.so: no such file"), std::string::npos) << result.err;
+}
+
+TEST(BadPlugins, AMissingFileIsNotBlamedOnTheParametersThatAreSwept) {
+  const TemporaryFolder folder;
+  folder.write("study.yaml",
+               plugin_manifest("none.so") + "sweep: {grid: {controller.parameters.ki: [1.0e-5, 2.0e-5]}}\n");
+  const ProgramResult result = zerocount_program({"check", "study.yaml"}, folder.path());
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err.find("unknown key"), std::string::npos) << result.err;
+}
+
+TEST(BadPlugins, AnotherFileIsNoLibrary) {
+  const TemporaryFolder folder;
+  folder.write("text.so", "no library");
+  folder.write("study.yaml", plugin_manifest("text.so"));
+  const ProgramResult result = zerocount_program({"check", "study.yaml"}, folder.path());
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("text.so is not a shared library"), std::string::npos) << result.err;
+}
+
+TEST(BadPlugins, TheReasonOfARefusedStartIsTold) {
+  const TemporaryFolder folder;
+  folder.write("study.yaml", plugin_manifest(faulty_controller(16)));
+  const ProgramResult result = zerocount_program({"check", "study.yaml"}, folder.path());
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("the controller faulty cannot start: gain and zone do not fit"),
+            std::string::npos)
+      << result.err;
+}
+
+// A global integral, one that start resets, and a pointer into the state: the second works as long as trials
+// run one after the other, the third as long as the state stays where it is.
+TEST(BadPlugins, StateOutsideTheStateIsFound) {
+  for (const int fault : {12, 13, 14}) {
+    const TemporaryFolder folder;
+    folder.write("study.yaml", plugin_manifest(faulty_controller(fault)));
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"check", "study.yaml"}, {"run", "study.yaml", "-o", "out.h5"}}) {
+      const ProgramResult result = zerocount_program(words, folder.path());
+      EXPECT_EQ(result.code, 2) << fault;
+      EXPECT_NE(result.err.find("the controller faulty keeps something outside its state"), std::string::npos)
+          << fault << result.err;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.h5"));
+  }
+}
+
+TEST(BadPlugins, TorquesThatAreNoNumbersEndTheTrialAndSaySo) {
+  const TemporaryFolder folder;
+  folder.write("study.yaml", plugin_manifest(faulty_controller(15)));
+  const ProgramResult result = zerocount_program({"run", "study.yaml", "-o", "out.h5"}, folder.path());
+  EXPECT_EQ(result.code, 0) << result.err;
+  const ProgramResult summary = zerocount_program({"summary", "out.h5", "--format", "json"}, folder.path());
+  const nlohmann::json point = nlohmann::json::parse(summary.out)["points"][0];
+  EXPECT_EQ(point["nonfinite"], point["trials"]);
+  EXPECT_NE(zerocount_program({"summary", "out.h5"}, folder.path()).out.find("controller failed"),
+            std::string::npos);
+  const ProgramResult trace = zerocount_program({"trace", "study.yaml"}, folder.path());
+  EXPECT_EQ(std::count(trace.out.begin(), trace.out.end(), '\n'), 102);  // the head and samples 0 to 100
+  EXPECT_NE(trace.err.find("the controller returned a non-finite torque"), std::string::npos);
+}
+
+TEST(BadPlugins, TheModeOfArithmeticIsRestored) {
+  const TemporaryFolder folder;
+  folder.write("study.yaml", plugin_manifest("none.so"));
+  const auto trace = [&](int fault) {
+    return zerocount_program(
+               {"trace", "study.yaml", "--set", "controller.plugin=" + faulty_controller(fault)},
+               folder.path())
+        .out;
+  };
+  EXPECT_FALSE(trace(0).empty());
+  EXPECT_EQ(trace(17), trace(0));
+  EXPECT_EQ(zerocount_program({"check", "study.yaml", "--set", "controller.plugin=" + faulty_controller(17)},
+                              folder.path())
+                .code,
+            0);
 }
 
 }  // namespace

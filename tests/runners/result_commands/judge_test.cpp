@@ -1,6 +1,8 @@
 // Error bands and the goal, from the manifest to the answer of `judge`.
 #include <nlohmann/json.hpp>
 
+#include "analysis/goal/question.hpp"
+#include "analysis/report/figures/report_figures.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/test.hpp"
@@ -108,6 +110,173 @@ TEST_F(Judge, PlansTheStudyThatDecidesTheGoal) {
   run_study("");
   for (const char* operand : {"study.yaml", "out.h5"}) {
     EXPECT_TRUE(says(refusal({"plan", operand}), "its manifest has no goal"));
+  }
+}
+
+// A goal is the question of its study: every verb speaks of it first, and of success where there is none.
+
+constexpr double within = 0.03;
+
+/// Many moves that stay within two counts from 30 ms on do not end at zero counts: jerks disturb them.
+std::string manifest_with(const std::string& goal) {
+  return R"(zerocount: 1
+name: question
+seed: 7
+trials: 48
+rigs: 12
+worlds: 4
+friction:
+  k1: {lognormal: {median: 110, cv: 0.3}}
+  alpha: {log_uniform: [0.1, 2.0], per: world}
+command: {targets: [{integers: [1, 30]}, {integers: [1, 30]}], hold: 0.2}
+initial: {encoder_phase: {uniform: [0, 1]}}
+sweep: {grid: {controller.ki: [3.85e-5, 9.45e-5]}}
+)" + goal;
+}
+
+/// A study with a goal of ±2 counts ("goal") and the same without one ("success"), run once.
+class QuestionOfAStudy : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new TemporaryFolder;
+    folder->write("goal.yaml", manifest_with(fmt::format(
+                                   "goal: {{band: 2, within: {}, moves: 0.9, machines: 0.8}}\n", within)));
+    folder->write("success.yaml", manifest_with(""));
+    for (const std::string name : {"goal", "success"}) {
+      ASSERT_EQ(run({"run", name + ".yaml", "-o", name + ".h5"}).code, 0);
+      ASSERT_EQ(run({"history", "add", name + ".h5", "--database", name + ".sqlite"}).code, 0);
+      const std::string shards = name + "-begun.h5.shards";
+      std::filesystem::create_directory(*folder / shards);
+      ASSERT_EQ(run({"run", name + ".yaml", "-o", shards + "/first.h5", "--shard", "1/2"}).code, 0);
+    }
+  }
+  static void TearDownTestSuite() { delete folder; }
+  static ProgramResult run(const std::vector<std::string>& words) {
+    return zerocount_program(words, folder->path());
+  }
+  /// What a verb says of the study NAME, which stands for @ in its words.
+  static ProgramResult say(std::vector<std::string> words, const std::string& name) {
+    for (std::string& word : words) {
+      if (const std::size_t at = word.find('@'); at != std::string::npos) word.replace(at, 1, name);
+    }
+    ProgramResult result = run(words);
+    if (words.front() == "report") {
+      const std::string page = read_bytes(folder->path() / words.back());
+      const std::size_t begin = page.find("<main");
+      result.out = page.substr(begin, page.find("</main>") - begin);
+    }
+    return result;
+  }
+
+  static TemporaryFolder* folder;
+};
+
+TemporaryFolder* QuestionOfAStudy::folder = nullptr;
+
+struct Answer {
+  std::vector<std::string> words;
+  std::vector<std::string> of_goal;     ///< said of the study with a goal
+  std::vector<std::string> of_success;  ///< said of the other; empty: it is refused, for want of a goal
+};
+
+const std::vector<Answer> answers{
+    {{"check", "@.yaml"}, {" the goal: |error| ≤ 2 counts"}, {" success: all moves"}},
+    {{"judge", "@.h5"}, {"goal: |error| ≤ 2 counts"}, {}},
+    {{"plan", "@.h5"}, {"goal: |error| ≤ 2 counts"}, {}},
+    {{"plan", "@.yaml"}, {"goal: |error| ≤ 2 counts"}, {}},
+    {{"summary", "@.h5"},
+     {"machines in goal (worst world)", "rigs w/o miss", "machines in goal worst", "zero-count"},
+     {"zero-count", "rigs w/o failure", "zero-count worst"}},
+    {{"summary", "@.h5", "--confirm", "12"}, {"moves in goal"}, {"succeeded"}},
+    {{"status", "@-begun.h5"}, {"moves in goal", "the goal is"}, {"zero-count"}},
+    {{"sensitivity", "@.h5", "--point", "0"},
+     {"all moves met the goal", "goal_settling_time (s)"},
+     {"all moves ended at zero counts", "settling_time (s)"}},
+    {{"compare", "@.h5", "--points", "0", "1"},
+     {"goal_rate", "goal_machines"},
+     {"success_rate", "jerk_count"}},
+    {{"history", "show", "--database", "@.sqlite"}, {"goal_rate", "goal_machines"}, {"success_rate"}},
+    {{"learn", "@.h5"}, {"fall short of the goal"}, {"succeed less often"}},
+    {{"limits", "@.yaml", "--point", "0"},
+     {"of the machines meet the goal"},
+     {"of the moves end at zero counts"}},
+    {{"worst", "@.yaml", "--point", "0", "--set", "command.hold=0.06"},
+     {"of its moves meet the goal"},
+     {"of its moves end at zero counts"}},
+    {{"rare", "@.yaml", "-o", "@-rare.h5", "--point", "0", "--world", "0", "--budget", "300"},
+     {"a move misses the goal: |error| ≤ 2 counts for good"},
+     {"a move does not end at zero counts"}},
+    {{"report", "@.h5", "-o", "@.html"},
+     {"whether the goal is met", "machines in goal", "rigs w/o miss", "Which design points meet the goal?",
+      "Which parameters decide the goal?"},
+     {"rigs without failure", "How many trials succeed?", "Which parameters decide success?"}},
+};
+
+/// The first place of any of these in the text.
+std::size_t first_of(const std::string& text, const std::vector<std::string>& words) {
+  std::size_t first = std::string::npos;
+  for (const std::string& word : words) first = std::min(first, text.find(word));
+  return first;
+}
+
+TEST_F(QuestionOfAStudy, IsWhatEveryVerbSpeaksOfFirst) {
+  const std::vector<std::string> words_of_success{"zero-count", "zero count", "success", "succeed",
+                                                  "failure"};
+  for (const Answer& answer : answers) {
+    const std::string verb = fmt::format("{} {}", answer.words[0], answer.words[1]);
+    const ProgramResult of_goal = say(answer.words, "goal");
+    EXPECT_LE(of_goal.code, 3) << verb << of_goal.err;
+    EXPECT_NE(of_goal.code, 2) << verb << of_goal.err;
+    for (const std::string& said : answer.of_goal)
+      EXPECT_TRUE(says(of_goal.out, said)) << verb << ": " << said << "\n" << of_goal.out.substr(0, 2000);
+    EXPECT_LT(first_of(of_goal.out, {"goal"}), first_of(of_goal.out, words_of_success)) << verb;
+    const ProgramResult of_success = say(answer.words, "success");
+    EXPECT_EQ(of_success.code == 2, answer.of_success.empty()) << verb << of_success.err;
+    if (answer.of_success.empty()) {
+      EXPECT_TRUE(says(of_success.err, "no goal")) << verb;
+    }
+    for (const std::string& said : answer.of_success)
+      EXPECT_TRUE(says(of_success.out, said)) << verb << ": " << said << "\n"
+                                              << of_success.out.substr(0, 2000);
+    EXPECT_EQ(first_of(of_success.out, {"the goal", "in goal", "goal_"}), std::string::npos)
+        << verb << "\n"
+        << of_success.out.substr(0, 2000);
+  }
+}
+
+TEST_F(QuestionOfAStudy, DecidesWhichTrialsAndRigsFailed) {
+  for (const std::string name : {"goal", "success"}) {
+    const reading::AllTrialsFile file(folder->path() / (name + ".h5"));
+    const report::ReportedStudy reported = report::reported_study(file);
+    const std::int64_t point = reported.chosen.point;
+    const std::vector<trial::MoveOutcome> moves = file.outcomes(file.rows_of(point));
+    // Literally: the third band is that of ±2 counts.
+    const auto fails = [&](const trial::MoveOutcome& move) {
+      return name == "goal" ? !(move.bands[2].settling_time <= within * (1.0 + 1e-12))
+                            : move.outcome != trial::Outcome::zero_count;
+    };
+    std::map<std::int64_t, std::int64_t> failed;  // [trial] of its moves
+    std::array<bool, 12> rig_failed{};
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      if (!fails(moves[i])) continue;
+      ++failed[static_cast<std::int64_t>(i / 2)];
+      rig_failed[i / 2 % 12] = true;
+    }
+    ASSERT_FALSE(failed.empty()) << name;
+    const goal::RigsWithoutFailure rigs = goal::rigs_without_failure(
+        reported.summary.question, reported.summary.points[static_cast<std::size_t>(point)]);
+    EXPECT_EQ(rigs.of, 12);
+    EXPECT_EQ(rigs.rigs, std::ranges::count(rig_failed, false)) << name;
+    const std::int64_t most =
+        std::ranges::max_element(failed, {}, [](const auto& one) { return one.second; })->second;
+    const std::vector<report::SampleTrial> shown = report::sample_trials(reported);
+    ASSERT_EQ(shown.size(), 2U);
+    for (const report::SampleTrial& trial : shown) {
+      ASSERT_EQ(trial.point, point);
+      if (trial.name == "worst" && name == "goal") {
+        EXPECT_EQ(failed[trial.index], most);
+      }
+    }
   }
 }
 

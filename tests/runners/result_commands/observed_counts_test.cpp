@@ -1,5 +1,7 @@
 // Counts on a real rig beside the simulated trials: from the manifest to the summary, the file and the
 // report.
+#include <regex>
+
 #include <nlohmann/json.hpp>
 
 #include "analysis/statistics/clusters/observed_test.hpp"
@@ -85,6 +87,124 @@ TEST_F(ObservedCounts, OfAnOpenLoopAreRefused) {
       "sweep: {cases: {low: {plant.inertia: 1.0e-3}}}\nobserved: {low: {successes: 1, of: 2}}\n");
   EXPECT_TRUE(says(refusal({"check", "study.yaml"}),
                    "an open-loop study has no successes to compare with; expected a text"));
+}
+
+// `summary --confirm`: the best point again, with new trials.
+
+class Confirm : public ProgramTest {
+ protected:
+  nlohmann::json summary_of(const std::string& file, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"summary", file};
+    words.insert(words.end(), more.begin(), more.end());
+    return json_of(words, 0);
+  }
+};
+
+TEST_F(Confirm, IsTheRunOfThatPointWithTheStatedSeed) {
+  for (const char* rigs : {"", "rigs: 5\n"}) {
+    SCOPED_TRACE(rigs);
+    folder_.write("study.yaml", small_manifest(20, std::string(rigs) + "retain: {trials: [7]}\n"));
+    ASSERT_EQ(program({"run", "study.yaml", "-o", "out.h5", "--force"}).code, 0);
+    const std::string before = folder_.read("out.h5");
+    const nlohmann::json confirmed = summary_of("out.h5", {"--confirm", "300"})["confirmation"];
+    EXPECT_EQ(folder_.read("out.h5"), before);
+    EXPECT_NE(confirmed["seed"], 1);
+
+    std::vector<std::string> words{
+        "run",   "study.yaml", "-o", "new.h5", "--force", "--set", "seed=" + confirmed["seed"].dump(),
+        "--set", "trials=300"};
+    if (*rigs != '\0') words.insert(words.end(), {"--set", "rigs=300"});
+    ASSERT_EQ(program(words).code, 0);
+    const nlohmann::json point = summary_of("new.h5")["points"][confirmed["point"].get<std::size_t>()];
+    EXPECT_EQ(confirmed["zero_count"], point["zero_count"]);
+    EXPECT_EQ(confirmed["success_rate"], point["success_rate"]);
+    EXPECT_NEAR(confirmed["success_rate_low"].get<double>(), point["success_rate_low"].get<double>(), 1e-12);
+    EXPECT_NEAR(confirmed["success_rate_high"].get<double>(), point["success_rate_high"].get<double>(),
+                1e-12);
+    EXPECT_EQ(confirmed["one_trial_per_rig"], *rigs != '\0');
+  }
+}
+
+TEST_F(Confirm, SaysThatTheBoundOfTheFileAllowsForTheChoice) {
+  folder_.write("study.yaml", small_manifest(20));
+  ASSERT_EQ(program({"run", "study.yaml", "-o", "out.h5"}).code, 0);
+  const ProgramResult result = program({"summary", "out.h5", "--confirm", "100"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(says(result.out,
+                   "best of 2 points: ", "the bound allows for the choice of the point by these trials",
+                   "trials:                100\n"));
+}
+
+TEST_F(Confirm, IsRefusedWhereItMeansNothing) {
+  folder_.write("study.yaml", small_manifest(20));
+  ASSERT_EQ(program({"run", "study.yaml", "-o", "out.h5"}).code, 0);
+  EXPECT_EQ(program({"summary", "out.h5", "--confirm", "1"}).code, 2);
+  EXPECT_EQ(program({"summary", "out.h5", "--confirm", "100", "--format", "csv"}).code, 2);
+  EXPECT_EQ(program({"summary", "out.h5", "--plugin", "own.so"}).code, 2);
+}
+
+// Every output of a study speaks of the same design point.
+
+/// A small study with a sweep, rigs or not, a goal or not.
+std::string random_manifest(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform;
+  const auto within = [&](double low, double high) { return low + (high - low) * uniform(random); };
+  std::string manifest = fmt::format("zerocount: 1\nname: drawn\nseed: {}\ntrials: 40\n", random() % 100000);
+  if (uniform(random) < 0.5) manifest += "rigs: 10\n";
+  manifest +=
+      fmt::format("friction: {{k1: {{uniform: [{:.3g}, {:.3g}]}}}}\n", within(60, 90), within(100, 140));
+  manifest +=
+      "command: {targets: [{integers: [-20, 20]}], hold: 0.2}\nverdict: {dwell: 0.02, window: 0.02}\n";
+  manifest += "initial: {encoder_phase: {uniform: [0, 1]}}\n";
+  if (uniform(random) < 0.5) {
+    manifest += fmt::format("goal: {{band: {}, within: {:.3g}, moves: {:.2g}}}\n", random() % 3,
+                            within(0.02, 0.1), within(0.3, 0.95));
+  }
+  return manifest + fmt::format(
+                        "sweep: {{grid: {{controller.ki: {{logspace: [{:.3g}, {:.3g}, 4]}}, "
+                        "controller.kp: [0, {:.3g}]}}}}\n",
+                        within(1e-5, 5e-5), within(1e-4, 4e-4), within(1e-4, 1e-3));
+}
+
+TEST(OnePoint, IsTheSameInEveryOutputOfRandomStudies) {
+  const TemporaryFolder folder;
+  std::mt19937_64 random(1130);
+  const auto run = [&](const std::vector<std::string>& words) {
+    return zerocount_program(words, folder.path());
+  };
+  int with_goal = 0;
+  for (int round = 0; round < 5; ++round) {
+    const std::string manifest = random_manifest(random);
+    SCOPED_TRACE(manifest);
+    folder.write("study.yaml", manifest);
+    ASSERT_EQ(run({"run", "study.yaml", "-q", "--force", "-o", "study.h5"}).code, 0);
+    const auto summary = nlohmann::json::parse(run({"summary", "study.h5", "--format", "json"}).out);
+    const auto best = summary["best"]["point"].get<std::int64_t>();
+
+    const std::string table = run({"summary", "study.h5"}).out;
+    EXPECT_TRUE(says(table, fmt::format("\n{} *", best), fmt::format("best of 8 points: {} (", best)));
+    if (manifest.find("goal:") != std::string::npos) {
+      ++with_goal;
+      const ProgramResult judged = run({"judge", "study.h5", "--format", "json"});
+      EXPECT_EQ(nlohmann::json::parse(judged.out)["point"], best);
+    }
+    EXPECT_TRUE(
+        says(run({"summary", "study.h5", "--confirm", "20"}).err, fmt::format("the point {} (", best)));
+    const std::string first_row = run({"summary", "study.h5", "--top", "1", "--format", "csv"}).out;
+    EXPECT_TRUE(says(first_row, fmt::format("\n{},", best)));
+
+    ASSERT_EQ(run({"report", "study.h5", "--force", "-o", "study.html"}).code, 0);
+    const std::string page = folder.read("study.html");
+    std::smatch named, star, trace;
+    ASSERT_TRUE(std::regex_search(page, named, std::regex("Best of 8 points, ([0-9]*) \\(([^)]*)\\)")));
+    ASSERT_TRUE(std::regex_search(page, star, std::regex("<td[^>]*>([^<]*) \\*<")));
+    ASSERT_TRUE(std::regex_search(page, trace, std::regex("of point ([^,]*), simulated again")));
+    EXPECT_EQ(named[1], std::to_string(best));
+    EXPECT_EQ(star[1], std::to_string(best));
+    EXPECT_EQ(trace[1], named[2]);
+  }
+  EXPECT_GE(with_goal, 1);
+  EXPECT_LT(with_goal, 5);
 }
 
 }  // namespace

@@ -90,5 +90,126 @@ TEST_F(NewGuide, RefusesWhatItDoesNotKnow) {
                  "options '--axis' and '--guides' exclude each other");
 }
 
+// check and run warn of the same absurd values, and go on; the command line helps with what is misspelt.
+
+class Hints : public ProgramTest {
+ protected:
+  Hints() { std::ofstream(folder_.path() / "study.yaml") << small_manifest(2); }
+  std::string warnings_of(const std::vector<std::string>& words) {
+    const ProgramResult result = program(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.err;
+  }
+};
+
+TEST_F(Hints, CheckAndRunWarnAlikeAndGoOn) {
+  const std::vector<std::string> absurd{"--set", "friction.beta=0.1", "--set", "controller.kp=20"};
+  const auto with = [&](std::vector<std::string> words) {
+    words.insert(words.end(), absurd.begin(), absurd.end());
+    return words;
+  };
+  const std::string checked = warnings_of(with({"check", "study.yaml"}));
+  EXPECT_TRUE(says(checked, "warning: --set friction.beta=0.1: friction.beta: the spring slides before",
+                   "say controller.units: si"));
+  const std::string ran = warnings_of(with({"run", "study.yaml", "-q", "-o", "out.h5"}));
+  EXPECT_TRUE(says(checked, ran)) << ran;
+}
+
+TEST_F(Hints, CheckSaysInHowManyTrialsARuleHolds) {
+  const auto trials_with = [&](const std::string& resolution) {
+    const auto theory = nlohmann::json::parse(
+        program({"check", "study.yaml", "--set", "trials=40", "--set", "friction.k1={uniform: [100, 200]}",
+                 "--set", "dac.resolution=" + resolution, "--format", "json"})
+            .out)["theory"][0];
+    EXPECT_EQ(theory["rule_trials"], 40);
+    return theory["fine_enough"].get<int>();
+  };
+  // k1·Δx lies between 3.9e-4 and 7.8e-4 N m.
+  EXPECT_EQ(trials_with("1.0e-4"), 40);
+  EXPECT_EQ(trials_with("1.0e-3"), 0);
+  EXPECT_GT(trials_with("5.8e-4"), 0);
+  EXPECT_LT(trials_with("5.8e-4"), 40);
+}
+
+TEST_F(Hints, CheckTellsTheCountsOfTargetsInSiUnits) {
+  const std::string out =
+      program({"check", "study.yaml", "--set", "command={units: si, targets: [1.0e-4, -2.0e-4]}"}).out;
+  EXPECT_TRUE(says(out, "to the nearest of 3.879e-06 rad: 0.0001 rad = 26 counts, -0.0002 rad = -52 counts"));
+}
+
+TEST_F(Hints, AMisspeltCommandIsToldTheNearest) {
+  EXPECT_TRUE(says(refusal({"chek", "study.yaml"}), "unknown command 'chek'; did you mean check? See"));
+  EXPECT_EQ(program({"frobnicate"}).err, "zerocount: unknown command 'frobnicate'; see 'zerocount --help'\n");
+}
+
+TEST_F(Hints, CompletionTellsTheLabelsOfPoints) {
+  warnings_of({"run", "study.yaml", "-q", "-o", "out.h5"});
+  const std::string labels = program({"completion", "points", "study.yaml"}).out;
+  EXPECT_EQ(std::count(labels.begin(), labels.end(), '\n'), 2) << labels;
+  EXPECT_EQ(program({"completion", "points", "out.h5"}).out, labels);
+  EXPECT_EQ(program({"completion", "points"}).code, 2);
+  EXPECT_EQ(program({"completion", "bash", "study.yaml"}).code, 2);
+  const std::string keys = program({"completion", "candidates", "--", "run", "study.yaml", "--set", "f"}).out;
+  EXPECT_TRUE(says(keys, "\nfriction.k1=\n"));
+}
+
+// A results file where a command expects a manifest: it stands for the study whose trials it holds.
+
+using Json = nlohmann::json;
+
+class FileOperand : public ProgramTest {
+ protected:
+  void SetUp() override {
+    folder_.write("axis.yaml",
+                  "zerocount: 1\nname: axis\nseed: 3\ntrials: 40\ncommand: {targets: [20], hold: 0.2}\n"
+                  "initial: {encoder_phase: {uniform: [0, 1]}}\n"
+                  "goal: {band: 1, within: 0.1, moves: 0.5}\n"
+                  "sweep: {grid: {controller.ki: [2.0e-6, 4.0e-5, 1.0e-5]}}\n");
+    ASSERT_EQ(program({"run", "axis.yaml", "-o", "axis.h5", "--set", "friction.k1=150"}).code, 0);
+  }
+  std::string out(const std::vector<std::string>& words) {
+    const ProgramResult result = program(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.out;
+  }
+};
+
+TEST_F(FileOperand, IsTheStudyWithItsOverrides) {
+  Json of_file = Json::parse(out({"check", "axis.h5", "--format", "json"}));
+  Json of_manifest = Json::parse(out({"check", "axis.yaml", "--set", "friction.k1=150", "--format", "json"}));
+  for (Json* plan : {&of_file, &of_manifest}) {
+    for (const char* const measured : {"cost", "headline"}) plan->erase(measured);
+  }
+  EXPECT_EQ(of_file, of_manifest);
+
+  out({"run", "axis.h5", "-o", "again.h5", "-q"});
+  EXPECT_EQ(out({"summary", "again.h5", "--format", "json"}),
+            out({"summary", "axis.h5", "--format", "json"}));
+  EXPECT_EQ(out({"run", "axis.h5", "-o", "again.h5"}), "") << "complete already: it is the same study";
+
+  EXPECT_EQ(Json::parse(out({"judge", "axis.h5", "--format", "json"}))["point"], 1);
+  const std::string best = out({"controller", "axis.h5", "--point", "best"});
+  EXPECT_EQ(best, out({"controller", "axis.yaml", "--set", "friction.k1=150", "--point", "1"}));
+  EXPECT_NE(best, out({"controller", "axis.h5", "--point", "0"}));
+}
+
+TEST_F(FileOperand, IsNotChangedNorOverwritten) {
+  EXPECT_TRUE(says(refusal({"run", "axis.h5", "-o", "axis.h5", "--force"}), "axis.h5"));
+  EXPECT_TRUE(says(refusal({"check", "axis.h5", "--set", "trials=5"}), "expected a manifest"));
+  EXPECT_TRUE(says(refusal({"controller", "axis.yaml", "--point", "best"}), "expected a results file"));
+}
+
+TEST_F(FileOperand, IsRefusedWhereItDoesNotTellTheStudy) {
+  out({"controller", "axis.yaml", "-o", "law.c"});
+  const std::string folder = folder_.path().string();
+  ASSERT_EQ(std::system(("cc -shared -fPIC -DZEROCOUNT_PLUGIN -I " ZEROCOUNT_PLUGIN_HEADERS " " + folder +
+                         "/law.c -o " + folder + "/law.so")
+                            .c_str()),
+            0);
+  out({"run", "axis.yaml", "-o", "law.h5", "--set", "controller={plugin: ./law.so}", "--set",
+       "sweep={grid: {friction.k1: [100]}}"});
+  EXPECT_TRUE(says(refusal({"check", "law.h5"}), "its controller is a plugin"));
+}
+
 }  // namespace
 }  // namespace zerocount::testing

@@ -3,7 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/friction/profile.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
+#include "results/reading/all_trials_file.hpp"
+#include "results/reading/first_difference.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/raw_hdf5.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {
@@ -120,6 +126,239 @@ TEST_F(StatusOfARun, OfAFileThatIsThereIsComplete) {
   EXPECT_EQ(program({"status", "out.h5", "--watch", "1"}).code, 0);
   const std::string json = program({"status", "out.h5", "--watch", "1", "--format", "json"}).out;
   EXPECT_EQ(json.find('\n'), json.size() - 1) << json;
+}
+
+// The timeline of a run: all trials, and the serial stages that limit how it grows with the threads.
+
+/// small_manifest(150) has 150 trials at each of two points.
+class TimelineOfRun : public ProgramTest {
+ protected:
+  /// Trials of the spans of each stage.
+  std::map<std::string, std::int64_t> trials_of_stages(const std::string& name) const {
+    std::ifstream file(folder_.path() / name);
+    std::map<std::string, std::int64_t> trials;
+    const nlohmann::json text = nlohmann::json::parse(file);
+    for (const nlohmann::json& event : text.at("traceEvents"))
+      if (event.at("ph") == "X")
+        trials[event.at("name")] += event.at("args").at("trials").get<std::int64_t>();
+    return trials;
+  }
+};
+
+TEST_F(TimelineOfRun, HasEveryTrialInEachStage) {
+  folder_.write("study.yaml", small_manifest(150));
+  const ProgramResult run = program({"run", "study.yaml", "-o", "study.h5", "--timeline", "time.json"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  std::map<std::string, std::int64_t> trials = trials_of_stages("time.json");
+  for (const char* stage : {"compute", "encode", "flush", "merge", "sum"})
+    EXPECT_EQ(trials[stage], 300) << stage;
+  EXPECT_EQ(trials["store"], 600);  // the shards, and the file
+  EXPECT_EQ(trials["read back"], 600);
+}
+
+TEST_F(TimelineOfRun, IsThatOfTheSumsWhereTheyAreKept) {
+  folder_.write("study.yaml", small_manifest(150, "keep: statistics\n"));
+  const ProgramResult run = program({"run", "study.yaml", "-o", "study.h5", "--timeline", "time.json"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(trials_of_stages("time.json")["compute"], 300);
+  EXPECT_EQ(trials_of_stages("time.json")["statistics"], 300);
+}
+
+TEST_F(TimelineOfRun, ReplacesATimelineAndNothingElse) {
+  folder_.write("study.yaml", small_manifest(20));
+  folder_.write("notes.txt", "not a timeline\n");
+  const auto run = [&](const std::string& timeline) {
+    return program({"run", "study.yaml", "-o", "study.h5", "--timeline", timeline});
+  };
+  EXPECT_EQ(run("time.json").code, 0);
+  EXPECT_EQ(run("time.json").code, 0);
+  EXPECT_EQ(run("notes.txt").code, 2);
+  EXPECT_EQ(run("study.h5").code, 2);
+  EXPECT_EQ(run("study.yaml").code, 2);
+}
+
+TEST_F(TimelineOfRun, OfASearchHasItsStagesAndEveryLoop) {
+  const std::string study = small_manifest(150);
+  folder_.write("study.yaml", study.substr(0, study.find("sweep:")) +
+                                  "controller: {ki: 3.85e-5}\n"
+                                  "goal: {band: 1, within: 0.1, moves: 0.5}\n"
+                                  "tune: {free: {controller.ki: {log: [1.0e-5, 1.0e-4]}}}\n");
+  const ProgramResult tune = program({"tune", "study.yaml", "-o", "tuned.h5", "--budget", "20000", "--extras",
+                                      "none", "--timeline", "time.json"});
+  ASSERT_TRUE(tune.code == 0 || tune.code == 1 || tune.code == 3) << tune.err;
+  std::map<std::string, std::int64_t> trials = trials_of_stages("time.json");
+  for (const char* stage : {"tune", "search", "proof", "simulate", "margins", "compute"})
+    EXPECT_TRUE(trials.contains(stage)) << stage;
+  EXPECT_EQ(program({"tune", "study.yaml", "-o", "other.h5", "--timeline", "tuned.h5"}).code, 2);
+}
+
+// Studies with rigs, from the manifest to the file and back.
+
+// Moves that slide and stick again, on machines that differ.
+const char* const machines =
+    "zerocount: 1\nname: machines\nseed: 5\ntrials: 40\nrigs: 8\n"
+    "friction:\n"
+    "  k1: {profile: {mean: {lognormal: {median: 110, cv: 0.2}}, cv: 0.1, correlation_length: 0.3}}\n"
+    "  k2: {uniform: [600, 900]}\n"
+    "  breakaway: {uniform: [0.02, 0.03], per: contact}\n"
+    "command: {targets: [{integers: [200, 300]}, 0], hold: 0.1}\n"
+    "initial: {position: {uniform: [0, 6.283185307179586]}}\n"
+    "verdict: {dwell: 0.02, window: 0.02}\n"
+    "sweep: {grid: {controller.ki: [2.0e-5, 6.0e-5]}}\n"
+    "retain: {trials: [3]}\n";
+
+class RigStudy : public ProgramTest {
+ protected:
+  RigStudy() { write_bytes(folder_ / "m.yaml", machines); }
+
+  void run(std::vector<std::string> more) {
+    std::vector<std::string> words{"run", "m.yaml"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult result = program(words);
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+};
+
+TEST_F(RigStudy, CheckSaysHowManyTrialsARigHasAndWhatItIsThatDiffers) {
+  const ProgramResult result = program({"check", "m.yaml"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(says(result.out, " 8, 5 trials of each\n"));
+  const auto plan = nlohmann::json::parse(program({"check", "m.yaml", "--format", "json"}).out);
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(plan["differ_in_rigs"], (Names{"friction.k1.profile.mean", "friction.k2"}));
+  EXPECT_EQ(plan["differ_in_trials"],
+            (Names{"friction.k1", "friction.breakaway", "command.targets.0", "initial.position"}));
+  EXPECT_EQ(plan["differ_in_contacts"], Names{"friction.breakaway"});
+  EXPECT_EQ(plan["same_in_points"], Names{"controller.ki"});
+}
+
+// Of 200 rigs the softest is none of the first 20.
+TEST_F(RigStudy, CheckGivesTheBoundsAtTheSoftestRotorOfAllRigs) {
+  std::string text = machines;
+  text.replace(text.find("trials: 40\nrigs: 8"), 18, "trials: 200\nrigs: 200");
+  write_bytes(folder_ / "m.yaml", text);
+  const study::Study study = manifest::load_study(folder_ / "m.yaml");
+  double lowest = 1e9;
+  std::int64_t softest = 0;
+  for (std::int64_t rig = 0; rig < study.rigs; ++rig) {
+    const std::shared_ptr<const friction::Profile> rotor = study.profiles.at(0).of_rig(rig);
+    for (int i = 0; i < 4096; ++i) {
+      const double k1 = friction::value_at(*rotor, i * study.period / 4096);
+      if (k1 >= lowest) continue;
+      lowest = k1;
+      softest = rig;
+    }
+  }
+  ASSERT_GE(softest, 20);
+
+  // (6) of an integral control: ki < c·k1/J·Δx·T/2, with the numbers of the paper's rig.
+  const double bound = 0.2 * lowest / 5.54e-4 * (study.period / 1'620'000) * 0.25e-3;
+  const auto theory =
+      nlohmann::json::parse(program({"check", "m.yaml", "--format", "json"}).out)["theory"][0];
+  EXPECT_EQ(theory["lowest_k1_source"], "the lowest along the profiles of 200 rigs");
+  EXPECT_NEAR(theory["lowest_k1"].get<double>(), lowest, 2e-3 * lowest);
+  EXPECT_NEAR(theory["lowest_stable_below"].get<double>(), bound, 2e-3 * bound);
+}
+
+TEST_F(RigStudy, TheFileIsTheSameHoweverItWasRun) {
+  run({"-o", "once.h5", "--threads", "1"});
+  run({"-o", "a.h5", "--shard", "1/2"});
+  run({"-o", "b.h5", "--shard", "2/2"});
+  ASSERT_EQ(program({"merge", "a.h5", "b.h5", "-o", "joined.h5"}).code, 0);
+  const reading::AllTrialsFile once(folder_ / "once.h5");
+  const reading::AllTrialsFile joined(folder_ / "joined.h5");
+  EXPECT_EQ(reading::first_difference(once.root(), joined.root()).value_or("none"), "none");
+  std::vector<std::int64_t> success(2 * 8, 0);  // counted from the outcomes
+  const std::int64_t trials = once.header().trials;
+  for (std::int64_t row = 0; row < once.rows().count; ++row) {
+    success[static_cast<std::size_t>(row / trials * 8 + row % trials % 8)] +=
+        trial::succeeded(once.outcomes({row, 1}));
+  }
+  EXPECT_EQ(once.rigs().value().success, success);
+  EXPECT_EQ(once.profiles().at(0).rigs, 8);
+}
+
+TEST_F(RigStudy, ATrialIsRunAgainAlone) {
+  run({"-o", "once.h5", "--engine", "reference"});
+  std::int64_t slid = 0;
+  const reading::AllTrialsFile file(folder_ / "once.h5");
+  for (const trial::MoveOutcome& move : file.outcomes(file.rows())) slid += move.broke_away;
+  EXPECT_GT(slid, 20) << "the contacts after the first are to matter";
+  for (const char* trial : {"3", "11", "39"}) {
+    const ProgramResult result =
+        program({"trace", "once.h5", "--point", "1", "--trial", trial, "--format", "json"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    const std::string rig =
+        std::string("\"trial\": ") + trial + ", \"rig\": " + std::to_string(std::stoi(trial) % 8);
+    EXPECT_TRUE(says(result.out, rig)) << rig;
+  }
+}
+
+// Joint draws of several parameters: what the program does with the table that a manifest names.
+
+const std::string table_text = "friction.k1,friction.k2\n100,700\n110,650\n120,720\n";
+
+class Samples : public ProgramTest {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directory(folder_ / "studies");
+    folder_.write("studies/study.yaml",
+                  "zerocount: 1\nname: sampled\nseed: 4\ntrials: 60\nrigs: 6\n"
+                  "command: {targets: [20], hold: 0.05}\nsamples: posterior.csv\n");
+    folder_.write("studies/posterior.csv", table_text);
+  }
+  ProgramResult run(const std::string& output, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"run", "studies/study.yaml", "-o", output};
+    words.insert(words.end(), more.begin(), more.end());
+    return program(words);
+  }
+};
+
+TEST_F(Samples, AreFoundBesideTheManifest) {
+  const ProgramResult check = program({"check", "studies/study.yaml"});
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_TRUE(says(check.out, "friction.k1, friction.k2: a row of posterior.csv (3 draws) for each rig"));
+}
+
+TEST_F(Samples, AreRecordedSoThatTheFileStandsAlone) {
+  ASSERT_EQ(run("out.h5").code, 0);
+  std::filesystem::remove(folder_ / "studies/posterior.csv");
+  EXPECT_EQ(reading::AllTrialsFile(folder_ / "out.h5").header().samples, table_text);
+  for (const std::string command : {"summary", "trace"}) {
+    const ProgramResult result = program({command, "out.h5"});
+    EXPECT_EQ(result.code, 0) << command << result.err;
+  }
+  const ProgramResult report = program({"report", "out.h5", "-o", "out.html"});
+  EXPECT_EQ(report.code, 0) << report.err;
+  EXPECT_TRUE(says(folder_.read("out.html"), "a row of posterior.csv (3 draws) for each rig"));
+}
+
+TEST_F(Samples, OfAChangedTableAreAnotherStudy) {
+  ASSERT_EQ(run("out.h5").code, 0);
+  folder_.write("studies/posterior.csv", table_text + "130,710\n");
+  ASSERT_EQ(run("other.h5").code, 0);
+  EXPECT_NE(run("out.h5").code, 0) << "would replace the results of another study";
+  const ProgramResult compare = program({"compare", "out.h5", "other.h5"});
+  EXPECT_TRUE(says(compare.out, "samples, SHA-256 of the table"));
+}
+
+TEST_F(Samples, GoWithAStudyThatStopsByItself) {
+  const ProgramResult stopped =
+      run("out.h5", {"--set", "stop={success_rate_halfwidth: 0.3, max_trials: 6000}"});
+  EXPECT_EQ(stopped.code, 0) << stopped.err;
+  EXPECT_EQ(program({"summary", "out.h5"}).code, 0);
+}
+
+TEST_F(Samples, NameTheFileThatIsNotThere) {
+  std::filesystem::remove(folder_ / "studies/posterior.csv");
+  EXPECT_TRUE(says(refusal({"check", "studies/study.yaml"}),
+                   "studies/posterior.csv: no such file; expected a table of samples"));
+}
+
+TEST_F(Samples, AreNeverReplacedByAnOutput) {
+  EXPECT_EQ(run("studies/posterior.csv", {"--force"}).code, 2);
+  EXPECT_EQ(program({"trace", "studies/study.yaml", "-o", "studies/posterior.csv", "--force"}).code, 2);
+  EXPECT_EQ(folder_.read("studies/posterior.csv"), table_text);
 }
 
 }  // namespace

@@ -217,5 +217,180 @@ TEST_F(SequentialRun, CanBeReplayedFromItsFile) {
             0);
 }
 
+// A run whose output exists: it is complete, or is extended by more trials, or is refused with what differs.
+
+class ExistingOutput : public ::testing::Test {
+ protected:
+  fs::path at(const std::string& name) const { return folder_.path() / name; }
+
+  ProgramResult run(const std::string& manifest, const std::string& output,
+                    std::vector<std::string> more = {}) {
+    std::vector<std::string> words{"run", manifest, "-o", output};
+    words.insert(words.end(), more.begin(), more.end());
+    return zerocount_program(words, folder_.path());
+  }
+
+  void complete(const std::string& manifest, const std::string& output, std::vector<std::string> more = {}) {
+    const ProgramResult result = run(manifest, output, std::move(more));
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_FALSE(fs::exists(at(output + ".shards")));
+  }
+
+  /// Expects exit code 2, every text in the message, and the bytes of the file as they were.
+  void expect_refused(const std::vector<std::string>& more, const std::vector<std::string>& texts) {
+    const std::string before = folder_.read("out.h5");
+    const ProgramResult result = run("study.yaml", "out.h5", more);
+    EXPECT_EQ(result.code, 2) << result.err;
+    EXPECT_EQ(result.out, "");
+    for (const std::string& text : texts) EXPECT_NE(result.err.find(text), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("--force"), std::string::npos) << result.err;
+    EXPECT_TRUE(folder_.read("out.h5") == before);
+    EXPECT_FALSE(fs::exists(at("out.h5.shards")));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ExistingOutput, IsExtendedToWhatARunOfAllItsTrialsGives) {
+  std::mt19937 random(20);
+  const auto between = [&](int low, int high) {
+    return std::uniform_int_distribution<int>(low, high)(random);
+  };
+  for (const char* design : {"monte_carlo", "sobol", "monte_carlo", "sobol"}) {
+    const int rigs = between(0, 1) == 1 ? between(2, 40) : 1;
+    const int fewer = rigs * between(1, 300 / rigs);
+    const int more = fewer + rigs * between(1, 300 / rigs);
+    std::string keys = fmt::format("retain: {{trials: [0, {}]}}\n", fewer - 1);
+    if (std::string(design) == "sobol") keys += "design: sobol\n";
+    if (rigs > 1) keys += fmt::format("rigs: {}\n", rigs);
+    const std::string name = fmt::format("{}-{}-{}", design, fewer, more);
+    SCOPED_TRACE(name + "\n" + keys);
+    folder_.write("study.yaml", small_manifest(fewer, keys));
+    const std::string first = fmt::format("trials={}", fewer);
+    const std::string all = fmt::format("trials={}", more);
+    complete("study.yaml", name + ".h5", {"--set", first});
+    complete("study.yaml", name + ".h5", {"--set", all});
+    complete("study.yaml", name + "-fresh.h5", {"--set", all});
+    expect_same_datasets(at(name + "-fresh.h5"), at(name + ".h5"));
+  }
+}
+
+TEST_F(ExistingOutput, OfTheDesignSaltelliIsExtendedByRows) {
+  folder_.write("study.yaml", small_manifest(60, "design: saltelli\n"));  // rows of 4 factors and 2
+  complete("study.yaml", "out.h5");
+  complete("study.yaml", "out.h5", {"--set", "trials=120"});
+  complete("study.yaml", "fresh.h5", {"--set", "trials=120"});
+  expect_same_datasets(at("fresh.h5"), at("out.h5"));
+}
+
+TEST_F(ExistingOutput, ThatIsCompleteStaysAsItIs) {
+  folder_.write("study.yaml", small_manifest(4));
+  complete("study.yaml", "out.h5");
+  const std::string before = folder_.read("out.h5");
+  const ProgramResult again = run("study.yaml", "out.h5");
+  EXPECT_EQ(again.code, 0);
+  EXPECT_NE(again.err.find("nothing to run"), std::string::npos);
+  EXPECT_TRUE(folder_.read("out.h5") == before);
+}
+
+TEST_F(ExistingOutput, SaysWhatItKeepsAndRunsOnlyTheOthers) {
+  folder_.write("study.yaml", small_manifest(20));
+  complete("study.yaml", "out.h5");
+  folder_.write("more.yaml", "# with a comment, and another notation\n" + small_manifest(25));
+  const ProgramResult result = run("more.yaml", "out.h5");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.err.find("20 trials at each point are kept, 5 are added"), std::string::npos)
+      << result.err;
+}
+
+TEST_F(ExistingOutput, AnExtensionThatIsKilledLosesNothing) {
+  folder_.write("study.yaml", small_manifest(100));
+  complete("study.yaml", "out.h5");
+  const std::string before = folder_.read("out.h5");
+  for (const int signal : {SIGINT, SIGKILL}) {
+    RunningProgram program({"run", "study.yaml", "--set", "trials=200000", "-o", "out.h5", "--threads", "1"},
+                           folder_.path());
+    for (int i = 0; i < 2000 && !fs::exists(at("out.h5.shards")); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_TRUE(fs::exists(at("out.h5.shards"))) << "the run has begun nothing in 10 s";
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    program.send(signal);
+    EXPECT_NE(program.wait(), 0);
+    EXPECT_TRUE(folder_.read("out.h5") == before);
+  }
+  EXPECT_EQ(zerocount_program({"summary", "out.h5"}, folder_.path()).code, 0);
+  // The shards of the longer study are in the way of another one, until they are given up.
+  EXPECT_EQ(run("study.yaml", "out.h5", {"--set", "trials=150"}).code, 2);
+  complete("study.yaml", "out.h5", {"--set", "trials=150", "--force"});
+  complete("study.yaml", "fresh.h5", {"--set", "trials=150"});
+  expect_same_datasets(at("fresh.h5"), at("out.h5"));
+}
+
+TEST_F(ExistingOutput, IsRefusedWithWhatDiffers) {
+  folder_.write("study.yaml", small_manifest(20));
+  complete("study.yaml", "out.h5");
+  expect_refused({"--set", "seed=43"}, {"another study", "seed is 42 there and 43 here"});
+  expect_refused({"--set", "plant.inertia=6e-4", "--set", "seed=43"},
+                 {"plant.inertia is 6e-4 here, and not given there", "seed is 42 there"});
+  expect_refused({"--set", "trials=30", "--set", "seed=43"}, {"trials is 20 there and 30 here", "seed"});
+  expect_refused({"--set", "trials=10"}, {"has 20 trials", "the study 10"});
+  expect_refused({"--engine", "reference"}, {"batch engine", "reference engine"});
+  expect_refused({"--shard", "1/2"}, {"trials 0 to 39", "0 to 19"});
+}
+
+// Trials of one case stood under the name of another.
+TEST_F(ExistingOutput, InAnotherOrderIsNotExtended) {
+  folder_.write("study.yaml",
+                small_manifest(8,
+                               "rigs: 2\ngoals: {wide: {band: 3, within: 0.1, moves: 0.9}, zero: {within: "
+                               "0.1, moves: 0.9}}\nconditions: {light: {}, heavy: {plant.inertia: "
+                               "1.0e-3}}\n"));
+  const std::string swept =
+      "sweep={cases: {b: {friction.alpha: 1}, a: {friction.alpha: 2}}, grid: "
+      "{controller.kp: [0, 1.0e-4], controller.delay: [1, 2]}}";
+  complete("study.yaml", "out.h5", {"--set", swept});
+  for (const auto& [other, said] : std::vector<std::pair<std::string, std::string>>{
+           {"sweep.cases={a: {friction.alpha: 2}, b: {friction.alpha: 1}}",
+            "sweep.cases, order of keys is b, a there and a, b here"},
+           {"sweep.grid={controller.delay: [1, 2], controller.kp: [0, 1.0e-4]}",
+            "sweep.grid, order of keys is controller.kp, controller.delay there and controller.delay, "
+            "controller.kp here"},
+           {"conditions={heavy: {plant.inertia: 1.0e-3}, light: {}}",
+            "conditions, order of keys is light, heavy there and heavy, light here"},
+           {"goals={zero: {within: 0.1, moves: 0.9}, wide: {band: 3, within: 0.1, moves: 0.9}}",
+            "goals, order of keys is wide, zero there and zero, wide here"}}) {
+    for (const char* const trials : {"trials=8", "trials=16"})
+      expect_refused({"--set", swept, "--set", other, "--set", trials}, {"another study", said});
+  }
+  complete("study.yaml", "out.h5", {"--set", swept, "--set", "trials=16"});
+}
+
+TEST_F(ExistingOutput, OfALatinHypercubeCannotBeExtended) {
+  folder_.write("study.yaml", small_manifest(20, "design: latin_hypercube\n"));
+  complete("study.yaml", "out.h5");
+  expect_refused({"--set", "trials=40"}, {"latin_hypercube", "laid out for their number"});
+}
+
+TEST_F(ExistingOutput, OfAPartCannotBeExtended) {
+  folder_.write("study.yaml", small_manifest(20));
+  complete("study.yaml", "out.h5", {"--shard", "1/2"});
+  expect_refused({"--set", "trials=40"}, {"a part of a study"});
+}
+
+TEST_F(ExistingOutput, ThatIsNoResultsFileIsRefused) {
+  folder_.write("study.yaml", small_manifest(4));
+  folder_.write("out.h5", "my notes");
+  expect_refused({}, {"not a usable results file"});
+  complete("study.yaml", "out.h5", {"--force"});
+}
+
+TEST_F(ExistingOutput, OfAnEarlierFormatIsRefused) {
+  folder_.write("study.yaml", small_manifest(4));
+  complete("study.yaml", "out.h5", {});
+  replace_attribute(at("out.h5"), "format_version", 3);
+  expect_refused({},
+                 {"out.h5", "its format version is 3, and this program reads version 4; run its manifest"});
+}
+
 }  // namespace
 }  // namespace zerocount::testing

@@ -1,7 +1,11 @@
 // Rows that a runner runs together have the results that each has alone.
 #include "runners/trials/trial_runner.hpp"
 
+#include <oneapi/tbb/task_arena.h>
+
+#include "analysis/parallel/parallel.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "runners/trials/trial_set.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {
@@ -40,6 +44,27 @@ TEST(TrialRunner, GivesRowsOfAnyPlacesTheResultsThatEachHasAlone) {
       ASSERT_EQ(together[i].outcome.moves.size(), 1U);
       EXPECT_EQ(together[i].outcome.moves[0].outcome, alone.outcome.moves[0].outcome);
       EXPECT_EQ(together[i].outcome.moves[0].holding_torque, alone.outcome.moves[0].holding_torque);
+    }
+  }
+}
+
+// Trials that are counted are divided evenly among the threads.
+
+// The last blocks of the threads end together where each thread has as many.
+TEST(TrialSet, EveryThreadHasAsManyBlocksForItsLanes) {
+  std::mt19937_64 random(17);
+  for (const int threads : {1, 2, 5, 16}) {
+    const parallel::ThreadLimit limit(threads);
+    oneapi::tbb::task_arena arena(threads);
+    for (int round = 0; round < 300; ++round) {
+      const auto all = std::uniform_int_distribution<std::int64_t>(1, 20'000)(random);
+      const std::int64_t size = arena.execute([&] { return trials::block_for_lanes(all); });
+      EXPECT_GE(size, 16);
+      EXPECT_LE(size, 128);
+      const std::int64_t blocks = (all + size - 1) / size;
+      const std::int64_t of_one_thread = (blocks + threads - 1) / threads;
+      if (size == 16) continue;  // few trials: the lanes need some
+      EXPECT_LE(of_one_thread * size, all / threads + 1 + of_one_thread) << all << " on " << threads;
     }
   }
 }

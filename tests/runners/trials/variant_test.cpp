@@ -7,6 +7,7 @@
 #include "experiments/study/condition_study.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "runners/trials/effort.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::trials {
@@ -153,6 +154,133 @@ TEST(Variant, AFreshSeedDiffersForEachPurpose) {
   EXPECT_NE(fresh_seed(1, "confirmation"), fresh_seed(1, "tuning, proof 1"));
   EXPECT_EQ(fresh_seed(1, "confirmation"), fresh_seed(1, "confirmation"));
   for (std::uint64_t seed = 0; seed < 100; ++seed) EXPECT_LT(fresh_seed(seed, "x"), std::uint64_t{1} << 52U);
+}
+
+// What a task may spend: trials and time, counted in one place.
+
+using std::chrono::milliseconds;
+
+TEST(Effort, WithoutLimitsIsNeverSpent) {
+  const Effort effort;
+  effort.spend(std::int64_t{1} << 40);
+  EXPECT_FALSE(effort.is_spent());
+  EXPECT_EQ(effort.seconds_left(), std::numeric_limits<double>::infinity());
+}
+
+// However the whole is divided, its trials are not exceeded, and what a share leaves stays with the whole.
+TEST(Effort, NeverSpendsMoreTrialsThanItHas) {
+  std::mt19937 random(3);
+  std::uniform_int_distribution<std::int64_t> number(1, 400);
+  for (int round = 0; round < 200; ++round) {
+    const std::int64_t limit = number(random);
+    const Effort whole = Effort().share(limit, {});
+    std::vector<Effort> efforts{whole};
+    std::int64_t counted = 0;
+    for (int i = 0; i < 30; ++i) {
+      const Effort one = efforts[static_cast<std::size_t>(number(random)) % efforts.size()];
+      if (i % 3 == 0) efforts.push_back(one.share(number(random), {}));
+      const std::int64_t trials = number(random) / 8;
+      const std::int64_t left = one.trials_left();
+      const bool enough = within(one, [&] { one.spend(trials); });
+      EXPECT_EQ(enough, trials <= left);
+      counted += enough ? trials : 0;
+    }
+    EXPECT_LE(counted, limit);
+    EXPECT_EQ(whole.spent_trials(), counted);
+    EXPECT_EQ(whole.trials_left(), limit - counted);
+  }
+}
+
+// Equal parts, taken one after the other, are all that there is; what one of them leaves goes to the later
+// ones.
+TEST(Effort, IsDividedIntoEqualParts) {
+  const Effort whole = Effort().share(1000, 60.0);
+  for (std::int64_t left = 4; left > 0; --left) {
+    const Effort part = whole.part(left);
+    EXPECT_EQ(part.trials_left(), whole.trials_left() / left);
+    EXPECT_NEAR(part.seconds_left(), 60.0 / static_cast<double>(left), 1.0);
+    part.spend(left == 3 ? 10 : part.trials_left());
+  }
+  EXPECT_EQ(whole.trials_left(), 0);
+  EXPECT_EQ(Effort().part(3).trials_left(), std::numeric_limits<std::int64_t>::max());
+  EXPECT_EQ(Effort().part(3).seconds_left(), std::numeric_limits<double>::infinity());
+}
+
+TEST(Effort, StopsWhatRunsWhenItsTimeIsOver) {
+  const Effort whole = Effort().share({}, 60.0);
+  const auto start = std::chrono::steady_clock::now();
+  const Effort part = whole.share({}, 0.05);
+  const bool ended = within(part, [&] {
+    while (!part.stop().stop_requested()) std::this_thread::sleep_for(milliseconds(1));
+    throw trial::Interrupted{};
+  });
+  EXPECT_FALSE(ended);
+  EXPECT_GE(std::chrono::steady_clock::now() - start, milliseconds(50));
+  EXPECT_TRUE(part.is_spent());
+  EXPECT_FALSE(part.is_interrupted());
+  EXPECT_FALSE(whole.is_spent());
+}
+
+TEST(Effort, TellsARequestToStopFromTheEndOfItsTime) {
+  std::stop_source user;
+  const Effort part = Effort(user.get_token()).share(1000, 60.0).share({}, 30.0);
+  user.request_stop();
+  EXPECT_TRUE(part.stop().stop_requested());
+  EXPECT_TRUE(part.is_interrupted());
+  EXPECT_THROW(within(part, [] { throw trial::Interrupted{}; }), trial::Interrupted);
+}
+
+// A study under one condition, or at one age, has the machines and draws of the whole one.
+
+constexpr const char* whole_life = R"(zerocount: 1
+name: life
+seed: 3
+trials: 96
+rigs: 4
+design: {}
+ages: {{at: [0, 1.0e+5, 1.0e+6], unit: cycles}}
+conditions: {{warm: {{}}, "very. cold": {{plant.inertia: 8.0e-4, friction.k1: {{uniform: [120, 150]}}}}}}
+command: {{targets: [{{integers: [1, 30]}}], hold: 0.2}}
+friction:
+  k1: {{lognormal: {{median: 110, cv: 0.2}}, aging: {{exponential: {{normal: {{mean: -0.3, sd: 0.1}}}}, scale: 1.0e+6}}}}
+  lambda: {{value: 10, aging: {{logarithmic: -0.05, scale: 1.0e+4}}}}
+initial: {{encoder_phase: {{uniform: [0, 1]}}}}
+)";
+
+void expect_same(const study::Study& one, const study::Study& whole) {
+  const study::TrialTurns turns = study::turns_of(one);
+  const study::TrialTurns all = study::turns_of(whole);
+  EXPECT_EQ(study::draw_count(one), study::draw_count(whole));
+  for (std::int64_t trial = 0; trial < one.trials; ++trial) {
+    const std::string& name = one.conditions[static_cast<std::size_t>(turns.condition_of(trial))];
+    const auto turn = std::ranges::find(whole.conditions, name) - whole.conditions.begin();
+    ASSERT_LT(turn, std::ssize(whole.conditions)) << name;
+    EXPECT_EQ(study::study_trial(one, 0, trial).inputs,
+              study::study_trial(whole, 0, all.trial_of(turns.draw_of(trial), turn)).inputs)
+        << name << ", trial " << trial;
+  }
+}
+
+TEST(Restricted, HasTheMachinesAndDrawsOfTheWholeStudy) {
+  for (const char* design : {"monte_carlo", "latin_hypercube", "sobol"}) {
+    const study::Study whole =
+        manifest::parse_study(fmt::format(fmt::runtime(whole_life), design), "life.yaml");
+    for (const auto& condition : {std::optional<std::string>(), std::optional<std::string>("very. cold")}) {
+      for (const auto& age : {std::optional<double>(), std::optional(1.0e5)}) {
+        const study::Study one = restricted_to(whole, condition, age);
+        EXPECT_EQ(one.condition_names.size(), condition ? 1U : 2U);
+        EXPECT_EQ(one.ages.at.size(), age ? 1U : 3U);
+        expect_same(one, whole);
+      }
+    }
+  }
+}
+
+TEST(Restricted, RefusesWhatTheStudyDoesNotHave) {
+  const study::Study whole =
+      manifest::parse_study(fmt::format(fmt::runtime(whole_life), "monte_carlo"), "life.yaml");
+  EXPECT_THROW(restricted_to(whole, "hot", {}), Failure);
+  EXPECT_THROW(restricted_to(whole, {}, 7.0), Failure);
 }
 
 }  // namespace

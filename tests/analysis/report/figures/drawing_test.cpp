@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/report/figures/figure.hpp"
+#include "analysis/report/figures/report_figures.hpp"
+#include "tests/results/failures.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 
@@ -226,6 +228,132 @@ TEST(DrawnFigure, HasTitlesPanelsAndLayersByItsData) {
   ASSERT_EQ(panels.size(), 2U);
   EXPECT_EQ(panels[0]["title"], "first");
   EXPECT_EQ(panels[0]["layer"][0]["transform"][0]["filter"]["equal"], "it's");
+}
+
+TEST(Datum, KeepsTheDigitsAskedFor) {
+  EXPECT_EQ(datum(0.123456789).dump(), "0.123457");
+  EXPECT_EQ(datum(0.123456789, 3).dump(), "0.123");
+  EXPECT_EQ(datum(3.0).dump(), "3");
+  EXPECT_EQ(datum(-2.0e-5).dump(), "-2e-05");
+  EXPECT_TRUE(datum(std::nan("")).is_null());
+  EXPECT_TRUE(datum(std::numeric_limits<double>::infinity()).is_null());
+}
+
+TEST(SpacedByRatio, TellsTheTwoSpacingsApart) {
+  EXPECT_TRUE(spaced_by_ratio({1e-5, 1e-4, 1e-3}));
+  EXPECT_TRUE(spaced_by_ratio({2.0e-5, 2.44211e-5, 2.98195e-5, 3.64113e-5}));
+  EXPECT_FALSE(spaced_by_ratio({1.0, 2.0, 3.0, 4.0}));
+  EXPECT_FALSE(spaced_by_ratio({0.0, 1.0, 10.0}));
+  EXPECT_FALSE(spaced_by_ratio({1.0, 10.0}));
+}
+
+TEST(Specifications, AreVegaLiteOfDataByName) {
+  int specifications = 0;
+  for (const EmbeddedFile& file : embedded_files()) {
+    if (!file.name.ends_with(".vl.json")) continue;
+    ++specifications;
+    const auto json = nlohmann::ordered_json::parse(file.bytes);
+    EXPECT_EQ(json["$schema"], "https://vega.github.io/schema/vega-lite/v6.json") << file.name;
+    EXPECT_EQ(std::string(file.bytes).find("\"url\""), std::string::npos) << file.name;
+    EXPECT_NE(std::string(file.bytes).find("\"tooltip\""), std::string::npos) << file.name;
+  }
+  EXPECT_GE(specifications, 13);
+}
+
+/// Both sets of colours have every colour that a figure names.
+TEST(Specifications, NameColoursThatThereAre) {
+  const auto colours = nlohmann::ordered_json::parse(embedded_file("colours.json"));
+  const std::regex name("var\\((--[a-z0-9-]+)\\)");
+  for (const EmbeddedFile& file : embedded_files()) {
+    if (!file.name.ends_with(".json") && !file.name.ends_with(".css")) continue;
+    const std::string text(file.bytes);
+    for (auto match = std::sregex_iterator(text.begin(), text.end(), name); match != std::sregex_iterator();
+         ++match) {
+      EXPECT_TRUE(colours["light"].contains((*match)[1].str())) << file.name << ": " << (*match)[1];
+      EXPECT_TRUE(colours["dark"].contains((*match)[1].str())) << file.name << ": " << (*match)[1];
+    }
+  }
+}
+
+TEST(EmbeddedFiles, WhatIsMissingIsSaidWithWhatToDo) {
+  testing::expect_failure(ExitCode::machine_failed, "npm ci", [] { embedded_file("vega.max.js"); });
+}
+
+/// A line of counts that mostly rests, with jerks of one sample here and there.
+std::vector<trial::SampleRecord> random_samples(std::uint64_t seed, std::int64_t size) {
+  std::mt19937_64 random(seed);
+  std::vector<trial::SampleRecord> samples;
+  std::int64_t count = 0;
+  for (std::int64_t k = 0; k < size; ++k) {
+    if (random() % 50 == 0) count += static_cast<std::int64_t>(random() % 7) - 3;
+    trial::SampleRecord sample;
+    sample.k = k;
+    sample.t = static_cast<double>(k) / 2000.0;
+    sample.count = count + (random() % 100 == 0 ? 1 : 0);
+    sample.error = 10 - sample.count;
+    sample.target = 10;
+    sample.torque = 1e-4 * static_cast<double>(sample.error);
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+std::vector<trial::SampleRecord> thinned(const std::vector<trial::SampleRecord>& samples,
+                                         std::int64_t buckets) {
+  TraceThinner thinner(std::ssize(samples), buckets);
+  for (const trial::SampleRecord& sample : samples) thinner.add(sample);
+  return thinner.finish();
+}
+
+/// The value of the step line through `samples` at sample k.
+std::int64_t at(const std::vector<trial::SampleRecord>& samples, std::int64_t k) {
+  const auto after =
+      std::upper_bound(samples.begin(), samples.end(), k,
+                       [](std::int64_t at, const trial::SampleRecord& sample) { return at < sample.k; });
+  return (after - 1)->error;
+}
+
+TEST(TraceThinner, KeepsTheStepLineWhereThereIsRoomForAllOfIt) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const std::vector<trial::SampleRecord> samples = random_samples(seed, 500);
+    const std::vector<trial::SampleRecord> kept = thinned(samples, 500);
+    EXPECT_LT(kept.size(), samples.size());
+    for (const trial::SampleRecord& sample : samples)
+      ASSERT_EQ(at(kept, sample.k), sample.error) << seed << " " << sample.k;
+  }
+}
+
+TEST(TraceThinner, KeepsTheExtremesOfEveryStretch) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const std::vector<trial::SampleRecord> samples = random_samples(seed, 10000);
+    const std::vector<trial::SampleRecord> kept = thinned(samples, 100);
+    EXPECT_LE(kept.size(), 600U);
+    EXPECT_EQ(kept.front().k, 0);
+    EXPECT_EQ(kept.back().k, 9999);
+    for (std::int64_t stretch = 0; stretch < 100; ++stretch) {
+      const auto begin = samples.begin() + stretch * 100;
+      const auto by_error = [](const trial::SampleRecord& a, const trial::SampleRecord& b) {
+        return a.error < b.error;
+      };
+      const auto [least, most] = std::minmax_element(begin, begin + 100, by_error);
+      std::int64_t low = at(kept, stretch * 100);
+      std::int64_t high = low;
+      for (const trial::SampleRecord& sample : kept) {
+        if (sample.k / 100 != stretch) continue;
+        low = std::min(low, sample.error);
+        high = std::max(high, sample.error);
+      }
+      ASSERT_EQ(low, least->error) << seed;
+      ASSERT_EQ(high, most->error) << seed;
+    }
+  }
+}
+
+TEST(TraceThinner, OfRestOnlyTheEndsAreKept) {
+  std::vector<trial::SampleRecord> samples(1000);
+  for (std::size_t k = 0; k < samples.size(); ++k) samples[k].k = static_cast<std::int64_t>(k);
+  EXPECT_EQ(thinned(samples, 50).size(), 2U);
+  EXPECT_TRUE(thinned({}, 50).empty());
 }
 
 }  // namespace

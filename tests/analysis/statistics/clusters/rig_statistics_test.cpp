@@ -3,6 +3,11 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/random/beta_distribution.hpp>
 
+#include "analysis/statistics/clusters/rig_proportion.hpp"
+#include "analysis/statistics/clusters/trial_clusters.hpp"
+#include "analysis/statistics/distributions.hpp"
+#include "analysis/statistics/sums/state.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/support/test.hpp"
 
@@ -100,6 +105,232 @@ TEST(RigTolerance, LeavesOutAsManyRigsAsItsRankAllows) {
   successes[9] = 0;
   EXPECT_EQ(rig_tolerance(rigs_with(200, successes), 0.9, 0.95).zero_at_least, 0.0);
 }
+
+// Bounds of the proportion of rigs that meet a requirement in a proportion of their moves.
+
+// If all rigs pass, only the highest mark can show so much, and has all of the error.
+TEST(RigProportion, OfRigsThatAllPassIsThatOfWilksLessWhatFewMovesHide) {
+  // 100 moves: P(B ≥ 57) = 0.0966 ≤ 0.1 for B binomial (100, ½).
+  const std::vector<RigMoves> rigs(300, {100, 100, 100});
+  const RigProportion found = rig_proportion(rigs, {0.5, 0.95, 0.95});
+  const double all_pass = std::pow(0.05, 1.0 / 300.0);
+  const double wrong = binomial_upper_tail(100, 0.5, 56);
+  EXPECT_LE(wrong, 0.1);
+  EXPECT_EQ(found.meeting, 300);
+  EXPECT_NEAR(found.low, (all_pass - wrong) / (1.0 - wrong), 1e-12);
+  EXPECT_EQ(found.high, 1.0);
+  // Five moves hardly tell a rig at 99 % from one at 98 %.
+  EXPECT_LT(rig_proportion(std::vector<RigMoves>(300, {5, 5, 5}), {0.99, 0.95, 0.95}).low, 0.9);
+  // Wilks: 59 rigs show 95 %, 58 do not.
+  EXPECT_GE(rig_proportion(std::vector<RigMoves>(59, {4000, 4000, 4000}), {0.9, 0.95, 0.95}).low, 0.95);
+  EXPECT_LT(rig_proportion(std::vector<RigMoves>(58, {4000, 4000, 4000}), {0.9, 0.95, 0.95}).low, 0.95);
+}
+
+TEST(RigProportion, OfRigsThatAllFailIsSmall) {
+  const RigProportion found = rig_proportion(std::vector<RigMoves>(100, {200, 200, 20}), {0.9, 0.9, 0.95});
+  EXPECT_EQ(found.meeting, 0);
+  EXPECT_EQ(found.low, 0.0);
+  EXPECT_NEAR(found.high, 1.0 - std::pow(0.05, 1.0 / 100.0), 4e-3);
+}
+
+// Where rigs are well above the requirement and miss at times, a bound by those without a miss is poor.
+TEST(RigProportion, IsSharperThanThatOfOneMark) {
+  std::mt19937_64 random(3);
+  const auto median_low = [&](double good, double bad, std::int64_t rigs, std::int64_t moves) {
+    std::vector<double> found;
+    for (int study = 0; study < 51; ++study) {
+      std::vector<RigMoves> drawn;
+      for (std::int64_t rig = 0; rig < rigs; ++rig) {
+        std::binomial_distribution<std::int64_t> met(moves, rig % 10 == 0 ? bad : good);
+        drawn.push_back({moves, moves, met(random)});
+      }
+      found.push_back(rig_proportion(drawn, {0.95, 0.9, 0.95}).low);
+    }
+    std::ranges::sort(found);
+    return found[25];
+  };
+  EXPECT_GT(median_low(0.99, 0.99, 100, 30), 0.72);    // by those without a miss 0.57
+  EXPECT_GT(median_low(0.975, 0.975, 300, 100), 0.8);  // 0.62
+  EXPECT_GT(median_low(0.99, 0.8, 300, 100), 0.75);    // of 0.9
+}
+
+// Of rigs of which half are far below, the bound is of those in question.
+TEST(RigProportion, OfHalfOfTheRigsLeavesTheOthersOut) {
+  std::vector<RigMoves> rigs(200, {20, 20, 20});
+  for (std::size_t rig = 0; rig < rigs.size(); rig += 2) rigs[rig].met = 4;
+  const RigProportion found = rig_proportion(rigs, {0.9, 0.95, 0.95});
+  // The proportion of those that may be at the requirement, 0.5, by a Clopper–Pearson bound at 99.75 %, and
+  // that of those that pass.
+  EXPECT_GT(found.low, 0.36);
+  EXPECT_LT(found.low, 0.5);
+  EXPECT_GT(found.high, 0.5);
+}
+
+TEST(RigProportion, OfNoRigIsUnknown) {
+  const RigProportion none = rig_proportion({}, {0.9, 0.9, 0.95});
+  EXPECT_EQ(none.meeting, 0);
+  EXPECT_EQ(none.low, 0.0);
+  EXPECT_EQ(none.high, 1.0);
+}
+
+/// Studies of rigs drawn at random, half of them with moves of a trial that are all alike.
+struct Population {
+  double meeting;       ///< proportion of rigs at or above the requirement
+  double above, below;  ///< proportions of moves of those, and of the others
+};
+
+class RigProportionCoverage : public ::testing::TestWithParam<Population> {};
+
+TEST_P(RigProportionCoverage, BoundsHold) {
+  constexpr double proportion = 0.95, wanted = 0.9, confidence = 0.95;
+  constexpr int studies = 600;
+  const Population population = GetParam();
+  std::mt19937_64 random(36);
+  for (const int moves_of_trial : {1, 4}) {
+    for (const int trials : {10, 100}) {
+      int too_high = 0, too_low = 0;
+      for (int study = 0; study < studies; ++study) {
+        std::vector<RigMoves> rigs;
+        for (int rig = 0; rig < 80; ++rig) {
+          const bool meets = std::bernoulli_distribution(population.meeting)(random);
+          std::binomial_distribution<std::int64_t> met(trials, meets ? population.above : population.below);
+          rigs.push_back({trials, trials * moves_of_trial, met(random) * moves_of_trial});
+        }
+        const RigProportion found = rig_proportion(rigs, {proportion, wanted, confidence});
+        EXPECT_LE(found.low, found.high);
+        too_high += found.low > population.meeting;
+        too_low += found.high < population.meeting;
+      }
+      const double limit = (1.0 - confidence) * studies + 3.0 * std::sqrt(0.05 * 0.95 * studies);
+      EXPECT_LE(too_high, limit) << moves_of_trial << " moves of " << trials << " trials";
+      EXPECT_LE(too_low, limit) << moves_of_trial << " moves of " << trials << " trials";
+    }
+  }
+}
+
+// Rigs just below and just on the requirement are the hardest to tell apart.
+INSTANTIATE_TEST_SUITE_P(, RigProportionCoverage,
+                         ::testing::Values(Population{0.9, 0.95, 0.949}, Population{0.0, 1.0, 0.9499},
+                                           Population{1.0, 0.95, 0.0}, Population{0.8, 0.99, 0.9},
+                                           Population{0.95, 1.0, 0.5}));
+
+constexpr std::int64_t moves = 3;
+
+/// The values of a trial that are not censored: few distinct ones.
+std::vector<double> values_of(std::int64_t trial) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(trial));
+  std::vector<double> values;
+  for (std::int64_t move = 0; move < moves; ++move) {
+    if (random() % 5 != 0) values.push_back(static_cast<double>(random() % 20));
+  }
+  return values;
+}
+
+TrialClusters clusters_of(std::int64_t rigs, std::int64_t first, std::int64_t end) {
+  TrialClusters clusters(rigs);
+  for (std::int64_t trial = first; trial < end; ++trial) {
+    std::vector<double> values = values_of(trial);
+    clusters.add_trial(trial, values, moves);
+  }
+  return clusters;
+}
+
+State state_of(const TrialClusters& clusters) {
+  State state;
+  StateWriter writer(state);
+  writer(clusters);
+  return state;
+}
+
+class TrialClustersOf : public ::testing::TestWithParam<std::int64_t> {};
+
+TEST_P(TrialClustersOf, MomentsAreThoseOfTheValuesOfEachRig) {
+  const std::int64_t rigs = GetParam();
+  constexpr std::int64_t trials = 700;
+  std::vector<std::vector<double>> by_rig(static_cast<std::size_t>(rigs));
+  for (std::int64_t trial = 0; trial < trials; ++trial) {
+    const std::vector<double> values = values_of(trial);
+    std::vector<double>& rig = by_rig[static_cast<std::size_t>(trial % rigs)];
+    rig.insert(rig.end(), values.begin(), values.end());
+  }
+  const ClusteredSample sample = clusters_of(rigs, 0, trials).sample();
+  EXPECT_EQ(sample.size(), moves * trials);
+  for (const double x : {-1.0, 4.0, 11.5, 30.0}) {
+    ClusterSums expected;
+    for (std::int64_t rig = 0; rig < rigs; ++rig) {
+      const std::vector<double>& values = by_rig[static_cast<std::size_t>(rig)];
+      const auto hits = std::count_if(values.begin(), values.end(), [&](double value) { return value <= x; });
+      expected.add(hits, moves * ((trials - rig + rigs - 1) / rigs));
+    }
+    const ClusterSums found = sample.at_most(x);
+    EXPECT_EQ(found.clusters, std::min(rigs, trials));
+    EXPECT_EQ(found.hits, expected.hits);
+    EXPECT_EQ(found.events, moves * trials);
+    EXPECT_EQ(found.hits_squared, expected.hits_squared);
+    EXPECT_EQ(found.hits_by_events, expected.hits_by_events);
+    EXPECT_EQ(found.events_squared, expected.events_squared);
+  }
+}
+
+TEST_P(TrialClustersOf, BlocksInAnyOrderGiveTheStateOfAllTrials) {
+  const std::int64_t rigs = GetParam();
+  constexpr std::int64_t trials = 700;
+  const State whole = state_of(clusters_of(rigs, 0, trials));
+  std::mt19937_64 random(7);
+  for (int order = 0; order < 20; ++order) {
+    std::vector<TrialClusters> blocks;
+    for (std::int64_t first = 0; first < trials;) {
+      const std::int64_t end =
+          std::min<std::int64_t>(trials, first + 1 + static_cast<std::int64_t>(random() % 90));
+      blocks.push_back(clusters_of(rigs, first, end));
+      first = end;
+    }
+    std::shuffle(blocks.begin(), blocks.end(), random);
+    TrialClusters sum(rigs);
+    for (const TrialClusters& block : blocks) sum += block;
+    const State state = state_of(sum);
+    EXPECT_EQ(state.whole, whole.whole);
+    EXPECT_EQ(state.real, whole.real);
+    TrialClusters again(rigs);
+    StateReader reader(state.whole, state.real);
+    reader(again);
+    reader.require_end();
+    again += clusters_of(rigs, trials, trials + 50);
+    EXPECT_EQ(state_of(again).whole, state_of(clusters_of(rigs, 0, trials + 50)).whole);
+  }
+}
+
+TEST(TrialClusters, OfAColumnAreThoseOfItsTrials) {
+  std::mt19937_64 random(9);
+  for (const std::int64_t rigs : {0, 0, 7}) {
+    TrialClusters one_by_one(rigs), by_column(rigs);
+    for (std::int64_t trial = 0; trial < 3000;) {
+      // Single values before and after trials of several; columns of repeated and of different values.
+      const std::size_t of_trial = random() % 4 == 0 ? 1 + random() % 3 : 1;
+      const bool nan_is_late = random() % 2 == 0;
+      const std::uint64_t distinct = random() % 2 == 0 ? 20 : 1'000'000;
+      const auto trials = static_cast<std::int64_t>(1 + random() % 400);
+      std::vector<double> column;
+      for (std::int64_t i = 0; i < trials; ++i) {
+        std::vector<double> observed;
+        for (std::size_t j = 0; j < of_trial; ++j) {
+          column.push_back(random() % 5 == 0 ? unknown : static_cast<double>(random() % distinct));
+          if (column.back() == column.back()) observed.push_back(column.back());
+        }
+        const auto size = static_cast<std::int64_t>(nan_is_late ? of_trial : observed.size());
+        one_by_one.add_trial(trial + i, observed, size);
+      }
+      by_column.add_trials(trial, column, of_trial, nan_is_late);
+      trial += trials;
+      EXPECT_EQ(by_column.size(), one_by_one.size());
+    }
+    EXPECT_EQ(state_of(by_column).whole, state_of(one_by_one).whole);
+    EXPECT_EQ(state_of(by_column).real, state_of(one_by_one).real);
+  }
+}
+
+// Few rigs with many trials, about as many, and rigs without a trial.
+INSTANTIATE_TEST_SUITE_P(Rigs, TrialClustersOf, ::testing::Values(1, 7, 64, 699, 5000));
 
 }  // namespace
 }  // namespace zerocount::statistics

@@ -2,8 +2,14 @@
 // widened_trial_test.cpp.
 #include "core/loop/controller/controller.hpp"
 
+#include "core/loop/controller/control_chain.hpp"
 #include "core/loop/controller/count_difference.hpp"
+#include "core/loop/controller/filter.hpp"
 #include "core/loop/controller/integrator.hpp"
+#include "core/loop/controller/user_law.hpp"
+#include "core/plugin/controller_plugin.hpp"
+#include "tests/core/loop/random_blocks.hpp"
+#include "tests/core/loop/test_blocks.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::loop {
@@ -95,6 +101,315 @@ TEST(CountDifference, WithoutAFilterIsTheDifferenceBitForBit) {
     ASSERT_EQ(difference.step(count), count - last);
     last = count;
   }
+}
+
+// The blocks of the controller: what they say of themselves as linear systems is what they do sample by
+// sample.
+
+struct Input {
+  Feedback feedback;
+  double torque;
+};
+
+/// What comes of the signal by y_k = Σ bᵢ·x_{k−i} − Σ aᵢ·y_{k−i}.
+std::vector<double> filtered(const TransferFunction& transfer, const std::vector<double>& x) {
+  std::vector<double> y(x.size(), 0.0);
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    for (std::size_t i = 0; i <= k && i < transfer.b.size(); ++i) y[k] += transfer.b[i] * x[k - i];
+    for (std::size_t i = 1; i <= k && i < transfer.a.size(); ++i) y[k] -= transfer.a[i] * y[k - i];
+  }
+  return y;
+}
+
+/// The stages on the inputs' signals; that of the first one's torque is the inputs'.
+std::vector<double> output_of(const LinearChain& stages, const std::vector<Input>& inputs) {
+  const auto signal = [&](double (*of)(const Input&)) {
+    std::vector<double> values;
+    for (const Input& input : inputs) values.push_back(of(input));
+    return values;
+  };
+  std::vector<double> torque = signal([](const Input& i) { return i.torque; });
+  const auto input_of = [&](LoopSignal from) {
+    switch (from) {
+      case LoopSignal::torque:
+        return torque;
+      case LoopSignal::error:
+        return signal([](const Input& i) { return i.feedback.error; });
+      case LoopSignal::count:
+        return signal([](const Input& i) { return i.feedback.count; });
+      case LoopSignal::torque_in_force:
+        break;
+    }
+    return signal([](const Input& i) { return i.feedback.torque_in_force; });
+  };
+  for (const LinearBlock& stage : stages) {
+    std::vector<double> output(inputs.size(), 0.0);
+    for (const SignalPath& path : stage) {
+      const std::vector<double> part = filtered(path.transfer, input_of(path.from));
+      for (std::size_t k = 0; k < output.size(); ++k) output[k] += part[k];
+    }
+    torque = output;
+  }
+  return torque;
+}
+
+/// From rest: the first sample is zero throughout.
+std::vector<Input> random_inputs(std::mt19937_64& random, std::size_t samples) {
+  std::normal_distribution<double> normal;
+  std::vector<Input> inputs(1);
+  while (inputs.size() < samples) {
+    const double count = std::round(100.0 * normal(random));
+    inputs.push_back({{20.0 - count, count, 0.3 * normal(random)}, 0.3 * normal(random)});
+  }
+  return inputs;
+}
+
+class RandomControl {
+ public:
+  explicit RandomControl(unsigned seed) : random_(seed) {}
+
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  double log_uniform(double low, double high) { return low * std::pow(high / low, uniform(0.0, 1.0)); }
+  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
+  double gain() { return chance(0.2) ? 0.0 : log_uniform(1e-6, 1e-2); }
+
+  Filter filter(double sample_rate) {
+    Filter filter;
+    filter.kind = static_cast<FilterKind>(random_() % 4);
+    filter.frequency = sample_rate * log_uniform(1e-3, 0.49);
+    filter.damping = log_uniform(0.1, 2.0);
+    filter.depth = uniform(0.0, 1.0);
+    filter.ratio = log_uniform(0.2, 10.0);
+    filter.b = {uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0)};
+    filter.a[1] = uniform(-0.9, 0.9);
+    filter.a[0] = uniform(-0.95, 0.95) * (1.0 + filter.a[1]);
+    return filter;
+  }
+
+  /// Without deadband and zone, which have no linear form.
+  ControllerParameters control() {
+    ControllerParameters p;
+    p.sample_rate = log_uniform(100.0, 1e5);
+    p.kp = gain();
+    p.ki = gain();
+    p.kd = gain();
+    ControlBlocks& b = p.blocks;
+    if (chance(0.5)) b.structure = ControlStructure::cascade;
+    b.cascade = {log_uniform(1.0, 1e3), log_uniform(1e-2, 1.0), chance(0.2) ? 0.0 : log_uniform(1e-2, 1e2)};
+    if (chance(0.5)) b.integrator_leak = log_uniform(1.0, 1e4) / p.sample_rate;
+    if (chance(0.5)) b.derivative_cutoff = p.sample_rate * log_uniform(1e-3, 0.5);
+    for (std::uint64_t i = random_() % 4; i > 0; --i) b.filters.push_back(filter(p.sample_rate));
+    b.feedforward = {gain(), gain(), gain()};
+    if (chance(0.7)) b.observer = {p.sample_rate * log_uniform(1e-3, 0.3), log_uniform(1e-5, 1e-1)};
+    return p;
+  }
+
+  std::mt19937_64 random_;
+};
+
+constexpr ControlStart at_rest{0.0, {-1e9, 1e9}, 3.9e-6};
+
+template <ControlBlock Block>
+void expect_its_linear_form(RandomControl& random) {
+  for (int i = 0; i < 100; ++i) {
+    const ControllerParameters parameters = random.control();
+    Block block(parameters, at_rest);
+    const std::vector<Input> inputs = random_inputs(random.random_, 300);
+    const std::vector<double> expected = output_of(block.linear(), inputs);
+    double largest = 0.0;
+    for (const double torque : expected) largest = std::max(largest, std::abs(torque));
+    for (std::size_t k = 0; k < inputs.size(); ++k) {
+      ASSERT_NEAR(block.step(inputs[k].feedback, inputs[k].torque), expected[k], 1e-9 * largest) << k;
+    }
+  }
+}
+
+template <class List>
+struct EachBlock;
+template <class... Blocks>
+struct EachBlock<std::tuple<Blocks...>> {
+  static void expect_linear_forms() {
+    RandomControl random(17);
+    (expect_its_linear_form<Blocks>(random), ...);
+  }
+};
+
+TEST(ControlChain, TheLinearFormOfEveryBlockIsWhatItDoes) {
+  EachBlock<ControlBlockChain::List>::expect_linear_forms();
+  EachBlock<std::tuple<Pid, Cascade, LowPass>>::expect_linear_forms();
+}
+
+TEST(ControlChain, ABlockOfTheTestsHasTheImpulseResponseOfItsTransferFunction) {
+  LowPass block({}, {});
+  for (int k = 0; k < 50; ++k) {
+    EXPECT_NEAR(block.step({}, k == 0 ? 1.0 : 0.0), (1.0 - LowPass::decay) * std::pow(LowPass::decay, k),
+                1e-15);
+  }
+}
+
+TEST(ControlChain, BlocksActOneAfterTheOther) {
+  const ControllerParameters parameters{.kp = 2e-3, .ki = 1e-4, .kd = 5e-3};
+  const ControlStart start{0.01, {-0.4, 0.4}};
+  BlockChain<Pid, LowPass> chain(parameters, start);
+  Pid pid(parameters, start);
+  LowPass filter(parameters, start);
+  std::mt19937_64 random(18);
+  for (const Input& input : random_inputs(random, 500)) {
+    EXPECT_EQ(chain.step(input.feedback), filter.step(input.feedback, pid.step(input.feedback)));
+  }
+}
+
+// The filters: their response at the frequencies that the definition fixes, their stability, and how they go
+// on from a torque in force.
+
+constexpr double filter_rate = 2000.0;
+
+std::complex<double> response(const BiquadConstants<double>& c, double frequency) {
+  const std::complex<double> z = std::polar(1.0, -2.0 * std::numbers::pi * frequency / filter_rate);
+  return (c.b0 + c.b1 * z + c.b2 * z * z) / (1.0 + c.a1 * z + c.a2 * z * z);
+}
+
+void expect_near(std::complex<double> value, std::complex<double> expected) {
+  EXPECT_NEAR(value.real(), expected.real(), 1e-9);
+  EXPECT_NEAR(value.imag(), expected.imag(), 1e-9);
+}
+
+// Prewarped at its frequency a filter has there exactly the response of the continuous one, and so at 0 and
+// at infinity, which goes to half the sample rate.
+TEST(Filter, HasTheContinuousResponseAtItsFrequencyAtZeroAndAtHalfTheSampleRate) {
+  using namespace std::complex_literals;
+  for (const double f : {1.0, 30.0, 200.0, 900.0, 990.0}) {
+    Filter filter{.kind = FilterKind::lowpass, .frequency = f, .damping = 0.3};
+    const BiquadConstants<double> lowpass = discretised(filter, filter_rate);
+    expect_near(response(lowpass, f), 1.0 / (0.6i));
+    expect_near(response(lowpass, 0.0), 1.0);
+    expect_near(response(lowpass, 0.5 * filter_rate), 0.0);
+    filter.kind = FilterKind::notch;
+    filter.depth = 0.05;
+    const BiquadConstants<double> notch = discretised(filter, filter_rate);
+    expect_near(response(notch, f), 0.05);
+    expect_near(response(notch, 0.0), 1.0);
+    expect_near(response(notch, 0.5 * filter_rate), 1.0);
+    filter.kind = FilterKind::lead;
+    filter.ratio = 4.0;
+    const BiquadConstants<double> lead = discretised(filter, filter_rate);
+    expect_near(response(lead, f), (1.0 + 2.0i) / (1.0 + 0.5i));
+    expect_near(response(lead, 0.0), 1.0);
+    expect_near(response(lead, 0.5 * filter_rate), 4.0);
+    EXPECT_TRUE(is_stable(lowpass) && is_stable(notch) && is_stable(lead));
+  }
+}
+
+// A biquad with the coefficients of a filter of 2 kHz, moved to another rate, is that filter of the other
+// rate.
+TEST(Filter, OfCoefficientsMovesToAnotherSampleRateAsTheFilterThatTheyAreOf) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int i = 0; i < 300; ++i) {
+    Filter filter{.kind = static_cast<FilterKind>(i % 3),
+                  .frequency = 5.0 + 900.0 * unit(random),
+                  .damping = 0.05 + unit(random),
+                  .depth = unit(random),
+                  .ratio = 1.5 + 8.0 * unit(random)};
+    const double ratio = i % 2 == 0 ? 2.0 : 1.0 + 3.0 * unit(random);
+    const BiquadConstants<double> here = discretised(filter, filter_rate);
+    const Filter given{.kind = FilterKind::biquad, .b = {here.b0, here.b1, here.b2}, .a = {here.a1, here.a2}};
+    const std::optional<Filter> moved = resampled(given, ratio);
+    ASSERT_TRUE(moved);
+    const BiquadConstants<double> there = discretised(filter, ratio * filter_rate);
+    const double expected[] = {there.b0, there.b1, there.b2, there.a1, there.a2};
+    const double found[] = {moved->b[0], moved->b[1], moved->b[2], moved->a[0], moved->a[1]};
+    for (int k = 0; k < 5; ++k) EXPECT_NEAR(found[k], expected[k], 1e-8) << i << ' ' << k;
+  }
+}
+
+TEST(Filter, OfCoefficientsWithAPoleAtHalfTheSampleRateIsOfNoOtherRate) {
+  EXPECT_FALSE(resampled({.kind = FilterKind::biquad, .b = {1.0, 0.0, 0.0}, .a = {1.0, 0.0}}, 2.0));
+  const std::optional<Filter> gain = resampled({.kind = FilterKind::biquad, .b = {3.0, 0.0, 0.0}}, 2.0);
+  ASSERT_TRUE(gain);
+  EXPECT_EQ(gain->b, (std::array<double, 3>{3.0, 0.0, 0.0}));
+}
+
+TEST(Filter, IsStableWhereBothPolesLieInsideTheUnitCircle) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coefficient(-2.5, 2.5);
+  for (int i = 0; i < 2000; ++i) {
+    const double a1 = coefficient(random);
+    const double a2 = coefficient(random);
+    const std::complex<double> root = std::sqrt(std::complex<double>(a1 * a1 - 4.0 * a2));
+    const double radius = 0.5 * std::max(std::abs(-a1 + root), std::abs(-a1 - root));
+    EXPECT_EQ(is_stable({1, 0, 0, a1, a2}), radius < 1.0) << a1 << " " << a2;
+  }
+}
+
+// In the steady state that take_over makes, the chain decides the torque in force whatever its blocks, and
+// goes on deciding it while nothing moves.
+TEST(ControlChain, GoesOnFromTheTorqueInForce) {
+  testing::RandomBlocks draw(5);
+  for (int i = 0; i < 100; ++i) {
+    ControllerParameters p;
+    p.blocks = draw.blocks(testing::BlockKind::all, p.sample_rate);
+    p.blocks.observer.bandwidth = 0.0;  // its estimate goes on to change
+    p.blocks.integrator_leak = std::numeric_limits<double>::infinity();
+    ControlChain chain(p, {0.0, {-1e9, 1e9}, 4e-6});
+    for (int k = 0; k < 50; ++k) chain.observe({0.0, 12.0, draw.uniform(-0.1, 0.1)});
+    const double torque = draw.uniform(-0.3, 0.3);
+    chain.take_over(torque);
+    for (int k = 0; k < 50; ++k) ASSERT_NEAR(chain.step({0.0, 12.0, torque}), torque, 1e-12) << i;
+  }
+}
+
+TEST(ControlChain, WithAnObserverChangesTheTorqueOnlyAsTheEstimateGoesOn) {
+  ControllerParameters p;
+  p.ki = 0.0;
+  p.blocks.observer = {20.0, 5e-4};
+  const ControlStart start{0.0, {-1e9, 1e9}, 4e-6};
+  ControlChain chain(p, start);
+  for (int k = 0; k < 5000; ++k) chain.observe({0.0, 12.0, 0.1});
+  chain.take_over(0.1);  // at rest the estimate is −0.1, which the integral balances
+  for (int k = 0; k < 50; ++k) ASSERT_NEAR(chain.step({0.0, 12.0, 0.1}), 0.1, 1e-12);
+}
+
+ControllerParameters parameters_with(std::function<plugin::StepFunction(const zerocount_setup&)> start) {
+  plugin::ControllerPlugin plugin{.description = {"law", "1", "", {}}};
+  plugin.start = std::move(start);
+  ControllerParameters parameters;
+  parameters.sample_rate = 4000.0;
+  parameters.user.plugin = std::make_shared<const plugin::ControllerPlugin>(std::move(plugin));
+  return parameters;
+}
+
+TEST(UserLaw, ALawOfThisProcessIsStartedWithTheSetupAndStepsWithTheSamples) {
+  std::vector<std::int64_t> samples;
+  const ControllerParameters parameters = parameters_with([&](const zerocount_setup& setup) {
+    EXPECT_EQ(setup.sample_time, 1.0 / 4000.0);
+    EXPECT_EQ(setup.resolution, 1e-6);
+    EXPECT_EQ(setup.torque_resolution, 1e-4);
+    EXPECT_EQ(setup.lowest_torque, -2.0);
+    EXPECT_EQ(setup.highest_torque, 3.0);
+    EXPECT_EQ(setup.initial_integral, 0.25);
+    return [&, gain = setup.resolution](const zerocount_sample& sample) {
+      samples.push_back(sample.k);
+      EXPECT_EQ(sample.time, static_cast<double>(sample.k) / 4000.0);
+      return gain * sample.error;
+    };
+  });
+  const ControlStart start{.integral = 0.25, .resolution = 1e-6, .dac = {{-2.0, 3.0}, 1e-4}};
+  UserLaw law(parameters, start);
+  UserLaw moved = std::move(law);
+  EXPECT_EQ(moved.step({.error = 3.0}, 0.0), 3e-6);
+  EXPECT_EQ(moved.step({.error = -2.0}, 0.0), -2e-6);
+  EXPECT_EQ(samples, (std::vector<std::int64_t>{0, 1}));
+}
+
+TEST(UserLaw, AnExceptionOfALawOfThisProcessIsPassedOn) {
+  const ControllerParameters parameters = parameters_with([](const zerocount_setup&) {
+    return [](const zerocount_sample&) -> double { throw std::runtime_error("mine"); };
+  });
+  UserLaw law(parameters, {});
+  EXPECT_THROW(law.step({}, 0.0), std::runtime_error);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "results/storage/checksum_trailer.hpp"
 #include "tests/analysis/study_files.hpp"
 #include "tests/support/merged_file.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 
@@ -50,13 +51,7 @@ class ComparedStudies : public ::testing::Test {
   }
 
   std::string fault(const reading::AllTrialsFile& one, const reading::AllTrialsFile& other) {
-    try {
-      comparison::compare_studies(one, other);
-    } catch (const Failure& failure) {
-      EXPECT_EQ(failure.code(), ExitCode::bad_data);
-      return failure.what();
-    }
-    return "no fault";
+    return refusal_by([&] { comparison::compare_studies(one, other); }, ExitCode::bad_data);
   }
 
   TemporaryFolder folder_;

@@ -4,6 +4,7 @@
 #include "analysis/comparison/point_judgements.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/study_files.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 
@@ -17,13 +18,7 @@ comparison::GateRules read(const std::string& text) {
 }
 
 std::string fault(const std::string& text) {
-  try {
-    read(text);
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.code(), ExitCode::bad_input);
-    return failure.what();
-  }
-  return "no fault";
+  return refusal_by([&] { read(text); });
 }
 
 TEST(MarginsFile, SaysWhatTheRulesAre) {

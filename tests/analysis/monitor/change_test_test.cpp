@@ -2,8 +2,8 @@
 #include "analysis/monitor/change_test.hpp"
 
 #include "analysis/parallel/parallel.hpp"
-#include "core/failure/failure.hpp"
 #include "tests/analysis/monitor/move_sequences.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {
@@ -239,12 +239,7 @@ TEST(Groups, AreTakenWhereTheyAreComplete) {
 
 TEST(Groups, NeedTheirColumn) {
   const auto message = [](const std::string& text) {
-    try {
-      log_of(text, "moves.csv", "day");
-    } catch (const Failure& failure) {
-      return std::string(failure.what());
-    }
-    return std::string();
+    return refusal_by([&] { log_of(text, "moves.csv", "day"); });
   };
   EXPECT_EQ(message("shift,settling_time\n1,2\n"),
             "moves.csv:1: has no column 'day' (--group); expected one of shift, settling_time");

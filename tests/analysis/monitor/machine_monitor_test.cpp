@@ -4,6 +4,7 @@
 #include "analysis/monitor/monitor_baseline.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/monitor/move_sequences.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {
@@ -230,12 +231,7 @@ TEST(MachineMonitor, WatchesAccumulatingStatesOnlyWhereNamed) {
 TEST(MachineMonitor, RefusesWhatCannotBeCompared) {
   const auto message = [](const std::string& before, const std::string& after,
                           const MonitorSettings& settings) {
-    try {
-      said_of(before, after, settings);
-    } catch (const Failure& failure) {
-      return std::string(failure.what());
-    }
-    return std::string();
+    return refusal_by([&] { said_of(before, after, settings); });
   };
   EXPECT_EQ(
       message("overshoot\n1\n", "settling_time\n1\n", {}),

@@ -5,6 +5,7 @@
 #include "core/failure/failure.hpp"
 #include "experiments/study/study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::manifest {
@@ -140,13 +141,7 @@ class AllTrialsFile : public ::testing::Test {
   ~AllTrialsFile() override { std::filesystem::remove_all(folder); }
 
   std::string failure_of(const std::filesystem::path& path, ExitCode code) {
-    try {
-      load_study(path);
-    } catch (const Failure& failure) {
-      EXPECT_EQ(failure.code(), code);
-      return failure.what();
-    }
-    return "";
+    return refusal_by([&] { load_study(path); }, code);
   }
 
   std::filesystem::path folder =

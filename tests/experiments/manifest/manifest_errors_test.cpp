@@ -1,19 +1,8 @@
-#include "core/failure/failure.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::manifest {
 namespace {
-
-std::string failure_of(const std::string& text) {
-  try {
-    study_of(text);
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.code(), ExitCode::bad_input);
-    return failure.what();
-  }
-  return "";
-}
 
 struct Case {
   const char* line;    // the sixth line of an otherwise good manifest
@@ -28,7 +17,7 @@ void PrintTo(const Case& tested, std::ostream* out) {
 class SixthLine : public ::testing::TestWithParam<Case> {};
 
 TEST_P(SixthLine, IsReported) {
-  EXPECT_TRUE(has_faults(failure_of(minimal_manifest(GetParam().line)), GetParam().faults));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(GetParam().line)), GetParam().faults));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -182,27 +171,27 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"controller: {sample_rate: 1.0e13}", "6:27: command.hold | 1000000000000 samples"}));
 
 TEST(ManifestErrors, EveryRequiredKeyIsMissed) {
-  EXPECT_TRUE(has_faults(failure_of("description: x\n"),
+  EXPECT_TRUE(has_faults(refusal_of("description: x\n"),
                          "1:1: zerocount | missing\n"
                          "1:1: name | missing\n"
                          "1:1: seed | missing\n"
                          "1:1: trials | missing\n"
                          "1:1: command | missing"));
-  EXPECT_TRUE(has_faults(failure_of("zerocount: 1\nname: x\nseed: 1\ntrials: 1\ncommand: {hold: 1}\n"),
+  EXPECT_TRUE(has_faults(refusal_of("zerocount: 1\nname: x\nseed: 1\ntrials: 1\ncommand: {hold: 1}\n"),
                          "5:10: command | exactly one of"));
 }
 
 TEST(ManifestErrors, MergeKeysAreRefused) {
-  EXPECT_TRUE(has_faults(failure_of(minimal_manifest("<<: {name: x}")), "6:1: manifest | merge keys"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("<<: {name: x}")), "6:1: manifest | merge keys"));
 }
 
 TEST(ManifestErrors, ANewerManifestSaysSo) {
-  EXPECT_TRUE(has_faults(failure_of("zerocount: 2\nname: x\nseed: 1\ntrials: 1\ncommand: {targets: [1]}\n"),
+  EXPECT_TRUE(has_faults(refusal_of("zerocount: 2\nname: x\nseed: 1\ntrials: 1\ncommand: {targets: [1]}\n"),
                          "1:12: zerocount | newer"));
 }
 
 TEST(ManifestErrors, ValuesThatCannotBeReadAreLikeNoOther) {
-  const std::string message = failure_of(
+  const std::string message = refusal_of(
       "zerocount: 1\nname: m\nseed: 1\ntrials: 1\ncommand: {targets: [1]}\n"
       "sweep: {grid: {friction.k1: [-1, -2, 5]}}\n");
   EXPECT_TRUE(says(message, "sweep.grid.friction.k1.0", "sweep.grid.friction.k1.1"));
@@ -210,7 +199,7 @@ TEST(ManifestErrors, ValuesThatCannotBeReadAreLikeNoOther) {
 }
 
 TEST(ManifestErrors, NumbersOfTheStudyAreChecked) {
-  EXPECT_TRUE(has_faults(failure_of("zerocount: 0\nname: ''\nseed: -1\ntrials: 0\ncommand: {targets: []}\n"),
+  EXPECT_TRUE(has_faults(refusal_of("zerocount: 0\nname: ''\nseed: -1\ntrials: 0\ncommand: {targets: []}\n"),
                          "1:12: zerocount | version 0\n"
                          "2:7: name | the name is empty\n"
                          "3:7: seed | from 0 to 18446744073709551615\n"
@@ -220,14 +209,14 @@ TEST(ManifestErrors, NumbersOfTheStudyAreChecked) {
 
 TEST(ManifestErrors, TargetsAreWholeNumbers) {
   EXPECT_TRUE(has_faults(
-      failure_of(
+      refusal_of(
           "zerocount: 1\nname: x\nseed: 1\ntrials: 1\ncommand: {targets: [1, 2.5, {uniform: [1, 2]}]}\n"),
       "5:24: command.targets.1 | not written as a whole number\n"
       "5:39: command.targets.2.uniform | not whole numbers"));
 }
 
 TEST(ManifestErrors, AllErrorsAreToldInTheOrderOfTheFile) {
-  EXPECT_TRUE(has_faults(failure_of(minimal_manifest("verdict: {dwell: 2}\n"
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("verdict: {dwell: 2}\n"
                                                      "plant: {inertia: no, inertia: 1}\n"
                                                      "dac: {bits: 0}\n"
                                                      "sead: 1\n"
@@ -242,7 +231,7 @@ TEST(ManifestErrors, AllErrorsAreToldInTheOrderOfTheFile) {
 
 // A key that is missing may be there under a wrong name, or where it cannot be read.
 TEST(ManifestErrors, TheCauseComesBeforeWhatItEntails) {
-  EXPECT_TRUE(has_faults(failure_of("zerocount: 1\nname: x\nseed: 1\ntrials: 1\ncomand: {targets: [1]}\n"),
+  EXPECT_TRUE(has_faults(refusal_of("zerocount: 1\nname: x\nseed: 1\ntrials: 1\ncomand: {targets: [1]}\n"),
                          "5:1: comand | command\n1:1: command | missing"));
   const std::string linear =
       "zerocount: 1\nname: x\naxis: linear\nseed: 1\ntrials: 1\ncommand: {targets: [1]}\n"
@@ -250,14 +239,14 @@ TEST(ManifestErrors, TheCauseComesBeforeWhatItEntails) {
       "friction: {k1: 1.0e+5, k2: 2.0e+7, beta: 2.0e+6, lambda: 1.0e+8, breakaway: 12, "
       "stribeck_velocity: 1.0e-3}\n"
       "encoder: {resolution: 1.0e-9}\ndac: {bits: 20, resolution: 5.0e-5}\n";
-  EXPECT_TRUE(has_faults(failure_of(linear + "controller: {kii: 1}\n"),
+  EXPECT_TRUE(has_faults(refusal_of(linear + "controller: {kii: 1}\n"),
                          "11:14: controller.kii | ki\n1:1: controller.ki | missing"));
-  EXPECT_TRUE(has_faults(failure_of(linear + "sweep: {grid: {controller.ki: 5}}\n"),
+  EXPECT_TRUE(has_faults(refusal_of(linear + "sweep: {grid: {controller.ki: 5}}\n"),
                          "11:31: sweep.grid.controller.ki | single value | list of values"));
   EXPECT_TRUE(
       has_faults(refusal_of(linear + "sweep: {grid: {controller.ki: [5]}}\n", {"sweep.grid.controller.ki=5"}),
                  "--set sweep.grid.controller.ki=5: sweep.grid.controller.ki | list of values"));
-  EXPECT_TRUE(has_faults(failure_of(linear + "sweep: {controller.ki: [5, 6]}\n"),
+  EXPECT_TRUE(has_faults(refusal_of(linear + "sweep: {controller.ki: [5, 6]}\n"),
                          "11:9: sweep.controller.ki | the grid or in a case | grid: {controller.ki\n"
                          "1:1: controller.ki | missing"));
 }
@@ -273,15 +262,15 @@ TEST(ManifestErrors, ALengthOfACountInAnotherUnitIsNamedItself) {
 }
 
 TEST(ManifestErrors, AManifestIsAMap) {
-  EXPECT_TRUE(has_faults(failure_of("- 1\n"), "1:1: manifest | a list"));
-  EXPECT_TRUE(has_faults(failure_of("hello world\n"), "1:1: manifest | single value 'hello world' | a map"));
-  EXPECT_TRUE(has_faults(failure_of(minimal_manifest("plant: inertia 5\n")),
+  EXPECT_TRUE(has_faults(refusal_of("- 1\n"), "1:1: manifest | a list"));
+  EXPECT_TRUE(has_faults(refusal_of("hello world\n"), "1:1: manifest | single value 'hello world' | a map"));
+  EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("plant: inertia 5\n")),
                          "6:8: plant | single value 'inertia 5' | plant: {inertia: ...}"));
-  EXPECT_TRUE(has_faults(failure_of(""), "1:1: manifest | the manifest is empty"));
+  EXPECT_TRUE(has_faults(refusal_of(""), "1:1: manifest | the manifest is empty"));
 }
 
 TEST(ManifestErrors, AHugeTextIsRefusedUnread) {
-  EXPECT_TRUE(has_faults(failure_of(std::string(100'000'000, '[')), "1:1: manifest | is too large"));
+  EXPECT_TRUE(has_faults(refusal_of(std::string(100'000'000, '[')), "1:1: manifest | is too large"));
 }
 
 }  // namespace

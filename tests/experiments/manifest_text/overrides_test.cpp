@@ -5,6 +5,7 @@
 #include "experiments/manifest_text/manifest_values.hpp"
 #include "experiments/manifests/shipped_manifests.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::manifest_text {
@@ -12,13 +13,7 @@ namespace {
 
 std::string override_failure(const std::vector<std::string>& overrides,
                              const std::string& text = minimal_manifest()) {
-  try {
-    study_of(text, overrides);
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.code(), ExitCode::bad_input);
-    return failure.what();
-  }
-  return "";
+  return refusal_by([&] { study_of(text, overrides); });
 }
 
 TEST(Overrides, ReplaceAnyKey) {
@@ -95,12 +90,7 @@ TEST(Overrides, ThatTheSweepGivesAtEveryPointAreReported) {
     const std::string text = "sweep: " + sweep;
     report_swept_overrides(*yaml::parse_yaml(text, "study.yaml", false, problems), {change}, sources,
                            problems);
-    try {
-      problems.raise_if_any();
-    } catch (const Failure& failure) {
-      return failure.what();
-    }
-    return "";
+    return refusal_by([&] { problems.raise_if_any(); });
   };
   const std::string grid = "{grid: {controller.ki: [1.0e-5, 2.0e-5]}}\n";
   EXPECT_TRUE(

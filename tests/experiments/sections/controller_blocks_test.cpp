@@ -5,6 +5,7 @@
 #include "experiments/manifest/parameter_listing.hpp"
 #include "experiments/study/plan.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::sections {
@@ -105,13 +106,7 @@ study::Study study_with_plugin(const std::string& more, const std::vector<std::s
 }
 
 std::string refusal_with_plugin(const std::string& more, const PluginLoader& load = two_parameters()) {
-  try {
-    manifest::parse_study(minimal_manifest(more), "m.yaml", {}, {.plugin = load});
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.code(), ExitCode::bad_input);
-    return failure.what();
-  }
-  return "";
+  return refusal_by([&] { manifest::parse_study(minimal_manifest(more), "m.yaml", {}, {.plugin = load}); });
 }
 
 const std::string own = "controller: {plugin: own.so, parameters: {gain: {uniform: [1, 5]}}}\n";

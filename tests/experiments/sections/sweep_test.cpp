@@ -2,6 +2,7 @@
 
 #include "core/failure/failure.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::sections {
@@ -15,12 +16,7 @@ study::Study swept(const std::string& sweep, const std::string& more = "") {
 }
 
 std::string failure_of(const std::string& sweep) {
-  try {
-    swept(sweep);
-  } catch (const Failure& failure) {
-    return failure.what();
-  }
-  return "";
+  return refusal_by([&] { swept(sweep); });
 }
 
 TEST(Sweep, WithoutOneThereIsOnePoint) {

@@ -1,8 +1,8 @@
 // A recorded torque in a manifest: as a table, and as a list of pairs.
-#include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/says.hpp"
 #include "tests/support/test.hpp"
 
@@ -22,13 +22,7 @@ study::Study replayed_study(const std::string& manifest, const Files& files = {}
 }
 
 std::string refusal_of_replay(const std::string& manifest, const Files& files = {}) {
-  try {
-    replayed_study(manifest, files);
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.code(), ExitCode::bad_input);
-    return failure.what();
-  }
-  return "";
+  return refusal_by([&] { replayed_study(manifest, files); });
 }
 
 const Files table{
@@ -155,12 +149,7 @@ study::Study study_with(const std::string& spectrum, const std::map<std::string,
 }
 
 std::string error_with(const std::string& spectrum, const std::map<std::string, std::string>& files = {}) {
-  try {
-    study_with(spectrum, files);
-  } catch (const Failure& failure) {
-    return failure.what();
-  }
-  return "";
+  return refusal_by([&] { study_with(spectrum, files); });
 }
 
 const trial::SpectrumParameters& spectrum_of(const study::Study& study, trial::TrialParameters& parameters) {
@@ -210,12 +199,7 @@ study::Study study_with_samples(const std::string& table, const std::string& mor
 }
 
 std::string refusal_with(const std::string& table, const std::string& more) {
-  try {
-    study_with_samples(table, more);
-  } catch (const Failure& failure) {
-    return failure.what();
-  }
-  return "";
+  return refusal_by([&] { study_with_samples(table, more); });
 }
 
 /// A table of k1 and k2, each row different.

@@ -1,8 +1,8 @@
 #include "experiments/yaml/yaml_tree.hpp"
 
-#include "core/failure/failure.hpp"
 #include "experiments/manifests/shipped_manifests.hpp"
 #include "experiments/yaml/faults.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/says.hpp"
 #include "tests/support/test.hpp"
 
@@ -14,13 +14,7 @@ YamlPointer parse(const std::string& text, Problems& problems) {
 }
 
 std::string message_of(const Problems& problems) {
-  try {
-    problems.raise_if_any();
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.code(), ExitCode::bad_input);
-    return failure.what();
-  }
-  return "";
+  return refusal_by([&] { problems.raise_if_any(); });
 }
 
 std::string problem_with(const std::string& text) {
@@ -156,12 +150,7 @@ TEST(YamlTree, MutilatedTextsNeverEscape) {
 std::string problem_in(const std::string& text, bool one_line = false) {
   Problems problems;
   parse_yaml(text, "m.yaml", one_line, problems);
-  try {
-    problems.raise_if_any();
-  } catch (const Failure& failure) {
-    return failure.what();
-  }
-  return "";
+  return refusal_by([&] { problems.raise_if_any(); });
 }
 
 void collect_scalars(const YamlNode& node, std::vector<Place>& places) {

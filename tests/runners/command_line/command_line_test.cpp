@@ -5,9 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/failure/failure.hpp"
 #include "runners/program/commands.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {
@@ -282,13 +282,7 @@ std::string refusal_of(const command_line::CommandSpec& spec, const std::string&
   words.emplace_back("--");
   const std::size_t operands = std::min(spec.max_operands, std::max<std::size_t>(spec.min_operands, 1));
   for (std::size_t i = 0; i < operands; ++i) words.push_back(i == 0 ? first_operand : "x");
-  try {
-    command_line::Arguments(spec, words);
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.code(), ExitCode::bad_input);
-    return failure.what();
-  }
-  return "";
+  return refusal_by([&] { command_line::Arguments(spec, words); });
 }
 
 /// The option that a condition names.

@@ -133,7 +133,7 @@ TEST(SampleRecords, HaveTheColumnsThatTheStudyUsesInEveryPlace) {
 // A linear stage whose integral gain is too low for its hold: nobody is told that it is unstable, and the
 // hold that is advised decides.
 
-constexpr const char* stage =
+constexpr const char* slow_stage =
     "zerocount: 1\nname: stage\naxis: linear\nseed: 19900701\ntrials: 40\n"
     "plant: {inertia: 5, presliding_damping: 1500, sliding_damping: 50}\n"
     "friction: {k1: {uniform: [0.9e+5, 1.1e+5]}, k2: {uniform: [1.6e+7, 2.4e+7]},\n"
@@ -157,7 +157,7 @@ struct Recorded {
 
 class SlowStage : public ::testing::Test {
  protected:
-  SlowStage() { folder_.write("stage.yaml", stage); }
+  SlowStage() { folder_.write("stage.yaml", slow_stage); }
   ProgramResult run(std::vector<std::string> words, const std::vector<std::string>& settings = {}) const {
     for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
     return zerocount_program(words, folder_.path());

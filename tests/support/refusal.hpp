@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/failure/failure.hpp"
+#include "tests/support/test.hpp"
+
+namespace zerocount {
+
+/// The message with which an action is refused, with this exit code; "" where it is not.
+template <class Action>
+std::string refusal_by(const Action& action, ExitCode code = ExitCode::bad_input) {
+  try {
+    action();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), code) << failure.what();
+    return failure.what();
+  }
+  return "";
+}
+
+}  // namespace zerocount

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "experiments/study/study.hpp"
-#include "tests/support/says.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount {

@@ -54,8 +54,7 @@ TEST_F(FirstStudy, IsUnderstoodWithoutWarnings) {
   const ProgramResult checked = program({"check", "my-axis.yaml"});
   EXPECT_EQ(checked.code, 0);
   EXPECT_EQ(checked.err, "");
-  EXPECT_NE(checked.out.find("8 design points × 2000 trials"), std::string::npos) << checked.out;
-  EXPECT_NE(checked.out.find("1000, 2 trials of each"), std::string::npos) << checked.out;
+  EXPECT_TRUE(says(checked.out, "8 design points × 2000 trials", "1000, 2 trials of each"));
 }
 
 /// A proportion in %, as the README has it.
@@ -86,15 +85,13 @@ TEST_F(FirstStudy, ItsCommandsDoWhatTheReadmeSays) {
     EXPECT_EQ(result.code, 0) << line << "\n" << result.err;
   }
   EXPECT_EQ(verbs, (std::vector<std::string>{"check", "run", "summary", "judge", "report"}));
-  EXPECT_NE(folder_.read("my-axis.html").find("</html>"), std::string::npos);
+  EXPECT_TRUE(says(folder_.read("my-axis.html"), "</html>"));
 
   const auto points = points_of("my-axis.h5");
   ASSERT_EQ(points.size(), 8U);
   std::string text = text_;
   std::replace(text.begin(), text.end(), '\n', ' ');
-  const auto expect_said = [&text](const std::string& words) {
-    EXPECT_NE(text.find(words), std::string::npos) << words;
-  };
+  const auto expect_said = [&text](const std::string& words) { EXPECT_TRUE(says(text, words)) << words; };
   const auto judged = nlohmann::json::parse(program({"judge", "my-axis.h5", "--format", "json"}).out);
   EXPECT_EQ(judged["point"], 2);
   EXPECT_EQ(judged["status"], "met");

@@ -3,7 +3,6 @@
 #include <nlohmann/json_fwd.hpp>
 #include <sys/types.h>
 
-#include "tests/support/says.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "tests/support/test.hpp"
+#include <string_view>
+
+#include <gtest/gtest.h>
 
 namespace zerocount {
 

@@ -1,5 +1,6 @@
-// What nearly every test needs of the standard library, of GoogleTest and of fmt, parsed once for all of them where the compiler
-// takes precompiled headers. Rarer and heavier headers are included by the tests that need them.
+// What nearly every test needs of the standard library, of GoogleTest and of fmt, parsed once for all of them
+// where the compiler takes precompiled headers. Rarer and heavier headers are included by the tests that need
+// them.
 #pragma once
 
 #include <algorithm>
@@ -47,3 +48,5 @@
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/support/says.hpp"

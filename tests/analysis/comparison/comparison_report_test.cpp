@@ -72,36 +72,34 @@ document::Answer answer_of(const comparison::StudyComparison& comparison) {
 
 TEST(ComparisonReport, TheTableHoldsAllThatWasJudged) {
   const std::string table = document::text(answer_of(sample()));
-  for (const char* part :
-       {"success_rate", "90 %", "85 %", "[1 %, 9 %]", "< 1e-4", "regression", "1300 trials would decide",
-        "these trials decide a margin above", "not measured", "require success_rate",
-        "controller.ki  1e-5      (absent)", "regression: 1 of 4 judgements failed"}) {
-    EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
-  }
+  EXPECT_TRUE(says(table, "success_rate", "90 %", "85 %", "[1 %, 9 %]", "< 1e-4", "regression",
+                   "1300 trials would decide", "these trials decide a margin above", "not measured",
+                   "require success_rate", "controller.ki  1e-5      (absent)",
+                   "regression: 1 of 4 judgements failed"));
 }
 
 TEST(ComparisonReport, OfManyRowsOnlyTheNoteworthyAreShown) {
   comparison::StudyComparison comparison = sample();
   comparison.points.assign(30, comparison.points[0]);
   const std::string table = document::text(answer_of(comparison));
-  EXPECT_EQ(table.find("stable_rate"), std::string::npos);
-  EXPECT_NE(table.find("(60 rows that simply passed are not shown)"), std::string::npos) << table;
+  EXPECT_FALSE(says(table, "stable_rate"));
+  EXPECT_TRUE(says(table, "(60 rows that simply passed are not shown)"));
 }
 
 TEST(ComparisonReport, AnswersThatSpeakOfStabilitySayHowManyMovesAreUndecided) {
   comparison::StudyComparison comparison = sample();
   const std::string remark = "undecided: 12 of 300 moves in the baseline, 4 of 280 in the file";
-  EXPECT_EQ(document::text(answer_of(comparison)).find("undecided: "), std::string::npos);
+  EXPECT_FALSE(says(document::text(answer_of(comparison)), "undecided: "));
   comparison.points[0].baseline_undecided = {.moves = 300, .off_target = 12, .still_falling = 9};
   comparison.points[0].current_undecided = {.moves = 280, .off_target = 4, .still_falling = 0};
   comparison.points[0].judgements[3].verdict = comparison::GateVerdict::inconclusive;  // the stable rate
   comparison.notes = {"undecided in the file"};
   for (const std::string& text :
        {document::text(answer_of(comparison)), comparison::comparison_junit(comparison)}) {
-    EXPECT_NE(text.find(remark), std::string::npos) << text;
+    EXPECT_TRUE(says(text, remark));
     EXPECT_EQ(text.find(remark), text.rfind(remark)) << "beside the stable rate alone\n" << text;
   }
-  EXPECT_NE(document::text(answer_of(comparison)).find("undecided in the file"), std::string::npos);
+  EXPECT_TRUE(says(document::text(answer_of(comparison)), "undecided in the file"));
   const auto json = document::json(answer_of(comparison));
   EXPECT_EQ(json["points"][0]["baseline_undecided"]["still_falling"], 9);
   EXPECT_EQ(json["points"][0]["current_undecided"]["off_target"], 4);
@@ -117,10 +115,10 @@ TEST(ComparisonReport, AFailedImprovementIsAFailureAndNoRegression) {
   EXPECT_EQ(json["points"][0]["measures"][0]["verdict"], "better");
   EXPECT_EQ(json["points"][0]["measures"][0]["gate"], "changed");
   EXPECT_EQ(json["counts"]["better"], 1);
-  EXPECT_NE(comparison::comparison_junit(comparison).find("failures=\"1\""), std::string::npos);
+  EXPECT_TRUE(says(comparison::comparison_junit(comparison), "failures=\"1\""));
   const std::string text = document::text(answer_of(comparison));
   EXPECT_TRUE(text.starts_with("changed: 1 of 1 judgements failed (0 worse")) << text;
-  EXPECT_EQ(text.find("regression"), std::string::npos) << text;
+  EXPECT_FALSE(says(text, "regression"));
 }
 
 TEST(ComparisonReport, TheJsonReadsBack) {
@@ -152,13 +150,13 @@ TEST(ComparisonReport, JUnitCountsFailuresErrorsAndWhatWasSkipped) {
 TEST(ComparisonReport, JUnitIsNotGreenWhereNothingWasMeasured) {
   comparison::StudyComparison nothing;
   nothing.verdict = comparison::GateVerdict::inconclusive;
-  EXPECT_NE(comparison::comparison_junit(nothing).find("errors=\"1\""), std::string::npos);
+  EXPECT_TRUE(says(comparison::comparison_junit(nothing), "errors=\"1\""));
   comparison::StudyComparison unequal;
   unequal.layer = comparison::ComparisonLayer::bits;
   unequal.first_difference = "/outcome/creep: differs from row 3 on";
   unequal.verdict = comparison::GateVerdict::regression;
-  EXPECT_NE(comparison::comparison_junit(unequal).find("failures=\"1\""), std::string::npos);
-  EXPECT_NE(comparison::verdict_sentence(unequal).find("/outcome/creep"), std::string::npos);
+  EXPECT_TRUE(says(comparison::comparison_junit(unequal), "failures=\"1\""));
+  EXPECT_TRUE(says(comparison::verdict_sentence(unequal), "/outcome/creep"));
   EXPECT_EQ(comparison::verdict_sentence(nothing), "inconclusive: nothing was measured");
 }
 

@@ -204,7 +204,7 @@ TEST(GoalMeasures, JudgeMachinesByAsManyMovesOfEach) {
   const auto of_machines = [](const std::vector<Judgement>& all) { return all[1]; };
   const Judgement found =
       of_machines(compare_settled(settled_trials(many, 1), settled_trials(few, 2), false));
-  EXPECT_NE(found.note.find("first 2 trials on each"), std::string::npos) << found.note;
+  EXPECT_TRUE(says(found.note, "first 2 trials on each"));
   EXPECT_NEAR(found.effect, 0.0, 0.1);
 }
 

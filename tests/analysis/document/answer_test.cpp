@@ -122,23 +122,22 @@ TEST(Answer, NamesTheColumnsOfItsCsvLikeTheKeysOfItsJson) {
 TEST(Answer, QuotesCellsOfCsvThatWouldEndThem) {
   Subject subject = example();
   subject.axes[0].name = "a,\"b\"\nc";
-  EXPECT_NE(document::csv(description().of(subject)).find("\n\"a,\"\"b\"\"\nc\",0.3"), std::string::npos);
+  EXPECT_TRUE(says(document::csv(description().of(subject)), "\n\"a,\"\"b\"\"\nc\",0.3"));
 }
 
 TEST(Answer, ShowsPeopleTheTitleTheUnitsAndNoColumnWithoutContent) {
   const std::string text = document::text(description().of(example()));
   EXPECT_TRUE(text.starts_with("the goal is met\n")) << text;
-  EXPECT_NE(text.find("gains: controller.ki = 3e+04\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("\naxes of the machine:\n\naxis  torque (N m)"), std::string::npos) << text;
-  EXPECT_NE(text.find("50.0 % [40.0, 60.0]"), std::string::npos) << text;
-  EXPECT_EQ(text.find("load"), std::string::npos) << text;
-  EXPECT_EQ(text.find("for data"), std::string::npos) << text;
-  EXPECT_EQ(text.find("delay"), std::string::npos) << text;
+  EXPECT_TRUE(says(text, "gains: controller.ki = 3e+04\n", "\naxes of the machine:\n\naxis  torque (N m)",
+                   "50.0 % [40.0, 60.0]"));
+  EXPECT_FALSE(says(text, "load"));
+  EXPECT_FALSE(says(text, "for data"));
+  EXPECT_FALSE(says(text, "delay"));
 }
 
 TEST(Answer, LeavesOutTablesWithoutRowsAndEmptySentences) {
   const std::string text = document::text(description().of({}));
-  EXPECT_EQ(text.find("axes of the machine"), std::string::npos) << text;
+  EXPECT_FALSE(says(text, "axes of the machine"));
   EXPECT_EQ(text, "the goal is met\ngains: controller.ki = 3e+04\nrates: 0.1, –\n");
 }
 
@@ -148,20 +147,19 @@ TEST(Answer, LetsNoTextOfAManifestBecomeMarkup) {
   subject.headline = "<b>&";
   const Answer answer = description().of(subject);
   const std::string html = document::html(answer);
-  EXPECT_EQ(html.find("<script"), std::string::npos);
-  EXPECT_EQ(html.find("<b>"), std::string::npos);
+  EXPECT_FALSE(says(html, "<script"));
+  EXPECT_FALSE(says(html, "<b>"));
   EXPECT_EQ(html.find('\x1b'), std::string::npos);
   const std::string markdown = document::markdown(answer);
-  EXPECT_NE(markdown.find("\\<script>\\|\\`\\*\\_"), std::string::npos) << markdown;
+  EXPECT_TRUE(says(markdown, "\\<script>\\|\\`\\*\\_"));
   EXPECT_EQ(markdown.find('\x1b'), std::string::npos);
 }
 
 TEST(Answer, GivesEveryRowOfAMarkdownTableTheSameCells) {
   const std::string markdown = document::markdown(description().of(example()));
-  EXPECT_NE(markdown.find("| axis | torque (N m) | rate | for people |\n| --- | ---: | ---: | --- |\n"
-                          "| x | 0.3 | 50.0 % [40.0, 60.0] | composed |\n"),
-            std::string::npos)
-      << markdown;
+  EXPECT_TRUE(says(markdown,
+                   "| axis | torque (N m) | rate | for people |\n| --- | ---: | ---: | --- |\n"
+                   "| x | 0.3 | 50.0 % [40.0, 60.0] | composed |\n"));
 }
 
 /// The required keys of an object's schema are those of its JSON, and objects within likewise.
@@ -228,7 +226,7 @@ template <class Number>
 void expect_kept(Number number) {
   const Answer answer = answer_with(number);
   EXPECT_EQ(json(answer)["number"].get<Number>(), number);
-  EXPECT_NE(text(answer).find(std::to_string(number)), std::string::npos) << text(answer);
+  EXPECT_TRUE(says(text(answer), std::to_string(number)));
 }
 
 // A seed is any of 64 bits.
@@ -282,9 +280,8 @@ TEST(VerbatimText, KeepsItsLinesInEveryFormat) {
   const Answer answer = answer_with_lines();
   EXPECT_EQ(json(answer)["manifest"], lines);
   EXPECT_EQ(text(answer), "To paste:\n\n" + lines);
-  EXPECT_NE(markdown(answer).find("```\n" + lines + "```\n"), std::string::npos) << markdown(answer);
-  EXPECT_NE(html(answer).find("<pre>friction:\n  k1: 110   # &lt;b&gt;\n</pre>"), std::string::npos)
-      << html(answer);
+  EXPECT_TRUE(says(markdown(answer), "```\n" + lines + "```\n"));
+  EXPECT_TRUE(says(html(answer), "<pre>friction:\n  k1: 110   # &lt;b&gt;\n</pre>"));
 }
 
 struct Loop {

@@ -167,7 +167,7 @@ TEST(Sections, StandOneBelowTheOtherForPeople) {
   EXPECT_LT(text.find("low:"), text.find("2 [1, 4]")) << text;
   EXPECT_LT(text.find("2 [1, 4]"), text.find("b, high:")) << text;
   EXPECT_LT(text.find("b, high:"), text.find("3 [2, 5]")) << text;
-  EXPECT_EQ(text.find("more trials"), std::string::npos) << text;
+  EXPECT_FALSE(says(text, "more trials"));
 }
 
 TEST(Sections, AreAListOfObjectsInJson) {
@@ -231,25 +231,23 @@ TEST(Escaping, NoNameIsALinkInMarkdown) {
   const std::string link = markdown(named_answer("[x](javascript:alert(2))"));
   EXPECT_EQ(link.find("]("),
             link.find("\\](") == std::string::npos ? std::string::npos : link.find("\\](") + 1);
-  EXPECT_NE(link.find("[x\\](javascript:alert(2))"), std::string::npos) << link;
-  EXPECT_NE(markdown(named_answer("[x]: javascript:alert(2)")).find("[x\\]: "), std::string::npos);
-  EXPECT_NE(markdown(named_answer("[x][y]")).find("[x\\][y]"), std::string::npos);
+  EXPECT_TRUE(says(link, "[x\\](javascript:alert(2))"));
+  EXPECT_TRUE(says(markdown(named_answer("[x]: javascript:alert(2)")), "[x\\]: "));
+  EXPECT_TRUE(says(markdown(named_answer("[x][y]")), "[x\\][y]"));
   // Brackets of bounds stay as they are.
-  EXPECT_NE(markdown(named_answer("90 [87, 95] %")).find("90 [87, 95] %"), std::string::npos);
+  EXPECT_TRUE(says(markdown(named_answer("90 [87, 95] %")), "90 [87, 95] %"));
 }
 
 TEST(Escaping, NoNameIsLayoutInMarkdown) {
-  EXPECT_EQ(markdown(named_answer("# a")).find("\n# a"), std::string::npos);
+  EXPECT_FALSE(says(markdown(named_answer("# a")), "\n# a"));
   for (const char* const name : {"# a", "- a", "+ a", "> a", "1. a", "12) a", "=== a", "---"}) {
     const std::string text = markdown(named_answer(name));
-    EXPECT_EQ(text.find(std::string("\n") + name), std::string::npos) << text;
+    EXPECT_FALSE(says(text, std::string("\n") + name));
   }
-  EXPECT_NE(markdown(named_answer("a|b <i> `c` *d* _e_ ~f~ &lt;"))
-                .find("a\\|b \\<i> \\`c\\` \\*d\\* \\_e\\_ \\~f\\~ \\&lt;"),
-            std::string::npos);
+  EXPECT_TRUE(says(markdown(named_answer("a|b <i> `c` *d* _e_ ~f~ &lt;")),
+                   "a\\|b \\<i> \\`c\\` \\*d\\* \\_e\\_ \\~f\\~ \\&lt;"));
   // The block of lines ends where its lines end.
-  EXPECT_NE(markdown(named_answer("a", "x\n```\n# y\n")).find("````\nx\n```\n# y\n````\n"),
-            std::string::npos);
+  EXPECT_TRUE(says(markdown(named_answer("a", "x\n```\n# y\n")), "````\nx\n```\n# y\n````\n"));
 }
 
 }  // namespace

@@ -103,15 +103,15 @@ TEST_F(HistoryDatabase, LosesNoRunOfManyWriters) {
 }
 
 TEST_F(HistoryDatabase, RefusesWhatIsNoHistory) {
-  EXPECT_NE(reading_fails(ExitCode::bad_input).find("no such history"), std::string::npos);
+  EXPECT_TRUE(says(reading_fails(ExitCode::bad_input), "no such history"));
   write_bytes(path(), std::string(4000, 'x'));
-  EXPECT_NE(reading_fails(ExitCode::bad_data).find("not a history"), std::string::npos);
+  EXPECT_TRUE(says(reading_fails(ExitCode::bad_data), "not a history"));
   fails(ExitCode::bad_data, [&] { history::add_run(path(), run_of_day(1, 0.5)); });
   EXPECT_EQ(read_bytes(path()), std::string(4000, 'x')) << "a foreign file stays as it is";
   std::filesystem::remove(path());
   execute("CREATE TABLE run (id INTEGER)");
   const std::string other = read_bytes(path());
-  EXPECT_NE(reading_fails(ExitCode::bad_data).find("not a history"), std::string::npos);
+  EXPECT_TRUE(says(reading_fails(ExitCode::bad_data), "not a history"));
   fails(ExitCode::bad_data, [&] { history::add_run(path(), run_of_day(1, 0.5)); });
   EXPECT_EQ(read_bytes(path()), other);
 }
@@ -119,7 +119,7 @@ TEST_F(HistoryDatabase, RefusesWhatIsNoHistory) {
 TEST_F(HistoryDatabase, RefusesANewerVersion) {
   history::add_run(path(), run_of_day(1, 0.5));
   execute(fmt::format("PRAGMA user_version = {}", history::schema_version + 1));
-  EXPECT_NE(reading_fails(ExitCode::bad_data).find("newer"), std::string::npos);
+  EXPECT_TRUE(says(reading_fails(ExitCode::bad_data), "newer"));
   fails(ExitCode::bad_data, [&] { history::add_run(path(), run_of_day(2, 0.5)); });
 }
 

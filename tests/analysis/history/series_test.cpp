@@ -50,10 +50,9 @@ TEST(HistorySeries, NameTheCommitOfAStep) {
   EXPECT_NEAR(static_cast<double>(b.changes[0].first), 40.0, 1.0);
   EXPECT_LE(b.changes[0].significant, 46U);
   const std::string sentence = b.changes[0].sentence;
-  EXPECT_NE(sentence.find("rose from"), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find(runs[b.changes[0].first].created), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find(runs[b.changes[0].first].git_commit.substr(0, 10)), std::string::npos) << sentence;
-  EXPECT_NE(text_of(history).find(sentence), std::string::npos);
+  EXPECT_TRUE(says(sentence, "rose from", runs[b.changes[0].first].created,
+                   runs[b.changes[0].first].git_commit.substr(0, 10)));
+  EXPECT_TRUE(says(text_of(history), sentence));
 }
 
 TEST(HistorySeries, HaveEachRunOnce) {
@@ -71,13 +70,13 @@ TEST(HistorySeries, ShowOnlyWhatIsAskedFor) {
   ASSERT_EQ(one.series.size(), 1U);
   EXPECT_LT(one.threshold, history::history_of(runs).threshold) << "fewer series allow a lower threshold";
   const std::string text = text_of(one);
-  for (const RunRecord& run : runs) EXPECT_NE(text.find(run.created), std::string::npos);
+  for (const RunRecord& run : runs) EXPECT_TRUE(says(text, run.created));
   try {
     history::history_of(runs, {"gains", "nowhere"});
     FAIL();
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::bad_input);
-    EXPECT_NE(std::string(failure.what()).find("the points a, b"), std::string::npos) << failure.what();
+    EXPECT_TRUE(says(std::string(failure.what()), "the points a, b")) << failure.what();
   }
 }
 
@@ -134,7 +133,7 @@ TEST(HistorySeries, NameTheBaselineWhereTheFirstRunDiffersFromIt) {
   ASSERT_EQ(series.changes.size(), 1U);
   EXPECT_TRUE(series.changes[0].since_baseline);
   EXPECT_EQ(series.changes[0].first, 0U);
-  EXPECT_NE(series.changes[0].sentence.find("between the baseline of 2025-12-31"), std::string::npos);
+  EXPECT_TRUE(says(series.changes[0].sentence, "between the baseline of 2025-12-31"));
 }
 
 // A null history of one seed whose code changes every night at random: p-values are uniform.

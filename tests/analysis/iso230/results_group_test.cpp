@@ -129,8 +129,8 @@ double one_count_of_reversal(const study::SequenceMove& move, std::int64_t) {
 TEST(RepeatabilitySummary, TellsOfTheAxisInArcsecAndCounts) {
   const std::string text =
       testing::summary_text(summary_of(testing::sequence_study(), one_count_of_reversal));
-  EXPECT_NE(text.find("\nrepeatability after ISO 230-2: 3 targets approached from both sides in 3 cycles:\n"),
-            std::string::npos);
+  EXPECT_TRUE(
+      says(text, "\nrepeatability after ISO 230-2: 3 targets approached from both sides in 3 cycles:\n"));
   const auto rows = rows_of(text, "fine");
   ASSERT_EQ(rows.size(),
             1U + 1U + 2U + 6U);  // the usual table, what is shown of all axes, the axis, three targets
@@ -145,7 +145,7 @@ TEST(RepeatabilitySummary, TellsOfTheAxisInArcsecAndCounts) {
 TEST(RepeatabilitySummary, OfASequenceFromOneSideHasItsValuesOnly) {
   const study::Study study = testing::sequence_study("cycles: 2, approach: negative");
   const std::string text = testing::summary_text(summary_of(study, one_count_of_reversal));
-  EXPECT_NE(text.find("3 targets approached from above in 2 cycles:\n"), std::string::npos);
+  EXPECT_TRUE(says(text, "3 targets approached from above in 2 cycles:\n"));
   const auto heads = rows_of(text, "point");
   ASSERT_EQ(heads.size(), 4U) << text;
   EXPECT_EQ(heads[3], (std::vector<std::string>{"point", "target", "from", "x̄↓", "R↓"}));
@@ -366,7 +366,7 @@ TEST(RepeatabilityFile, ThatIsOfAnotherSequenceIsRefused) {
       ADD_FAILURE() << "expected a failure: " << words;
     } catch (const Failure& failure) {
       EXPECT_EQ(failure.code(), ExitCode::bad_data);
-      EXPECT_NE(std::string(failure.what()).find(words), std::string::npos) << failure.what();
+      EXPECT_TRUE(says(std::string(failure.what()), words)) << failure.what();
     }
   };
   expect_bad(testing::sequence_study("cycles: 2", 5), "it is not of all trials of the study");

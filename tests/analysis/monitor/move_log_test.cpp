@@ -87,17 +87,15 @@ TEST(MoveLog, NamesThePlaceOfWhatItCannotRead) {
       refusal(""),
       "2 moves.csv: is empty; expected a header with names of measures, such as settling_time, and a row "
       "for each move");
-  EXPECT_NE(refusal("time,position\n1,2\n").find("2 moves.csv:1: no column is named like a measure"),
-            std::string::npos);
+  EXPECT_TRUE(says(refusal("time,position\n1,2\n"), "2 moves.csv:1: no column is named like a measure"));
   EXPECT_EQ(refusal("settling_time,settling_time [ms]\n1,2\n"),
             "2 moves.csv:1: two columns are named 'settling_time'");
   EXPECT_EQ(refusal("move,settling_time,move\n0,1,0\n"), "2 moves.csv:1: two columns are named 'move'");
   EXPECT_EQ(refusal("t,settling_time,t\n0,1,0\n"), "") << "other columns are not read";
-  EXPECT_NE(refusal("settling_time [N]\n1\n").find("2 moves.csv:1: settling_time is in 'N'"),
-            std::string::npos);
-  EXPECT_NE(refusal("overshoot [%]\n1\n").find("2 moves.csv:1: overshoot is in '%'"), std::string::npos);
+  EXPECT_TRUE(says(refusal("settling_time [N]\n1\n"), "2 moves.csv:1: settling_time is in 'N'"));
+  EXPECT_TRUE(says(refusal("overshoot [%]\n1\n"), "2 moves.csv:1: overshoot is in '%'"));
   EXPECT_EQ(refusal("overshoot [count],jerk_count [1],zero_fraction [%]\n1,2,3\n"), "");
-  EXPECT_NE(refusal("settling_time\r0.1\r0.2\r").find("2 moves.csv:1: a carriage return"), std::string::npos);
+  EXPECT_TRUE(says(refusal("settling_time\r0.1\r0.2\r"), "2 moves.csv:1: a carriage return"));
   EXPECT_EQ(refusal("t,settling_time\n1,0.1\n2\n"),
             "4 moves.csv:3: a row of 1 cells; expected 2, as the header has");
   EXPECT_EQ(refusal("t,settling_time\n1,-0.1\n"),
@@ -105,7 +103,7 @@ TEST(MoveLog, NamesThePlaceOfWhatItCannotRead) {
   EXPECT_EQ(refusal("t,settling_time\n1,soon\n"),
             "4 moves.csv:2: settling_time: 'soon'; expected a finite time, not negative, or NaN");
   EXPECT_EQ(refusal("t,stable\n1,\n"), "4 moves.csv:2: stable: ''; expected 0 or 1");
-  EXPECT_NE(refusal("t,outcome\n1,9\n").find("expected one of zero_count, one_count"), std::string::npos);
+  EXPECT_TRUE(says(refusal("t,outcome\n1,9\n"), "expected one of zero_count, one_count"));
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST(StudySensitivity, OfASaltelliDesignHasBothIndices) {
   EXPECT_EQ(idle.name, "friction.alpha");
   EXPECT_EQ(idle.total.value, 0.0);
   EXPECT_FALSE(idle.matters);
-  EXPECT_NE(success.conclusion.find("friction.alpha (at most "), std::string::npos);
+  EXPECT_TRUE(says(success.conclusion, "friction.alpha (at most "));
 }
 
 TEST(StudySensitivity, OfAnyOtherDesignHasWhatEachExplainsAlone) {
@@ -269,8 +269,8 @@ TEST(StudySensitivity, SeparatedAndRareAnswersAreSaid) {
   EXPECT_TRUE(std::isnan(factor(success, "friction.k1").log_odds.value));
   std::string notes;
   for (const std::string& note : success.notes) notes += note + "\n";
-  EXPECT_NE(notes.find("a logistic fit has no finite coefficients"), std::string::npos) << notes;
-  EXPECT_NE(notes.find("differ from the others: the bounds are rough"), std::string::npos) << notes;
+  EXPECT_TRUE(says(notes, "a logistic fit has no finite coefficients",
+                   "differ from the others: the bounds are rough"));
 }
 
 TEST(StudySensitivity, EveryOutputOfEveryPointCanBeAsked) {
@@ -362,13 +362,11 @@ TEST(StudySensitivity, AnswersWithTheNumbersOfTheFactors) {
   const std::string csv = document::csv(answer);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 2 * 3);
   EXPECT_EQ(csv.find("point,label,output,"), 0u);
-  EXPECT_NE(csv.find(",name,matters,total,total_low,total_high,first_order,"), std::string::npos);
+  EXPECT_TRUE(says(csv, ",name,matters,total,total_low,total_high,first_order,"));
 
   const std::string text = document::text(answer);
-  for (const char* expected : {"Point 1: b", "friction.k1", "total", "first order", "log odds per sd",
-                               "controller.ki  the same in all trials of the point"}) {
-    EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
-  }
+  EXPECT_TRUE(says(text, "Point 1: b", "friction.k1", "total", "first order", "log odds per sd",
+                   "controller.ki  the same in all trials of the point"));
 }
 
 }  // namespace

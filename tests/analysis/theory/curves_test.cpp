@@ -262,7 +262,7 @@ TEST(PointTheoryDescription, HasTheNumbersOfEachStatement) {
   const std::string text = document::text(answer);
   for (const char* key : {"stable_below", "sampled_below", "unstable_above", "gain", "dac_bound"}) {
     const std::string number = fmt::format("{:.3g}", theory[key]["low"].get<double>());
-    EXPECT_NE(text.find(number), std::string::npos) << key << ": " << number << "\n" << text;
+    EXPECT_TRUE(says(text, number)) << key << ": " << number << "\n" << text;
   }
 }
 

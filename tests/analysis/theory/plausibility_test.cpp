@@ -61,9 +61,7 @@ TEST_F(GoalPlausibility, AToleranceIsAtLeastHalfACount) {
     }
     ASSERT_EQ(told.size(), 1U) << resolution;
     EXPECT_TRUE(told.front().starts_with("point 0 (all): a tolerance of ")) << told.front();
-    EXPECT_NE(told.front().find(fmt::format("expected at least {:.3g} m", 0.5 * resolution)),
-              std::string::npos)
-        << told.front();
+    EXPECT_TRUE(says(told.front(), fmt::format("expected at least {:.3g} m", 0.5 * resolution)));
   }
 }
 
@@ -84,9 +82,7 @@ TEST_F(GoalPlausibility, ABandHoldsTheNoiseOfAnAxisThatStandsStill) {
     ASSERT_EQ(lines.size(), moves > rate ? 1U : 0U) << rate << " " << moves;
     if (lines.empty()) continue;
     ++told;
-    EXPECT_NE(lines.front().find(fmt::format("at most {:.3g} % of the moves", 100.0 * rate)),
-              std::string::npos)
-        << lines.front();
+    EXPECT_TRUE(says(lines.front(), fmt::format("at most {:.3g} % of the moves", 100.0 * rate)));
   }
   EXPECT_GT(told, rounds / 5);
   EXPECT_LT(told, rounds * 4 / 5);
@@ -124,8 +120,7 @@ TEST_F(GoalPlausibility, OneCodeMovesTheAxisByLessThanTheBand) {
     const auto lines = doubts(goal, dac);
     ASSERT_EQ(lines.size(), ratio > 1.0 ? 1U : 0U) << goal << (lines.empty() ? "" : lines.front());
     if (!lines.empty()) {
-      EXPECT_NE(lines.front().find(fmt::format("a code of at most {:.3g} N", 5e6 * width)), std::string::npos)
-          << lines.front();
+      EXPECT_TRUE(says(lines.front(), fmt::format("a code of at most {:.3g} N", 5e6 * width)));
     }
     EXPECT_TRUE(doubts(goal, dac + ", sigma_delta: true").empty());
   }
@@ -246,8 +241,7 @@ TEST_F(GoalPlausibility, ZeroCountsHoldACountWhereTargetsAreRounded) {
   const std::string drawn = "{uniform: [5.0e-7, 2.0e-6]}";
   const auto lines = told(drawn, "tolerance: 4.0e-9, moves: 0.9");
   ASSERT_EQ(lines.size(), 1U);
-  EXPECT_NE(lines[0].find("expected at least 1e-08 m, which zero counts hold"), std::string::npos)
-      << lines[0];
+  EXPECT_TRUE(says(lines[0], "expected at least 1e-08 m, which zero counts hold"));
   // At 0.5 counts 75 % of the moves at zero counts are within it, at 0.9 counts 99 %.
   EXPECT_TRUE(is_told(told(drawn, "tolerance: 5.0e-9, moves: 0.9"), "which zero counts hold"));
   EXPECT_FALSE(is_told(told(drawn, "tolerance: 5.0e-9, moves: 0.7"), "which zero counts hold"));

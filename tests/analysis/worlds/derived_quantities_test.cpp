@@ -173,7 +173,7 @@ TEST(DerivedQuantities, AreThoseOfTheMedianMachineOfEachWorld) {
     EXPECT_NEAR(derived[0].values[world], expected, 1e-12 * expected);
     EXPECT_NEAR(derived[1].values[world], 0.5 * expected, 1e-12 * expected);
   }
-  EXPECT_NE(derived[0].meaning.find("a torque of 0.02 N m"), std::string::npos) << derived[0].meaning;
+  EXPECT_TRUE(says(derived[0].meaning, "a torque of 0.02 N m"));
 }
 
 // The constant disturbance is carried too: here it takes the whole holding torque.
@@ -182,8 +182,7 @@ TEST(DerivedQuantities, TakeTheTorqueThatTheContactCarries) {
   torque.mean = -0.1;
   const study::Study study =
       study_with("friction: {n: {interval: [1.5, 2.5]}}\ndisturbance: {torque: 0.103}\n");
-  EXPECT_NE(derived_of_worlds(study, 0, torque).front().meaning.find("a torque of 0.005 N m"),
-            std::string::npos);
+  EXPECT_TRUE(says(derived_of_worlds(study, 0, torque).front().meaning, "a torque of 0.005 N m"));
 }
 
 TEST(DerivedQuantities, AreOfLawsThatHaveThem) {

@@ -39,16 +39,14 @@ TEST(LinearAxis, HasItsUnitsAndTheLengthOfACount) {
 
 TEST(LinearAxis, IsAskedForAllThatTheRotaryRigsDefaultsSayNothingOf) {
   const std::string refusal = refusal_of(minimal_manifest("axis: linear\ncontroller: {units: si}\n"));
-  for (const char* key :
-       {"plant.inertia: the key is missing, and its default, 0.000554 kg m^2, has another unit; "
-        "expected its value in kg",
-        "friction.lambda: the key is missing, and its default, 10 (N m)^n/rad, has another unit; "
-        "expected its value in N^n/m",
-        "encoder.resolution: the key is missing; expected its value in m/count",
-        "controller.ki: the key is missing, and its default, 3.85e-05 N m/count, has another "
-        "unit; expected its value in N/(m s)"}) {
-    EXPECT_TRUE(says(refusal, key)) << key << "\n" << refusal;
-  }
+  EXPECT_TRUE(says(refusal,
+                   "plant.inertia: the key is missing, and its default, 0.000554 kg m^2, has another unit; "
+                   "expected its value in kg",
+                   "friction.lambda: the key is missing, and its default, 10 (N m)^n/rad, has another unit; "
+                   "expected its value in N^n/m",
+                   "encoder.resolution: the key is missing; expected its value in m/count",
+                   "controller.ki: the key is missing, and its default, 3.85e-05 N m/count, has another "
+                   "unit; expected its value in N/(m s)"));
   EXPECT_FALSE(says(refusal, "coarse")) << "without effect: " << refusal;
   EXPECT_FALSE(says(refusal, "profile")) << "without effect: " << refusal;
   EXPECT_EQ(refusal_of(minimal_manifest("axis: linear\nfriction: {model: none}\n"

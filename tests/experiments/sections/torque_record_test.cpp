@@ -3,7 +3,6 @@
 #include "experiments/study/study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/support/says.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::sections {

@@ -13,7 +13,6 @@
 #include "results/hdf5/array_file.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "tests/results/samples.hpp"
-#include "tests/support/says.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {

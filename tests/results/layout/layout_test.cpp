@@ -6,7 +6,6 @@
 #include "tests/results/equality.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
-#include "tests/support/says.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {

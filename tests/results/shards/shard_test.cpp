@@ -12,7 +12,6 @@
 #include "tests/results/samples.hpp"
 #include "tests/support/merged_file.hpp"
 #include "tests/support/raw_hdf5.hpp"
-#include "tests/support/says.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {

@@ -11,7 +11,6 @@
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/support/merged_file.hpp"
-#include "tests/support/says.hpp"
 #include "tests/support/test.hpp"
 
 /// Read by the leak sanitizer, where there is one: the HDF5 library does not free everything of a file that

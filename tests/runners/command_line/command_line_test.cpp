@@ -21,10 +21,10 @@ TEST_F(CommandLine, HelpGoesToStandardOutput) {
   const ProgramResult help = program({"--help"});
   EXPECT_EQ(help.code, 0);
   for (const char* verb : {"check", "run", "summary", "trace", "merge", "export", "parameters", "schema"}) {
-    EXPECT_NE(help.out.find(verb), std::string::npos) << verb;
+    EXPECT_TRUE(says(help.out, verb)) << verb;
     const ProgramResult more = program({verb, "--help"});
     EXPECT_EQ(more.code, 0) << verb;
-    EXPECT_NE(more.out.find("usage: zerocount " + std::string(verb)), std::string::npos) << verb;
+    EXPECT_TRUE(says(more.out, "usage: zerocount " + std::string(verb))) << verb;
     EXPECT_EQ(program({"help", verb}).out, more.out);
   }
   EXPECT_EQ(program({"--version"}).code, 0);
@@ -66,18 +66,16 @@ TEST_F(CommandLine, BadUsageExitsWithTwoAndOneMessage) {
     EXPECT_EQ(result.code, 2) << ::testing::PrintToString(words) << result.err;
     EXPECT_FALSE(result.err.empty());
     EXPECT_TRUE(result.out.empty()) << result.out;
-    EXPECT_EQ(result.err.find("exception"), std::string::npos) << result.err;
+    EXPECT_FALSE(says(result.err, "exception"));
   }
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "a.h5"));
 }
 
 TEST_F(CommandLine, SaysWhatIsWrongWithAnOption) {
-  EXPECT_NE(program({"run", "s.yaml", "-o", "a.h5", "--quiet=1"}).err.find("'--quiet' takes no value"),
-            std::string::npos);
-  EXPECT_NE(program({"run", "s.yaml", "-o"}).err.find("needs a value"), std::string::npos);
-  EXPECT_NE(program({"run", "s.yaml", "--outptu", "a.h5"})
-                .err.find("unknown option '--outptu'; did you mean --output?"),
-            std::string::npos);
+  EXPECT_TRUE(says(program({"run", "s.yaml", "-o", "a.h5", "--quiet=1"}).err, "'--quiet' takes no value"));
+  EXPECT_TRUE(says(program({"run", "s.yaml", "-o"}).err, "needs a value"));
+  EXPECT_TRUE(says(program({"run", "s.yaml", "--outptu", "a.h5"}).err,
+                   "unknown option '--outptu'; did you mean --output?"));
 }
 
 TEST_F(CommandLine, DataThatCannotBeUsedExitsWithFour) {
@@ -94,10 +92,8 @@ TEST_F(CommandLine, ManifestErrorsAreAllReportedWithTheirPlace) {
       "command: {targets: [1], hold: no}\n");
   const ProgramResult result = program({"check", "bad.yaml"});
   EXPECT_EQ(result.code, 2);
-  for (const char* place : {"bad.yaml:5:1: frictoin", "bad.yaml:6:16: friction.k1",
-                            "bad.yaml:6:23: friction.n", "bad.yaml:7:31: command.hold"}) {
-    EXPECT_NE(result.err.find(place), std::string::npos) << place << "\n" << result.err;
-  }
+  EXPECT_TRUE(says(result.err, "bad.yaml:5:1: frictoin", "bad.yaml:6:16: friction.k1",
+                   "bad.yaml:6:23: friction.n", "bad.yaml:7:31: command.hold"));
 }
 
 TEST_F(CommandLine, CheckPrintsThePlanAndTheCriteria) {
@@ -106,7 +102,7 @@ TEST_F(CommandLine, CheckPrintsThePlanAndTheCriteria) {
   EXPECT_EQ(result.code, 0) << result.err;
   for (const char* text : {"1 design point × 10 trials", "3.85e-05", "3.01e-04", "3.57e-05", "198"}) {
     const std::string short_form = std::string(text) == "3.01e-04" ? "0.000301" : text;
-    EXPECT_NE(result.out.find(short_form), std::string::npos) << short_form << "\n" << result.out;
+    EXPECT_TRUE(says(result.out, short_form)) << short_form << "\n" << result.out;
   }
 }
 
@@ -116,18 +112,18 @@ TEST_F(CommandLine, CheckSaysNothingOfBoundsWhereTheTheoryIsNotAboutTheLoop) {
   folder_.write("models.yaml", head + "command: {targets: [5]}\n" +
                                    "sweep: {grid: {friction.model: [coulomb, none, spring]}}\n");
   const std::string open = program({"check", "open.yaml"}).out;
-  EXPECT_NE(open.find("do not apply: the loop is open"), std::string::npos) << open;
+  EXPECT_TRUE(says(open, "do not apply: the loop is open"));
   for (const char* bound : {"(6)", "(7)", "sampled loop", "DAC", "natural frequency", "N m/count"}) {
-    EXPECT_EQ(open.find(bound), std::string::npos) << bound;
+    EXPECT_FALSE(says(open, bound)) << bound;
   }
   const auto theory_of = [this](const std::string& model) {
     return program({"check", "models.yaml", "--set", "sweep={grid: {friction.model: [" + model + "]}}"}).out;
   };
   const std::string of_coulomb = theory_of("coulomb"), of_none = theory_of("none");
-  EXPECT_NE(of_coulomb.find("friction.model coulomb has no spring"), std::string::npos) << of_coulomb;
-  EXPECT_NE(of_none.find("friction.model none has no spring"), std::string::npos) << of_none;
+  EXPECT_TRUE(says(of_coulomb, "friction.model coulomb has no spring"));
+  EXPECT_TRUE(says(of_none, "friction.model none has no spring"));
   EXPECT_TRUE(std::regex_search(of_none, std::regex("sampled loop: +unstable\n"))) << of_none;
-  EXPECT_EQ(theory_of("spring").find("do not apply"), std::string::npos);
+  EXPECT_FALSE(says(theory_of("spring"), "do not apply"));
 }
 
 // One count of the coarse encoder is 18.75 of the fine one: k1·Δx is 0.008 N m, not 4.27e-4.
@@ -168,8 +164,7 @@ TEST_F(CommandLine, CheckHasARowPerPointAndSaysOnceWhatIsTheSameAtAll) {
   EXPECT_EQ(out.find("natural frequency"), out.rfind("natural frequency: ")) << out;
   EXPECT_TRUE(std::regex_search(out, std::regex("\npoint +integral gain +.*slowest move"))) << out;
   EXPECT_TRUE(std::regex_search(out, std::regex("\npoint +loop +.*gain margin"))) << out;
-  for (const char* row : {"\nki=1e-05  1e-05 ", "\nki=2e-05  2e-05 ", "\nki=3e-05  3e-05 "})
-    EXPECT_NE(out.find(row), std::string::npos) << row << "\n" << out;
+  EXPECT_TRUE(says(out, "\nki=1e-05  1e-05 ", "\nki=2e-05  2e-05 ", "\nki=3e-05  3e-05 "));
 }
 
 TEST_F(CommandLine, APointIsNamedByItsNumberItsLabelOrTheLabelThatTablesShow) {
@@ -217,14 +212,14 @@ TEST_F(CommandLine, CheckTellsTheCriteriaFromTheSampledLoop) {
   EXPECT_TRUE(std::regex_search(low, std::regex(criteria + "stable\n"))) << low;
   const std::string none = program({"check", "rig.yaml", "--set", "controller.ki=0"}).out;
   EXPECT_TRUE(std::regex_search(none, std::regex("integral: +none: the error stays"))) << none;
-  EXPECT_EQ(none.find("slowest time constant"), std::string::npos) << none;
+  EXPECT_FALSE(says(none, "slowest time constant"));
 }
 
 TEST_F(CommandLine, ParametersAndSchemaComeFromTheSameTable) {
   const ProgramResult parameters = program({"parameters"});
   EXPECT_EQ(parameters.code, 0);
-  EXPECT_NE(parameters.out.find("friction.k1"), std::string::npos);
-  EXPECT_NE(program({"parameters", "--format", "markdown"}).out.find("|"), std::string::npos);
+  EXPECT_TRUE(says(parameters.out, "friction.k1"));
+  EXPECT_TRUE(says(program({"parameters", "--format", "markdown"}).out, "|"));
   const auto schema = nlohmann::json::parse(program({"schema"}).out);
   EXPECT_TRUE(schema["properties"].contains("friction"));
 }
@@ -235,7 +230,7 @@ TEST_F(CommandLine, AFullStandardOutputExitsWithFive) {
       "cd " + folder_.path().string() + " && " ZEROCOUNT_PROGRAM " trace study.yaml > /dev/full 2> err";
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 5);
-  EXPECT_NE(folder_.read("err").find("standard output"), std::string::npos);
+  EXPECT_TRUE(says(folder_.read("err"), "standard output"));
 }
 
 TEST_F(CommandLine, AStandardErrorThatCannotBeWrittenStopsNothing) {
@@ -308,8 +303,7 @@ TEST(OptionsWithoutEffect, AreErrorsOfEveryVerb) {
       const std::string operand = option.operands.empty() ? usual : option.operands.front();
       if (!option.needs.empty()) {
         ++conditions;
-        EXPECT_NE(refusal_of(spec, operand, {&option}).find("option " + own + " needs '--"),
-                  std::string::npos)
+        EXPECT_TRUE(says(refusal_of(spec, operand, {&option}), "option " + own + " needs '--"))
             << spec.name << own;
       }
       for (const std::string& need : option.needs) {
@@ -322,15 +316,14 @@ TEST(OptionsWithoutEffect, AreErrorsOfEveryVerb) {
         std::vector<const command_line::OptionSpec*> all{&option, &option_of(spec, excluded)};
         for (const command_line::OptionSpec* one = &option; !one->needs.empty(); all.push_back(one))
           one = &option_of(spec, one->needs.front());
-        EXPECT_NE(refusal_of(spec, operand, all).find("exclude each other"), std::string::npos)
+        EXPECT_TRUE(says(refusal_of(spec, operand, all), "exclude each other"))
             << spec.name << own << excluded;
       }
       for (const std::string& word : spec.operand_words) {
         const bool belongs = option.operands.empty() || std::ranges::count(option.operands, word) > 0;
         if (belongs) continue;
         ++conditions;
-        EXPECT_NE(refusal_of(spec, word, {&option}).find("does not apply to"), std::string::npos)
-            << spec.name << own << word;
+        EXPECT_TRUE(says(refusal_of(spec, word, {&option}), "does not apply to")) << spec.name << own << word;
       }
     }
   }

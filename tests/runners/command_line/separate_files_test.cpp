@@ -94,8 +94,8 @@ class SeparateFiles : public ::testing::Test {
 
   void expect_refused(const Words& words, const std::string& input, const std::string& problem) const {
     const std::string said = refusal(words.line(input));
-    EXPECT_NE(said.find(problem), std::string::npos)
-        << fmt::format("{}", fmt::join(words.line(input), " ")) << "\n  " << said;
+    EXPECT_TRUE(says(said, problem)) << fmt::format("{}", fmt::join(words.line(input), " ")) << "\n  "
+                                     << said;
   }
 
   TemporaryFolder folder_;

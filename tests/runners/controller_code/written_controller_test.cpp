@@ -152,9 +152,8 @@ TEST_F(WrittenController, HasNoTermWithoutAGain) {
   const std::string code =
       controller_code::c_code(chain, controller_code::chain_program(chain, Precision::double_precision));
   for (const char* const absent : {"kp", "kd", "last_count", "0x", "N m", "rad", "torque *", "feedforward"})
-    EXPECT_EQ(code.substr(0, code.find("#ifdef")).find(absent), std::string::npos) << absent << "\n" << code;
-  EXPECT_NE(code.find("static const double ki = 3.0e-05; /* "), std::string::npos) << code;
-  EXPECT_NE(code.find("N/count (1.2e+06 N/(m s) in SI units)"), std::string::npos) << code;
+    EXPECT_FALSE(says(code.substr(0, code.find("#ifdef")), absent)) << absent << "\n" << code;
+  EXPECT_TRUE(says(code, "static const double ki = 3.0e-05; /* ", "N/count (1.2e+06 N/(m s) in SI units)"));
 }
 
 // A constant reads back to the same number in its precision.
@@ -184,9 +183,8 @@ TEST_F(WrittenController, SaysWhatSinglePrecisionLoses) {
   const ProgramResult result =
       zerocount_program({"controller", "fine.yaml", "--precision", "single", "-o", "fine.c"}, folder_.path());
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(result.err.find("0 trials meet the goal (5); 5 are judged otherwise\n"), std::string::npos)
-      << result.err;
-  EXPECT_NE(result.err.find("settled: median never (0.3"), std::string::npos) << result.err;
+  EXPECT_TRUE(
+      says(result.err, "0 trials meet the goal (5); 5 are judged otherwise\n", "settled: median never (0.3"));
 }
 
 TEST_F(WrittenController, IsWrittenByTheProgramForItsPoint) {
@@ -198,29 +196,26 @@ TEST_F(WrittenController, IsWrittenByTheProgramForItsPoint) {
       zerocount_program({"controller", "axis.yaml", "--point", "1", "-o", "controller.c"}, folder_.path());
   EXPECT_EQ(result.code, 0) << result.err;
   const std::string code = folder_.read("controller.c");
-  EXPECT_NE(code.find("controller.ki=3e-05"), std::string::npos);
-  EXPECT_NE(code.find("at k1: stable; gain margin "), std::string::npos) << code;
-  EXPECT_EQ(code.find("single precision"), std::string::npos);
+  EXPECT_TRUE(says(code, "controller.ki=3e-05", "at k1: stable; gain margin "));
+  EXPECT_FALSE(says(code, "single precision"));
 
   const ProgramResult single = zerocount_program({"controller", "axis.yaml", "--point", "1", "--precision",
                                                   "single", "--language", "st", "-o", "axis_x.st"},
                                                  folder_.path());
   EXPECT_EQ(single.code, 0) << single.err;
   const std::string changes = "trials end at zero counts (";
-  EXPECT_NE(single.err.find(changes), std::string::npos) << single.err;
+  EXPECT_TRUE(says(single.err, changes));
   const std::string block = folder_.read("axis_x.st");
-  EXPECT_NE(block.find(changes), std::string::npos) << block;
-  EXPECT_NE(block.find("FUNCTION_BLOCK axis_x_controller\n"), std::string::npos) << block;
+  EXPECT_TRUE(says(block, changes, "FUNCTION_BLOCK axis_x_controller\n"));
   const auto refused = [&](const std::string& set, const std::string& precision = "double") {
     const ProgramResult answer = zerocount_program(
         {"controller", "axis.yaml", "--precision", precision, "--set", set}, folder_.path());
     EXPECT_EQ(answer.code, 2) << set;
     return answer.err;
   };
-  EXPECT_NE(refused("controller.kp={uniform: [0, 1.0e-4]}").find("controller.kp is drawn"),
-            std::string::npos);
-  EXPECT_NE(refused("controller.coarse.coarse_beyond=100").find("two phases"), std::string::npos);
-  EXPECT_NE(refused("controller.encoder=coarse", "single").find("single precision"), std::string::npos);
+  EXPECT_TRUE(says(refused("controller.kp={uniform: [0, 1.0e-4]}"), "controller.kp is drawn"));
+  EXPECT_TRUE(says(refused("controller.coarse.coarse_beyond=100"), "two phases"));
+  EXPECT_TRUE(says(refused("controller.encoder=coarse", "single"), "single precision"));
 }
 
 }  // namespace

@@ -204,9 +204,9 @@ TEST_F(Causes, AreNotNamedWhereNothingHelps) {
   const Json answer = limits_with({"goal.within=0.005"});
   for (const Json& one : answer["limits"]) EXPECT_FALSE(one.value("shown", false)) << one;
   const std::string headline = answer["headline"];
-  EXPECT_NE(headline.find("no cause of failures is shown"), std::string::npos) << headline;
+  EXPECT_TRUE(says(headline, "no cause of failures is shown"));
   const std::string text = program({"limits", "axis.yaml", "--set", "goal.within=0.005"}).out;
-  EXPECT_NE(text.find("not tried: other values of plant, friction"), std::string::npos) << text;
+  EXPECT_TRUE(says(text, "not tried: other values of plant, friction"));
 }
 
 // Nothing that is missed everywhere can get worse: no effect "costs at most 1 %" there.
@@ -215,7 +215,7 @@ TEST_F(Causes, DoNotSayWhatCostsNothingWhereNothingIsMet) {
   ASSERT_EQ(answer["limits"][0]["rate"], 0.0);
   for (const Json& one : answer["additions"]) {
     EXPECT_TRUE(one["rate"].is_null()) << one;
-    EXPECT_NE(one["note"].get<std::string>().find("nothing can be lost"), std::string::npos) << one;
+    EXPECT_TRUE(says(one["note"].get<std::string>(), "nothing can be lost")) << one;
   }
 }
 
@@ -243,12 +243,11 @@ TEST_F(Causes, TakeAsManyTrialsAsTheBudgetAllows) {
   few.insert(few.end(), {"--budget", "2000"});
   const ProgramResult result = program(few);
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(result.out.find("of 5000 trials of the study"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("with no encoder noise 100 %"), std::string::npos) << result.out;
+  EXPECT_TRUE(says(result.out, "of 5000 trials of the study", "with no encoder noise 100 %"));
   few.back() = "100";
   const ProgramResult too_few = program(few);
   EXPECT_EQ(too_few.code, 2);
-  EXPECT_NE(too_few.err.find("option '--budget': "), std::string::npos) << too_few.err;
+  EXPECT_TRUE(says(too_few.err, "option '--budget': "));
 }
 
 }  // namespace

@@ -215,20 +215,18 @@ goal: {band: 1, within: 0.02, moves: 0.9}
 )";
   const Json limits = limits_of(late);
   EXPECT_TRUE(row(limits, "a converter 16 times finer")["rate"].is_null()) << limits;
-  EXPECT_NE(row(limits, "a converter 16 times finer")["note"].get<std::string>().find("dac.bits"),
-            std::string::npos);
+  EXPECT_TRUE(says(row(limits, "a converter 16 times finer")["note"].get<std::string>(), "dac.bits"));
   EXPECT_TRUE(row(limits, "twice the sample rate")["rate"].is_null());
-  EXPECT_NE(
-      row(limits, "twice the sample rate")["note"].get<std::string>().find("pole at half the sample rate"),
-      std::string::npos)
+  EXPECT_TRUE(
+      says(row(limits, "twice the sample rate")["note"].get<std::string>(), "pole at half the sample rate"))
       << limits;
   const Json jitter = row(limits_of(late, {"--set", "controller.jitter={uniform: [0, 3.0e-4]}", "--set",
                                            "controller.filters=[]"}),
                           "twice the sample rate");
   EXPECT_TRUE(jitter["rate"].is_null()) << jitter;
-  EXPECT_NE(jitter["note"].get<std::string>().find("controller.jitter"), std::string::npos) << jitter;
+  EXPECT_TRUE(says(jitter["note"].get<std::string>(), "controller.jitter")) << jitter;
   const std::string text = zerocount_program({"limits", "axis.yaml"}, folder_.path()).out;
-  EXPECT_NE(text.find(noted), std::string::npos) << text;
+  EXPECT_TRUE(says(text, noted));
 }
 
 // Where nothing is missed no cause can be at fault: none is simulated, and each row says so.
@@ -294,7 +292,7 @@ class LimitsOfAxis : public Tune {};
 
 TEST_F(LimitsOfAxis, AreOfThePointThatIsAskedFor) {
   write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\nsweep: {grid: {controller.delay: [0, 1]}}\n");
-  EXPECT_NE(program({"limits", "axis.yaml"}).err.find("expected one with --point"), std::string::npos);
+  EXPECT_TRUE(says(program({"limits", "axis.yaml"}).err, "expected one with --point"));
   const auto rate_of = [this](const std::vector<std::string>& words) {
     return Json::parse(program(words).out)["limits"][0]["rate"].get<double>();
   };

@@ -55,7 +55,7 @@ class Rare : public ProgramTest {
   void expect_refused(const std::vector<std::string>& words, const std::string& reason, int code = 2) {
     const ProgramResult result = program(words);
     EXPECT_EQ(result.code, code) << result.out;
-    EXPECT_NE(result.err.find(reason), std::string::npos) << result.err;
+    EXPECT_TRUE(says(result.err, reason));
   }
 };
 
@@ -151,7 +151,7 @@ TEST_F(Rare, TriesEveryEntryOfAChoice) {
   EXPECT_EQ(answer["values"][0]["value"], "-0.05");
   const ProgramResult text = program({"rare", "listed.yaml", "-o", "rare.h5"});  // goes on
   EXPECT_EQ(text.code, 0) << text.err;
-  EXPECT_NE(text.out.find("single values at which failures are frequent"), std::string::npos) << text.out;
+  EXPECT_TRUE(says(text.out, "single values at which failures are frequent"));
 }
 
 // The answer of a budget in time depends on the machine, and says so.
@@ -160,10 +160,10 @@ TEST_F(Rare, SaysThatABudgetInTimeDependsOnTheMachine) {
   const std::string words = "depend on the machine";
   const ProgramResult in_time = program({"rare", "spring.yaml", "-o", "time.h5", "--budget", "0.01s"});
   EXPECT_EQ(in_time.code, 3);
-  EXPECT_NE(in_time.out.find(words), std::string::npos) << in_time.out;
+  EXPECT_TRUE(says(in_time.out, words));
   const ProgramResult in_trials = program({"rare", "spring.yaml", "-o", "trials.h5", "--budget", "2000"});
   EXPECT_EQ(in_trials.code, 3);
-  EXPECT_EQ(in_trials.out.find(words), std::string::npos) << in_trials.out;
+  EXPECT_FALSE(says(in_trials.out, words));
 }
 
 // The likely machine that the gain suits worst looks like the machines of rare failures.

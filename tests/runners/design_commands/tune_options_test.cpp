@@ -1,5 +1,6 @@
 // What a tuning does within its budget, and what it leaves out.
 #include <csignal>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/runners/design_commands/tune_fixture.hpp"
@@ -30,8 +31,8 @@ TEST_F(TuneBudget, GivesTheProvenAnswerBeforeTheExtrasAndKeepsIt) {
   EXPECT_TRUE(text.starts_with("met: the goal is met by controller.ki")) << text;
   const std::size_t proven = text.find("wrote tuned.h5");
   ASSERT_NE(proven, std::string::npos) << text;
-  EXPECT_EQ(text.find("what limits it"), std::string::npos) << "interrupted before: " << text;
-  EXPECT_NE(text.find("limits; the same command goes on with them"), std::string::npos) << text;
+  EXPECT_FALSE(says(text, "what limits it")) << "interrupted before: " << text;
+  EXPECT_TRUE(says(text, "limits; the same command goes on with them"));
   EXPECT_EQ(program({"judge", "tuned.h5"}).code, 0) << "kept";
 
   const auto numbers_of = [](const std::string& whole) { return whole.substr(0, whole.find("spent:")); };
@@ -96,8 +97,8 @@ TEST_F(TuneBudget, NamesTheExtrasThatABudgetLeavesOutWithTheCommandThatMakesThem
   const std::string extras = result.out.substr(begin, result.out.find(' ', begin) - begin);
   const ProgramResult later = program({"tune", "tuned.h5", "--extras", extras, "--budget", "20000"});
   EXPECT_EQ(later.code, 0) << later.err;
-  EXPECT_EQ(later.out.find("left out"), std::string::npos) << later.out;
-  EXPECT_NE(later.out.find("what limits it"), std::string::npos) << later.out;
+  EXPECT_FALSE(says(later.out, "left out"));
+  EXPECT_TRUE(says(later.out, "what limits it"));
 }
 
 /// Trials of all parts of an answer.
@@ -118,7 +119,7 @@ TEST_F(TuneBudget, HoldsItsBudgetOfTrialsInAllThatItRuns) {
       const ProgramResult result = tune({}, std::to_string(budget));
       if (result.code == 2) {
         EXPECT_LT(budget, 6000) << kind;
-        EXPECT_NE(result.err.find("the smallest search takes"), std::string::npos) << result.err;
+        EXPECT_TRUE(says(result.err, "the smallest search takes"));
         continue;
       }
       const Json answer = Json::parse(result.out);
@@ -142,7 +143,7 @@ TEST_F(TuneBudget, HoldsItsBudgetOfTime) {
   EXPECT_LE(Json::parse(result.out)["searched"]["seconds"], 1.1 * 2.0);
   const ProgramResult none = tune({}, "0.06s");
   EXPECT_EQ(none.code, 3);
-  EXPECT_NE(none.err.find("s are not enough"), std::string::npos) << none.err;
+  EXPECT_TRUE(says(none.err, "s are not enough"));
 }
 
 // The simpler controls beside a tuned one.
@@ -258,10 +259,8 @@ TEST_F(Tune, FindsTheFastestProfileThatTheConverterCanFollow) {
   EXPECT_GT(later_with(0.5), 1.2 * criterion);
   EXPECT_GT(later_with(2.0), 1.2 * criterion);
   const ProgramResult code = program({"controller", "tuned.h5", "--point", "best"});
-  EXPECT_NE(code.out.find("feedforward_acceleration = " +
-                          answer["gains"]["controller.feedforward.acceleration"].dump()),
-            std::string::npos)
-      << code.out;
+  EXPECT_TRUE(says(code.out, "feedforward_acceleration = " +
+                                 answer["gains"]["controller.feedforward.acceleration"].dump()));
 }
 
 // Every limit in these ranges makes the travel longer than the hold: no point is simulated, and the margins
@@ -274,8 +273,8 @@ TEST_F(Tune, SaysWhyNoPointAtAllIsAllowed) {
   const Json answer = Json::parse(result.out);
   EXPECT_EQ(answer["status"], "unreachable");
   const std::string headline = answer["headline"];
-  EXPECT_NE(headline.find("is allowed: command.hold"), std::string::npos) << headline;
-  EXPECT_EQ(headline.find("margins"), std::string::npos) << headline;
+  EXPECT_TRUE(says(headline, "is allowed: command.hold"));
+  EXPECT_FALSE(says(headline, "margins"));
 }
 
 // What `tune` refuses: sections, budgets, and files that are in its way.
@@ -299,19 +298,19 @@ TEST_F(Tune, KeepsUnfinishedRunsAndTuningsOfOthers) {
   write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
   std::filesystem::create_directory(folder_.path() / "tuned.h5.shards");
   const std::vector<std::string> command{"tune", "axis.yaml", "-o", "tuned.h5", "--budget", "2500"};
-  EXPECT_NE(program(command).err.find("has an unfinished run"), std::string::npos);
+  EXPECT_TRUE(says(program(command).err, "has an unfinished run"));
   std::filesystem::remove(folder_.path() / "tuned.h5.shards");
   folder_.write("tuned.h5.tuning", "{\"zerocount_tuning\":1,\"tuning\":\"of another study\"}\n");
-  EXPECT_NE(program(command).err.find("unfinished tuning of another study"), std::string::npos);
+  EXPECT_TRUE(says(program(command).err, "unfinished tuning of another study"));
   EXPECT_EQ(program({"tune", "axis.yaml", "-o", "tuned.h5", "--budget", "2500", "--force"}).code, 0);
 }
 
 TEST_F(Tune, NeedsAGoalAndFreeParameters) {
   write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n");
   EXPECT_EQ(tune().code, 2);
-  EXPECT_NE(tune().err.find("does not say what to tune"), std::string::npos);
+  EXPECT_TRUE(says(tune().err, "does not say what to tune"));
   write_axis(std::string(two_gains));
-  EXPECT_NE(tune().err.find("axis.yaml:12:3: tune: without a goal"), std::string::npos) << tune().err;
+  EXPECT_TRUE(says(tune().err, "axis.yaml:12:3: tune: without a goal"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "tuned.h5"));
 }
 
@@ -322,25 +321,20 @@ TEST_F(Tune, RefusesWrongSectionsWithTheirPlace) {
     EXPECT_EQ(result.code, 2) << section;
     return result.err;
   };
-  EXPECT_NE(error_of("tune: {free: {controller.ko: [0, 1]}}").find("12:15: tune.free.controller.ko"),
-            std::string::npos);
-  EXPECT_NE(error_of("tune: {free: {controller.ki: [1, 0]}}").find("1 is not below 0"), std::string::npos);
-  EXPECT_NE(error_of("tune: {free: {controller.ki: {log: [0, 1]}}}").find("0 is not above 0"),
-            std::string::npos);
-  EXPECT_NE(error_of("tune: {free: {friction.k1: [10, 20]}}").find("swept or drawn at random"),
-            std::string::npos);
-  EXPECT_NE(error_of("tune: {free: {friction.model: [0, 1]}}").find("is not a number"), std::string::npos);
-  EXPECT_NE(error_of("tune: {free: {command.profile.velocity_limit: [1, 2]}}")
-                .find("12:15: tune.free.command.profile.velocity_limit: it has no effect"),
-            std::string::npos);
-  EXPECT_NE(error_of("tune: {free: {controller.observer.inertia: [1.0e-4, 1.0e-3]}}").find("no effect"),
-            std::string::npos);
+  EXPECT_TRUE(says(error_of("tune: {free: {controller.ko: [0, 1]}}"), "12:15: tune.free.controller.ko"));
+  EXPECT_TRUE(says(error_of("tune: {free: {controller.ki: [1, 0]}}"), "1 is not below 0"));
+  EXPECT_TRUE(says(error_of("tune: {free: {controller.ki: {log: [0, 1]}}}"), "0 is not above 0"));
+  EXPECT_TRUE(says(error_of("tune: {free: {friction.k1: [10, 20]}}"), "swept or drawn at random"));
+  EXPECT_TRUE(says(error_of("tune: {free: {friction.model: [0, 1]}}"), "is not a number"));
+  EXPECT_TRUE(says(error_of("tune: {free: {command.profile.velocity_limit: [1, 2]}}"),
+                   "12:15: tune.free.command.profile.velocity_limit: it has no effect"));
+  EXPECT_TRUE(says(error_of("tune: {free: {controller.observer.inertia: [1.0e-4, 1.0e-3]}}"), "no effect"));
   write_axis(
       "goal: {within: 0.1, moves: 0.98}\ntune: {free: {controller.observer.inertia: [1.0e-4, 1.0e-3], "
       "controller.observer.bandwidth: [0, 100]}}\n");
   EXPECT_EQ(program({"check", "axis.yaml"}).code, 0) << "the bandwidth is free too";
-  EXPECT_NE(error_of("tune: {free: {controller.ki: [0, 1]}, margins: {gain: no}}").find("tune.margins.gain"),
-            std::string::npos);
+  EXPECT_TRUE(
+      says(error_of("tune: {free: {controller.ki: [0, 1]}, margins: {gain: no}}"), "tune.margins.gain"));
 }
 
 // Gains in SI units of a linear axis are far larger than those per count.
@@ -368,7 +362,7 @@ TEST_F(Tune, RefusesACriterionThatIsNoQuantile) {
   write_axis("goal: {within: 0.1, moves: 0.98}\n" + std::string(two_gains) + "  minimise: ki\n");
   for (const ProgramResult& result : {tune(), program({"check", "axis.yaml"})}) {
     EXPECT_EQ(result.code, 2);
-    EXPECT_NE(result.err.find("tune.minimise: 'ki' is no quantile"), std::string::npos) << result.err;
+    EXPECT_TRUE(says(result.err, "tune.minimise: 'ki' is no quantile"));
   }
 }
 

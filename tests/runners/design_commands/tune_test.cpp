@@ -36,28 +36,27 @@ TEST_F(Tune, ProvesTheGainsThatItFinds) {
   EXPECT_EQ(program({"judge", "tuned.h5"}).code, 0);
   const reading::ResultsFile file(folder_.path() / "tuned.h5");
   const std::string& manifest = file.header().manifest;
-  EXPECT_NE(manifest.find("ki: " + answer["gains"]["controller.ki"].dump()), std::string::npos) << manifest;
-  EXPECT_NE(manifest.find("# machines"), std::string::npos) << "comments stay";
-  EXPECT_EQ(manifest.find("seed: 7\n"), std::string::npos);
+  EXPECT_TRUE(says(manifest, "ki: " + answer["gains"]["controller.ki"].dump()));
+  EXPECT_TRUE(says(manifest, "# machines")) << "comments stay";
+  EXPECT_FALSE(says(manifest, "seed: 7\n"));
   EXPECT_TRUE(file.header().overrides.empty());
 
   // The user's manifest with the tuned values.
   const std::string tuned = folder_.read("tuned.yaml");
-  EXPECT_NE(tuned.find("seed: 7\ntrials: 200\nrigs: 100   # machines\n"), std::string::npos) << tuned;
+  EXPECT_TRUE(says(tuned, "seed: 7\ntrials: 200\nrigs: 100   # machines\n"));
   // Its controller is that of the proof, whose heading has the margins of other machines.
   const auto written = [&](const std::vector<std::string>& of) {
     std::vector<std::string> words{"controller"};
     words.insert(words.end(), of.begin(), of.end());
     const std::string code = program(words).out;
-    EXPECT_NE(code.find("#include"), std::string::npos) << code;
+    EXPECT_TRUE(says(code, "#include"));
     return code.substr(code.find("#include"));
   };
   EXPECT_EQ(written({"tuned.yaml"}), written({"tuned.h5", "--point", "best"}));
 
   // The page, of which the browser test looks at every figure.
   const std::string page = folder_.read("page.html");
-  for (const char* const part : {"tuning-frontier", "tuning-room", "response", "id=\"overview\""})
-    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_TRUE(says(page, "tuning-frontier", "tuning-room", "response", "id=\"overview\""));
   const Json frontier = answer["frontier"];
   for (std::size_t i = 1; i < frontier.size(); ++i) {
     EXPECT_GT(frontier[i]["rate"], frontier[i - 1]["rate"]);
@@ -245,7 +244,7 @@ TEST_F(Tune, WithoutAPointThatKeepsTheMarginsNamesTheNearest) {
   EXPECT_LT(nearest["lacking"]["gain"], 14.0) << "nearest: stable";
   EXPECT_FALSE(nearest["lacking"].contains("phase")) << "off";
   const std::string page = folder_.read("none.html");
-  EXPECT_NE(page.find("its gain margin is"), std::string::npos);
+  EXPECT_TRUE(says(page, "its gain margin is"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "tuned.h5"));
   // With as much less as is missing there the point is found.
   const double kept = nearest["margins"]["gain"].get<double>();
@@ -263,7 +262,7 @@ TEST_F(Tune, TheReportOfItsFileHasTheMarginsOfTuning) {
   EXPECT_NEAR(phase, tuned["margins"]["phase"], 10.0) << "of other machines";
   ASSERT_EQ(program({"report", "tuned.h5", "-o", "page.html"}).code, 0);
   const std::string page = folder_.read("page.html");
-  EXPECT_NE(page.find(fmt::format("{:.4g} degrees (at least 30 wanted)", phase)), std::string::npos) << phase;
+  EXPECT_TRUE(says(page, fmt::format("{:.4g} degrees (at least 30 wanted)", phase))) << phase;
 }
 
 // A rate that is 0 nearly everywhere leads nowhere: it does not show that no values meet the goal.
@@ -275,8 +274,7 @@ TEST_F(Tune, IsUndecidedWhereHardlyAnyMoveMeetsTheGoalAnywhere) {
   EXPECT_EQ(answer["status"], "undecided");
   EXPECT_EQ(answer["searched"]["telling_points"], 0);
   const std::string headline = answer["headline"];
-  EXPECT_NE(headline.find("points that were tried hardly any move meets the goal"), std::string::npos)
-      << headline;
+  EXPECT_TRUE(says(headline, "points that were tried hardly any move meets the goal"));
 }
 
 // All moves meet this goal with a feed-forward near the inertia, none elsewhere: a search that does not find
@@ -333,7 +331,7 @@ TEST_F(Tune, OfAMoveThatTheTorqueCannotMakeIsUnreachableWithoutALandscape) {
   EXPECT_EQ(result.code, 1) << result.out << result.err;
   const Json answer = Json::parse(result.out);
   EXPECT_EQ(answer["status"], "unreachable");
-  EXPECT_NE(answer["obstacles"].dump().find("longer than the"), std::string::npos) << answer["obstacles"];
+  EXPECT_TRUE(says(answer["obstacles"].dump(), "longer than the")) << answer["obstacles"];
 }
 
 // The quietest gains that meet the goal are lower than the fastest ones.
@@ -357,7 +355,7 @@ TEST_F(Tune, SaysWhenTheGoalIsLost) {
       "friction.k1={lognormal: {median: 130, cv: 0.2}, aging: {exponential: 0.5, scale: 1.0e+6}}";
   const ProgramResult tuned = tune({"--set", growing, "--extras", "ages", "--report", "life.html"}, "40000");
   ASSERT_EQ(tuned.code, 0) << tuned.err;
-  EXPECT_NE(folder_.read("life.html").find("figure-tuning-ages"), std::string::npos);
+  EXPECT_TRUE(says(folder_.read("life.html"), "figure-tuning-ages"));
   const auto answer = nlohmann::json::parse(tuned.out);
   ASSERT_EQ(answer["lost_ages"].size(), 1U);
   EXPECT_GT(answer["lost_ages"][0]["lost"], 1.0e6);

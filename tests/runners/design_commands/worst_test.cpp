@@ -38,7 +38,7 @@ class Worst : public ProgramTest {
   double replayed(std::int64_t rig) {
     const ProgramResult run = program({"run", "worst.yaml", "-o", "worst.h5", "--force", "--quiet"});
     EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_EQ(run.err.find("worlds"), std::string::npos) << "nothing differs between worlds: " << run.err;
+    EXPECT_FALSE(says(run.err, "worlds")) << "nothing differs between worlds: " << run.err;
     const reading::AllTrialsFile file(folder_.path() / "worst.h5");
     const study::Study study = layout::recorded_study(file.header(), "worst.h5");
     trials::Replicates units = trials::replicates_of(study, 0);
@@ -125,7 +125,7 @@ TEST_F(Worst, SaysWhereItIsLikelyToo) {
                     "goal: {band: 0, within: 0.05, moves: 0.9}\ntrials: 20\nsamples: rows.csv\n");
   folder_.write("rows.csv", "friction.k1,friction.k2\n100,700\n140,900\n90,500\n");
   const ProgramResult text = program({"worst", "axis.yaml"});
-  EXPECT_NE(text.out.find("also of the likely machines"), std::string::npos) << text.out;
+  EXPECT_TRUE(says(text.out, "also of the likely machines"));
   const Json json = Json::parse(program({"worst", "axis.yaml", "--format", "json"}).out);
   EXPECT_EQ(json["likely"]["in_box"], true);
   EXPECT_EQ(json["likely"]["inputs"], json["box"]["inputs"]);
@@ -146,7 +146,7 @@ TEST_F(Worst, IsAMachineWhereMeasuredValuesBelongTogether) {
   const ProgramResult run =
       program({"run", "independent.yaml", "-o", "independent.h5", "--set", "rigs=80", "--set", "trials=80"});
   EXPECT_EQ(run.code, 2) << run.err;
-  EXPECT_NE(run.err.find("friction.measured.final_stiffness: rig "), std::string::npos) << run.err;
+  EXPECT_TRUE(says(run.err, "friction.measured.final_stiffness: rig "));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "independent.h5"));
 }
 
@@ -163,8 +163,8 @@ TEST_F(Worst, IsToldWhereNoManifestCanBeWritten) {
   ASSERT_EQ(program({"run", "axis.yaml", "-o", "rows.h5", "--quiet"}).code, 0);
   const ProgramResult result = program({"worst", "rows.h5", "-o", "w.yaml"});
   EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.out.find("worst in the box"), std::string::npos) << "the answer is printed";
-  EXPECT_NE(result.err.find("no manifest describes the worst machine"), std::string::npos) << result.err;
+  EXPECT_TRUE(says(result.out, "worst in the box")) << "the answer is printed";
+  EXPECT_TRUE(says(result.err, "no manifest describes the worst machine"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "w.yaml"));
 }
 
@@ -199,9 +199,7 @@ TEST_F(Worst, RefusesAManifestBeforeTheSearch) {
   const ProgramResult refused = program({"worst", "aging.yaml", "-o", "w.yaml"});
   EXPECT_EQ(refused.code, 2);
   EXPECT_EQ(refused.out, "");
-  EXPECT_NE(refused.err.find("plant.sliding_damping changes with age, and is drawn per study"),
-            std::string::npos)
-      << refused.err;
+  EXPECT_TRUE(says(refused.err, "plant.sliding_damping changes with age, and is drawn per study"));
 }
 
 class WorstOfAxis : public Tune {};
@@ -237,7 +235,7 @@ TEST_F(WorstOfAxis, IsTheMachineWithTheFewestGoodMoves) {
   }
   const ProgramResult set = program({"worst", "out.h5", "--set", "controller.delay=0"});
   EXPECT_EQ(set.code, 2);
-  EXPECT_NE(set.err.find("changes a manifest"), std::string::npos) << set.err;
+  EXPECT_TRUE(says(set.err, "changes a manifest"));
   EXPECT_LT(of_manifest["rig"], 100);
   EXPECT_GT(of_manifest["inputs"]["friction.k1"], 0.0);
 }

@@ -124,13 +124,13 @@ TEST(StudySize, ARunThatTheDiskCannotHoldIsRefusedBeforeItBegins) {
   folder.write("study.yaml", small_manifest(1000000000));
   const ProgramResult run = zerocount_program({"run", "study.yaml", "-o", "out.h5", "-q"}, folder.path());
   EXPECT_EQ(run.code, 5) << run.err;
-  EXPECT_NE(run.err.find("free, and the run needs about"), std::string::npos) << run.err;
+  EXPECT_TRUE(says(run.err, "free, and the run needs about"));
   EXPECT_FALSE(fs::exists(folder.path() / "out.h5.shards"));
-  EXPECT_NE(run.err.find("--force"), std::string::npos) << run.err;
+  EXPECT_TRUE(says(run.err, "--force"));
   EXPECT_FALSE(fs::exists(folder / "out.h5"));
   const ProgramResult check = zerocount_program({"check", "study.yaml"}, folder.path());
   EXPECT_EQ(check.code, 0) << check.err;
-  EXPECT_NE(check.out.find("GB"), std::string::npos) << check.out;
+  EXPECT_TRUE(says(check.out, "GB"));
 }
 
 TEST(StudySize, IsToldWithTwoDigits) {

@@ -47,7 +47,7 @@ TEST_F(PluginStudy, ItsParametersAreColumnsAndAxes) {
   EXPECT_EQ(file.header().plugin->parameters.size(), 3u);
   EXPECT_EQ(file.header().plugin->sha256.size(), 64u);
   const std::string listing = program({"parameters", "--manifest", "study.yaml"}).out;
-  EXPECT_NE(listing.find("\ncontroller.parameters.zone "), std::string::npos);
+  EXPECT_TRUE(says(listing, "\ncontroller.parameters.zone "));
 }
 
 TEST_F(PluginStudy, ItsLibraryIsNeverReplacedByAnOutput) {
@@ -69,16 +69,15 @@ TEST_F(PluginStudy, OtherCommandsDoWithoutTheLibrary) {
     const ProgramResult result = program(words);
     EXPECT_TRUE(result.code == 0 || (words[0] == "compare" && result.code == 3)) << words[0] << result.err;
   }
-  EXPECT_NE(folder_.read("out.html").find("the controller is the plugin pi 1.0"), std::string::npos);
-  EXPECT_EQ(program({"plot", "out.h5"}).out.find("bode"),
-            std::string::npos);  // its transfer function is not known
+  EXPECT_TRUE(says(folder_.read("out.html"), "the controller is the plugin pi 1.0"));
+  EXPECT_FALSE(says(program({"plot", "out.h5"}).out, "bode"));  // its transfer function is not known
   const ProgramResult trace = program({"trace", "out.h5"});
   EXPECT_EQ(trace.code, 2);
   EXPECT_TRUE(trace.out.empty());
-  EXPECT_NE(trace.err.find("give its path with --plugin"), std::string::npos) << trace.err;
+  EXPECT_TRUE(says(trace.err, "give its path with --plugin"));
   const ProgramResult confirm = program({"summary", "out.h5", "--confirm", "10"});
   EXPECT_EQ(confirm.code, 2);
-  EXPECT_NE(confirm.err.find("expected its path with --plugin"), std::string::npos) << confirm.err;
+  EXPECT_TRUE(says(confirm.err, "expected its path with --plugin"));
 }
 
 TEST_F(PluginStudy, AReplayNeedsTheSameLibrary) {
@@ -89,7 +88,7 @@ TEST_F(PluginStudy, AReplayNeedsTheSameLibrary) {
   use("pi_cpp");
   const ProgramResult other = program(replay);
   EXPECT_EQ(other.code, 4);
-  EXPECT_NE(other.err.find("its trials were run with the plugin pi 1.0 with SHA-256"), std::string::npos);
+  EXPECT_TRUE(says(other.err, "its trials were run with the plugin pi 1.0 with SHA-256"));
 }
 
 TEST_F(PluginStudy, VerifyNeedsTheSameLibraryToRunTrialsAgain) {
@@ -98,7 +97,7 @@ TEST_F(PluginStudy, VerifyNeedsTheSameLibraryToRunTrialsAgain) {
   EXPECT_EQ(program({"verify", "out.h5", "--trials", "0"}).code, 0);
   const ProgramResult result = program({"verify", "out.h5", "--plugin", "own.so"});
   EXPECT_EQ(result.code, 0) << result.out << result.err;
-  EXPECT_NE(result.out.find("trials run again: 20 of 32"), std::string::npos) << result.out;
+  EXPECT_TRUE(says(result.out, "trials run again: 20 of 32"));
   use("pi_cpp");
   EXPECT_EQ(program({"verify", "out.h5", "--plugin", "own.so"}).code, 4);
 }
@@ -230,8 +229,7 @@ TEST_P(BadPlugin, IsRefused) {
   for (const std::string verb : {"check", "trace"}) {
     const ProgramResult result = zerocount_program({verb, "study.yaml"}, folder.path());
     EXPECT_EQ(result.code, 2) << verb;
-    EXPECT_NE(result.err.find("study.yaml:5:22: controller.plugin: "), std::string::npos) << result.err;
-    EXPECT_NE(result.err.find(GetParam().message), std::string::npos) << result.err;
+    EXPECT_TRUE(says(result.err, "study.yaml:5:22: controller.plugin: ", GetParam().message));
   }
 }
 
@@ -253,7 +251,7 @@ TEST(BadPlugins, AMissingFileIsRefused) {
   folder.write("study.yaml", plugin_manifest("none.so"));
   const ProgramResult result = zerocount_program({"run", "study.yaml", "-o", "out.h5"}, folder.path());
   EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("controller.plugin: none.so: no such file"), std::string::npos) << result.err;
+  EXPECT_TRUE(says(result.err, "controller.plugin: none.so: no such file"));
 }
 
 TEST(BadPlugins, AMissingFileIsNotBlamedOnTheParametersThatAreSwept) {
@@ -262,7 +260,7 @@ TEST(BadPlugins, AMissingFileIsNotBlamedOnTheParametersThatAreSwept) {
                plugin_manifest("none.so") + "sweep: {grid: {controller.parameters.ki: [1.0e-5, 2.0e-5]}}\n");
   const ProgramResult result = zerocount_program({"check", "study.yaml"}, folder.path());
   EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.err.find("unknown key"), std::string::npos) << result.err;
+  EXPECT_FALSE(says(result.err, "unknown key"));
 }
 
 TEST(BadPlugins, AnotherFileIsNoLibrary) {
@@ -271,7 +269,7 @@ TEST(BadPlugins, AnotherFileIsNoLibrary) {
   folder.write("study.yaml", plugin_manifest("text.so"));
   const ProgramResult result = zerocount_program({"check", "study.yaml"}, folder.path());
   EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("text.so is not a shared library"), std::string::npos) << result.err;
+  EXPECT_TRUE(says(result.err, "text.so is not a shared library"));
 }
 
 TEST(BadPlugins, TheReasonOfARefusedStartIsTold) {
@@ -279,9 +277,7 @@ TEST(BadPlugins, TheReasonOfARefusedStartIsTold) {
   folder.write("study.yaml", plugin_manifest(faulty_controller(16)));
   const ProgramResult result = zerocount_program({"check", "study.yaml"}, folder.path());
   EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("the controller faulty cannot start: gain and zone do not fit"),
-            std::string::npos)
-      << result.err;
+  EXPECT_TRUE(says(result.err, "the controller faulty cannot start: gain and zone do not fit"));
 }
 
 // A global integral, one that start resets, and a pointer into the state: the second works as long as trials
@@ -294,7 +290,7 @@ TEST(BadPlugins, StateOutsideTheStateIsFound) {
          {std::vector<std::string>{"check", "study.yaml"}, {"run", "study.yaml", "-o", "out.h5"}}) {
       const ProgramResult result = zerocount_program(words, folder.path());
       EXPECT_EQ(result.code, 2) << fault;
-      EXPECT_NE(result.err.find("the controller faulty keeps something outside its state"), std::string::npos)
+      EXPECT_TRUE(says(result.err, "the controller faulty keeps something outside its state"))
           << fault << result.err;
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "out.h5"));
@@ -309,11 +305,10 @@ TEST(BadPlugins, TorquesThatAreNoNumbersEndTheTrialAndSaySo) {
   const ProgramResult summary = zerocount_program({"summary", "out.h5", "--format", "json"}, folder.path());
   const nlohmann::json point = nlohmann::json::parse(summary.out)["points"][0];
   EXPECT_EQ(point["nonfinite"], point["trials"]);
-  EXPECT_NE(zerocount_program({"summary", "out.h5"}, folder.path()).out.find("controller failed"),
-            std::string::npos);
+  EXPECT_TRUE(says(zerocount_program({"summary", "out.h5"}, folder.path()).out, "controller failed"));
   const ProgramResult trace = zerocount_program({"trace", "study.yaml"}, folder.path());
   EXPECT_EQ(std::count(trace.out.begin(), trace.out.end(), '\n'), 102);  // the head and samples 0 to 100
-  EXPECT_NE(trace.err.find("the controller returned a non-finite torque"), std::string::npos);
+  EXPECT_TRUE(says(trace.err, "the controller returned a non-finite torque"));
 }
 
 TEST(BadPlugins, TheModeOfArithmeticIsRestored) {

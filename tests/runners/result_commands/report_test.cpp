@@ -159,10 +159,9 @@ TEST_F(ReportIndex, HasTheVerdictAndTheReportOfEachFile) {
   const ProgramResult result = index();
   ASSERT_EQ(result.code, 0) << result.err;
   const std::string page = folder_.read("site/index.html");
-  for (const char* text :
-       {"the goal is met", "the goal is missed", "href=\"./met.html\"", "href=\"./missed.html\"", "begun.h5",
-        "its run has not ended", "damaged.h5", "5 results files", ">sums</td>"})
-    EXPECT_TRUE(says(page, text)) << text;
+  EXPECT_TRUE(says(page, "the goal is met", "the goal is missed", "href=\"./met.html\"",
+                   "href=\"./missed.html\"", "begun.h5", "its run has not ended", "damaged.h5",
+                   "5 results files", ">sums</td>"));
   EXPECT_FALSE(says(page, "sums.html"));
   EXPECT_FALSE(exists("site/sums.html"));
   EXPECT_TRUE(says(folder_.read("site/met.html"), "Requirements"));

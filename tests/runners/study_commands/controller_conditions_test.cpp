@@ -2,7 +2,6 @@
 #include "core/failure/failure.hpp"
 #include "results/layout/layout.hpp"
 #include "runners/program/commands.hpp"
-#include "tests/support/says.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 

@@ -97,12 +97,9 @@ TEST_F(SequentialRun, SaysWhatItCameToAndWhy) {
   folder_.write("study.yaml", stopping_manifest());
   const ProgramResult sure = run("study.yaml", "out.h5");
   const std::string trials = std::to_string(reading::AllTrialsFile(at("out.h5")).header().trials);
-  EXPECT_NE(sure.err.find("wrote out.h5: " + trials + " trials at each point (all success rates"),
-            std::string::npos)
-      << sure.err;
+  EXPECT_TRUE(says(sure.err, "wrote out.h5: " + trials + " trials at each point (all success rates"));
   const ProgramResult unsure = run("study.yaml", "few.h5", {"--set", "stop.max_trials=120"});
-  EXPECT_NE(unsure.err.find("wrote few.h5: 120 trials at each point (max_trials; some"), std::string::npos)
-      << unsure.err;
+  EXPECT_TRUE(says(unsure.err, "wrote few.h5: 120 trials at each point (max_trials; some"));
   EXPECT_EQ(reading::AllTrialsFile(at("few.h5")).header().trials, 120);
 }
 
@@ -126,7 +123,7 @@ TEST_F(SequentialRun, CannotBeDividedIntoParts) {
   folder_.write("study.yaml", stopping_manifest());
   const ProgramResult result = run("study.yaml", "out.h5", {"--shard", "1/2"});
   EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("option '--shard': a study with `stop` cannot be divided"), std::string::npos);
+  EXPECT_TRUE(says(result.err, "option '--shard': a study with `stop` cannot be divided"));
 }
 
 TEST_F(SequentialRun, SummaryHasTheBoundsThatHold) {
@@ -152,8 +149,7 @@ TEST_F(SequentialRun, SummarySaysWhereTheGoalWasNotReached) {
   complete("study.yaml", "few.h5", {"--set", "stop.max_trials=100"});
   const ProgramResult table =
       zerocount_program({"summary", "few.h5", "--confidence", "0.99"}, folder_.path());
-  EXPECT_NE(table.out.find("99 % bounds of zero-count, however often one looks"), std::string::npos);
-  EXPECT_NE(table.out.find(": not reached"), std::string::npos) << table.out;
+  EXPECT_TRUE(says(table.out, "99 % bounds of zero-count, however often one looks", ": not reached"));
 }
 
 // With rigs, how well the mean over these rigs is known decides, and all of them have run equally many trials
@@ -197,9 +193,8 @@ TEST_F(SequentialRun, SummaryKeepsTheBoundsOfTheseRigsApartFromThoseOfAll) {
     differ = differ || of_all > 2.0 * halfwidth;
   }
   EXPECT_TRUE(differ) << result.out;
-  EXPECT_NE(zerocount_program({"summary", "out.h5"}, folder_.path())
-                .out.find("these bounds are of the mean over the 10 rigs of the study"),
-            std::string::npos);
+  EXPECT_TRUE(says(zerocount_program({"summary", "out.h5"}, folder_.path()).out,
+                   "these bounds are of the mean over the 10 rigs of the study"));
 }
 
 /// Every trial of the file can be run again from it.
@@ -242,8 +237,7 @@ class ExistingOutput : public ::testing::Test {
     const ProgramResult result = run("study.yaml", "out.h5", more);
     EXPECT_EQ(result.code, 2) << result.err;
     EXPECT_EQ(result.out, "");
-    for (const std::string& text : texts) EXPECT_NE(result.err.find(text), std::string::npos) << result.err;
-    EXPECT_NE(result.err.find("--force"), std::string::npos) << result.err;
+    for (const std::string& text : texts) EXPECT_TRUE(says(result.err, text, "--force"));
     EXPECT_TRUE(folder_.read("out.h5") == before);
     EXPECT_FALSE(fs::exists(at("out.h5.shards")));
   }
@@ -289,7 +283,7 @@ TEST_F(ExistingOutput, ThatIsCompleteStaysAsItIs) {
   const std::string before = folder_.read("out.h5");
   const ProgramResult again = run("study.yaml", "out.h5");
   EXPECT_EQ(again.code, 0);
-  EXPECT_NE(again.err.find("nothing to run"), std::string::npos);
+  EXPECT_TRUE(says(again.err, "nothing to run"));
   EXPECT_TRUE(folder_.read("out.h5") == before);
 }
 
@@ -299,8 +293,7 @@ TEST_F(ExistingOutput, SaysWhatItKeepsAndRunsOnlyTheOthers) {
   folder_.write("more.yaml", "# with a comment, and another notation\n" + small_manifest(25));
   const ProgramResult result = run("more.yaml", "out.h5");
   EXPECT_EQ(result.code, 0);
-  EXPECT_NE(result.err.find("20 trials at each point are kept, 5 are added"), std::string::npos)
-      << result.err;
+  EXPECT_TRUE(says(result.err, "20 trials at each point are kept, 5 are added"));
 }
 
 TEST_F(ExistingOutput, AnExtensionThatIsKilledLosesNothing) {

@@ -86,8 +86,8 @@ TEST_F(Verify, FindsNothingWrongInAFileAsItWasWritten) {
   const ProgramResult result = program({"verify", "out.h5"});
   EXPECT_EQ(result.code, 0) << result.out << result.err;
   for (const char* check : {"checksum", "statistics", "trials run again"})
-    EXPECT_NE(result.out.find(std::string("ok      out.h5: ") + check + ": "), std::string::npos) << check;
-  EXPECT_EQ(result.out.find("FAILED"), std::string::npos);
+    EXPECT_TRUE(says(result.out, std::string("ok      out.h5: ") + check + ": ")) << check;
+  EXPECT_FALSE(says(result.out, "FAILED"));
 }
 
 TEST_F(Verify, NamesTheDatasetOfAnyValueThatWasChanged) {
@@ -115,12 +115,12 @@ TEST_F(Verify, NamesTheDatasetOfAnyValueThatWasChanged) {
 TEST_F(Verify, FindsAChangedAttribute) {
   make("out.h5");
   replace_attribute(copy("seed.h5"), "name", std::string("other"));
-  EXPECT_NE(problems("seed.h5").find("statistics: the attribute 'name' is other; its manifest says verified"),
-            std::string::npos);
+  EXPECT_TRUE(
+      says(problems("seed.h5"), "statistics: the attribute 'name' is other; its manifest says verified"));
   replace_attribute(copy("hash.h5"), "study_sha256", std::string("0"));
-  EXPECT_NE(problems("hash.h5").find("statistics: the attribute 'study_sha256' is 0"), std::string::npos);
+  EXPECT_TRUE(says(problems("hash.h5"), "statistics: the attribute 'study_sha256' is 0"));
   remove_attribute(copy("unfinished.h5"), "finished");
-  EXPECT_NE(problems("unfinished.h5").find("statistics: it was never finished"), std::string::npos);
+  EXPECT_TRUE(says(problems("unfinished.h5"), "statistics: it was never finished"));
 }
 
 TEST_F(Verify, FindsAFlippedByteAndACutFileByTheChecksum) {
@@ -137,8 +137,7 @@ TEST_F(Verify, FindsAFlippedByteAndACutFileByTheChecksum) {
   }
   const ProgramResult result = program({"verify", "flipped.h5", "out.h5"});
   EXPECT_EQ(result.code, 4) << result.err;
-  EXPECT_NE(result.out.find("FAILED  flipped.h5: checksum: "), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("ok      out.h5: trials run again: "), std::string::npos) << result.out;
+  EXPECT_TRUE(says(result.out, "FAILED  flipped.h5: checksum: ", "ok      out.h5: trials run again: "));
 }
 
 TEST_F(Verify, ListsEveryTrialThatDiffers) {
@@ -147,18 +146,15 @@ TEST_F(Verify, ListsEveryTrialThatDiffers) {
   change_element(path, "/trial/input/friction.k2", 5);
   change_element(path, "/outcome/holding_torque", 2 * 20 + 1);  // point 1, trial 4, move 1
   const std::string found = problems("changed.h5");
-  EXPECT_NE(found.find("trials run again: point 0, trial 5: input friction.k2: recorded "), std::string::npos)
-      << found;
-  EXPECT_NE(found.find("trials run again: point 1, trial 4: move 1: holding_torque: recorded "),
-            std::string::npos)
-      << found;
+  EXPECT_TRUE(says(found, "trials run again: point 0, trial 5: input friction.k2: recorded ",
+                   "trials run again: point 1, trial 4: move 1: holding_torque: recorded "));
 }
 
 TEST_F(Verify, ChecksPartsOfAStudy) {
   make("a.h5", {"--shard", "1/2"});
   EXPECT_EQ(problems("a.h5"), "");
   change_element(folder_ / "a.h5", "/jerk/duration", 0);
-  EXPECT_NE(problems("a.h5").find("trials run again: point 0, trial "), std::string::npos);
+  EXPECT_TRUE(says(problems("a.h5"), "trials run again: point 0, trial "));
 }
 
 TEST_F(Verify, ChecksThatTheShardsOfAFolderHoldEachTrialOnce) {
@@ -166,8 +162,8 @@ TEST_F(Verify, ChecksThatTheShardsOfAFolderHoldEachTrialOnce) {
   EXPECT_EQ(problems("out.h5.shards"), "");
   const fs::path second = shards / "trials-000000000008-000000000015.h5";
   fs::copy_file(second, shards / "twice.h5");
-  EXPECT_NE(problems("out.h5.shards").find("twice.h5 holds trials 8 to 15, which overlap those of trials-"),
-            std::string::npos);
+  EXPECT_TRUE(
+      says(problems("out.h5.shards"), "twice.h5 holds trials 8 to 15, which overlap those of trials-"));
   fs::remove(shards / "twice.h5");
   fs::remove(second);
 }
@@ -177,10 +173,8 @@ TEST_F(Verify, OfAnUnfinishedRunSaysHowManyTrialsAreMissing) {
   fs::remove(shards / "trials-000000000008-000000000015.h5");
   const ProgramResult result = program({"verify", "out.h5.shards"});
   EXPECT_EQ(result.code, 0) << result.out << result.err;
-  EXPECT_NE(
-      result.out.find("skipped out.h5.shards: all trials: 8 are in none of the shards yet, from trial 8 on"),
-      std::string::npos)
-      << result.out;
+  EXPECT_TRUE(says(result.out,
+                   "skipped out.h5.shards: all trials: 8 are in none of the shards yet, from trial 8 on"));
 }
 
 TEST_F(Verify, NamesAShardOfAnotherStudyAndOneThatIsDamaged) {
@@ -190,12 +184,8 @@ TEST_F(Verify, NamesAShardOfAnotherStudyAndOneThatIsDamaged) {
   fs::copy_file(foreign / name, shards / name, fs::copy_options::overwrite_existing);
   change_element(shards / "trials-000000000024-000000000031.h5", "/outcome/creep", 3);
   const std::string found = problems("out.h5.shards");
-  EXPECT_NE(found.find("shards: " + name + " is of another study ('verified') than most"), std::string::npos)
-      << found;
-  EXPECT_NE(
-      found.find("trials-000000000024-000000000031.h5: trials run again: point 1, trial 9: move 1: creep"),
-      std::string::npos)
-      << found;
+  EXPECT_TRUE(says(found, "shards: " + name + " is of another study ('verified') than most",
+                   "trials-000000000024-000000000031.h5: trials run again: point 1, trial 9: move 1: creep"));
 }
 
 TEST_F(Verify, AnswersInJson) {

@@ -151,7 +151,7 @@ TEST(IdentificationPage, HasTheDataOfEachRecord) {
     }
     EXPECT_TRUE(figures[r]["data"][1]["rows"].empty());
     EXPECT_EQ(figures[r]["data"][2]["rows"], ordered_json::parse("[[-0.5, 0.5]]"));
-    EXPECT_EQ(figures[r]["specification"].dump().find("\"masked\""), std::string::npos);
+    EXPECT_FALSE(says(figures[r]["specification"].dump(), "\"masked\""));
   }
 }
 
@@ -176,7 +176,7 @@ TEST(IdentificationPage, ShowsWhatIsMasked) {
   EXPECT_NEAR(figure["data"][1]["rows"][0][0].get<double>(), record.time[100], 1e-9);
   EXPECT_NEAR(figure["data"][1]["rows"][0][1].get<double>(), record.time[150], 1e-9);
   EXPECT_LT(figure["specification"]["vconcat"][0]["encoding"]["y"]["scale"]["domain"][1].get<double>(), 2e6);
-  EXPECT_NE(report::identification_figures(found)[0].caption.find("50 masked samples"), std::string::npos);
+  EXPECT_TRUE(says(report::identification_figures(found)[0].caption, "50 masked samples"));
 }
 
 TEST(IdentificationPage, AnglesAreInMicroradians) {
@@ -212,15 +212,14 @@ TEST(ReadingNoise, IsThatOfTheReadingsAlone) {
 
 TEST(IdentificationPage, SaysWhetherTheModelFits) {
   Identification found = identification_of({random_record(5, 300, false)});
-  EXPECT_NE(page_of(found).find("the model explains the records"), std::string::npos);
+  EXPECT_TRUE(says(page_of(found), "the model explains the records"));
   found.checks.passed = false;
   found.checks.spread_chance = 0.002;
   found.checks.spread = 3.0;
   found.checks.expected_spread = 1.0;
   found.checks.widening = 4.5;
   const std::string html = page_of(found);
-  EXPECT_NE(html.find("LACK OF FIT: the residuals are 3 times as large"), std::string::npos) << html;
-  EXPECT_NE(html.find("factor 4.5"), std::string::npos) << html;
+  EXPECT_TRUE(says(html, "LACK OF FIT: the residuals are 3 times as large", "factor 4.5"));
 }
 
 TEST(IdentificationPage, StaysSmall) {

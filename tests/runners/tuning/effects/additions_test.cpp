@@ -227,8 +227,7 @@ TEST(Additions, TryModesOnTheFirstMachinesOfALargeStudy) {
   const Limit row = additions_to(runs).back();
   EXPECT_LT(row.estimate.units, 6000);
   EXPECT_NEAR(static_cast<double>(row.estimate.units) * 240, 8.0e5, 240);
-  EXPECT_NE(row.note.find(fmt::format("first {} of 6000 draws", row.estimate.units)), std::string::npos)
-      << row.note;
+  EXPECT_TRUE(says(row.note, fmt::format("first {} of 6000 draws", row.estimate.units)));
 }
 
 TEST(Additions, SayWhatIsNotSimulated) {
@@ -236,7 +235,7 @@ TEST(Additions, SayWhatIsNotSimulated) {
   const std::vector<Limit> rows = additions_to(runs_of(late));
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_FALSE(rows[1].rate);
-  EXPECT_NE(rows[1].note.find("controller.delay: it would be 101"), std::string::npos) << rows[1].note;
+  EXPECT_TRUE(says(rows[1].note, "controller.delay: it would be 101"));
   const study::Study loaded = parsed(of_trials, {"plant.load.inertia=1.0e-4"});
   EXPECT_EQ(additions_to(runs_of(loaded)).size(), 2U) << "it has a mode of its own";
 }
@@ -299,7 +298,7 @@ TEST(Robustness, NamesWhatStays) {
       manifest::parse_study(std::string(text) + "plant: {presliding_damping: {uniform: [0.01, 0.3]}}\n",
                             "axis.yaml", {}),
       0);
-  EXPECT_NE(effects.front().note.find("plant.presliding_damping"), std::string::npos) << effects.front().note;
+  EXPECT_TRUE(says(effects.front().note, "plant.presliding_damping"));
 }
 
 }  // namespace

@@ -63,10 +63,10 @@ TEST(TuningJournal, GivesBackWhatWasWritten) {
 TEST(TuningJournal, IsNamedByAnInterruptionOnlyWhereItIs) {
   const TemporaryFolder folder;
   const std::filesystem::path output = folder / "tuned.h5";
-  EXPECT_EQ(tuning::interruption_text(output).find(output.string()), std::string::npos);
+  EXPECT_FALSE(says(tuning::interruption_text(output), output.string()));
   const std::string line = tuning::evaluation_line("search", {1.0}, 0, {}, 1.0);
   tuning::TuningJournal(tuning::journal_path(output), "tuning", false).add({&line, 1});
-  EXPECT_NE(tuning::interruption_text(output).find(tuning::journal_path(output).string()), std::string::npos);
+  EXPECT_TRUE(says(tuning::interruption_text(output), tuning::journal_path(output).string()));
 }
 
 }  // namespace

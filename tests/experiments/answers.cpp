@@ -35,9 +35,8 @@ Json distributions() {
     for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
       if (form.name != name) continue;
       Json quantiles = Json::array();
-      for (const double u : {1e-12, 1e-6, 0.01, 0.123, 0.5, 0.77, 0.99, 1 - 1e-6}) {
+      for (const double u : {1e-12, 1e-6, 0.01, 0.123, 0.5, 0.77, 0.99, 1 - 1e-6})
         quantiles.push_back({u, distributions::quantile(form.make(numbers), u)});
-      }
       all.push_back({{"name", name}, {"numbers", numbers}, {"quantiles", quantiles}});
     }
   }

@@ -142,9 +142,8 @@ TEST(ShippedManifests, TheBenchmarksLeaveAllFrictionToChance) {
 TEST(ShippedManifests, TheMillionIsOfTheTransientBenchmark) {
   const study::Study few = benchmark_study("bench-transient");
   const study::Study million = benchmark_study("bench-million");
-  for (const std::int64_t index : {0, 1, 99999}) {
+  for (const std::int64_t index : {0, 1, 99999})
     EXPECT_EQ(study::study_trial(few, 0, index).inputs, study::study_trial(million, 0, index).inputs);
-  }
 }
 
 TEST(ShippedManifests, TheStabilityMapIsAGrid) {

@@ -21,9 +21,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 study::SweepAxis sample_number_axis(std::int64_t points) {
   study::SweepAxis axis{
       "controller.ki", "N m/count", "integral gain", study::SweepAxis::Kind::number, {}, {}};
-  for (std::int64_t point = 0; point < points; ++point) {
+  for (std::int64_t point = 0; point < points; ++point)
     axis.numbers.push_back(point == 0 ? nan : 3.85e-5 * static_cast<double>(point));
-  }
   return axis;
 }
 
@@ -157,9 +156,8 @@ shards::TrialResult sample_result(const study::Study& study, std::int64_t row) {
   result.row = row;
   for (std::size_t input = 0; input < study.columns.inputs.size(); ++input)
     result.inputs.push_back(normal(random));
-  for (std::int64_t move = 0; move < study.moves; ++move) {
+  for (std::int64_t move = 0; move < study.moves; ++move)
     result.outcome.moves.push_back(sample_move(random, move, result.jerks));
-  }
   const std::int64_t index = row % study.trials;
   for (const std::int64_t retained : study.retained_trials) {
     for (std::int64_t k = 0; retained == index && k < 50; ++k) result.trace.push_back(sample_record(k));
@@ -191,9 +189,8 @@ std::vector<shards::ShardInfo> write_sample_shards(const std::filesystem::path& 
                                                    std::int64_t size) {
   std::filesystem::create_directories(directory);
   std::vector<shards::ShardInfo> shards;
-  for (std::int64_t first = rows.first; first < rows.end(); first += size) {
+  for (std::int64_t first = rows.first; first < rows.end(); first += size)
     shards.push_back(write_sample_shard(directory, study, {first, std::min(size, rows.end() - first)}));
-  }
   return shards;
 }
 

@@ -25,9 +25,8 @@ TEST(ShareBounds, OfASingleFailureSolveTheirEquation) {
 TEST(ShareBounds, NothingShowsWithoutTrialsAndOppositesAreNotBothShown) {
   EXPECT_FALSE(share_above(0.001, 0, 0));
   EXPECT_FALSE(share_below(0.999, 0, 0));
-  for (std::int64_t k = 0; k <= 50; ++k) {
+  for (std::int64_t k = 0; k <= 50; ++k)
     EXPECT_FALSE(share_above(0.5, k, 50) && share_below(0.5, k, 50)) << k;
-  }
 }
 
 }  // namespace

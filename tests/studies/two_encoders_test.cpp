@@ -74,9 +74,8 @@ TEST(TwoEncoders, DisagreementIsTheNumberOfImpossiblePairsOfCounts) {
     for (std::int64_t index = 0; index < 6; ++index) {
       const WatchedTrial trial = watched(trial_of(study, label, index));
       std::int64_t impossible = 0;
-      for (const trial::SampleRecord& sample : trial.samples) {
+      for (const trial::SampleRecord& sample : trial.samples)
         impossible += !one_place_has_both(trial.parameters, sample.count, sample.coarse_count);
-      }
       EXPECT_EQ(trial.outcome.moves[0].encoder_disagreement, impossible) << label << " " << index;
     }
   }

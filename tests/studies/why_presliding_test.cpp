@@ -98,9 +98,8 @@ TEST_P(WithCoulomb, NoLeapEndsInTheTargetsCountAtAnyGain) {
         EXPECT_GT(std::abs(leap.torque), trial.parameters.friction.uniform.breakaway);
         ++leaps;
       }
-      for (const trial::SampleRecord& sample : trial.samples) {
+      for (const trial::SampleRecord& sample : trial.samples)
         ASSERT_FALSE(sample.error == 0 && sample.mode == trial::HookMode::stick) << "at rest at zero error";
-      }
     }
     EXPECT_GE(leaps, 15) << ki;
   }

@@ -77,9 +77,8 @@ void OdeintMotion::stretch(const std::vector<double>& torques) {
 
 OdeintMotion::Contact OdeintMotion::contact_at(Real theta) const {
   friction::FrictionParameters p = friction_.uniform;
-  for (const friction::ProfiledParameter& entry : friction_.profiled) {
+  for (const friction::ProfiledParameter& entry : friction_.profiled)
     p.*entry.parameter = static_cast<double>(profile_value(*entry.profile, position_ + theta));
-  }
   if (friction_.model == friction::FrictionModel::spring) p.alpha = 0.0;
   return {p.k1, p.k2, p.beta, p.alpha, p.lambda, p.n, p.breakaway, p.coulomb_ratio, p.stribeck_velocity};
 }

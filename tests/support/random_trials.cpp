@@ -69,9 +69,8 @@ void choose_loop(Draws& draws, TrialKind kind, trial::TrialParameters& p) {
   p.dac.bits = draws.chance(0.7) ? 12 : static_cast<int>(draws.integer(10, 18));
   p.dac.resolution = draws.chance(0.7) ? 2.4e-4 : 0.4915 / std::ldexp(1.0, p.dac.bits - 1);
   const auto moves = draws.integer(1, 3);
-  for (std::int64_t move = 0; move < moves; ++move) {
+  for (std::int64_t move = 0; move < moves; ++move)
     p.command.targets.push_back(draws.sign() * draws.integer(move == 0 ? 1 : 0, 30));
-  }
   switch (kind) {
     case TrialKind::calm:
       c.ki = draws.uniform(5e-6, 4.5e-5);

@@ -30,9 +30,8 @@ StopElements::StopElements(const friction::FrictionParameters& friction, std::si
 
 void StopElements::move_to(double x) {
   const double change = x - x_;
-  for (Element& element : elements_) {
+  for (Element& element : elements_)
     element.elongation = std::clamp(element.elongation + change, -element.threshold, element.threshold);
-  }
   x_ = x;
 }
 

@@ -308,9 +308,8 @@ TEST(Draws, RiseInTheSameOrderThroughAnotherDistribution) {
                          const std::string& more = "") {
     const study::Study study = study_of("distribution: " + name + "\n" + more);
     std::vector<shards::TrialResult> results(2 * trials);
-    for (std::int64_t row = 0; row < 2 * trials; ++row) {
+    for (std::int64_t row = 0; row < 2 * trials; ++row)
       results[static_cast<std::size_t>(row)] = {row, {k1(row)}, trial_of(true, 10).outcome, {}, {}};
-    }
     shards::write_shard(folder / (name + ".shard"), study, {0, std::ssize(results)}, results);
     const std::vector<shards::ShardInfo> shards{{folder / (name + ".shard"), {0, 2 * trials}}};
     testing::merge_shards(shards, study, folder / name, {0, 2 * trials}, {});

@@ -207,13 +207,11 @@ TEST(Repeatability, ScalesWithTheUnitOfTheDeviations) {
   for_random_runs([](const Deviations& deviations) {
     const Repeatability before = repeatability_of(deviations);
     const Repeatability after = repeatability_of(transformed(deviations, [](double x) { return 8.0 * x; }));
-    for (const auto& field : axis_fields()) {
+    for (const auto& field : axis_fields())
       EXPECT_EQ(after.axis.*field.value, 8.0 * before.axis.*field.value) << field.name;
-    }
     for (std::size_t i = 0; i < before.targets.size(); ++i) {
-      for (const auto& field : target_fields()) {
+      for (const auto& field : target_fields())
         EXPECT_EQ(after.targets[i].*field.value, 8.0 * before.targets[i].*field.value) << field.name;
-      }
     }
   });
 }

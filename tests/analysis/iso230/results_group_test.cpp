@@ -65,9 +65,8 @@ TEST(ValueStatistics, LeaveOutWhatIsNotDefined) {
   EXPECT_EQ(result.median.value, 2.0);
   const ValueStatistics empty = statistics_of({none});
   EXPECT_EQ(empty.n, 0);
-  for (const ValueStatisticField& field : value_statistic_fields()) {
+  for (const ValueStatisticField& field : value_statistic_fields())
     EXPECT_TRUE(std::isnan(field.value(empty))) << field.name;
-  }
 }
 
 TEST(ValueStatistics, DoNotDependOnTheOrderOfTheTrials) {
@@ -160,9 +159,8 @@ TEST(RepeatabilitySummary, OfASingleCycleCountsNoZeros) {
       testing::summary_json(summary_of(testing::sequence_study("cycles: 1"), one_count_of_reversal));
   const nlohmann::ordered_json& point = json["points"][0]["repeatability"];
   EXPECT_EQ(point["trials"], 80);
-  for (const char* name : {"zero_repeatability", "zero_repeatability_rate"}) {
+  for (const char* name : {"zero_repeatability", "zero_repeatability_rate"})
     EXPECT_TRUE(point.at(name).is_null()) << name;
-  }
 }
 
 TEST(RepeatabilitySummary, DeviationsOfManyCountsAreShownInFull) {

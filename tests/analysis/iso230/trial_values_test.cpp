@@ -12,9 +12,8 @@ constexpr double count = 2.0 * std::numbers::pi / fine;  // rad
 std::vector<study::SequenceMove> two_targets() {
   std::vector<study::SequenceMove> moves;
   for (std::int64_t cycle = 0; cycle < 2; ++cycle) {
-    for (const auto& [target, direction] : {std::pair{-1, -1}, {0, 1}, {1, 1}, {-1, 1}, {1, -1}, {0, -1}}) {
+    for (const auto& [target, direction] : {std::pair{-1, -1}, {0, 1}, {1, 1}, {-1, 1}, {1, -1}, {0, -1}})
       moves.push_back({target, direction, cycle});
-    }
   }
   return moves;
 }

@@ -64,9 +64,8 @@ TEST(SaltelliIndices, OfPairsThatAreAllTheSameThereAreNone) {
   sample.a.assign(100, 0.0);
   sample.c[0] = sample.a;
   const SobolIndices nothing = saltelli_indices(sample, 0.95, any_stream)[0];
-  for (const BoundedNumber& number : {nothing.total, nothing.first_order}) {
+  for (const BoundedNumber& number : {nothing.total, nothing.first_order})
     EXPECT_TRUE(std::isnan(number.value) && std::isnan(number.low) && std::isnan(number.high));
-  }
 }
 
 // D of pairs written out, over all tables of 12 pairs.

@@ -57,9 +57,8 @@ std::vector<double> ishigami_totals() {
 
 double g_function(std::span<const double> u) {
   double product = 1.0;
-  for (std::size_t j = 0; j < u.size(); ++j) {
+  for (std::size_t j = 0; j < u.size(); ++j)
     product *= (std::abs(4.0 * u[j] - 2.0) + g_parameters.at(j)) / (1.0 + g_parameters.at(j));
-  }
   return product;
 }
 
@@ -82,9 +81,8 @@ std::vector<std::vector<double>> drawn_points(const std::string& design, std::si
                                               std::size_t trials, std::uint64_t seed) {
   constexpr std::array<const char*, 5> keys{"k1", "k2", "beta", "alpha", "lambda"};
   std::string friction;
-  for (std::size_t j = 0; j < factors; ++j) {
+  for (std::size_t j = 0; j < factors; ++j)
     friction += fmt::format("{}{}: {{uniform: [1, 2]}}", j == 0 ? "" : ", ", keys.at(j));
-  }
   const study::Study study = manifest::parse_study(
       fmt::format("{{zerocount: 1, name: t, seed: {}, trials: {}, design: {}, command: {{targets: [5]}}, "
                   "friction: {{{}}}}}",

@@ -31,9 +31,8 @@ TEST(MeanBounds, AreSciPysForSamplesOfAllSizesAndScales) {
     const double confidence = std::vector<double>{0.5, 0.9, 0.95, 0.99}[random() % 4];
     const Moments moments = moments_of(values);
     const ConfidenceInterval bounds = student_t(moments, confidence);
-    for (const double number : {moments.mean, moments.sd(), bounds.low, bounds.high, confidence}) {
+    for (const double number : {moments.mean, moments.sd(), bounds.low, bounds.high, confidence})
       cases << reading::number_text(number) << " ";
-    }
     for (const double value : values) cases << " " << reading::number_text(value);
     cases << "\n";
   }

@@ -21,9 +21,8 @@ TEST(Normal, TailAndQuantileAreInverse) {
 
 TEST(Normal, TwoSidedQuantileRefusesWhatIsNoConfidence) {
   EXPECT_NEAR(two_sided_normal_quantile(0.95), 1.959963984540054, 1e-14);
-  for (const double confidence : {0.0, 1.0, -0.1, std::nan("")}) {
+  for (const double confidence : {0.0, 1.0, -0.1, std::nan("")})
     EXPECT_THROW(two_sided_normal_quantile(confidence), Failure);
-  }
 }
 
 }  // namespace

@@ -73,9 +73,8 @@ void add_numbers(JudgedCases& cases, Draws& draws) {
     const std::vector<double> small = draws.halves(draws.whole(1, 11), shift);
     const std::vector<double> plain = draws.normals(draws.whole(5, 150), shift);
     const std::vector<double> many = draws.halves(draws.whole(400, 600), 0.2 * shift);
-    for (const auto& differences : {small, plain, many}) {
+    for (const auto& differences : {small, plain, many})
       cases.add("signed_rank", differences, two_samples::signed_rank(differences));
-    }
     const std::vector<double> one = draws.normals(draws.whole(3, 90), 0.0);
     const std::vector<double> two = draws.normals(draws.whole(3, 90), shift);
     cases.add("smirnov", {one, two}, two_samples::smirnov(one, two));

@@ -214,9 +214,8 @@ BatchAgreement agreement_of(const std::vector<trial::TrialParameters>& trials, c
                             const batch::BatchSettings& settings) {
   const std::vector<BatchedTrial> batched = run_batch(trials, settings);
   BatchAgreement agreement;
-  for (std::size_t i = 0; i < trials.size(); ++i) {
+  for (std::size_t i = 0; i < trials.size(); ++i)
     agreement.add(compare_with_reference(trials[i], batched[i], fmt::format("{} {}", name, i)));
-  }
   return agreement;
 }
 

@@ -41,9 +41,8 @@ BatchAgreement agreement_over(const study::Study& study, std::int64_t point, std
       const std::int64_t from = next.fetch_add(block);
       if (from >= first + trials) return;
       std::vector<trial::TrialParameters> some;
-      for (std::int64_t i = from; i < std::min(from + block, first + trials); ++i) {
+      for (std::int64_t i = from; i < std::min(from + block, first + trials); ++i)
         some.push_back(study::study_trial(study, point, i).parameters);
-      }
       const BatchAgreement part = agreement_of(some, fmt::format("of {} on, trial", from));
       const std::lock_guard lock(adding);
       agreement.add(part);
@@ -69,9 +68,8 @@ int main(int count, char** words) {
     const study::Study study = manifest::load_study(words[1], {fmt::format("trials={}", first + trials)});
     const BatchAgreement agreement = agreement_over(study, point, first, trials);
     constexpr std::size_t max_shown = 20;
-    for (std::size_t i = 0; i < std::min(max_shown, agreement.failures.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(max_shown, agreement.failures.size()); ++i)
       fmt::print(stderr, "{}\n", agreement.failures[i]);
-    }
     fmt::print("{}: {}\n", study.name, agreement.figures());
     return agreement.failures.empty() ? 0 : 1;
   } catch (const Failure& failure) {

@@ -13,9 +13,8 @@ std::vector<trial::TrialParameters> bench_trials(const std::string& name, std::i
   const study::Study study =
       manifest::load_study(std::filesystem::path(ZEROCOUNT_EXPERIMENTS) / (name + ".yaml"), overrides);
   std::vector<trial::TrialParameters> trials;
-  for (std::int64_t index = first; index < first + count; ++index) {
+  for (std::int64_t index = first; index < first + count; ++index)
     trials.push_back(study::study_trial(study, 0, index).parameters);
-  }
   return trials;
 }
 

@@ -119,9 +119,8 @@ TEST_P(WorkloadEquality, SampleBySample) {
 /// Two among 100 000 whose ringing turns less than a nanosecond before a sampling instant: the step that is
 /// left must not make those after it as short.
 TEST(AReversalRightBeforeASample, IsFollowedAsByTheReference) {
-  for (const std::int64_t index : {26759, 41027}) {
+  for (const std::int64_t index : {26759, 41027})
     expect_agreement_in_lanes(bench_trials("bench-creep", index, 1, {"trials=100000"}), "bench-creep");
-  }
 }
 
 /// Behind couplings of all stiffnesses, over waits of a second: creep decelerates both masses, which the rest
@@ -271,9 +270,8 @@ TEST_P(LawsWithoutHook, DoNotDependOnTheirNeighbours) {
     for (const int lanes : {7, 128}) {
       const std::vector<BatchedTrial> among =
           run_batch(mixed, {.lanes = lanes, .instructions = instructions});
-      for (std::size_t i = 0; i < trials.size(); ++i) {
+      for (std::size_t i = 0; i < trials.size(); ++i)
         ASSERT_EQ(difference_in_bits(among[2 * i], alone[i]), "") << i << " of " << lanes;
-      }
     }
   }
 }

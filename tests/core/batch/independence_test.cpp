@@ -44,9 +44,8 @@ class BatchIndependence : public ::testing::Test {
 
   static void expect_same(const std::vector<BatchedTrial>& results, const std::string& how) {
     ASSERT_EQ(results.size(), expected.size());
-    for (std::size_t i = 0; i < results.size(); ++i) {
+    for (std::size_t i = 0; i < results.size(); ++i)
       ASSERT_EQ(difference_in_bits(expected[i], results[i]), "") << "trial " << i << ", " << how;
-    }
   }
 
   static inline std::vector<trial::TrialParameters> trials;
@@ -82,9 +81,8 @@ TEST_F(BatchIndependence, OfThereBeingOthers) {
   for (const batch::InstructionSet instructions : available_instruction_sets()) {
     std::vector<BatchedTrial> alone;
     alone.reserve(trials.size());
-    for (const trial::TrialParameters& trial : trials) {
+    for (const trial::TrialParameters& trial : trials)
       alone.push_back(run_batch({trial}, {.instructions = instructions}).front());
-    }
     expect_same(alone, "alone");
   }
 }
@@ -93,13 +91,11 @@ TEST_F(BatchIndependence, OfThereBeingOthers) {
 TEST_F(BatchIndependence, OfWhoTheOthersAre) {
   for (std::size_t i = 0; i < trials.size(); i += 11) {
     std::vector<trial::TrialParameters> twins(40, trials[i]);
-    for (const BatchedTrial& twin : run_batch(twins)) {
+    for (const BatchedTrial& twin : run_batch(twins))
       ASSERT_EQ(difference_in_bits(expected[i], twin), "") << "trial " << i << " among its twins";
-    }
     std::vector<trial::TrialParameters> strangers;
-    for (std::uint64_t j = 0; j < 31; ++j) {
+    for (std::uint64_t j = 0; j < 31; ++j)
       strangers.push_back(trial_for_lanes(TrialKind::unlike_the_paper, 60000 + 31 * i + j));
-    }
     const std::size_t place = (7 * i) % strangers.size();
     strangers.insert(strangers.begin() + static_cast<std::ptrdiff_t>(place), trials[i]);
     ASSERT_EQ(difference_in_bits(expected[i], run_batch(strangers)[place]), "")
@@ -108,18 +104,16 @@ TEST_F(BatchIndependence, OfWhoTheOthersAre) {
 }
 
 TEST_F(BatchIndependence, OfWhetherSamplesAreObserved) {
-  for (const batch::InstructionSet instructions : available_instruction_sets()) {
+  for (const batch::InstructionSet instructions : available_instruction_sets())
     expect_same(run_batch(trials, {.instructions = instructions}, Observed::jerks), "samples not observed");
-  }
   batch::BatchEngine engine;
   std::vector<const trial::TrialParameters*> pointers;
   pointers.reserve(trials.size());
   for (const trial::TrialParameters& trial : trials) pointers.push_back(&trial);
   std::vector<trial::TrialOutcome> outcomes(trials.size());
   engine.run(pointers, outcomes);
-  for (std::size_t i = 0; i < trials.size(); ++i) {
+  for (std::size_t i = 0; i < trials.size(); ++i)
     ASSERT_EQ(difference_in_bits({expected[i].outcome, {}, {}}, {outcomes[i], {}, {}}), "") << "trial " << i;
-  }
 }
 
 TEST_F(BatchIndependence, OfWhatTheEngineRanBefore) {
@@ -189,9 +183,8 @@ TEST(RunsInLanes, IsFalseOfWhatLanesDoNotKnowWhichThenIsTheReferences) {
     EXPECT_FALSE(batch::runs_in_lanes(trials.back())) << change.what;
   }
   const std::vector<BatchedTrial> batched = run_batch(trials, {.lanes = 4});
-  for (std::size_t i = 0; i < trials.size(); ++i) {
+  for (std::size_t i = 0; i < trials.size(); ++i)
     EXPECT_EQ(difference_in_bits(batched[i], run_by_reference(trials[i])), "") << changes[i].what;
-  }
 }
 
 TEST(InstructionSets, PortableIsAlwaysThereAndTheWidestIsOneOfThem) {
@@ -304,9 +297,8 @@ TEST(BatchLosesAMotion, WithoutTheOthersNoticing) {
   for (const LostTrial& trial : lost_trials()) mixed.insert(mixed.begin() + 7, trial.parameters);
   const std::vector<BatchedTrial> results = run_batch(mixed, {.lanes = 16});
   const std::size_t lost = mixed.size() - sound.size();
-  for (std::size_t i = 0; i < sound.size(); ++i) {
+  for (std::size_t i = 0; i < sound.size(); ++i)
     EXPECT_EQ(difference_in_bits(expected[i], results[i < 7 ? i : i + lost]), "") << i;
-  }
 }
 
 }  // namespace

@@ -75,9 +75,8 @@ bool reversal_depth_changes_with_steps(const trial::TrialParameters& parameters)
       plant::Plant plant(parameters.plant, parameters.friction, trial::plant_start(parameters), tolerance);
       for (std::size_t m = 0; m < torques.size(); ++m) {
         plant.forget_deepest();
-        for (const HeldTorque& hold : time == 0 ? joined(torques[m]) : cut(torques[m], random)) {
+        for (const HeldTorque& hold : time == 0 ? joined(torques[m]) : cut(torques[m], random))
           plant.advance(motion::constant_torque(hold.torque), hold.duration);
-        }
         if (plant.deepest() != moves[m].reversal_depth) return true;
       }
     }

@@ -30,9 +30,8 @@ TEST(TorqueCourse, ContinuesAsItself) {
 }
 
 TEST(TorqueCourse, KnowsWhenATorqueIsReached) {
-  for (const double torque : {-0.05, -0.049, 0.0, 0.1, 0.299}) {
+  for (const double torque : {-0.05, -0.049, 0.0, 0.1, 0.299})
     EXPECT_NEAR(exact(rising, time_until(rising, torque)), torque, 1e-15);
-  }
   EXPECT_EQ(time_until(rising, -0.06), 0.0);  // has been
   EXPECT_TRUE(std::isinf(time_until(rising, 0.3)));
   EXPECT_TRUE(std::isinf(time_until(rising, 0.31)));
@@ -51,9 +50,8 @@ TEST(TorqueCourse, SeriesIsThatOfTheExponential) {
 
 TEST(TorqueCourse, MirrorsBitForBit) {
   const TorqueCourse falling{-rising.now, -rising.settled, rising.rate};
-  for (const double t : {1e-6, 1e-4, 1e-2}) {
+  for (const double t : {1e-6, 1e-4, 1e-2})
     EXPECT_EQ(course_after(falling, t).now, -course_after(rising, t).now);
-  }
   EXPECT_EQ(time_until(falling, -0.1), time_until(rising, 0.1));
 }
 

@@ -256,9 +256,8 @@ TEST(PlantWithHistory, ForgetsWhatALargerTorqueHasWipedOut) {
 TEST(PlantWithHistory, HoldsAnyNumberOfReversals) {
   motion::PlantStart start;
   constexpr int reversals = 100000;
-  for (int i = 0; i < reversals; ++i) {
+  for (int i = 0; i < reversals; ++i)
     start.history.push_back((i % 2 == 0 ? 0.25 : -0.25) * (1.0 - static_cast<double>(i) / reversals));
-  }
   PreslidingPlant plant({}, {}, start, rig_tolerance);
   EXPECT_EQ(plant.spring().depth(), static_cast<std::size_t>(reversals));
   EXPECT_NEAR(plant.spring().torque(), 0.0, 1e-15);

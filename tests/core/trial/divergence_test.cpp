@@ -91,13 +91,11 @@ std::optional<End> end_of(const RecordedTrial& whole, double limit) {
 
 void expect_beginning_of(const RecordedTrial& whole, const RecordedTrial& ended, std::size_t samples) {
   ASSERT_EQ(ended.samples.size(), samples);
-  for (std::size_t k = 0; k < samples; ++k) {
+  for (std::size_t k = 0; k < samples; ++k)
     ASSERT_EQ(fields(ended.samples[k]), fields(whole.samples[k])) << "sample " << k;
-  }
   ASSERT_LE(ended.jerks.size(), whole.jerks.size());
-  for (std::size_t i = 0; i + 1 < ended.jerks.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < ended.jerks.size(); ++i)
     EXPECT_EQ(fields(ended.jerks[i]), fields(whole.jerks[i])) << "jerk " << i;
-  }
   if (ended.jerks.empty()) return;
   const trial::Jerk& last = ended.jerks.back();  // may be cut
   const trial::Jerk& same = whole.jerks[ended.jerks.size() - 1];

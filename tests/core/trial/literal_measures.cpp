@@ -38,17 +38,15 @@ bool is_flawed(const loop::EncoderErrors& errors) {
 std::int64_t disagreements(const trial::TrialParameters& p, const Samples& samples, const MoveSpan& span) {
   if (!is_flawed(p.encoder.fine_errors) && !is_flawed(p.encoder.coarse_errors)) return 0;
   std::int64_t number = 0;
-  for (std::size_t k = span.first; k < span.first + span.size; ++k) {
+  for (std::size_t k = span.first; k < span.first + span.size; ++k)
     number += have_a_common_angle(p, samples[k]) ? 0 : 1;
-  }
   return number;
 }
 
 std::int64_t phase_changes(const Samples& samples, const MoveSpan& span) {
   std::int64_t number = 0;
-  for (std::size_t k = std::max<std::size_t>(span.first, 1); k < span.first + span.size; ++k) {
+  for (std::size_t k = std::max<std::size_t>(span.first, 1); k < span.first + span.size; ++k)
     number += samples[k].phase != samples[k - 1].phase ? 1 : 0;
-  }
   return number;
 }
 
@@ -142,9 +140,8 @@ void judge(const Errors& errors, const trial::TrialParameters& p, std::size_t mo
   judge_end(errors, in_window, 1 / rate, outcome);
   for (std::size_t b = 0; b < p.verdict.bands.count; ++b)
     outcome.bands[b] = band_of(errors, p.verdict.bands.limits[b], dwell, rate);
-  for (const std::int64_t e : errors) {
+  for (const std::int64_t e : errors)
     outcome.overshoot = std::max(outcome.overshoot, -sign(static_cast<double>(errors.front())) * e);
-  }
   const std::size_t arrival = first_of_dwell(errors, dwell);
   if (arrival == errors.size()) return;
   outcome.arrived = true;

@@ -103,9 +103,8 @@ TEST(Torques, ArePeakAndLast) {
 TEST(OpenLoop, IsMeasuredButNotJudged) {
   MoveMeasures measures({.sample_time = sample_time, .samples = 6, .dwell = 2, .window = 2, .judged = false},
                         0);
-  for (const std::int64_t count : {0, 0, 0, 1, 0, 7}) {
+  for (const std::int64_t count : {0, 0, 0, 1, 0, 7})
     EXPECT_FALSE(measures.add({0, count, -0.01 * static_cast<double>(count), false, 0.5, 0.25}));
-  }
   EXPECT_FALSE(measures.finish(false, 3, true));
   const MoveOutcome& outcome = measures.outcome();
   EXPECT_EQ(outcome.outcome, Outcome::open_loop);

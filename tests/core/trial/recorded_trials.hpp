@@ -72,9 +72,8 @@ void for_each_move(const RecordedTrial& trial, Check check) {
 inline std::vector<long double> wanted_torques(const RecordedTrial& trial) {
   if (trial.is_open()) return literal_torques(trial.parameters);
   std::vector<long double> torques;
-  for (const LiteralDecision& decision : literal_decisions(trial.parameters, trial.samples)) {
+  for (const LiteralDecision& decision : literal_decisions(trial.parameters, trial.samples))
     torques.push_back(decision.torque);
-  }
   return torques;
 }
 

@@ -31,9 +31,8 @@ TEST(Saltelli, ARowIsAThenBThenAWithEachFactorFromB) {
       {7, 7, second_sample + 7},
   };
   for (std::uint64_t place = 0; place < 5; ++place) {
-    for (std::size_t factor = 0; factor < 3; ++factor) {
+    for (std::size_t factor = 0; factor < 3; ++factor)
       EXPECT_EQ(saltelli_source(7 * 5 + place, factor, 3), row_seven[place][factor]);
-    }
   }
 }
 
@@ -80,9 +79,8 @@ TEST(Saltelli, EachOtherTrialOfARowChangesItsFactorAlone) {
 TEST(Saltelli, MoreTrialsLeaveTheFirstOnesAlone) {
   const study::Study few = five_factor_study("saltelli", "7");
   const study::Study many = five_factor_study("saltelli", "7000000");
-  for (std::int64_t i = 0; i < 7; ++i) {
+  for (std::int64_t i = 0; i < 7; ++i)
     EXPECT_EQ(study::study_trial(few, 0, i).inputs, study::study_trial(many, 0, i).inputs);
-  }
 }
 
 TEST(Saltelli, AllPointsHaveTheSameRowsWhateverIsDrawnAtThem) {
@@ -185,9 +183,8 @@ TEST(LatinHypercube, AllPermutationsAreEquallyLikely) {
   std::map<std::vector<std::uint64_t>, int> counts;
   for (int seed = 0; seed < seeds; ++seed) {
     std::vector<std::uint64_t> permutation;
-    for (std::uint64_t i = 0; i < 4; ++i) {
+    for (std::uint64_t i = 0; i < 4; ++i)
       permutation.push_back(latin_stratum(i, 4, stream_of(static_cast<std::uint64_t>(seed))));
-    }
     ++counts[permutation];
   }
   ASSERT_EQ(counts.size(), 24u);

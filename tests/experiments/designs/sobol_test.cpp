@@ -51,9 +51,8 @@ TEST(Sobol, EveryAlignedBlockOfTrialsFillsEveryStratumOnce) {
     const random::RandomStream stream{random_key(9, std::to_string(d)), 0};
     for (const std::uint64_t block : {std::uint64_t{0}, std::uint64_t{3}, std::uint64_t{1000}}) {
       std::set<int> strata;
-      for (std::uint64_t i = 64 * block; i < 64 * (block + 1); ++i) {
+      for (std::uint64_t i = 64 * block; i < 64 * (block + 1); ++i)
         strata.insert(static_cast<int>(64.0 * sobol_uniform(i, directions[d], stream)));
-      }
       ASSERT_EQ(strata.size(), 64u) << "dimension " << d;
     }
   }

@@ -107,9 +107,8 @@ TEST(Distribution, EveryDrawIsInTheSupportUpToTheExtremes) {
 TEST(Distribution, QuantilesNeverFall) {
   for (const Distribution& distribution : examples()) {
     if (std::holds_alternative<Choice>(distribution)) continue;  // in the order of the list
-    for (int i = 1; i < 1000; ++i) {
+    for (int i = 1; i < 1000; ++i)
       ASSERT_LE(quantile(distribution, (i - 0.5) / 1000), quantile(distribution, (i + 0.5) / 1000));
-    }
   }
 }
 
@@ -253,16 +252,14 @@ TEST(RandomField, SpectrumGivesTheWrappedCorrelation) {
   for (const double length : {0.01, 0.2, 1.0, 3.0, max_correlation_length}) {
     const std::vector<double> spectrum = field_spectrum(length);
     EXPECT_NEAR(std::accumulate(spectrum.begin(), spectrum.end(), 0.0), 1.0, 1e-12);
-    for (const double distance : {0.0, 0.3 * length, length, 2 * length, std::numbers::pi}) {
+    for (const double distance : {0.0, 0.3 * length, length, 2 * length, std::numbers::pi})
       EXPECT_NEAR(correlation_of(spectrum, distance), wrapped_correlation(distance, length), 5e-12) << length;
-    }
   }
 }
 
 TEST(RandomField, CorrelationFallsToOneOverEAtTheCorrelationLength) {
-  for (const double length : {min_correlation_length, 0.05, 0.2, 1.0}) {
+  for (const double length : {min_correlation_length, 0.05, 0.2, 1.0})
     EXPECT_NEAR(correlation_of(field_spectrum(length), length), 1 / std::numbers::e, 1e-10);
-  }
 }
 
 TEST(RandomField, TheSeriesIsNoLongerThanItMustBe) {

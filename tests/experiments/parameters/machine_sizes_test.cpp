@@ -150,9 +150,8 @@ TEST(StudyUnits, NoUnitOrMeaningOfALinearAxisSpeaksOfRotation) {
     for (const Parameter& parameter : parameter_table()) {
       if (!exists_on(parameter, AxisKind::linear)) continue;
       const std::string text = unit_of(parameter, units) + ": " + meaning_of(parameter, units);
-      for (const char* word : {"rad", "N m", "kg m", "rotor", "torque", "angle", "revolution", "$"}) {
+      for (const char* word : {"rad", "N m", "kg m", "rotor", "torque", "angle", "revolution", "$"})
         EXPECT_FALSE(says(text, word)) << parameter.name << ": " << text;
-      }
     }
   }
 }

@@ -75,9 +75,8 @@ TEST(Sweep, TheGridWinsOverTheCasesWithAWarning) {
 TEST(Sweep, LinspaceAndLogspaceIncludeTheirEnds) {
   const study::Study linear = swept("{grid: {controller.ki: {linspace: [1.0e-5, 3.0e-4, 30]}}}");
   ASSERT_EQ(linear.points.axes[0].numbers.size(), 30u);
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < 30; ++i)
     EXPECT_NEAR(linear.points.axes[0].numbers[static_cast<std::size_t>(i)], 1e-5 * (i + 1), 1e-18);
-  }
   EXPECT_EQ(linear.points.axes[0].numbers.back(), 3.0e-4);
   EXPECT_EQ(linear.points.labels[1], "controller.ki=2e-05");
   const study::Study logarithmic = swept("{grid: {friction.alpha: {logspace: [0.01, 100, 5]}}}");

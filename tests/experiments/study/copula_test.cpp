@@ -92,9 +92,8 @@ TEST(Copula, LeavesTheFirstParameterAndTheUncorrelatedOnesAsTheyAre) {
   const Study correlated = study_of(minimal_manifest(with_lambda + two_pairs));
   for (const char* name : {"friction.k1", "initial.position"}) {
     const std::size_t column = column_of(plain, name);
-    for (std::int64_t i = 0; i < 5; ++i) {
+    for (std::int64_t i = 0; i < 5; ++i)
       EXPECT_EQ(study_trial(plain, 0, i).inputs[column], study_trial(correlated, 0, i).inputs[column]);
-    }
   }
   EXPECT_NE(study_trial(plain, 0, 1).inputs, study_trial(correlated, 0, 1).inputs);
 }

@@ -150,9 +150,8 @@ TEST(Rigs, WhatATrialDrawsTellsNothingOfItsRig) {
     const Study study = rig_study(design, 64, 64 * 64);
     for (std::int64_t rig = 0; rig < 64; rig += 7) {
       std::set<int> parts;
-      for (std::int64_t k = 0; k < 64; ++k) {
+      for (std::int64_t k = 0; k < 64; ++k)
         parts.insert(static_cast<int>(8 * uniform_of(study, "initial.position", 64 * k + rig, 0, 6)));
-      }
       EXPECT_EQ(parts.size(), 8U) << design << ", rig " << rig;  // all but once in 600
     }
   }
@@ -200,9 +199,8 @@ TEST(Rigs, TheFirstContactHasWhatTheTrialWouldHave) {
     };
     const Study of_trial = with_per("trial");
     const Study of_contact = with_per("contact");
-    for (std::int64_t i = 0; i < 40; ++i) {
+    for (std::int64_t i = 0; i < 40; ++i)
       EXPECT_EQ(study_trial(of_trial, 0, i).inputs, study_trial(of_contact, 0, i).inputs) << design;
-    }
   }
 }
 
@@ -239,9 +237,8 @@ TEST(Rotors, NoneLeavesTheBoundsKnownBefore) {
                         DrawnMean{distributions::Lognormal{100, 0.3}, Design::monte_carlo, {}}, 7,
                         "friction.k1", 200);
     EXPECT_TRUE(numerics::contains(rotors.bounds(), rotors.all_limits()));
-    for (std::int64_t rig = 0; rig < 200; ++rig) {
+    for (std::int64_t rig = 0; rig < 200; ++rig)
       EXPECT_TRUE(numerics::contains(rotors.all_limits(), friction::value_at(*rotors.rotor(rig), 0.1)));
-    }
   }
 }
 

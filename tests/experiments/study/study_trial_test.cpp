@@ -12,9 +12,8 @@ const std::vector<std::string> designs{"monte_carlo", "latin_hypercube", "sobol"
 
 std::vector<double> column(const Study& study, const std::string& name, std::int64_t point = 0) {
   std::vector<double> values;
-  for (std::int64_t i = 0; i < study.trials; ++i) {
+  for (std::int64_t i = 0; i < study.trials; ++i)
     values.push_back(study_trial(study, point, i).inputs[column_of(study, name)]);
-  }
   return values;
 }
 
@@ -74,9 +73,8 @@ TEST(StudyTrial, TheSeedChangesEverything) {
   for (const std::string& design : designs) {
     const Study one = study_of(full_manifest(), {"design=" + design, "seed=1"});
     const Study two = study_of(full_manifest(), {"design=" + design, "seed=2"});
-    for (const char* name : {"friction.k1", "friction.k2", "command.targets.0", "initial.position"}) {
+    for (const char* name : {"friction.k1", "friction.k2", "command.targets.0", "initial.position"})
       EXPECT_NE(column(one, name), column(two, name)) << design << " " << name;
-    }
   }
 }
 

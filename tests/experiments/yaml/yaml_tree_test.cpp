@@ -77,9 +77,8 @@ TEST(YamlTree, RefusesAnchorsThatContainThemselves) {
 
 TEST(YamlTree, RefusesExponentialAliases) {
   std::string laughs = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
-  for (int i = 1; i < 12; ++i) {
+  for (int i = 1; i < 12; ++i)
     laughs += fmt::format("a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}]\n", i, i - 1);
-  }
   EXPECT_TRUE(says(problem_with(laughs), "the aliases expand to too many"));
 }
 

@@ -106,9 +106,8 @@ TEST(Layout, EnumerationsNameEveryValueAndFlagsAreNoOrYes) {
       EXPECT_EQ(!column.flags.empty(),
                 column.element == hdf5::Element::int8 || column.element == hdf5::Element::flag)
           << column.name;
-      for (std::size_t value = 0; value < column.flags.size(); ++value) {
+      for (std::size_t value = 0; value < column.flags.size(); ++value)
         EXPECT_EQ(column.flags[value].value, static_cast<std::int64_t>(value));
-      }
     }
   }
 }

@@ -194,9 +194,8 @@ TEST(Merge, TabulatesTheProfiles) {
   const reading::StoredProfile profile = file.profiles()[0];
   EXPECT_EQ(profile.name, "friction.k1");
   ASSERT_EQ(profile.theta.size(), static_cast<std::size_t>(layout::profile_angles));
-  for (std::size_t i = 0; i < profile.theta.size(); i += 97) {
+  for (std::size_t i = 0; i < profile.theta.size(); i += 97)
     EXPECT_EQ(profile.value[i], friction::value_at(*study.profiles[0].profile, profile.theta[i]));
-  }
 }
 
 TEST(Merge, ReadsOneMeasureAsNumbers) {

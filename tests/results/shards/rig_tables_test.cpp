@@ -23,9 +23,8 @@ TEST(RigTables, HaveWhatDiffersBetweenTheRigs) {
   ASSERT_EQ(stored.columns.size(), 1U);
   EXPECT_EQ(stored.columns[0].name, "friction.k1");
   EXPECT_EQ(stored.columns[0].unit, "N m/rad");
-  for (std::int64_t rig = 0; rig < 8; ++rig) {
+  for (std::int64_t rig = 0; rig < 8; ++rig)
     EXPECT_EQ(stored.inputs[0][static_cast<std::size_t>(rig)], study::rig_inputs(study, rig)[0]);
-  }
 }
 
 TEST(RigTables, HaveTheRotorOfEveryRig) {
@@ -118,9 +117,8 @@ TEST(WorldTables, HaveWhatDiffersBetweenTheWorlds) {
   ASSERT_EQ(stored.columns.size(), 1U);
   EXPECT_EQ(stored.columns[0].name, "friction.k1");
   EXPECT_EQ(stored.columns[0].unit, "N m/rad");
-  for (std::int64_t world = 0; world < 7; ++world) {
+  for (std::int64_t world = 0; world < 7; ++world)
     EXPECT_EQ(stored.inputs[0][static_cast<std::size_t>(world)], study::world_inputs(study, world)[0]);
-  }
 }
 
 TEST(WorldTables, HaveTheTrialsOfEveryWorldAtEveryPoint) {

@@ -165,9 +165,8 @@ TEST(MissingRanges, AreTheRowsInNoShard) {
 /// What a run does: looks at what is there, and writes the rest as shards.
 void run_what_is_missing(const std::filesystem::path& directory, const study::Study& study) {
   const shards::ShardSurvey survey = shards::list_shards(directory, study);
-  for (const layout::RowRange& range : shards::missing_ranges(survey.shards, layout::all_rows(study))) {
+  for (const layout::RowRange& range : shards::missing_ranges(survey.shards, layout::all_rows(study)))
     write_sample_shards(directory, study, range, 12);
-  }
 }
 
 /// Runs `action` in a process that is killed after `delay`; true where it finished before.

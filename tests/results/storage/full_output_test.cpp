@@ -55,9 +55,8 @@ Ending with_file_limit(rlim_t bytes, const std::function<void()>& action) {
   ::close(pipe_ends[1]);
   Ending ending;
   char buffer[4096];
-  for (ssize_t size = 0; (size = ::read(pipe_ends[0], buffer, sizeof buffer)) > 0;) {
+  for (ssize_t size = 0; (size = ::read(pipe_ends[0], buffer, sizeof buffer)) > 0;)
     ending.message.append(buffer, static_cast<std::size_t>(size));
-  }
   ::close(pipe_ends[0]);
   int status = 0;
   ::waitpid(child, &status, 0);

@@ -113,9 +113,8 @@ TEST_F(CommandLine, CheckSaysNothingOfBoundsWhereTheTheoryIsNotAboutTheLoop) {
                                    "sweep: {grid: {friction.model: [coulomb, none, spring]}}\n");
   const std::string open = program({"check", "open.yaml"}).out;
   EXPECT_TRUE(says(open, "do not apply: the loop is open"));
-  for (const char* bound : {"(6)", "(7)", "sampled loop", "DAC", "natural frequency", "N m/count"}) {
+  for (const char* bound : {"(6)", "(7)", "sampled loop", "DAC", "natural frequency", "N m/count"})
     EXPECT_FALSE(says(open, bound)) << bound;
-  }
   const auto theory_of = [this](const std::string& model) {
     return program({"check", "models.yaml", "--set", "sweep={grid: {friction.model: [" + model + "]}}"}).out;
   };

@@ -108,9 +108,8 @@ TEST_F(Judge, PlansTheStudyThatDecidesTheGoal) {
   const Json set = json_of({"plan", "study.yaml", "--set", "goal.moves=0.5"});
   EXPECT_LT(set["plans"][0]["trials"], plan["plans"][0]["trials"]);
   run_study("");
-  for (const char* operand : {"study.yaml", "out.h5"}) {
+  for (const char* operand : {"study.yaml", "out.h5"})
     EXPECT_TRUE(says(refusal({"plan", operand}), "its manifest has no goal"));
-  }
 }
 
 // A goal is the question of its study: every verb speaks of it first, and of success where there is none.

@@ -158,9 +158,8 @@ std::vector<comparison::PointTrials> trials_of(const std::vector<std::string>& s
   std::vector<comparison::PointTrials> points;
   for (std::int64_t point = 0; point < study::point_count(study); ++point) {
     std::vector<trial::MoveOutcome> outcomes;
-    for (const shards::TrialResult& result : trials::TrialRunner(study).run({point * trials, trials})) {
+    for (const shards::TrialResult& result : trials::TrialRunner(study).run({point * trials, trials}))
       outcomes.push_back(result.outcome.moves.front());
-    }
     points.push_back(comparison::gather_trials(outcomes, 1));
   }
   return points;
@@ -193,9 +192,8 @@ comparison::GateVerdict verdict_on(const std::vector<std::string>& change, const
 }
 
 void expect_seen(const std::vector<std::string>& change, const comparison::GateRules& rules = {}) {
-  for (const char* seed : {"1", "2"}) {
+  for (const char* seed : {"1", "2"})
     EXPECT_TRUE(comparison::fails(verdict_on(change, seed, rules))) << change.front() << ", seed " << seed;
-  }
 }
 
 TEST(GatePower, SeesALowerStiffness) {  // k1 less by 5 %

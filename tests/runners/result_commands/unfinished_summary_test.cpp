@@ -193,9 +193,8 @@ class EarlyDecision : public ::testing::Test {
 };
 
 TEST_F(EarlyDecision, KeepsTheOutcomesAndSaysWhatWasStopped) {
-  for (const char* name : {"outcome", "stable", "arrived", "arrival"}) {
+  for (const char* name : {"outcome", "stable", "arrived", "arrival"})
     EXPECT_EQ(measure("whole.h5", name), measure("early.h5", name)) << name;
-  }
   EXPECT_GT(stopped_trials(), 20);
   EXPECT_LT(stopped_trials(), 60);
   const std::vector<double> outcomes = measure("early.h5", "outcome");

@@ -44,9 +44,8 @@ bool same(double a, double b) {
 void expect_same_inputs(const reading::AllTrialsFile& a, const reading::AllTrialsFile& b) {
   ASSERT_EQ(a.rows().count, b.rows().count);
   ASSERT_EQ(a.input_columns().size(), b.input_columns().size());
-  for (std::size_t column = 0; column < a.input_columns().size(); ++column) {
+  for (std::size_t column = 0; column < a.input_columns().size(); ++column)
     EXPECT_EQ(a.input(column, a.rows()), b.input(column, b.rows())) << a.input_columns()[column].name;
-  }
 }
 
 TEST_F(EngineOption, GivesTheSameIntegersOnAStableStudy) {

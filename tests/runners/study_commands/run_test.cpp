@@ -53,9 +53,8 @@ class Run : public ProgramTest {
 TEST_F(Run, GivesTheSameDatasetsInParts) {
   folder_.write("study.yaml", small_manifest(101, "retain: {trials: [7]}\n"));
   complete("study.yaml", "whole.h5");
-  for (const char* part : {"3/3", "1/3", "2/3"}) {
+  for (const char* part : {"3/3", "1/3", "2/3"})
     complete("study.yaml", std::string("part") + part[0] + ".h5", {"--shard", part});
-  }
   EXPECT_TRUE(says(refusal({"merge", "part1.h5", "part3.h5", "-o", "merged.h5"}, 4), "missing"));
   EXPECT_EQ(program({"summary", "part1.h5"}).code, 4);
   const ProgramResult merged = program({"merge", "part3.h5", "part1.h5", "part2.h5", "-o", "merged.h5"});

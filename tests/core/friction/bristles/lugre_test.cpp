@@ -48,9 +48,8 @@ double friction_force(const LuGrePlant& plant) {
 TEST(LuGre, HasTheSteadyStateCurve) {
   for (const double velocity : {5e-4, -1e-3, 2e-3, 5e-3, -0.1, 0.5}) {
     LuGrePlant plant = published();
-    for (int k = 0; k < 60000; ++k) {
+    for (int k = 0; k < 60000; ++k)
       plant.advance(motion::constant_torque(1e4 * (velocity - plant.omega())), 1e-5);
-    }
     const double steady = std::copysign(steady_friction(std::abs(plant.omega())), plant.omega());
     EXPECT_NEAR(friction_force(plant), steady, 1e-6) << velocity;
   }
@@ -296,9 +295,8 @@ TEST(Gms, StartsWithTheMemoryOfItsPreload) {
     GmsPlant virgin(rotor, friction, {}, gms_tolerance);
     for (const double torque : {0.2, 0.0, -0.1, 0.15, 0.0}) go_slowly(virgin, torque);
     EXPECT_EQ(loaded.theta(), 0.0);
-    for (std::size_t e = 0; e < drawn.size(); ++e) {
+    for (std::size_t e = 0; e < drawn.size(); ++e)
       EXPECT_NEAR(loaded.elements()[e].torque, virgin.elements()[e].torque, 1e-7);
-    }
   }
 }
 

@@ -32,9 +32,8 @@ std::vector<Hold> random_holds(Draws& draws, const trial::TrialParameters& rig) 
   std::vector<Hold> holds;
   holds.reserve(3);
   const double breakaway = friction::friction_at(rig.friction, rig.initial.position).breakaway;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     holds.push_back({0.3 * breakaway * draws.uniform(-1.0, 1.0), draws.uniform(0.2, 0.5)});
-  }
   return holds;
 }
 

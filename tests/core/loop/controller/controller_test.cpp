@@ -66,9 +66,8 @@ TEST(Integrator, LeaksToTheLevelOfItsIncrements) {
   ControlBlocks blocks;
   blocks.integrator_leak = 0.05;
   Integrator integrator(integral_constants(blocks, 1000.0, any_torque), 3.0);
-  for (int k = 1; k <= 100; ++k) {
+  for (int k = 1; k <= 100; ++k)
     EXPECT_NEAR(integrator.add(1.0, 0.0), 3.0 * std::exp(-0.001 * k / 0.05), 1e-14);
-  }
   for (int k = 0; k < 5000; ++k) integrator.add(1.0, 1.0);
   EXPECT_NEAR(integrator.value(), 1.0 / -std::expm1(-0.001 / 0.05), 1e-9);
 }
@@ -220,9 +219,8 @@ void expect_its_linear_form(RandomControl& random) {
     const std::vector<double> expected = output_of(block.linear(), inputs);
     double largest = 0.0;
     for (const double torque : expected) largest = std::max(largest, std::abs(torque));
-    for (std::size_t k = 0; k < inputs.size(); ++k) {
+    for (std::size_t k = 0; k < inputs.size(); ++k)
       ASSERT_NEAR(block.step(inputs[k].feedback, inputs[k].torque), expected[k], 1e-9 * largest) << k;
-    }
   }
 }
 
@@ -256,9 +254,8 @@ TEST(ControlChain, BlocksActOneAfterTheOther) {
   Pid pid(parameters, start);
   LowPass filter(parameters, start);
   std::mt19937_64 random(18);
-  for (const Input& input : random_inputs(random, 500)) {
+  for (const Input& input : random_inputs(random, 500))
     EXPECT_EQ(chain.step(input.feedback), filter.step(input.feedback, pid.step(input.feedback)));
-  }
 }
 
 // The filters: their response at the frequencies that the definition fixes, their stability, and how they go

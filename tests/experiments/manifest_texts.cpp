@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/failure/failure.hpp"
-#include "experiments/manifest/load_study.hpp"
-
 namespace zerocount {
 
 std::string minimal_manifest(const std::string& more) {

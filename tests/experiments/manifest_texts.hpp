@@ -1,6 +1,8 @@
 #pragma once
 
+#include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount {

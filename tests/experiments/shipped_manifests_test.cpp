@@ -1,8 +1,5 @@
-#include "core/failure/failure.hpp"
-#include "experiments/manifest/load_study.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount {
 namespace {

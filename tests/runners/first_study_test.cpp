@@ -1,9 +1,7 @@
 // The README's first study: its manifest and its commands do what it says of them.
-#include <nlohmann/json.hpp>
 
 #include "analysis/text/percent.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,12 +1,15 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <sys/types.h>
 
+#include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {
+
+using Json = nlohmann::json;
 
 /// What a finished program said.
 struct ProgramResult {

@@ -9,7 +9,6 @@
 #include "tests/runners/program.hpp"
 #include "tests/studies/shipped_study.hpp"
 #include "tests/support/stop_elements.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

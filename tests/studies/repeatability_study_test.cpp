@@ -14,7 +14,6 @@
 #include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 #include "tests/support/raw_hdf5.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -2,11 +2,9 @@
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/point_judgements.hpp"
-#include "core/failure/failure.hpp"
 #include "tests/analysis/study_files.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

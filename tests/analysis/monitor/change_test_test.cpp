@@ -4,7 +4,6 @@
 #include "analysis/parallel/parallel.hpp"
 #include "tests/analysis/monitor/move_sequences.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

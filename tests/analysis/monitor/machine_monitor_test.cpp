@@ -2,10 +2,8 @@
 #include "analysis/monitor/machine_monitor.hpp"
 
 #include "analysis/monitor/monitor_baseline.hpp"
-#include "core/failure/failure.hpp"
 #include "tests/analysis/monitor/move_sequences.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -4,7 +4,6 @@
 #include "experiments/designs/latin_hypercube.hpp"
 #include "experiments/designs/random_key.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::designs {
 namespace {

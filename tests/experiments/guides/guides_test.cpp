@@ -1,12 +1,9 @@
 // Starting values of guides: their table, and what follows from it.
-#include "core/failure/failure.hpp"
 #include "core/friction/presliding/spring.hpp"
 #include "experiments/guides/guide_manifest.hpp"
-#include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::guides {
 namespace {

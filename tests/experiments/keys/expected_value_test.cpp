@@ -3,7 +3,6 @@
 
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::keys {
 namespace {

@@ -2,11 +2,7 @@
 
 #include <unistd.h>
 
-#include "core/failure/failure.hpp"
-#include "experiments/study/study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/refusal.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::manifest {
 namespace {

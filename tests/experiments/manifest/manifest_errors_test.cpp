@@ -1,5 +1,4 @@
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::manifest {
 namespace {

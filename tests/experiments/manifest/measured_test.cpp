@@ -3,7 +3,6 @@
 #include "experiments/study/low_end.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::manifest {
 namespace {

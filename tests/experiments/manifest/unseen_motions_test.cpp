@@ -1,8 +1,5 @@
 // A commanded motion below the encoder's resolution is no motion for the loop, and would count as perfect.
-#include "core/failure/failure.hpp"
-#include "experiments/manifest/load_study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::manifest {
 namespace {

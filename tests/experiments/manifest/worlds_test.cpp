@@ -1,7 +1,5 @@
 // `worlds` in a manifest: the values that all trials of a world share, and what is refused.
-#include "experiments/manifest/load_study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::manifest {
 namespace {

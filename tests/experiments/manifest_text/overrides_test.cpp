@@ -1,12 +1,8 @@
 #include "experiments/manifest_text/overrides.hpp"
 
-#include "core/failure/failure.hpp"
-#include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest_text/manifest_values.hpp"
 #include "experiments/manifests/shipped_manifests.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/refusal.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::manifest_text {
 namespace {

@@ -2,7 +2,6 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount {
 namespace {

@@ -4,7 +4,6 @@
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::rules {
 namespace {

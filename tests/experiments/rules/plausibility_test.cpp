@@ -1,7 +1,6 @@
 // Warnings of values that are allowed but absurd give the number and its place. Other values cause none.
 #include "experiments/rules/value_sources.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::rules {
 namespace {

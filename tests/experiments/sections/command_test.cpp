@@ -1,6 +1,5 @@
 // Three ways to say what the moves go to.
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

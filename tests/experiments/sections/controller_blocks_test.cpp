@@ -1,12 +1,8 @@
 // The blocks of the controller in manifests: limits that are off, the short form of the deadband, sweeps.
-#include "core/failure/failure.hpp"
 #include "experiments/designs/random_key.hpp"
-#include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "experiments/study/plan.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/refusal.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

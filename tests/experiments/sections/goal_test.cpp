@@ -1,6 +1,5 @@
 // `goal` and `verdict.bands` in a manifest: what is read, and what is refused.
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

@@ -1,9 +1,7 @@
 // A linear axis: its keys, its units, and that it is its rotary twin bit for bit.
 #include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
-#include "experiments/manifest/load_study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

@@ -1,9 +1,6 @@
 #include "experiments/sections/sweep.hpp"
 
-#include "core/failure/failure.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/refusal.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

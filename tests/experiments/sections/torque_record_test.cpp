@@ -1,9 +1,5 @@
 // A recorded torque in a manifest: as a table, and as a list of pairs.
-#include "experiments/manifest/load_study.hpp"
-#include "experiments/study/study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/refusal.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::sections {
 namespace {

@@ -5,7 +5,6 @@
 #include "experiments/manifest_text/point_manifest.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

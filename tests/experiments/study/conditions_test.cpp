@@ -1,10 +1,7 @@
 // `conditions` in a manifest: each machine bears all of them on the same draws, and what is refused.
-#include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
-#include "experiments/manifest/load_study.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

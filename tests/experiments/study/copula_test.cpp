@@ -10,7 +10,6 @@
 #include "experiments/study/low_end.hpp"
 #include "tests/core/friction/spring_damper.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

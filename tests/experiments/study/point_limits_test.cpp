@@ -4,7 +4,6 @@
 #include "experiments/study/point_label.hpp"
 #include "experiments/study/study_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

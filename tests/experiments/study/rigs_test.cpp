@@ -1,11 +1,9 @@
 // The values that trials of one rig have in common, and that differ between the rigs of a study.
-#include "experiments/manifest/load_study.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/draws.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/rotors.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

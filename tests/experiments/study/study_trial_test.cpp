@@ -1,9 +1,7 @@
 #include "core/trial/trial.hpp"
 #include "experiments/designs/random_key.hpp"
 #include "experiments/parameters/parameter_table.hpp"
-#include "experiments/study/study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

@@ -3,7 +3,6 @@
 #include "core/theory/gains.hpp"
 #include "experiments/study/sequence.hpp"
 #include "tests/experiments/manifest_texts.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

@@ -1,12 +1,10 @@
 // Draws with what trials share kept, beside single draws of the same trials.
 #include "experiments/study/trial_drawer.hpp"
 
-#include "experiments/manifest/load_study.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_edit.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 #include "tests/support/draws.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::study {
 namespace {

@@ -3,7 +3,6 @@
 #include "experiments/manifests/shipped_manifests.hpp"
 #include "experiments/yaml/faults.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::yaml {
 namespace {

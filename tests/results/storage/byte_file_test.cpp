@@ -11,7 +11,6 @@
 #include "results/timeline/timeline.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
-#include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {

@@ -3,12 +3,8 @@
 
 #include <csignal>
 
-#include <nlohmann/json.hpp>
-
 #include "runners/program/commands.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/refusal.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

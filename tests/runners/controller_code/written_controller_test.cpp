@@ -9,7 +9,6 @@
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/random_trials.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

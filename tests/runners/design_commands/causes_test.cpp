@@ -1,15 +1,12 @@
 // `limits`: a study for each parameter that has an ideal value, in which this parameter is the cause of
 // failures. Every such parameter of the table has one here.
-#include <nlohmann/json.hpp>
 
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {
 
-using Json = nlohmann::json;
 using Words = std::vector<std::string>;
 
 // Every move meets the goal.

@@ -1,14 +1,10 @@
 // `tune`, `limits` and `worst` of several goals under several conditions: each claim is that of the study
 // whose manifest has the overrides of its condition in the sections.
-#include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {
-
-using Json = nlohmann::json;
 
 /// A condition, as overrides and as the sections that have them.
 struct Condition {

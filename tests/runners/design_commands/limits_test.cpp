@@ -1,14 +1,10 @@
 // `limits`: which causes a study has, and that the rate without one is that of the manifest which says so.
-#include <nlohmann/json.hpp>
 
 #include "tests/runners/design_commands/tune_fixture.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr std::string_view noted = "same gains, not tuned again";
 

@@ -1,14 +1,10 @@
 // `rare`, from the manifest to the replayed failure.
-#include <nlohmann/json.hpp>
 
 #include "core/numerics/normal_distribution.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {
-
-using Json = nlohmann::json;
 
 /// A spring without creep. The converter ends at 2047 steps, and the middle of the first count that is the
 /// target lies at 29.5 counts: the move ends at its target exactly if k1 is at most

@@ -1,15 +1,10 @@
 // What a tuning does within its budget, and what it leaves out.
 #include <csignal>
 
-#include <nlohmann/json.hpp>
-
 #include "tests/runners/design_commands/tune_fixture.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {
-
-using Json = nlohmann::json;
 
 class TuneBudget : public Tune {};
 

@@ -1,17 +1,12 @@
 // `tune`, from the manifest to the proof.
 #include <csignal>
 
-#include <nlohmann/json.hpp>
-
 #include "experiments/study/study.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/design_commands/tune_fixture.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {
-
-using Json = nlohmann::json;
 
 TEST_F(Tune, ProvesTheGainsThatItFinds) {
   write_axis("goal: {band: 1, within: 0.05, moves: 0.95}\n" + std::string(two_gains));

@@ -1,5 +1,4 @@
 // `worst`: the manifest of the worst machine repeats its trials, and no machine of the study is worse.
-#include <nlohmann/json.hpp>
 
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/plan.hpp"
@@ -8,12 +7,9 @@
 #include "runners/tuning/units/unit_runner.hpp"
 #include "tests/runners/design_commands/tune_fixture.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr std::string_view common_part = R"(zerocount: 1
 name: worst

@@ -11,7 +11,6 @@
 #include "runners/forecast/stored_column.hpp"
 #include "runners/trials/study_runner.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

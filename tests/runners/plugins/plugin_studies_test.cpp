@@ -1,10 +1,8 @@
 // Files of a study with a plugin: what is recorded, and what other commands do with them.
-#include <nlohmann/json.hpp>
 
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/plugins/plugin_manifest.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

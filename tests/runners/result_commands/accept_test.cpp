@@ -1,13 +1,9 @@
 // `accept` as a program: logs of machines beside a study.
-#include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {
-
-using Json = nlohmann::json;
 
 class Accept : public ProgramTest {
  protected:

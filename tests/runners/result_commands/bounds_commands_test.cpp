@@ -1,18 +1,13 @@
 // What the command line says with bounds: summary at another confidence, plan, jerks.
 #include <regex>
 
-#include <nlohmann/json.hpp>
-
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/text/percent.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {
-
-using Json = nlohmann::json;
 
 class BoundsCommands : public ::testing::Test {
  protected:

@@ -1,9 +1,7 @@
 // `zerocount compare` and `zerocount baseline` from the command line.
-#include <nlohmann/json.hpp>
 
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

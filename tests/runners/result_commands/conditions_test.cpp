@@ -1,9 +1,7 @@
 // Conditions in the verbs on results: what a verb says of a study under a condition is what it says of the
 // study whose manifest has the overrides of the condition in its sections.
-#include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

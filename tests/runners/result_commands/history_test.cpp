@@ -1,8 +1,6 @@
 // `zerocount history` on results files: what it adds is what `summary` says, once, and by many processes.
-#include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,16 +1,12 @@
 // Error bands and the goal, from the manifest to the answer of `judge`.
-#include <nlohmann/json.hpp>
 
 #include "analysis/goal/question.hpp"
 #include "analysis/report/figures/report_figures.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {
-
-using Json = nlohmann::json;
 
 class Judge : public ProgramTest {
  protected:

@@ -1,11 +1,8 @@
 // Studies that keep statistics, or the trials that failed, in place of all trials.
 #include <csignal>
 
-#include <nlohmann/json.hpp>
-
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,19 +1,12 @@
 // `monitor` as a program: results files and logs as baselines, growing logs, exit codes.
 #include <csignal>
 
-#include <nlohmann/json.hpp>
-
-#include "core/failure/failure.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/result_commands/machine_logs.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/temporary_folder.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr const char* study = R"(zerocount: 1
 name: monitored

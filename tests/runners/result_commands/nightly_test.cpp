@@ -5,7 +5,6 @@
 #include "experiments/manifest/load_study.hpp"
 #include "runners/trials/trial_runner.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

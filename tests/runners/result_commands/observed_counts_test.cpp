@@ -2,12 +2,9 @@
 // report.
 #include <regex>
 
-#include <nlohmann/json.hpp>
-
 #include "analysis/statistics/clusters/observed_test.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

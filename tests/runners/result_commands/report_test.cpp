@@ -1,9 +1,5 @@
-#include <nlohmann/json.hpp>
-
 #include "runners/child_process/child_process.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/temporary_folder.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,11 +1,8 @@
 // The summary of a run that has not ended: of its finished trials, and it says so.
 #include <csignal>
 
-#include <nlohmann/json.hpp>
-
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,13 +1,9 @@
 // Studies with worlds, from the manifest to the answers: no rate is averaged over worlds without saying so.
-#include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {
-
-using Json = nlohmann::json;
 
 /// Twelve worlds of an integral control. The contact creeps the more, the smaller n is.
 constexpr const char* study_in_worlds =

@@ -3,7 +3,6 @@
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

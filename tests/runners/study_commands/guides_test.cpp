@@ -1,9 +1,7 @@
 // From the name of a guide to the results of a study of it.
-#include <nlohmann/json.hpp>
 
 #include "experiments/guides/guide_table.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -153,8 +151,6 @@ TEST_F(Hints, CompletionTellsTheLabelsOfPoints) {
 }
 
 // A results file where a command expects a manifest: it stands for the study whose trials it holds.
-
-using Json = nlohmann::json;
 
 class FileOperand : public ProgramTest {
  protected:

@@ -1,8 +1,6 @@
 // A linear axis from the manifest to every place in which its user sees a unit.
-#include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

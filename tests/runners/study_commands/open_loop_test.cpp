@@ -1,6 +1,5 @@
 // Torque levels in place of targets, from the manifest to the table; and the columns of sample records that a
 // study uses.
-#include <nlohmann/json.hpp>
 
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
@@ -10,7 +9,6 @@
 #include "tests/runners/program.hpp"
 #include "tests/support/odeint_trial.hpp"
 #include "tests/support/raw_hdf5.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,10 +1,8 @@
 // Where verbs read and write: one rule for what exists already, "-" for the standard streams, names that tell
 // the kind of a file.
-#include <nlohmann/json.hpp>
 
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,7 +1,6 @@
 // The trials of a study are the same on every processor.
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

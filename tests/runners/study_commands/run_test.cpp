@@ -5,7 +5,6 @@
 #include "results/storage/checksum_trailer.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

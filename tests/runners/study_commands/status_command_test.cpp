@@ -1,8 +1,6 @@
 // How far a run or an array job has come.
 #include <csignal>
 
-#include <nlohmann/json.hpp>
-
 #include "core/friction/profile.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
@@ -10,7 +8,6 @@
 #include "results/reading/first_difference.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,5 +1,4 @@
 // Traces: the columns of the contract, numbers that read back, replay from the results file alone.
-#include <nlohmann/json.hpp>
 
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
@@ -11,7 +10,6 @@
 #include "runners/study_run/assembly.hpp"
 #include "runners/trials/trial_runner.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,13 +1,10 @@
 // Runs that stop when they are sure: when they do, and that it depends on the trials alone.
 #include <csignal>
 
-#include <nlohmann/json.hpp>
-
 #include "analysis/statistics/confidence_sequence.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -5,7 +5,6 @@
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 #include "tests/runners/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,5 +1,4 @@
 // `zerocount verify`: a file passes as it was written, and any change of it is found and named.
-#include <nlohmann/json.hpp>
 
 #include "experiments/manifest/load_study.hpp"
 #include "runners/trials/study_runner.hpp"
@@ -7,7 +6,6 @@
 #include "runners/verification/verification.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
-#include "tests/support/test.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -28,4 +28,17 @@ inline BatchAgreement expect_agreement_in_lanes(const std::vector<trial::TrialPa
   return agreement;
 }
 
+/// Expects that trials come out as alone, to the last bit, in few lanes and many, by every instruction set.
+inline void expect_independent(const std::vector<trial::TrialParameters>& trials) {
+  std::vector<BatchedTrial> alone;
+  for (const trial::TrialParameters& p : trials) alone.push_back(run_batch({p}, {.lanes = 1}).front());
+  for (const batch::InstructionSet instructions : available_instruction_sets()) {
+    for (const int lanes : {5, 128}) {
+      const std::vector<BatchedTrial> few = run_batch(trials, {.lanes = lanes, .instructions = instructions});
+      for (std::size_t i = 0; i < trials.size(); ++i)
+        EXPECT_EQ(difference_in_bits(few[i], alone[i]), "") << i << " of " << lanes;
+    }
+  }
+}
+
 }  // namespace zerocount::testing

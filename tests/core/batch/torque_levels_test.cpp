@@ -119,15 +119,7 @@ TEST(TorqueLevels, LoadOtherLawsAsInTheReference) {
 TEST(TorqueLevels, DependOnNoOtherTrialAndOnNoInstructionSet) {
   std::vector<trial::TrialParameters> trials = level_trials(TrialKind::calm, 20);
   for (std::uint64_t i = 0; i < 20; ++i) trials.push_back(trial_for_lanes(TrialKind::calm, 96500 + i));
-  std::vector<BatchedTrial> alone;
-  for (const trial::TrialParameters& p : trials) alone.push_back(run_batch({p}, {.lanes = 1}).front());
-  for (const batch::InstructionSet instructions : available_instruction_sets()) {
-    for (const int lanes : {5, 128}) {
-      const std::vector<BatchedTrial> few = run_batch(trials, {.lanes = lanes, .instructions = instructions});
-      for (std::size_t i = 0; i < trials.size(); ++i)
-        EXPECT_EQ(difference_in_bits(few[i], alone[i]), "") << i << " of " << lanes;
-    }
-  }
+  expect_independent(trials);
 }
 
 // Unobserved samples of a held torque are passed at once.

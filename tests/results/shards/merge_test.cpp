@@ -231,20 +231,6 @@ TEST(Merge, GivesTheSameBytesForAnyDivisionIntoShards) {
   }
 }
 
-TEST(Merge, GivesTheSameBytesAcrossManyChunks) {
-  const TemporaryFolder directory;
-  study::Study study = sample_study(2, layout::chunk_elements + 700, 1);
-  study.retained_trials.clear();
-  const fs::path coarse =
-      merged(directory / "coarse.h5", study,
-             write_sample_shards(directory / "coarse", study, layout::all_rows(study), 30000));
-  const fs::path fine = merged(directory / "fine.h5", study,
-                               write_sample_shards(directory / "fine", study, layout::all_rows(study), 5555));
-  EXPECT_EQ(stored_datasets(coarse), stored_datasets(fine));
-  EXPECT_EQ(reading::AllTrialsFile(fine).trace_count(), 0);
-  expect_sound(fine);
-}
-
 TEST(Merge, JoinsPartsAsItJoinsShards) {
   const TemporaryFolder directory;
   const study::Study study = sample_study(3, 50, 2);

@@ -102,9 +102,7 @@ TEST(BatchLaneLoop, DependsOnNoOtherTrial) {
     for (const trial::TrialParameters& p : trials_of(static_cast<LoopKind>(kind), 6)) trials.push_back(p);
     trials.push_back(trial_for_lanes(TrialKind::calm, 88000 + static_cast<std::uint64_t>(kind)));
   }
-  const std::vector<BatchedTrial> few = run_batch(trials, {.lanes = 5});
-  for (std::size_t i = 0; i < trials.size(); ++i)
-    EXPECT_EQ(difference_in_bits(few[i], run_batch({trials[i]}, {.lanes = 1}).front()), "") << i;
+  expect_independent(trials);
 }
 
 // Torques that vary between samples in the lanes: amplifiers, delays, late samples, ripples and vibrations,
@@ -225,15 +223,7 @@ TEST(LaneDrive, DependsOnNoOtherTrialAndOnNoInstructionSet) {
     for (const trial::TrialParameters& p : trials_of(kind, 6)) trials.push_back(p);
     trials.push_back(trial_for_lanes(TrialKind::calm, 92000 + trials.size()));
   }
-  std::vector<BatchedTrial> alone;
-  for (const trial::TrialParameters& p : trials) alone.push_back(run_batch({p}, {.lanes = 1}).front());
-  for (const batch::InstructionSet instructions : available_instruction_sets()) {
-    for (const int lanes : {5, 128}) {
-      const std::vector<BatchedTrial> few = run_batch(trials, {.lanes = lanes, .instructions = instructions});
-      for (std::size_t i = 0; i < trials.size(); ++i)
-        EXPECT_EQ(difference_in_bits(few[i], alone[i]), "") << i << " of " << lanes;
-    }
-  }
+  expect_independent(trials);
 }
 
 // Other friction under the same torques. Trial 14 of the kinds is a limit cycle under Coulomb's friction that

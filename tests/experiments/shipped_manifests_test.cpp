@@ -251,13 +251,8 @@ TEST(ManifestPages, ShowTheErrorsOfTheirBadManifest) {
   const std::vector<Block> blocks = fenced_blocks();
   const std::size_t bad = index_of_block(blocks, "# bad.yaml");
   ASSERT_LT(bad + 1, blocks.size());
-  std::string message;
-  try {
-    manifest::parse_study(blocks[bad].text, "bad.yaml");
-  } catch (const Failure& failure) {
-    message = failure.what();
-  }
-  EXPECT_EQ(blocks[bad + 1].text, message + "\n");
+  EXPECT_EQ(blocks[bad + 1].text,
+            refusal_by([&] { manifest::parse_study(blocks[bad].text, "bad.yaml"); }) + "\n");
 }
 
 /// The names of the rows with the Sobol dimensions from `first` on, in their order, as far as there are any.

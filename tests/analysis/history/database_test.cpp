@@ -5,6 +5,7 @@
 
 #include "core/failure/failure.hpp"
 #include "tests/analysis/history/runs.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 
@@ -28,15 +29,9 @@ class HistoryDatabase : public ::testing::Test {
 
   template <class Action>
   std::string fails(ExitCode code, const Action& action) const {
-    try {
-      action();
-    } catch (const Failure& failure) {
-      EXPECT_EQ(failure.code(), code) << failure.what();
-      EXPECT_EQ(std::string(failure.what()).find(path().string()), 0U) << failure.what();
-      return failure.what();
-    }
-    ADD_FAILURE() << "no failure";
-    return "";
+    const std::string message = refusal_by(action, code);
+    EXPECT_TRUE(message.starts_with(path().string())) << message;
+    return message;
   }
 
   TemporaryFolder folder_;
@@ -132,12 +127,7 @@ TEST_F(HistoryDatabase, TellsOfDamage) {
     std::string damaged = whole;
     damaged.replace(page, 200, 200, '\xff');
     write_bytes(path(), damaged);
-    try {
-      history::read_runs(path());
-    } catch (const Failure& failure) {
-      EXPECT_EQ(failure.code(), ExitCode::bad_data) << failure.what();
-      ++found;
-    }
+    if (!refusal_by([&] { history::read_runs(path()); }, ExitCode::bad_data).empty()) ++found;
   }
   EXPECT_GE(found, static_cast<int>(whole.size() / 4096) - 1);
   write_bytes(path(), whole.substr(0, whole.size() / 2));

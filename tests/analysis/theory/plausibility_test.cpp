@@ -282,9 +282,7 @@ study::Study slide(const std::string& rest, const std::string& model, double bre
 }
 
 bool is_told(const study::Study& study, const std::string& what) {
-  const std::vector<std::string> lines = doubtful_goals(study);
-  return std::ranges::any_of(lines,
-                             [&](const std::string& line) { return line.find(what) != std::string::npos; });
+  return is_told(doubtful_goals(study), what);
 }
 
 /// Whether the last move of a trial is within the tolerance for good in time.
@@ -459,11 +457,6 @@ study::Study study_with(const std::string& target, const std::string& controller
       "m.yaml", {});
 }
 
-bool contains(const std::vector<std::string>& lines, const std::string& text) {
-  return std::any_of(lines.begin(), lines.end(),
-                     [&](const std::string& line) { return line.find(text) != std::string::npos; });
-}
-
 /// The smallest phase margin at rest of stable loops, °; NaN if a loop is unstable or has none.
 double smallest_phase_margin(const study::Study& study) {
   double smallest = std::numeric_limits<double>::infinity();
@@ -493,9 +486,9 @@ TEST(LoopPlausibility, APhaseMarginIsAtLeastTwentyDegrees) {
     const double margin = smallest_phase_margin(study);
     if (!std::isfinite(margin)) continue;
     const std::vector<std::string> lines = doubtful_loops(study);
-    EXPECT_EQ(contains(lines, "phase margin is"), margin < 20.0) << margin;
+    EXPECT_EQ(is_told(lines, "phase margin is"), margin < 20.0) << margin;
     if (margin < 20.0) {
-      EXPECT_TRUE(contains(lines, "point 0 (all): at k1")) << lines.front();
+      EXPECT_TRUE(is_told(lines, "point 0 (all): at k1")) << lines.front();
     }
     ++(margin < 20.0 ? doubtful : sound);
   }
@@ -510,14 +503,14 @@ TEST(LoopPlausibility, TheWorstPointIsTold) {
   ASSERT_FALSE(lines.empty());
   EXPECT_TRUE(lines.front().starts_with("point 2 (controller.ki=0.0003): at k1 the phase margin is -"))
       << lines.front();
-  EXPECT_TRUE(contains(lines, "the loop is unstable"));
+  EXPECT_TRUE(is_told(lines, "the loop is unstable"));
 }
 
 // The paper's: between criteria (6) and (7) some histories are stable; beyond (7) none.
 TEST(LoopPlausibility, IntegralControlAloneIsDoubtedBeyondCriterionSeven) {
   for (const double ki : {1e-5, 3.85e-5, 9.45e-5, 2.08e-4})
     EXPECT_TRUE(doubtful_loops(study_with("30", fmt::format("ki: {}", ki))).empty()) << ki;
-  EXPECT_TRUE(contains(doubtful_loops(study_with("30", "ki: 4.0e-4")), "at k1 + k2 the phase margin"));
+  EXPECT_TRUE(is_told(doubtful_loops(study_with("30", "ki: 4.0e-4")), "at k1 + k2 the phase margin"));
 }
 
 // The pre-sliding range is 694 counts: the loop with integral control alone is unstable while it slides.
@@ -526,7 +519,7 @@ TEST(LoopPlausibility, AMoveBeyondThePreslidingRangeNeedsALoopThatIsStableWhileI
   for (const char* const shape : {"step", "trapezoidal", "s_curve"}) {
     const auto told = [shape](const std::string& targets, const std::string& controller,
                               const std::string& what) {
-      return contains(
+      return is_told(
           doubtful_loops(manifest::parse_study(
               fmt::format("zerocount: 1\nname: doubt\nseed: 1\ntrials: 2\ncommand: {{targets: [{}], "
                           "profile: {{shape: {}}}}}\ncontroller: {{{}}}\n",
@@ -548,7 +541,7 @@ TEST(LoopPlausibility, ADelayOfASampleMoreIsEndured) {
   // Far above the resonance the crossover is so fast that one sample costs more than the margin.
   const study::Study study = study_with("5", "kd: 1.28e-2, ki: 3.85e-5");
   const std::vector<std::string> lines = doubtful_loops(study);
-  EXPECT_TRUE(contains(lines, "samples more makes the loop unstable")) << lines.size();
+  EXPECT_TRUE(is_told(lines, "samples more makes the loop unstable")) << lines.size();
 }
 
 TEST(LoopPlausibility, AnOpenLoopHasNone) {

@@ -178,14 +178,10 @@ TEST(PluginParameters, ErrorsNameThePlace) {
 }
 
 TEST(PluginParameters, APluginClosesTheLoop) {
-  try {
-    manifest::parse_study(manifest_commanding("{torque: {levels: [0.1]}}", "controller: {plugin: own.so}\n"),
-                          "m.yaml", {}, {.plugin = two_parameters()});
-    FAIL();
-  } catch (const Failure& failure) {
-    EXPECT_TRUE(
-        has_faults(std::string(failure.what()), "6:22: controller.plugin | no effect | command.targets"));
-  }
+  const std::string text = manifest_commanding("{torque: {levels: [0.1]}}", "controller: {plugin: own.so}\n");
+  EXPECT_TRUE(
+      has_faults(refusal_by([&] { manifest::parse_study(text, "m.yaml", {}, {.plugin = two_parameters()}); }),
+                 "6:22: controller.plugin | no effect | command.targets"));
 }
 
 // Values in lists of the manifest other than that of the moves: elements of friction, and filters.

@@ -119,6 +119,17 @@ TEST(SampleRate, TheProportionalGainNeedsTenTimesTheNaturalFrequency) {
   EXPECT_TRUE(share_above(0.96, stable_at_rate("with-kp, controller.sample_rate=4000"), rate_trials));
 }
 
+// ki·Δx·T/2 and kp·Δx: the loops of all rates are one controller.
+TEST(SampleRate, TheGainsAreThoseOfOneController) {
+  const study::Study study = shipped_study("sample-rate");
+  for (const auto& [rate, factor] : {std::pair{"500", 4.0}, {"2000", 1.0}, {"20000", 0.1}}) {
+    const trial::TrialParameters p =
+        trial_of(study, std::string("with-kp, controller.sample_rate=") + rate, 0);
+    EXPECT_NEAR(p.controller.ki / (9.45e-5 * factor), 1.0, 2e-3);
+    EXPECT_NEAR(p.controller.kp / 6.21e-4, 1.0, 2e-3);
+  }
+}
+
 // derivative: a derivative gain adds damping, as criterion (6) says, and chatters at the end of a move, as
 // practical issue 5 of the paper warns.
 

@@ -104,6 +104,38 @@ TEST(RepeatabilityStudy, WithoutAnIntegralTheAxisStopsShortFromEitherSide) {
   EXPECT_TRUE(share_below(0.45, repeating, axes));
 }
 
+// The reversal value is what the two stall errors make together, and almost all of the bidirectional
+// repeatability.
+TEST(RepeatabilityStudy, TheReversalValueIsTheSumOfTheStallErrors) {
+  const study::Study study = shipped_study("repeatability", {"command.sequence.cycles=2"});
+  for (std::int64_t index = 0; index < 6; ++index) {
+    const MeasuredAxis axis = measured_axis(study, "pd-alone", index);
+    double largest = 0.0;
+    for (std::size_t target = 0; target < axis.repeatability.from_encoder.targets.size(); ++target) {
+      double up = 0.0, down = 0.0;
+      int ups = 0, downs = 0;
+      for (std::size_t move = 0; move < study.sequence.size(); ++move) {
+        if (study.sequence[move].target != static_cast<std::int64_t>(target)) continue;
+        const auto short_of = static_cast<double>(std::abs(axis.moves[move].final_error));
+        const bool from_below = study.sequence[move].direction > 0;
+        (from_below ? up : down) += short_of;
+        ++(from_below ? ups : downs);
+      }
+      const double stalls = up / ups + down / downs;
+      const iso230::TargetRepeatability& encoder = axis.repeatability.from_encoder.targets[target];
+      const iso230::TargetRepeatability& position = axis.repeatability.from_position.targets[target];
+      EXPECT_NEAR(encoder.reversal, -stalls, 1e-9) << "x̄↑ − x̄↓, counts";
+      EXPECT_NEAR(position.reversal / count_of(axis.parameters), encoder.reversal, 1.0) << "to the count";
+      EXPECT_GE(encoder.repeatability, std::abs(encoder.reversal));
+      EXPECT_LE(encoder.repeatability,
+                std::abs(encoder.reversal) + encoder.repeatability_positive + encoder.repeatability_negative);
+      largest = std::max(largest, std::abs(encoder.reversal));
+    }
+    EXPECT_EQ(axis.repeatability.from_encoder.axis.reversal, largest);
+    EXPECT_GE(axis.repeatability.from_encoder.axis.repeatability, largest);
+  }
+}
+
 // Studies in which everything is random that can be while a trial runs: the same datasets for any number of
 // threads, for parts in any order and after any interruption, and every trial again from its number alone.
 

@@ -82,6 +82,18 @@ TEST_P(WithCoulomb, TheLoopNeverArrives) {
   EXPECT_TRUE(share_below(0.07, arrived, trials));
 }
 
+TEST_P(WithCoulomb, TheLoopGoesOnHuntingHoweverLongItIsHeld) {
+  // An error of one count winds the torque up from one breakaway to the other in 5 s. Then it goes faster.
+  const study::Study study = shipped_study("why-presliding", {"command.hold=15"});
+  for (std::int64_t index = 0; index < 30; ++index) {
+    const WatchedTrial trial = watched(trial_of(study, GetParam(), index));
+    std::int64_t crossings = 0;
+    for (std::size_t k = trial.samples.size() - 10000; k < trial.samples.size(); ++k)
+      crossings += trial.samples[k].error * trial.samples[k - 1].error < 0;
+    EXPECT_GE(crossings, 10) << "in the last 5 s of trial " << index;
+  }
+}
+
 // Not a matter of time, of the gain, or of luck with the encoder's dead band of one count. While the error
 // has one sign, the torque grows from the breakaway torque, which is above all that friction can do: so the
 // rotor gains speed up to the target's count, where the torque stays, and beyond. It cannot stop in that

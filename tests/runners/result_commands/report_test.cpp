@@ -24,7 +24,10 @@ class ReportCommand : public ::testing::Test {
 TemporaryFolder* ReportCommand::folder = nullptr;
 
 TEST_F(ReportCommand, IsTheSamePageEveryTime) {
-  ASSERT_EQ(run({"report", "a.h5", "-o", "one.html"}).code, 0);
+  const ProgramResult one = run({"report", "a.h5", "-o", "one.html"});
+  ASSERT_EQ(one.code, 0);
+  EXPECT_EQ(one.err, "");
+  EXPECT_FALSE(std::filesystem::exists(*folder / "one.html.part"));
   ASSERT_EQ(run({"report", "a.h5", "-o", "two.html"}).code, 0);
   EXPECT_EQ(folder->read("one.html"), folder->read("two.html"));
 }

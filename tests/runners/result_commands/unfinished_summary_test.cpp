@@ -73,6 +73,16 @@ TEST_F(UnfinishedSummary, OfRigsOrWorldsLeavesOutTrialsThatOthersAreMissingBefor
   }
 }
 
+TEST_F(UnfinishedSummary, CountsTheRigsThatHaveTrials) {
+  folder_.write("study.yaml", small_manifest(60, "rigs: 60\n"));
+  finish_quarter(1);
+  const nlohmann::json point = summary_of("out.h5")["points"][0];
+  EXPECT_EQ(point["trials"], 30);
+  EXPECT_EQ(point["rigs"]["n"], 30);
+  // Each has one trial.
+  EXPECT_EQ(point["rigs"]["without_failure"], point["success_rate"]);
+}
+
 TEST_F(UnfinishedSummary, WhereAPointHasNoTrialYetItsRatesAreUnknown) {
   const std::string observed = "observed: {low: {successes: 19, of: 20}, high: {successes: 0, of: 12}}\n";
   for (const char* more : {"", "rigs: 30\n", "keep: statistics\n"}) {

@@ -215,6 +215,11 @@ TEST_F(SlowStage, IsCalledUndecidedWithTheHoldThatDecides) {
   EXPECT_TRUE(says(table, advice)) << advice << "\n" << table;
 }
 
+TEST_F(SlowStage, ArrivesWithTheAdvisedHold) {
+  EXPECT_GE(arrived_with_advised_hold({}), moves_of_stage * 95 / 100);
+  EXPECT_EQ(undecided("advised.h5")["still_falling"], 0);
+}
+
 // The count chatters on its edges: some of these moves count as oscillating, and the last edge takes its
 // time.
 TEST_F(SlowStage, ArrivesWithTheAdvisedHoldUnderAProportionalGain) {

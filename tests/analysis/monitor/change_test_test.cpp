@@ -237,12 +237,12 @@ TEST(Groups, AreTakenWhereTheyAreComplete) {
 }
 
 TEST(Groups, NeedTheirColumn) {
-  const auto message = [](const std::string& text) {
-    return refusal_by([&] { log_of(text, "moves.csv", "day"); });
+  const auto message = [](const std::string& text, ExitCode code) {
+    return refusal_by([&] { log_of(text, "moves.csv", "day"); }, code);
   };
-  EXPECT_EQ(message("shift,settling_time\n1,2\n"),
+  EXPECT_EQ(message("shift,settling_time\n1,2\n", ExitCode::bad_input),
             "moves.csv:1: has no column 'day' (--group); expected one of shift, settling_time");
-  EXPECT_EQ(message("day,settling_time\n1,2\n,2\n"),
+  EXPECT_EQ(message("day,settling_time\n1,2\n,2\n", ExitCode::bad_data),
             "moves.csv:3: day is empty; expected the group of the move");
 }
 

@@ -228,8 +228,8 @@ TEST(MachineMonitor, WatchesAccumulatingStatesOnlyWhereNamed) {
 
 TEST(MachineMonitor, RefusesWhatCannotBeCompared) {
   const auto message = [](const std::string& before, const std::string& after,
-                          const MonitorSettings& settings) {
-    return refusal_by([&] { said_of(before, after, settings); });
+                          const MonitorSettings& settings, ExitCode code = ExitCode::bad_input) {
+    return refusal_by([&] { said_of(before, after, settings); }, code);
   };
   EXPECT_EQ(
       message("overshoot\n1\n", "settling_time\n1\n", {}),
@@ -237,9 +237,9 @@ TEST(MachineMonitor, RefusesWhatCannotBeCompared) {
       "columns named alike");
   EXPECT_EQ(message("overshoot\n1\n", "overshoot\n1\n", {.measures = {"stable"}}),
             "--measure stable: moves.csv has no such measure");
-  EXPECT_EQ(message("overshoot\n", "overshoot\n1\n", {}),
+  EXPECT_EQ(message("overshoot\n", "overshoot\n1\n", {}, ExitCode::bad_data),
             "baseline.csv: has no moves; expected a row for each move of the baseline");
-  EXPECT_EQ(message("overshoot\n1\n", "overshoot\n1\n", {.block = 2}),
+  EXPECT_EQ(message("overshoot\n1\n", "overshoot\n1\n", {.block = 2}, ExitCode::bad_data),
             "the baseline has 1 moves; expected at least a block of 2");
 }
 

@@ -147,6 +147,21 @@ TEST(Margins, PeakOfTheSensitivityBoundsTheOtherMargins) {
   EXPECT_GT(stable, 30);
 }
 
+// An undamped mass under kp alone, its crossover by the closed form of SlidingCrossover's test.
+TEST(Margins, PhaseMarginOfAMassUnderProportionalControlIsAClosedForm) {
+  for (const double g : {1e-4, 1e-2, 0.5}) {
+    const motion::PlantParameters plant;
+    loop::ControllerParameters controller;
+    controller.ki = 0.0;
+    const double T = 1.0 / controller.sample_rate;
+    controller.kp = g * 2.0 * plant.inertia * loop::fine_resolution({}) / (T * T);
+    const double phi = std::acos(-g / 4.0 + std::sqrt(g * g / 16.0 + 1.0));
+    const StabilityMargins margins = margins_about(0.0, 0.0, plant, {}, controller);
+    EXPECT_NEAR(margins.phase.value, -phi * 180.0 / std::numbers::pi, 1e-4);
+    EXPECT_NEAR(margins.phase.frequency, phi / (std::numbers::pi * T), 1e-6 * phi / (std::numbers::pi * T));
+  }
+}
+
 TEST(Margins, AreNotThereWithoutGain) {
   loop::ControllerParameters controller;
   controller.ki = 0.0;

@@ -186,6 +186,24 @@ TEST(SampledStability, SpectralRadiusIsTheGrowthOfTheLinearLoop) {
   }
 }
 
+TEST(SampledStability, DelayLowersTheBound) {
+  loop::ControllerParameters controller;
+  double last = 1.0;
+  for (int delay = 0; delay < 5; ++delay) {
+    controller.delay = delay;
+    const double bound = sampled_critical_integral_gain(110.0, rig, paper_encoder, controller);
+    EXPECT_LT(bound, last);
+    EXPECT_GT(bound, 0.0);
+    last = bound;
+  }
+}
+
+TEST(SampledStability, TheDrivesGainIsPartOfTheLoops) {
+  const loop::ControllerParameters controller;
+  EXPECT_NEAR(sampled_critical_integral_gain(110.0, rig, paper_encoder, controller, {1.5, 0.0}),
+              sampled_critical_integral_gain(110.0, rig, paper_encoder, controller) / 1.5, 1e-12);
+}
+
 TEST(SampledStability, NoIntegralGainIsStableWhereTheLoopWithoutIntegralIsNot) {
   loop::ControllerParameters controller;
   controller.kp = 1.0;  // N m/count: far beyond what half a sample of delay allows

@@ -1,7 +1,6 @@
 #include "analysis/comparison/gate_rules.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -12,8 +11,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/text/relation.hpp"
 #include "core/failure/failure.hpp"
 #include "core/numerics/interval.hpp"
+#include "core/text/number_text.hpp"
+#include "core/text/trimmed.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/study/point_label.hpp"
 #include "experiments/yaml/nearest_name.hpp"
@@ -59,10 +61,8 @@ std::optional<Number> number_in(std::string_view name) {
   const std::size_t open = name.find('[');
   const std::size_t close = name.find(']');
   if (open >= close || close == std::string_view::npos) return std::nullopt;
-  Number number{};
-  const auto [end, error] = std::from_chars(name.data() + open + 1, name.data() + close, number);
-  return error == std::errc{} && end == name.data() + close && number >= Number{} ? std::optional(number)
-                                                                                  : std::nullopt;
+  const auto number = text::parse_number<Number>(name.substr(open + 1, close - open - 1));
+  return number && *number >= Number{} ? number : std::nullopt;
 }
 
 /// The features of a study that has the error band, or the tolerance, in "band_settling_time[5].p95" or
@@ -245,36 +245,24 @@ void read_margin_of(const yaml::Field& map, const yaml::YamlEntry& entry,
 
 const char* const requirement_form = "a text such as 'success_rate ≥ 0.995' (or >=, ≤, <=), or goal";
 
-/// The parts of a text such as "success_rate ≥ 0.995".
-struct RequirementParts {
-  std::string name, relation, number;
-};
-
-std::optional<RequirementParts> parts_of(std::string_view text) {
-  constexpr std::string_view blanks = " \t\n\v\f\r";
-  const auto take = [&](std::size_t end) {
-    const std::string_view taken = text.substr(0, end);
-    text.remove_prefix(taken.size());
-    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
-    return std::string(taken);
-  };
-  take(0);
-  RequirementParts parts;
-  parts.name = take(text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_.0123456789[]+-"));
-  for (const std::string_view relation : {"≥", ">=", "≤", "<="}) {
-    if (parts.relation.empty() && text.starts_with(relation)) parts.relation = take(relation.size());
-  }
-  parts.number = take(text.find_first_of(blanks));
-  const bool limited = !parts.relation.empty() && !parts.number.empty();
-  const bool complete = !parts.name.empty() && (limited || parts.name == "goal");
-  return complete && text.empty() ? std::optional(parts) : std::nullopt;
+/// The parts of a text such as "success_rate ≥ 0.995"; of "goal" the name alone.
+std::optional<text::Relation> parts_of(std::string_view text) {
+  const std::string_view name = text::trimmed(text);
+  if (name == "goal") return text::Relation{name, {}, {}, {}};
+  const std::optional<text::Relation> parts = text::parse_relation(text);
+  constexpr std::string_view characters = "abcdefghijklmnopqrstuvwxyz_.0123456789[]+-";
+  const bool complete = parts && !parts->name.empty() && !parts->limit.empty() &&
+                        parts->name.find_first_not_of(characters) == std::string_view::npos &&
+                        parts->limit.find_first_of(" \t\n\v\f\r") == std::string_view::npos &&
+                        (parts->sign == text::Sign::at_least || parts->sign == text::Sign::at_most);
+  return complete ? parts : std::nullopt;
 }
 
 std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Problems& problems) {
   const std::optional<std::string> text = yaml::read_text(field, problems);
   if (!text) return std::nullopt;
   constexpr std::size_t max_length = 200;  // bytes; no requirement is so long
-  const std::optional<RequirementParts> parts = text->size() <= max_length ? parts_of(*text) : std::nullopt;
+  const std::optional<text::Relation> parts = text->size() <= max_length ? parts_of(*text) : std::nullopt;
   Requirement requirement{*text, {}, true, 0.0};
   const auto refuse = [&](const std::string& what, const std::string& expected) {
     problems.add(field.node->place, field.path, what, expected);
@@ -284,23 +272,22 @@ std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Prob
   const std::optional<RequirableQuantity> quantity = find_requirable(parts->name);
   if (quantity) requirement.quantity = *quantity;
   if (quantity && quantity->kind == RequirementKind::goal) {
-    if (!parts->relation.empty())
+    if (!parts->written.empty())
       return refuse("a goal with a limit", "goal by itself: its limits stand in the manifest");
     return requirement;
   }
-  requirement.at_least = parts->relation == "≥" || parts->relation == ">=";
-  const std::string& number = parts->number;
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), requirement.limit);
+  requirement.at_least = parts->sign == text::Sign::at_least;
+  const auto limit = text::parse_number<double>(parts->limit);
   if (!quantity) {
     return refuse(fmt::format("{} cannot be required", yaml::in_quotes(parts->name)),
                   fmt::format("one of {}", fmt::join(names_of(requirable_quantities()), ", ")));
   }
-  if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(requirement.limit)) {
-    return refuse(fmt::format("{} is not a number", yaml::in_quotes(number)), requirement_form);
-  }
+  if (!limit || !std::isfinite(*limit))
+    return refuse(fmt::format("{} is not a number", yaml::in_quotes(parts->limit)), requirement_form);
+  requirement.limit = *limit;
   const bool proportion = quantity->kind == RequirementKind::proportion;
   if (proportion && (requirement.limit < 0.0 || requirement.limit > 1.0)) {
-    return refuse(fmt::format("{} is not a proportion", number), "a number from 0 to 1");
+    return refuse(fmt::format("{} is not a proportion", parts->limit), "a number from 0 to 1");
   }
   if (!proportion && requirement.at_least) {
     return refuse(fmt::format("a least {} is asked for", quantity->name), "≤ and a limit");

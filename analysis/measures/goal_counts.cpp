@@ -1,7 +1,6 @@
 #include "analysis/measures/goal_counts.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -11,6 +10,8 @@
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "core/failure/failure.hpp"
+#include "core/text/number_text.hpp"
+#include "core/text/trimmed.hpp"
 #include "core/trial/divergence.hpp"
 #include "core/trial/named_measures.hpp"
 #include "experiments/study/study.hpp"
@@ -138,10 +139,9 @@ std::vector<MeasureStatistics> GoalSettling::statistics(double confidence) const
 
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(' ');
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(' ') - first + 1);
+/// Whether the event is a large value.
+bool is_above(const MoveEvent& event) {
+  return event.sign == text::Sign::above || event.sign == text::Sign::at_least;
 }
 
 [[noreturn]] void fail(std::string_view text, std::string_view what) {
@@ -191,17 +191,15 @@ MoveEvent missed_question(const study::Study& study) {
 }
 
 MoveEvent parse_event(const study::Study& study, std::string_view text) {
-  const auto sign = text.find_first_of("<>");
-  if (sign == std::string_view::npos) fail(text, "compares nothing");
-  MoveEvent event;
-  event.text = trimmed(text);
-  event.above = text[sign] == '>';
-  event.inclusive = sign + 1 < text.size() && text[sign + 1] == '=';
-  const std::string_view number = trimmed(text.substr(sign + (event.inclusive ? 2 : 1)));
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), event.limit);
-  if (error != std::errc() || end != number.data() + number.size() || !std::isfinite(event.limit))
-    fail(text, "has no number behind the sign");
-  event.measure = measure_named(study, text, trimmed(text.substr(0, sign)));
+  const auto relation = text::parse_relation(text);
+  if (!relation || relation->sign == text::Sign::equal || relation->sign == text::Sign::unequal)
+    fail(text, "compares nothing");
+  const auto limit = text::parse_number<double>(relation->limit);
+  if (!limit || !std::isfinite(*limit)) fail(text, "has no number behind the sign");
+  MoveEvent event{.text = std::string(text::trimmed(text)),
+                  .measure = measure_named(study, text, relation->name),
+                  .sign = relation->sign,
+                  .limit = *limit};
   if (study.open_loop && event.measure.values.needs_target)
     fail(text, "needs targets, which torque levels have not");
   if (event.measure.values.magnitude && event.limit < 0.0)
@@ -220,9 +218,8 @@ bool happens(const MoveEvent& event, const trial::MoveOutcome& move) {
         event.goals, [&](const CountedGoal& goal) { return asks(goal, move) && !meets(goal, move); });
   const double value = value_of(event.measure, move);
   if (std::isnan(value) && trial::was_run(move) && move.outcome == trial::Outcome::nonfinite)
-    return event.above;
-  if (value == event.limit) return event.inclusive;
-  return event.above ? value > event.limit : value < event.limit;
+    return is_above(event);
+  return text::holds(event.sign, value, event.limit);
 }
 
 std::string name_of(MoveScore score, const MoveEvent& event) {
@@ -247,7 +244,7 @@ double score_of(MoveScore score, const MoveEvent& event, const trial::MoveOutcom
   switch (score) {
     case MoveScore::event:
       if (event.text.empty()) return lateness_of(event, move);
-      return event.above ? value_of(event.measure, move) : -value_of(event.measure, move);
+      return is_above(event) ? value_of(event.measure, move) : -value_of(event.measure, move);
     case MoveScore::peak_torque:
       return move.peak_torque;
     case MoveScore::final_error:

@@ -13,6 +13,7 @@
 #include "analysis/measures/measure_statistics.hpp"
 #include "analysis/measures/move_counts.hpp"
 #include "analysis/statistics/clusters/trial_clusters.hpp"
+#include "analysis/text/relation.hpp"
 #include "core/trial/outcome.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/measure_table.hpp"
@@ -109,18 +110,17 @@ class GoalSettling {
 /// An event of a move: it misses what is asked of it, or a measure of it is beyond a limit.
 struct MoveEvent {
   std::string text;  ///< "settling_time > 0.5"; empty: it misses the goal, or does not succeed
-  std::vector<CountedGoal> goals{};  ///< used if text is empty
-  layout::Measure measure{};         ///< used otherwise
-  bool above{true};                  ///< the event is a value above the limit; otherwise below
-  bool inclusive{false};             ///< the limit itself is the event too
-  double limit{0.0};                 ///< in the measure's unit
+  std::vector<CountedGoal> goals{};    ///< used if text is empty
+  layout::Measure measure{};           ///< used otherwise
+  text::Sign sign{text::Sign::above};  ///< how values that are the event lie to the limit; never equal
+  double limit{0.0};                   ///< in the measure's unit
 };
 
 /// The event that a move misses the goal of the study or, without a goal, that it does not succeed.
 MoveEvent missed_question(const study::Study& study);
 
 /// The event of a text such as "settling_time > 0.5" or "band_settling_time[1] >= 0.05".
-/// @throws Failure (bad_input) unless it is MEASURE, one of > >= < <=, and a number
+/// @throws Failure (bad_input) unless it is MEASURE, one of > >= < <= (or ≥, ≤), and a number
 MoveEvent parse_event(const study::Study& study, std::string_view text);
 
 /// Whether the event can be that of this move: a goal is about it, or the event is not of goals.

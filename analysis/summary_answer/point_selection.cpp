@@ -1,8 +1,6 @@
 #include "analysis/summary_answer/point_selection.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -21,7 +19,9 @@
 #include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/study_statistics.hpp"
 #include "analysis/summary_answer/parts.hpp"
+#include "analysis/text/relation.hpp"
 #include "core/failure/failure.hpp"
+#include "core/text/number_text.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/shards/shard.hpp"
@@ -30,19 +30,6 @@ namespace zerocount::summary_answer {
 namespace {
 
 using summary::StudySummary;
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(' ');
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(' ') + 1 - first);
-}
-
-/// NaN where the text is not a number.
-double number_in(std::string_view text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc{} && end == text.data() + text.size() ? number : statistics::unknown;
-}
 
 /// "band_settling_time_p95[1]" for "band_settling_time[1].p95".
 std::string column_name(std::string_view name) {
@@ -84,7 +71,8 @@ std::optional<std::vector<double>> csv_values(const StudySummary& summary, const
       const document::Content content =
           description.content_of(i)(read_point(summary, point), document::Audience::csv);
       const auto cells = document::csv_cells(item, content);
-      values.push_back(number_in(std::ranges::find_if(cells, is_column)->second));
+      values.push_back(text::parse_number<double>(std::ranges::find_if(cells, is_column)->second)
+                           .value_or(statistics::unknown));
     }
     return values;
   }
@@ -123,24 +111,6 @@ std::vector<double> ranks_of(const std::vector<std::string>& texts) {
   return ranks;
 }
 
-/// How a condition relates a value to its limit.
-struct Relation {
-  std::string_view sign;
-  bool (*holds)(double, double);
-  bool of_texts{false};  ///< texts can be related so, too
-};
-
-constexpr std::array<Relation, 10> relations{{{"<=", [](double a, double b) { return a <= b; }},
-                                              {"≤", [](double a, double b) { return a <= b; }},
-                                              {">=", [](double a, double b) { return a >= b; }},
-                                              {"≥", [](double a, double b) { return a >= b; }},
-                                              {"!=", [](double a, double b) { return a < b || a > b; }, true},
-                                              {"≠", [](double a, double b) { return a < b || a > b; }, true},
-                                              {"==", [](double a, double b) { return a == b; }, true},
-                                              {"<", [](double a, double b) { return a < b; }},
-                                              {">", [](double a, double b) { return a > b; }},
-                                              {"=", [](double a, double b) { return a == b; }, true}}};
-
 [[noreturn]] void refuse(std::string_view condition) {
   throw Failure(ExitCode::bad_input,
                 fmt::format("'{}' is not a condition; expected one such as 'kp > 0', 'case != best' or "
@@ -148,23 +118,10 @@ constexpr std::array<Relation, 10> relations{{{"<=", [](double a, double b) { re
                             condition));
 }
 
-/// "kp > 0" in its parts.
-struct Condition {
-  std::string_view name;
-  Relation relation;
-  std::string_view limit;
-};
-
-/// By the first sign of a relation, so that a text may hold others.
-Condition parts_of_condition(std::string_view condition) {
-  for (std::size_t at = 0; at < condition.size(); ++at) {
-    const auto relation = std::ranges::find_if(
-        relations, [&](const Relation& one) { return condition.substr(at).starts_with(one.sign); });
-    if (relation == relations.end()) continue;
-    return {trimmed(condition.substr(0, at)), *relation,
-            trimmed(condition.substr(at + relation->sign.size()))};
-  }
-  refuse(condition);
+text::Relation parts_of_condition(std::string_view condition) {
+  const std::optional<text::Relation> parts = text::parse_relation(condition);
+  if (!parts) refuse(condition);
+  return *parts;
 }
 
 /// Without the quotation marks around it.
@@ -188,17 +145,18 @@ std::string names_among(const std::vector<std::string>& texts) {
 }
 
 /// [point] whether the text is that of the condition, or is not.
-std::vector<bool> texts_hold(const std::vector<std::string>& texts, const Condition& condition) {
+std::vector<bool> texts_hold(const std::vector<std::string>& texts, const text::Relation& condition) {
   const std::string_view wanted = unquoted(condition.limit);
-  if (!condition.relation.of_texts || std::ranges::find(texts, wanted) == texts.end()) {
+  const bool equal = condition.sign == text::Sign::equal;
+  const bool of_texts = equal || condition.sign == text::Sign::unequal;
+  if (!of_texts || std::ranges::find(texts, wanted) == texts.end()) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("'{} {} {}': {}; expected '{} = NAME' or '{} != NAME' with one of {}",
-                              condition.name, condition.relation.sign, condition.limit,
-                              condition.relation.of_texts ? fmt::format("there is no such {}", condition.name)
-                                                          : fmt::format("a {} is a name", condition.name),
+                              condition.name, condition.written, condition.limit,
+                              of_texts ? fmt::format("there is no such {}", condition.name)
+                                       : fmt::format("a {} is a name", condition.name),
                               condition.name, condition.name, names_among(texts)));
   }
-  const bool equal = condition.relation.holds(0.0, 0.0);
   std::vector<bool> holds;
   holds.reserve(texts.size());
   for (const std::string& text : texts) holds.push_back((text == wanted) == equal);
@@ -207,17 +165,15 @@ std::vector<bool> texts_hold(const std::vector<std::string>& texts, const Condit
 
 /// [point] whether the condition holds.
 std::vector<bool> holds_at(const StudySummary& summary, const std::string& text, const KnownValues& known) {
-  const Condition condition = parts_of_condition(text);
+  const text::Relation condition = parts_of_condition(text);
   if (const std::vector<std::string>* const texts = texts_of(summary, condition.name))
     return texts_hold(*texts, condition);
-  double number = 0.0;
-  const std::string_view limit = condition.limit;
   const std::vector<double> values = values_of(summary, condition.name, known);
-  const auto [end, error] = std::from_chars(limit.data(), limit.data() + limit.size(), number);
-  if (error != std::errc{} || end != limit.data() + limit.size()) refuse(text);
+  const auto limit = text::parse_number<double>(condition.limit);
+  if (!limit) refuse(text);
   std::vector<bool> holds;
   holds.reserve(values.size());
-  for (const double value : values) holds.push_back(condition.relation.holds(value, number));
+  for (const double value : values) holds.push_back(text::holds(condition.sign, value, *limit));
   return holds;
 }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/text/trimmed.hpp"
 #include "experiments/keys/draw_level.hpp"
 #include "experiments/manifest_text/overrides.hpp"
 #include "experiments/parameters/unknown_key.hpp"
@@ -22,13 +23,6 @@ struct Cell {
   yaml::Place place;
 };
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blank = " \t\r";
-  const std::size_t first = text.find_first_not_of(blank);
-  return first == std::string_view::npos ? text.substr(0, 0)
-                                         : text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
-
 std::string_view without_quotes(std::string_view text) {
   const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
   return quoted ? text.substr(1, text.size() - 2) : text;
@@ -39,7 +33,7 @@ std::vector<Cell> cells_of(std::string_view line, int number, std::string_view s
   std::size_t begin = 0;
   while (true) {
     const std::size_t end = std::min(line.find(',', begin), line.size());
-    cells.push_back({without_quotes(trimmed(line.substr(begin, end - begin))),
+    cells.push_back({without_quotes(text::trimmed(line.substr(begin, end - begin))),
                      {source, number, static_cast<int>(begin) + 1}});
     if (end == line.size()) return cells;
     begin = end + 1;
@@ -55,7 +49,8 @@ std::vector<std::vector<Cell>> rows_of(std::string_view text, std::string_view s
   for (int number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
-    if (!trimmed(line).empty() && !line.starts_with('#')) rows.push_back(cells_of(line, number, source));
+    if (!text::trimmed(line).empty() && !line.starts_with('#'))
+      rows.push_back(cells_of(line, number, source));
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return rows;

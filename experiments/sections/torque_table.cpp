@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/text/number_text.hpp"
+#include "core/text/trimmed.hpp"
 #include "core/text/unit.hpp"
 #include "experiments/sections/torque_record.hpp"
 
@@ -19,10 +20,7 @@ constexpr std::string_view torque_path = "command.torque.file";
 constexpr std::string_view blank_characters = " \t\r\"";
 
 std::string_view stripped(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blank_characters);
-  return first == std::string_view::npos
-             ? std::string_view{}
-             : text.substr(first, text.find_last_not_of(blank_characters) - first + 1);
+  return text::trimmed(text, blank_characters);
 }
 
 /// The lines of a table with their numbers from 1.

@@ -25,7 +25,6 @@ std::string why_bits_may_differ(const layout::FileHeader& one, const layout::Fil
   if (one.engine != other.engine) return "they are of different engines";
   if (!layout::same_build(one.provenance, other.provenance)) return "they are of different builds";
   if (one.provenance.compiler != other.provenance.compiler) return "they are of different compilers";
-  if (one.version != other.version) return "they are of different versions of the layout";
   if (layout::is_dirty(one.provenance) || layout::is_dirty(other.provenance)) {
     return "a build had changes that were not committed, and need not be that of the other";
   }

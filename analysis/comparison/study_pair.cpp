@@ -300,8 +300,6 @@ StudyPair pair_studies(const AllTrialsFile& baseline, const AllTrialsFile& curre
   match_points(pair);
   for (ComparedStudy* study : {&pair.baseline, &pair.current})
     study->values = layout::manifest_values(study->file.header(), study->file.path().string());
-  layout::write_changed_defaults(pair.baseline.values, baseline.header().version, pair.current.values,
-                                 current.header().version);
   require_same_kind(pair);
   match_conditions(pair);
   take_trials(pair, rules);

@@ -19,7 +19,7 @@
 #include "analysis/summary/summary.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
-#include "experiments/parameters/earlier_defaults.hpp"
+#include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
@@ -290,12 +290,10 @@ std::string series_sha256(const reading::AllTrialsFile& file) {
   std::erase_if(values,
                 [](const auto& entry) { return entry.first.ends_with(manifest_text::order_of_keys); });
   if (!drawn_per_study(values, file.study())) values.erase("seed");
-  for (const parameters::EarlierDefault& earlier : parameters::earlier_defaults()) {
-    const parameters::Parameter& parameter =
-        parameters::parameter_table()[parameters::find_parameter(earlier.name).value()];
-    values[fmt::format("default of {}", earlier.name)] =
-        fmt::format("{}", parameters::default_value_in(parameter, header.version));
-  }
+  // A part of the hash since this default was another one: databases have it.
+  const parameters::Parameter& beta =
+      parameters::parameter_table()[parameters::find_parameter("friction.beta").value()];
+  values["default of friction.beta"] = fmt::format("{}", parameters::default_value(beta));
   std::string text;
   for (const auto& [key, value] : values) text += fmt::format("{}: {}\n", key, value);
   return hash::sha256_hex(text);

@@ -173,7 +173,7 @@ double lateness_of(const MoveEvent& event, const trial::MoveOutcome& move) {
 layout::Measure measure_named(const study::Study& study, std::string_view text, std::string_view name) {
   std::vector<std::string> names;
   for (const layout::Measure& measure : layout::measure_table(study.features)) {
-    if (!layout::is_in_file(measure, layout::format_version, study.features)) continue;
+    if (!layout::is_in_file(measure, study.features)) continue;
     names.push_back(measure.field.column.name);
     if (names.back() == name) return measure;
   }

@@ -32,11 +32,6 @@ void add_counts(std::vector<std::int64_t>& counts, const std::vector<std::int64_
   std::transform(added.begin(), added.end(), counts.begin(), counts.begin(), std::plus{});
 }
 
-/// Whether files of this version have the measure, or a known value in place of it.
-bool is_known(const layout::Measure& measure, std::int64_t version) {
-  return measure.file.since <= version || !std::isnan(measure.file.before);
-}
-
 /// Whether no count is negative and all add up to `total`.
 bool is_sum_of(const std::vector<std::int64_t>& counts, std::int64_t total) {
   for (const std::int64_t count : counts) {
@@ -109,8 +104,8 @@ void MeasureAccumulator::add_sums(const MovesOfTrials& some) {
 }
 
 void MeasureAccumulator::add_values(const MovesOfTrials& some) {
-  values_.assign(some.moves.size(), statistics::unknown);
-  if (is_known(*measure_, kind_.version)) layout::values_of(measure_->field, some.moves, values_);
+  values_.resize(some.moves.size());
+  layout::values_of(measure_->field, some.moves, values_);
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const trial::MoveOutcome& move = *some.moves[i];
     values_[i] = counted_value(*measure_, move, values_[i]) + positive_zero;

@@ -62,11 +62,8 @@ void add_each(std::vector<Summand>& sums, const std::vector<Summand>& added) {
 
 }  // namespace
 
-MoveKind move_kind(const study::Study& study, std::int64_t version) {
-  return {.open_loop = study.open_loop,
-          .version = version,
-          .shape = shape_of(study),
-          .goals = counted_goals(study)};
+MoveKind move_kind(const study::Study& study) {
+  return {.open_loop = study.open_loop, .shape = shape_of(study), .goals = counted_goals(study)};
 }
 
 OutcomeCounts& OutcomeCounts::operator+=(const OutcomeCounts& other) {

@@ -29,16 +29,15 @@ struct MovesOfTrials {
 
 /// Properties that all moves of a study share.
 struct MoveKind {
-  bool open_loop{false};                         ///< torque levels in place of targets
-  std::int64_t version{layout::format_version};  ///< of the layout of the results file
+  bool open_loop{false};  ///< torque levels in place of targets
   Shape shape{};
   std::vector<CountedGoal> goals{};
 
   bool has_groups() const { return shape.worlds > 0 || shape.conditions > 0; }
 };
 
-/// The kind of the moves of a study, in a results file of this version of the layout.
-MoveKind move_kind(const study::Study& study, std::int64_t version = layout::format_version);
+/// The kind of the moves of a study.
+MoveKind move_kind(const study::Study& study);
 
 /// Where the resampling of a design point draws its random numbers.
 struct BootstrapDraws {

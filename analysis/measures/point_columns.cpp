@@ -224,7 +224,7 @@ std::vector<StatisticField> statistic_fields(const study::StudyFeatures& feature
   };
   const std::vector<const layout::Measure*> ordered =
       layout::measures_of(measures, layout::ReportOrder::statistics,
-                          [](const layout::Measure& m) { return m.file.only_with == nullptr; });
+                          [](const layout::Measure& m) { return m.only_with == nullptr; });
   for (const layout::Measure* measure : ordered) add(*measure, is_count);
   for (const layout::Measure* measure : ordered) {
     add(*measure, is_any_other);
@@ -232,7 +232,7 @@ std::vector<StatisticField> statistic_fields(const study::StudyFeatures& feature
   }
   if (features.rigs) append(fields, rig_fields());
   for (const layout::Measure& measure : measures) {
-    if (measure.file.only_with != nullptr && layout::is_in_file(measure, layout::format_version, features))
+    if (measure.only_with != nullptr && layout::is_in_file(measure, features))
       add(measure, [](layout::Statistic statistic) { return !is_bootstrap(statistic); });
   }
   return fields;
@@ -242,7 +242,7 @@ std::vector<StatisticField> mean_bound_fields(const study::StudyFeatures& featur
                                               const layout::MeasureTable& measures) {
   std::vector<StatisticField> fields;
   for (const layout::Measure& measure : measures) {
-    const auto only_with = measure.file.only_with;
+    const auto only_with = measure.only_with;
     if (only_with == nullptr || features.*only_with)
       add_measure(fields, measures, measure, measure.point, is_bootstrap);
   }
@@ -268,9 +268,7 @@ std::vector<const layout::Measure*> counted_qualities(const study::StudyFeatures
   std::vector<const layout::Measure*> counted = layout::measures_of(
       measures, layout::ReportOrder::statistics,
       [](const layout::Measure& m) { return reports(m.point, layout::Statistic::count); });
-  std::erase_if(counted, [&](const layout::Measure* m) {
-    return !layout::is_in_file(*m, layout::format_version, features);
-  });
+  std::erase_if(counted, [&](const layout::Measure* m) { return !layout::is_in_file(*m, features); });
   return counted;
 }
 

@@ -45,11 +45,11 @@ bool is_possible(const measures::UndecidedSums& sums, std::int64_t moves) {
 }  // namespace
 
 SummedPoint::SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial,
-                         std::int64_t version, const layout::MeasureTable& table)
-    : study_(&study), point_(point), trials_(measures::move_kind(study, version), table, first_trial) {}
+                         const layout::MeasureTable& table)
+    : study_(&study), point_(point), trials_(measures::move_kind(study), table, first_trial) {}
 
 SummedPoint::SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial)
-    : SummedPoint(study, point, first_trial, layout::format_version, layout::measure_table(study.features)) {}
+    : SummedPoint(study, point, first_trial, layout::measure_table(study.features)) {}
 
 void SummedPoint::add(std::span<const shards::TrialResult> trials) {
   std::vector<const trial::MoveOutcome*> moves;
@@ -299,8 +299,7 @@ class BlockStages {
       const std::int64_t point = piece.first / study_.trials;
       piece.count = std::min({of_point, trials_of_piece, rows.end() - piece.first});
       if (block.sums.empty() || block.sums.back().point() != point)
-        block.sums.emplace_back(study_, point, piece.first % study_.trials, file_.header().version,
-                                file_.table());
+        block.sums.emplace_back(study_, point, piece.first % study_.trials, file_.table());
       add_piece(block.sums.back(), piece, file_.outcomes(block.chunk->columns, piece), jerks);
     }
   }
@@ -417,7 +416,7 @@ void StudyAccumulator::add(const reading::AllTrialsFile& file, layout::RowRange 
 void StudyAccumulator::add(std::vector<SummedPoint>&& sums, const reading::AllTrialsFile& file) {
   const timeline::TimeSpan span(wanted_.timeline, "add sums", timeline::Work::serial);
   for (SummedPoint& next : sums) {
-    SummedPoint& all = point(next.point(), file.header().version, file.table());
+    SummedPoint& all = point(next.point(), file.table());
     if (all.trials().trials() == 0) {
       all = std::move(next);
     } else {
@@ -427,19 +426,17 @@ void StudyAccumulator::add(std::vector<SummedPoint>&& sums, const reading::AllTr
 }
 
 void StudyAccumulator::add(const reading::ResultsFile& file, std::int64_t number) {
-  point(number, layout::format_version, layout::measure_table(study_.features)) +=
-      restored_point(file, study_, number);
+  point(number, layout::measure_table(study_.features)) += restored_point(file, study_, number);
 }
 
 void StudyAccumulator::add(const reading::ResultsFile& file) {
   for (std::int64_t i = 0; i < file.points(); ++i) add(file, file.first_point() + i);
 }
 
-SummedPoint& StudyAccumulator::point(std::int64_t number, std::int64_t version,
-                                     const layout::MeasureTable& table) {
+SummedPoint& StudyAccumulator::point(std::int64_t number, const layout::MeasureTable& table) {
   while (!point_ || point_->point() < number) {
     finish();
-    point_.emplace(study_, next_point_++, 0, version, table);
+    point_.emplace(study_, next_point_++, 0, table);
   }
   return *point_;
 }

@@ -25,8 +25,8 @@ namespace zerocount::summary {
 class SummedPoint {
  public:
   /// @param study, table stay as long as this. @param first_trial index at the point of the first that is
-  /// added. @param version of the layout of the file that has the trials
-  SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial, std::int64_t version,
+  /// added
+  SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial,
               const layout::MeasureTable& table);
   /// For trials with the measures of this program.
   SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial);
@@ -113,7 +113,7 @@ class StudyAccumulator {
  private:
   /// Adds the sums of a block of a file.
   void add(std::vector<SummedPoint>&& sums, const reading::AllTrialsFile& file);
-  SummedPoint& point(std::int64_t number, std::int64_t version, const layout::MeasureTable& table);
+  SummedPoint& point(std::int64_t number, const layout::MeasureTable& table);
 
   const study::Study& study_;
   Wanted wanted_;

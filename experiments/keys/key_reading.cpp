@@ -91,7 +91,7 @@ std::optional<double> default_of(const GeneralKey& key) {
   study.stop.emplace();
   study.goals.emplace_back();
   study.tuning.emplace();
-  Reading reading{problems, plan, study, 0};
+  Reading reading{problems, plan, study};
   const auto value = key.get(reading);
   const bool is_number = key.form == GeneralKey::Form::whole_number || key.form == GeneralKey::Form::real;
   return value && is_number && !numerics::contains(key.range, *value) ? std::nullopt : value;

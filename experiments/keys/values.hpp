@@ -27,7 +27,7 @@ struct Reading {
   yaml::Problems& problems;
   study::StudyPlan& plan;  ///< gets the distributions
   study::Study& study;
-  std::int64_t version;                    ///< of the results files whose defaults apply
+  bool recorded{false};                    ///< the study exists already: its faults are told as warnings
   TrialGroups groups{};                    ///< the study has the keys `rigs`, `worlds`
   bool plugin_failed{false};               ///< the user's controller could not be loaded
   std::vector<ProfileRequest> profiles{};  ///< [index of a value of kind profile]

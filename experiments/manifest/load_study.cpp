@@ -11,7 +11,6 @@
 #include "experiments/manifest/manifest.hpp"
 #include "experiments/manifest_text/manifest_values.hpp"
 #include "experiments/manifest_text/overrides.hpp"
-#include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/sections/joint_draws.hpp"
 #include "experiments/sections/spectrum.hpp"
 #include "experiments/sections/torque_record.hpp"
@@ -59,35 +58,9 @@ void require_effect(const study::Study& study, std::string_view source) {
   problems.raise_if_any();
 }
 
-}  // namespace
-
-study::Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides,
-                        const sections::Companions& companions) {
-  const std::string source = yaml::name_of_text(manifest);
-  std::string text = yaml::read_text(manifest, yaml::max_manifest_size, "a manifest");
-  if (text.starts_with("\x89HDF")) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: this is an HDF5 file, such as a results file; expected a manifest", source));
-  }
-  return new_study(std::move(text), source, overrides, companions);
-}
-
-study::Study new_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
-                       const sections::Companions& companions) {
-  study::Study study = parse_study(std::move(text), source, overrides, companions);
-  require_effect(study, source);
-  return study;
-}
-
-study::Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
-                         const sections::Companions& companions) {
-  return parse_study(std::move(text), source, overrides, parameters::newest_version, companions);
-}
-
-study::Study parse_study(std::string text, std::string_view source,
-                         const std::vector<std::string>& given_overrides, std::int64_t version,
-                         const sections::Companions& companions) {
+study::Study read_study(std::string text, std::string_view source,
+                        const std::vector<std::string>& given_overrides,
+                        const sections::Companions& companions, bool recorded) {
   if (text.size() > yaml::max_manifest_size) refuse_size(source);
   yaml::Problems problems;
   yaml::YamlPointer root = yaml::parse_yaml(text, source, false, problems);
@@ -111,7 +84,7 @@ study::Study parse_study(std::string text, std::string_view source,
   const yaml::YamlPointer written = root;
   std::optional<sections::SamplesTable> samples;
   sections::insert_samples(root, companions.samples, samples, problems);
-  study::Study study = read_manifest(*root, version, companions, samples ? &*samples : nullptr, problems);
+  study::Study study = read_manifest(*root, recorded, companions, samples ? &*samples : nullptr, problems);
   problems.raise_if_any();
 
   study.manifest.sha256 = hash::sha256_hex(text);
@@ -119,6 +92,38 @@ study::Study parse_study(std::string text, std::string_view source,
   study.manifest.text = std::move(text);
   study.manifest.overrides = std::move(overrides);
   return study;
+}
+
+}  // namespace
+
+study::Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides,
+                        const sections::Companions& companions) {
+  const std::string source = yaml::name_of_text(manifest);
+  std::string text = yaml::read_text(manifest, yaml::max_manifest_size, "a manifest");
+  if (text.starts_with("\x89HDF")) {
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: this is an HDF5 file, such as a results file; expected a manifest", source));
+  }
+  return new_study(std::move(text), source, overrides, companions);
+}
+
+study::Study new_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
+                       const sections::Companions& companions) {
+  study::Study study = parse_study(std::move(text), source, overrides, companions);
+  require_effect(study, source);
+  return study;
+}
+
+study::Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
+                         const sections::Companions& companions) {
+  return read_study(std::move(text), source, overrides, companions, false);
+}
+
+study::Study recorded_study(std::string text, std::string_view source,
+                            const std::vector<std::string>& overrides,
+                            const sections::Companions& companions) {
+  return read_study(std::move(text), source, overrides, companions, true);
 }
 
 }  // namespace zerocount::manifest

@@ -28,9 +28,9 @@ study::Study parse_study(std::string text, std::string_view source,
                          const std::vector<std::string>& overrides = {},
                          const sections::Companions& companions = {});
 
-/// As parse_study, with the defaults of the programs that wrote results files of `version`
-/// (parameters/earlier_defaults.hpp).
-study::Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
-                         std::int64_t version, const sections::Companions& companions = {});
+/// As parse_study, of a study that has results: what was allowed when they were made is told as a warning.
+study::Study recorded_study(std::string text, std::string_view source,
+                            const std::vector<std::string>& overrides,
+                            const sections::Companions& companions = {});
 
 }  // namespace zerocount::manifest

@@ -323,12 +323,11 @@ void read_observed(Manifest& m) {
 
 }  // namespace
 
-study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version,
-                           const sections::Companions& companions, const sections::SamplesTable* samples,
-                           yaml::Problems& problems) {
+study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sections::Companions& companions,
+                           const sections::SamplesTable* samples, yaml::Problems& problems) {
   auto plan = std::make_shared<study::StudyPlan>();
   study::Study study;
-  Manifest m{.root = {&root, ""}, .reading = {problems, *plan, study, version}};
+  Manifest m{.root = {&root, ""}, .reading = {problems, *plan, study, recorded}};
   if (!yaml::check_map({&root, "manifest"}, "a map with the keys zerocount, name, seed, trials, command",
                        problems))
     return {};

@@ -11,11 +11,10 @@ namespace zerocount::manifest {
 
 /// Converts the manifest `root` to a Study, without its text, overrides and hashes. Errors are added to
 /// `problems`; with errors the study must not be used.
-/// @param version of the results files whose defaults apply
+/// @param recorded as Reading
 /// @param samples inserted in `root` before, or null
-study::Study read_manifest(const yaml::YamlNode& root, std::int64_t version,
-                           const sections::Companions& companions, const sections::SamplesTable* samples,
-                           yaml::Problems& problems);
+study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sections::Companions& companions,
+                           const sections::SamplesTable* samples, yaml::Problems& problems);
 
 /// Realises the requested profiles as plan.profiles, in the order of the requests. All profiles of one
 /// parameter use the same random numbers, even with different mean, spread and correlation length.

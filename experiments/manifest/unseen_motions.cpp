@@ -6,7 +6,6 @@
 
 #include "core/loop/encoder.hpp"
 #include "experiments/manifest/checks.hpp"
-#include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/rules/plausibility.hpp"
 #include "experiments/study/point_limits.hpp"
 
@@ -165,7 +164,6 @@ void check_unseen_motions(const study::Study& study, const keys::PlanPlaces& pla
   const std::vector<std::size_t> slots = motions.slots();
   const std::int64_t different = different_points(plan, slots);
   const std::int64_t max_trials = std::min(trials_to_try(different), study::draw_count(study));
-  const bool is_recorded = reading.version != parameters::newest_version;
   std::size_t reported = 0;
   study::visit_points(plan, slots, [&](std::size_t point) {
     const std::int64_t trials = is_drawn(plan, slots, point) ? max_trials : 1;
@@ -180,7 +178,7 @@ void check_unseen_motions(const study::Study& study, const keys::PlanPlaces& pla
       const yaml::Place place = place_of_fault(places, plan, motions.involved(motion), point).place;
       const std::string_view path = plan.table.rows[motion.slot].name;
       constexpr const char* expected = "motions of a count or more, or a finer encoder";
-      if (count == trials && motion.judged_in_counts && !is_recorded) {
+      if (count == trials && motion.judged_in_counts && !reading.recorded) {
         reading.problems.add(place, path, what, expected);
       } else {
         reading.warnings.push_back(

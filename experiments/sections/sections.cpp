@@ -8,7 +8,6 @@
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/keys/aging.hpp"
 #include "experiments/keys/key_reading.hpp"
-#include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/sections/goal.hpp"
 #include "experiments/sections/spectrum.hpp"
@@ -276,7 +275,7 @@ void take_defaults(SectionReading& s) {
     const bool known =
         parameters::has_default(table[row]) && parameters::exists_on(table[row], s.plan().units.axis);
     s.plan().base[row] = keys::unreadable_value();
-    if (known) s.plan().base[row].number = parameters::default_value_in(table[row], s.reading.version);
+    if (known) s.plan().base[row].number = parameters::default_value(table[row]);
     if (table[row].only_on && !known) s.plan().base[row].number = 0.0;
   }
 }

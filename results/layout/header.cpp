@@ -117,9 +117,9 @@ study::Retention read_retention(const hdf5::File& file) {
                         retention_label(study::Retention::statistics)));
 }
 
-std::int64_t read_version(const hdf5::File& file) {
+void require_version(const hdf5::File& file) {
   const std::int64_t version = file.integer("format_version");
-  if (version == format_version) return version;
+  if (version == format_version) return;
   const char* const advice =
       version > format_version ? "newer than the {} that this program knows; read it with the zerocount that "
                                  "wrote it or a later one"
@@ -190,7 +190,6 @@ RowRange all_rows(const study::Study& study) {
 FileHeader make_header(const study::Study& study, FileKind kind, RowRange rows, Provenance provenance) {
   return {kind,
           study.retention,
-          format_version,
           study.name,
           std::move(provenance),
           study.engine,
@@ -252,7 +251,7 @@ FileHeader read_any_header(const hdf5::File& file) {
   FileHeader header;
   header.kind = read_format(file).kind;
   header.retention = read_retention(file);
-  header.version = read_version(file);
+  require_version(file);
   header.name = file.text("name");
   header.provenance = {file.text("zerocount_version"), file.text("git_commit"), file.text("compiler"),
                        file.text("cpu"), file.text("created")};
@@ -301,8 +300,8 @@ study::Study recorded_study(const FileHeader& header, const std::filesystem::pat
   if (!plugin && header.plugin)
     plugin = std::make_shared<const plugin::ControllerPlugin>(plugin::ControllerPlugin{*header.plugin});
   study::Study study =
-      manifest::parse_study(header.manifest, path.string() + ":/manifest", header.overrides, header.version,
-                            sections::known_companions(std::move(plugin), header.samples));
+      manifest::recorded_study(header.manifest, path.string() + ":/manifest", header.overrides,
+                               sections::known_companions(std::move(plugin), header.samples));
   study.engine = header.engine;
   if (study.trials != header.trials || study::point_count(study) != header.points) {
     throw Failure(
@@ -330,11 +329,6 @@ void require_same_plugin(const std::filesystem::path& path, const FileHeader& he
 
 void require_same_study(const std::filesystem::path& path, const FileHeader& header,
                         const study::Study& study) {
-  if (header.version != format_version) {
-    throw ForeignFile(path, fmt::format("its format version is {}: such files are read, but not joined with "
-                                        "those of version {}",
-                                        header.version, format_version));
-  }
   const std::vector<manifest_text::ManifestDifference> differences = study_differences(path, header, study);
   if (!differences.empty())
     throw ForeignFile(path, "of another study: " + manifest_text::differences_text(differences));

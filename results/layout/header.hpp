@@ -51,7 +51,6 @@ bool has_sums(study::Retention retention);
 struct FileHeader {
   FileKind kind{FileKind::study};
   study::Retention retention{study::Retention::trials};
-  std::int64_t version{format_version};  ///< of the layout
   std::string name;
   Provenance provenance;
   study::Engine engine{study::Engine::reference};  ///< that ran the trials

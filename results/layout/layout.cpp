@@ -31,33 +31,26 @@ std::vector<FlagMeaning> outcome_labels() {
           {static_cast<int>(trial::Outcome::off_target), "off_target"}};
 }
 
-trial::Outcome outcome_in_version(std::int64_t version, trial::Outcome outcome) {
-  return version < 3 && outcome == trial::Outcome::off_target ? trial::Outcome::oscillating : outcome;
-}
-
 std::string value_text(const Column& column, std::int64_t value) {
   const auto flag = std::find_if(column.flags.begin(), column.flags.end(),
                                  [value](const FlagMeaning& meaning) { return meaning.value == value; });
   return flag == column.flags.end() ? std::to_string(value) : flag->word;
 }
 
-std::vector<RecordField<trial::MoveOutcome>> outcome_fields(std::int64_t version,
-                                                            const study::StudyFeatures& features,
+std::vector<RecordField<trial::MoveOutcome>> outcome_fields(const study::StudyFeatures& features,
                                                             const MeasureTable& measures) {
   std::vector<RecordField<trial::MoveOutcome>> fields;
   for (const Measure& measure : measures) {
-    if (is_in_file(measure, version, features)) fields.push_back(measure.field);
+    if (is_in_file(measure, features)) fields.push_back(measure.field);
   }
   return fields;
 }
 
-std::vector<RecordField<trial::MoveOutcome>> move_fields(std::int64_t version,
-                                                         const study::StudyFeatures& features,
+std::vector<RecordField<trial::MoveOutcome>> move_fields(const study::StudyFeatures& features,
                                                          const MeasureTable& measures) {
   std::vector<RecordField<trial::MoveOutcome>> fields;
   for (const Measure& measure : measures) {
-    if (!measure.band && !measure.tolerance && is_in_file(measure, version, features))
-      fields.push_back(measure.field);
+    if (!measure.band && !measure.tolerance && is_in_file(measure, features)) fields.push_back(measure.field);
   }
   return fields;
 }

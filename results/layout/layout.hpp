@@ -20,8 +20,7 @@
 /// test of the format's documentation (results/datasets.md) all derive.
 namespace zerocount::layout {
 
-/// Version of the layout that is written. A file with a higher number was written by a later program, and is
-/// refused; Measure::file tells what files with a lower number lack.
+/// Version of the layout: files of any other are refused.
 inline constexpr std::int64_t format_version = 4;
 
 /// One value of an enumeration, and its word in `flag_meanings` and in CSV.
@@ -32,10 +31,6 @@ struct FlagMeaning {
 
 /// The outcomes of a move.
 std::vector<FlagMeaning> outcome_labels();
-
-/// The code of an outcome in files of this version: before version 3 `oscillating` was any move that
-/// ended beyond one count.
-trial::Outcome outcome_in_version(std::int64_t version, trial::Outcome outcome);
 
 /// One dataset of a table.
 struct Column {
@@ -107,13 +102,11 @@ struct TraceRecord : trial::SampleRecord {
   std::int64_t trial{0};  ///< global row
 };
 
-/// The measures of a move that a file of `version` with these features has.
-std::vector<RecordField<trial::MoveOutcome>> outcome_fields(std::int64_t version = format_version,
-                                                            const study::StudyFeatures& features = {},
+/// The measures of a move that a file with these features has.
+std::vector<RecordField<trial::MoveOutcome>> outcome_fields(const study::StudyFeatures& features = {},
                                                             const MeasureTable& measures = measure_table());
 /// Those of them that are columns of outcome_table(): all but the measures of error bands and tolerances.
-std::vector<RecordField<trial::MoveOutcome>> move_fields(std::int64_t version,
-                                                         const study::StudyFeatures& features,
+std::vector<RecordField<trial::MoveOutcome>> move_fields(const study::StudyFeatures& features,
                                                          const MeasureTable& measures);
 /// The columns of band_table().
 const std::vector<RecordField<trial::BandOutcome>>& band_fields();
@@ -201,7 +194,7 @@ Column statistic_column(const PointColumn& statistic);
 /// Statistics of the design points for each error band, or tolerance: [point, band]. It has no columns yet.
 Table limit_statistic_table(RootDimension limits);
 Table trial_table(const std::vector<study::InputColumn>& inputs);
-Table outcome_table(std::int64_t version = format_version, const study::StudyFeatures& features = {},
+Table outcome_table(const study::StudyFeatures& features = {},
                     const MeasureTable& measures = measure_table());
 /// The measures of error bands: [trial, move, band].
 Table band_table(const trial::ErrorBands& bands);

@@ -54,13 +54,11 @@ constexpr auto values_of_tolerances() {
 std::vector<Measure> measures_of_band(const trial::ErrorBands& bands, std::size_t slot) {
   using B = trial::BandOutcome;
   const std::int64_t band = bands.values()[slot];
-  const FileHistory history{.since = 4, .before = std::numeric_limits<double>::quiet_NaN()};
   const CountedValues times{.needs_target = true, .nan_is_late = true};
   std::vector<Measure> measures;
   measures.push_back(
       {.field = field_of_band(band_fields()[0], band, values_of_bands<&B::entry_time>()[slot]),
        .band = band,
-       .file = history,
        .values = times,
        .reduction = MoveReduction::largest,
        .point = {"entry_time",
@@ -73,7 +71,6 @@ std::vector<Measure> measures_of_band(const trial::ErrorBands& bands, std::size_
   measures.push_back(
       {.field = field_of_band(band_fields()[1], band, values_of_bands<&B::settling_time>()[slot]),
        .band = band,
-       .file = history,
        .values = times,
        .reduction = MoveReduction::largest,
        .point = {"settling_time",
@@ -96,7 +93,6 @@ std::vector<Measure> measures_of_band(const trial::ErrorBands& bands, std::size_
                    "move that ends outside counts with its duration"}}});
   measures.push_back({.field = field_of_band(band_fields()[2], band, values_of_bands<&B::exits>()[slot]),
                       .band = band,
-                      .file = history,
                       .values = {.needs_target = true},
                       .reduction = MoveReduction::sum,
                       .point = {"exits",

@@ -68,9 +68,8 @@ std::string name_of_tolerance(std::string_view name, double tolerance) {
   return fmt::format("{}[{}]", name, tolerance);
 }
 
-bool is_in_file(const Measure& measure, std::int64_t version, const study::StudyFeatures& features) {
-  return measure.file.since <= version &&
-         (measure.file.only_with == nullptr || features.*measure.file.only_with);
+bool is_in_file(const Measure& measure, const study::StudyFeatures& features) {
+  return measure.only_with == nullptr || features.*measure.only_with;
 }
 
 bool is_quality(const Measure& measure) {

@@ -17,13 +17,6 @@
 /// error bands, and of tolerances, have one row for all of them.
 namespace zerocount::layout {
 
-/// The treatment of a measure in files without its column.
-struct FileHistory {
-  std::int64_t since{1};  ///< first version of the layout that has it
-  double before{0.0};     ///< value in files of earlier versions; NaN where it is not known
-  bool study::StudyFeatures::*only_with{nullptr};  ///< the extra without which no file has it
-};
-
 /// Which values of the moves count, in statistics and in outputs of a trial.
 struct CountedValues {
   bool needs_target{false};  ///< undefined for moves to a torque level; a sum over them is 0
@@ -141,7 +134,7 @@ struct Measure {
   RecordField<trial::MoveOutcome> field;
   std::optional<std::int64_t> band{};  ///< of a measure of an error band: its limit, counts
   std::optional<double> tolerance{};   ///< of a measure of a tolerance of the position error: it, rad
-  FileHistory file{};
+  bool study::StudyFeatures::*only_with{nullptr};  ///< the extra without which no file has it
   CountedValues values{};
   MoveReduction reduction{MoveReduction::last};
   ReportedStatistics point{};  ///< at a design point
@@ -151,8 +144,8 @@ struct Measure {
   std::optional<GatedMeasure> gate{};
 };
 
-/// Whether a file of this version with these features has the measure.
-bool is_in_file(const Measure& measure, std::int64_t version, const study::StudyFeatures& features);
+/// Whether a file with these features has the measure.
+bool is_in_file(const Measure& measure, const study::StudyFeatures& features);
 
 /// Whether the moves have, or lack, the measure as a quality.
 bool is_quality(const Measure& measure);

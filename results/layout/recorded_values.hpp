@@ -16,11 +16,6 @@ namespace zerocount::layout {
 /// @throws Failure (bad_data) where the manifest is not YAML that this program accepts.
 manifest_text::ManifestValues manifest_values(const FileHeader& header, const std::string& source);
 
-/// Adds the defaults that changed between the format versions of two files to the manifests that do not set
-/// the parameter: with other defaults, equal manifests describe different trials.
-void write_changed_defaults(manifest_text::ManifestValues& baseline, std::int64_t baseline_version,
-                            manifest_text::ManifestValues& current, std::int64_t current_version);
-
 /// The values in which the study of the file `path` differs from this one: those of the manifest with its
 /// overrides, the order of keys where it numbers results, the table of samples, and defaults that changed
 /// since the file was written. Whoever adds trials to those of a file asks this: nothing but what may differ

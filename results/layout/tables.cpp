@@ -109,10 +109,9 @@ Table trial_table(const std::vector<study::InputColumn>& inputs) {
   return table;
 }
 
-Table outcome_table(std::int64_t version, const study::StudyFeatures& features,
-                    const MeasureTable& measures) {
+Table outcome_table(const study::StudyFeatures& features, const MeasureTable& measures) {
   return {"outcome", whole_numbers("trial", "global row of the trial"),
-          whole_numbers("move", "index of the move"), columns_of(move_fields(version, features, measures))};
+          whole_numbers("move", "index of the move"), columns_of(move_fields(features, measures))};
 }
 
 RootDimension band_dimension(const trial::ErrorBands& bands) {

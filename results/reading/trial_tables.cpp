@@ -34,8 +34,8 @@ study::StudyFeatures read_features(const hdf5::File& file, const layout::Measure
       position.text("units") == parameters::unit_on(parameters::AxisKind::linear, "rad"))
     features.axis = parameters::AxisKind::linear;
   for (const layout::Measure& measure : table) {
-    if (measure.file.only_with != nullptr)
-      features.*measure.file.only_with = outcome.contains(measure.field.column.name);
+    if (measure.only_with != nullptr)
+      features.*measure.only_with = outcome.contains(measure.field.column.name);
   }
   if (!file.contains("trace")) return features;
   const hdf5::Group trace = file.open_group("trace");
@@ -107,9 +107,9 @@ TrialTables::TrialTables(const hdf5::File& file, const layout::FileHeader& heade
       inputs_(read_input_columns(file.open_group("trial"))),
       trials_(layout::TableIo::open(file, layout::trial_table(inputs_))),
       table_(table != nullptr ? table : &layout::measure_table(features_)),
-      measures_(layout::outcome_fields(header.version, features_, *table_)),
-      move_fields_(layout::move_fields(header.version, features_, *table_)),
-      outcomes_(layout::TableIo::open(file, layout::outcome_table(header.version, features_, *table_))),
+      measures_(layout::outcome_fields(features_, *table_)),
+      move_fields_(layout::move_fields(features_, *table_)),
+      outcomes_(layout::TableIo::open(file, layout::outcome_table(features_, *table_))),
       jerks_(layout::TableIo::open(file, layout::jerk_table())) {
   if (file.contains("trace")) trace_ = layout::TableIo::open(file, layout::trace_table(features_));
   if (!layout::has_sums(header.retention)) first_row_ = header.rows.first;
@@ -286,8 +286,7 @@ std::vector<double> TrialTables::measure(std::string_view name, layout::RowRange
   const layout::RecordField<trial::MoveOutcome>& field = known->field;
   const auto size = static_cast<std::size_t>(positions.count * outcomes_.width());
   const auto named = [name](const auto& one) { return one.column.name == name; };
-  if (std::none_of(measures_.begin(), measures_.end(), named))
-    return std::vector<double>(size, known->file.before);
+  if (std::none_of(measures_.begin(), measures_.end(), named)) return std::vector<double>(size, 0.0);
   std::vector<trial::MoveOutcome> moves(size);
   if (layout::is_computed(field)) {
     moves = outcomes(positions);

@@ -51,11 +51,11 @@ class TrialTables {
   std::vector<double> input(std::size_t column, layout::RowRange positions) const;
 
   std::int64_t moves() const { return outcomes_.width(); }
-  /// The measures that the file has; one of an earlier version of the layout lacks some.
+  /// The measures that the file has.
   const std::vector<layout::RecordField<trial::MoveOutcome>>& measures() const { return measures_; }
   const layout::MeasureTable& table() const { return *table_; }
-  /// All measures of the moves, [trial][move], flattened. Those that the file lacks are 0, or false, which is
-  /// their true value in such files except for final_error; true_error is NaN.
+  /// All measures of the moves, [trial][move], flattened. Those that the study has no use for are 0, or
+  /// false.
   std::vector<trial::MoveOutcome> outcomes(layout::RowRange positions) const;
   /// The steps of outcomes(), of which only the first calls the library: the others are for any thread.
   StoredOutcomes stored_outcomes(layout::RowRange positions) const;
@@ -65,7 +65,7 @@ class TrialTables {
   /// The jerks that each trial counts, [trial]. They may be impossible, as outcomes() would find.
   std::vector<std::int64_t> jerk_counts(const OutcomeColumns& columns, layout::RowRange positions) const;
   /// One measure of a move by its name, [trial][move], flattened, whatever its type in the file, as doubles.
-  /// NaN where it is not known.
+  /// 0 if the study has no use for it.
   std::vector<double> measure(std::string_view name, layout::RowRange positions) const;
 
   std::int64_t jerk_count() const { return jerks_.rows(); }
@@ -117,7 +117,7 @@ class TrialTables {
   std::optional<layout::TableIo> trace_;
 };
 
-/// The error bands of the file; none in a file of an earlier version.
+/// The error bands of the file.
 trial::ErrorBands read_bands(const hdf5::File& file);
 /// The tolerances of the file; none if it has none.
 trial::Tolerances read_tolerances(const hdf5::File& file);

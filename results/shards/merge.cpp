@@ -139,9 +139,8 @@ hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const stu
         options.measures != nullptr ? *options.measures : layout::measure_table(study.features);
     const auto first_row = sparse ? std::nullopt : std::optional(rows.first);
     join(layout::trial_table(study.columns.inputs), 1, first_row);
-    join(layout::on_axis(layout::outcome_table(layout::format_version, study.features, measures),
-                         study.units.axis),
-         study.moves, first_row);
+    join(layout::on_axis(layout::outcome_table(study.features, measures), study.units.axis), study.moves,
+         first_row);
     join(layout::on_axis(layout::band_table(study.features.bands), study.units.axis), study.moves,
          std::nullopt);
     if (study.features.tolerances.count > 0)

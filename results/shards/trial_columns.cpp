@@ -100,8 +100,7 @@ std::vector<ShardTable> shard_tables(const study::Study& study, const layout::Me
   const study::StudyFeatures& features = study.features;
   std::vector<ShardTable> tables;
   tables.push_back({layout::trial_table(study.columns.inputs), 1, Rows::trials, true});
-  tables.push_back(
-      {layout::outcome_table(layout::format_version, features, measures), study.moves, Rows::trials});
+  tables.push_back({layout::outcome_table(features, measures), study.moves, Rows::trials});
   tables.push_back({layout::band_table(features.bands), study.moves, Rows::shared});
   if (features.tolerances.count > 0)
     tables.push_back({layout::tolerance_table(features.tolerances), study.moves, Rows::shared});
@@ -117,8 +116,7 @@ TrialColumns columns_of(const study::Study& study, const layout::MeasureTable& m
   TrialColumns all;
   for (const TrialResult& result : results) all.rows.push_back(result.row);
   all.tables.push_back(trial_columns(study, results));
-  all.tables.push_back(
-      record_columns(layout::move_fields(layout::format_version, features, measures), moves, study.moves));
+  all.tables.push_back(record_columns(layout::move_fields(features, measures), moves, study.moves));
   all.tables.push_back(record_columns(layout::band_fields(), band_outcomes(moves, features.bands),
                                       study.moves * static_cast<std::int64_t>(features.bands.count)));
   if (features.tolerances.count > 0) {

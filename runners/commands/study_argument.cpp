@@ -11,7 +11,6 @@
 #include "analysis/summary/chosen_point.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/parameters/earlier_defaults.hpp"
 #include "experiments/sections/joint_draws.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/hdf5/array_file.hpp"
@@ -29,19 +28,11 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The study whose trials a complete results file holds.
-study::Study study_in_file(const fs::path& path, const command_line::Arguments& arguments, StudyUse use) {
+study::Study study_in_file(const fs::path& path, const command_line::Arguments& arguments) {
   if (!arguments.values("set").empty())
     arguments.refuse("option '--set': changes a manifest, not a results file; expected a manifest");
   const reading::ResultsFile file(path);
   require_simulable(file);
-  const auto differs = [&](const parameters::EarlierDefault& earlier) {
-    return file.header().version <= earlier.until_version;
-  };
-  if (use == StudyUse::to_make_files && std::ranges::any_of(parameters::earlier_defaults(), differs))
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: the program that wrote it had other defaults, so that its manifest now "
-                              "means another study; expected a manifest",
-                              path.string()));
   return file.study();
 }
 
@@ -64,8 +55,8 @@ study::Study described_study(const fs::path& path) {
   return layout::recorded_study(shards::inspect_header(path, layout::Checksum::not_yet), path);
 }
 
-study::Study load_study(const fs::path& operand, const command_line::Arguments& arguments, StudyUse use) {
-  if (is_results_file(operand)) return study_in_file(operand, arguments, use);
+study::Study load_study(const fs::path& operand, const command_line::Arguments& arguments) {
+  if (is_results_file(operand)) return study_in_file(operand, arguments);
   const std::vector<fs::path> outputs = command_line::outputs_of(arguments);
   const fs::path folder = yaml::is_stream(operand) ? fs::path() : operand.parent_path();
   const auto input = [&](const fs::path& path) {

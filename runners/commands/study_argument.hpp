@@ -22,21 +22,13 @@ void require_simulable(const reading::ResultsFile& file);
 /// @throws Failure as layout::recorded_study and shards::inspect_header
 study::Study described_study(const std::filesystem::path& path);
 
-/// What a command does with a study.
-enum class StudyUse {
-  to_examine,
-  to_make_files  ///< of its trials or of its controller, which must mean what they did when a file was made
-};
-
 /// The study of `MANIFEST|FILE`: that of a manifest, with the overrides of `--set`, or the one whose trials a
 /// complete results file holds. The files that a manifest names are found from its folder, or from the
 /// current one if it is a stream.
 /// @throws Failure: bad_input with every error of the manifest, or if a file that it names is an output of
-/// the command, even with --force; of a results file with --set, with a plugin, which the file does not
-/// contain, or to make files of one written by a program with other defaults; otherwise as
-/// reading::ResultsFile
-study::Study load_study(const std::filesystem::path& operand, const command_line::Arguments& arguments,
-                        StudyUse use = StudyUse::to_examine);
+/// the command, even with --force; of a results file with --set or with a plugin, which the file does not
+/// contain; otherwise as reading::ResultsFile
+study::Study load_study(const std::filesystem::path& operand, const command_line::Arguments& arguments);
 
 /// `--point` of `MANIFEST|FILE`: a point by label or number, or `best`, which is summary::best_point() of a
 /// results file and the only point of a manifest; nothing without the option.

@@ -114,8 +114,7 @@ rare::Question question_with_draws(const study::Study& study, const rare::Popula
 ExitCode rare(const command_line::Arguments& arguments) {
   const rare::RareSettings settings = settings_of(arguments);
   const std::optional<std::filesystem::path> timeline = commands::timeline_place(arguments);
-  const study::Study study =
-      commands::load_study(arguments.operands()[0], arguments, commands::StudyUse::to_make_files);
+  const study::Study study = commands::load_study(arguments.operands()[0], arguments);
   const auto threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
   const rare::Population of{named_point(arguments, study), world_to_ask(arguments, study),
                             condition_to_ask(arguments, study)};

@@ -137,7 +137,7 @@ double bytes_of_row(const layout::Table& table) {
 /// Bytes of a trial with its jerks in a shard, without sample records.
 double bytes_of_trial(const study::Study& study, double jerks) {
   constexpr double numbers = 3.0 * sizeof(std::int64_t);  // row, point and index
-  const double of_move = bytes_of_row(layout::outcome_table(layout::format_version, study.features)) +
+  const double of_move = bytes_of_row(layout::outcome_table(study.features)) +
                          static_cast<double>(study.features.bands.count) *
                              bytes_of_row(layout::band_table(study.features.bands));
   return numbers + 8.0 * static_cast<double>(study.columns.inputs.size()) +
@@ -157,7 +157,7 @@ double bytes_of_descriptions(const study::Study& study) {
   if (layout::has_trials(study.retention)) {
     datasets += static_cast<double>(study.columns.inputs.size());
     for (const layout::Table& table :
-         {layout::outcome_table(layout::format_version, study.features), layout::jerk_table(),
+         {layout::outcome_table(study.features), layout::jerk_table(),
           study.retained_trials.empty() ? layout::Table{} : layout::trace_table(study.features)})
       datasets += static_cast<double>(table.columns.size());
   }

@@ -103,9 +103,7 @@ ExperimentOutputs experiment_outputs(const command_line::Arguments& arguments) {
 }
 
 study::Study experiment_study(const command_line::Arguments& arguments) {
-  const auto use = command_line::outputs_of(arguments).empty() ? commands::StudyUse::to_examine
-                                                               : commands::StudyUse::to_make_files;
-  study::Study study = commands::load_study(arguments.operands()[0], arguments, use);
+  study::Study study = commands::load_study(arguments.operands()[0], arguments);
   if (study.conditions.empty()) return study;
   const std::optional<std::string> condition = arguments.value("condition");
   if (!study.ages.at.empty())

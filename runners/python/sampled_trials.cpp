@@ -135,8 +135,7 @@ py::dict simulate(const study::Study& study, std::int64_t point, const Matrix& x
   for (const trial::TrialOutcome& outcome : outcomes) {
     for (const trial::MoveOutcome& move : outcome.moves) moves.push_back(&move);
   }
-  const auto fields =
-      layout::outcome_fields(layout::format_version, study.features, layout::measure_table(study.features));
+  const auto fields = layout::outcome_fields(study.features, layout::measure_table(study.features));
   return arrays_of<trial::MoveOutcome>(fields, moves, {std::ssize(outcomes), study.moves});
 }
 

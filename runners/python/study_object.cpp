@@ -141,9 +141,9 @@ py::dict trace(const study::Study& study, std::int64_t point, std::int64_t index
   result["inputs"] = traced_trial.inputs;
   result["samples"] = columns_of(layout::trace_fields(study.features), traced_trial.samples);
   result["jerks"] = columns_of(layout::jerk_fields(), traced_trial.jerks);
-  result["outcome"] = columns_of(
-      layout::outcome_fields(layout::format_version, study.features, layout::measure_table(study.features)),
-      traced_trial.outcome.moves);
+  result["outcome"] =
+      columns_of(layout::outcome_fields(study.features, layout::measure_table(study.features)),
+                 traced_trial.outcome.moves);
   return result;
 }
 
@@ -171,8 +171,7 @@ py::dict descriptions(const study::Study& study) {
   result["jerks"] = descriptions_of(layout::jerk_fields(), axis);
   py::dict measures;
   std::set<std::string> names;
-  for (const auto& field :
-       layout::outcome_fields(layout::format_version, study.features, layout::measure_table(study.features)))
+  for (const auto& field : layout::outcome_fields(study.features, layout::measure_table(study.features)))
     names.insert(field.column.name);
   for (const layout::Measure& measure : layout::measure_table(study.features)) {
     if (!names.contains(measure.field.column.name)) continue;

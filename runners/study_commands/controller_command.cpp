@@ -182,7 +182,7 @@ std::string written_text(const command_line::Arguments& arguments, const std::fi
 ExitCode write_controller(const command_line::Arguments& arguments) {
   const std::string input = arguments.operands()[0];
   const std::filesystem::path output = command_line::text_place(arguments, "output").value_or("-");
-  const study::Study whole = commands::load_study(input, arguments, commands::StudyUse::to_make_files);
+  const study::Study whole = commands::load_study(input, arguments);
   const std::int64_t point = commands::study_point(arguments, whole).value_or(0);
   const study::Study study = trials::restricted_to(whole, arguments.value("condition"),
                                                    command_line::number_option(arguments, "age", 0.0));

@@ -101,7 +101,7 @@ RunRequest run_request(const command_line::Arguments& arguments) {
   request.output = command_line::output_place(arguments);
   request.page = commands::watched_page(arguments);
   request.trace_events = commands::timeline_place(arguments);
-  request.study = commands::load_study(arguments.operands()[0], arguments, commands::StudyUse::to_make_files);
+  request.study = commands::load_study(arguments.operands()[0], arguments);
   require_study_of_option(arguments, request.study);
   request.study.engine =
       arguments.choice("engine") == "batch" ? study::Engine::batch : study::Engine::reference;

@@ -52,8 +52,7 @@ nlohmann::ordered_json outcome_json(const trial::MoveOutcome& outcome,
 
 void TraceWriter::begin(const TraceSubject& subject) {
   columns_ = columns_of(subject.study.features);
-  measures_ = layout::outcome_fields(layout::format_version, subject.study.features,
-                                     layout::measure_table(subject.study.features));
+  measures_ = layout::outcome_fields(subject.study.features, layout::measure_table(subject.study.features));
   if (json_) {
     nlohmann::ordered_json inputs = nlohmann::ordered_json::object();
     for (std::size_t i = 0; i < subject.trial.inputs.size(); ++i) {

@@ -259,8 +259,7 @@ ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
 ExitCode tune_manifest(const command_line::Arguments& arguments) {
   tuning::TuneSettings settings = tune_settings(arguments);
   settings.output = command_line::output_place(arguments);
-  const study::Study study =
-      commands::load_study(arguments.operands()[0], arguments, commands::StudyUse::to_make_files);
+  const study::Study study = commands::load_study(arguments.operands()[0], arguments);
   const std::filesystem::path output = settings.output;
   TuneTask task{study, std::move(settings), {}, {}, {}, {}, false};
   take_pages(arguments, task);

@@ -163,7 +163,7 @@ std::optional<Criterion> motion_criterion(const study::Study& study, std::string
                                           &std::pair<std::string_view, double>::first);
   if (quantile == comparison::quantile_names.end()) return std::nullopt;
   for (const layout::Measure& measure : layout::measure_table(study.features)) {
-    bool study::StudyFeatures::*const use = measure.file.only_with;
+    bool study::StudyFeatures::*const use = measure.only_with;
     const bool is_motion = use == &study::StudyFeatures::motion || use == &study::StudyFeatures::following ||
                            use == &study::StudyFeatures::reversals;
     if (measure.field.column.name != text.substr(0, dot)) continue;

@@ -296,15 +296,6 @@ TEST(PointStatistics, FinalErrorsAreDistancesOfTheMovesThatWereFollowed) {
   EXPECT_EQ(errors.max, 7.0);
 }
 
-TEST(PointStatistics, FinalErrorsThatAreNotInTheResultsAreNotTakenForZero) {
-  PointAccumulator point({.version = 1});
-  point.add({{move_that(trial::Outcome::zero_count, 0.1)}}, {});
-  const MeasureStatistics errors = point.statistics().of(&trial::MoveOutcome::final_error);
-  EXPECT_EQ(errors.n, 0);
-  EXPECT_TRUE(std::isnan(errors.mean) && std::isnan(errors.median.value) && std::isnan(errors.max));
-  EXPECT_EQ(point.statistics().success_rate().value, 1.0);
-}
-
 TEST(PointStatistics, TrueErrorsAreDistancesOfTheMovesThatHaveOne) {
   PointAccumulator point;
   for (const double error : {-4.0, 0.0, 2.5, never}) {

@@ -126,8 +126,7 @@ void Comparison::compare_move(std::size_t number, const trial::MoveOutcome& a, c
   study::StudyFeatures features;
   features.stopping = features.motion = features.steps = features.following = features.reversals = true;
   std::string text;
-  for (const layout::RecordField<trial::MoveOutcome>& field :
-       layout::outcome_fields(layout::format_version, features)) {
+  for (const layout::RecordField<trial::MoveOutcome>& field : layout::outcome_fields(features)) {
     const std::string& name = field.column.name;
     const double x = layout::value_of(field, a);
     const double y = layout::value_of(field, b);

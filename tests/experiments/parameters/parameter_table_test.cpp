@@ -9,8 +9,8 @@
 namespace zerocount::parameters {
 namespace {
 
-// A results file has its manifest, but not the defaults. A default that changes needs a row in
-// earlier_defaults.cpp and a higher version of the results files; then put the new digest here.
+// A results file has its manifest, but not the defaults: a default that changes needs a higher version of the
+// results files (layout::format_version); then put the new digest here.
 TEST(ParameterTable, DefaultsAreThoseOfThisVersionOfResultsFiles) {
   std::string defaults;
   for (const Parameter& parameter : parameter_table()) {

@@ -21,7 +21,7 @@ std::vector<layout::Table> all_tables() {
   const study::Study study = sample_study();
   return {layout::point_table(study.points.axes, {{"trials", "1", "trials", {}}}),
           layout::trial_table(study.columns.inputs),
-          layout::outcome_table(layout::format_version, {.stopping = true}),
+          layout::outcome_table({.stopping = true}),
           layout::jerk_table(),
           layout::trace_table({.travel = true, .phases = true, .drive_torque = true}),
           layout::statistic_table(layout::level_group(), {{"torque", "N m", "$torque", {}}}),
@@ -53,17 +53,7 @@ TEST(Layout, TellsWhatWasStoppedLastAndOnlyWhereItCanBe) {
   std::vector<std::string> expected = names(layout::outcome_table().columns);
   EXPECT_EQ(std::count(expected.begin(), expected.end(), "stopped"), 0);
   expected.emplace_back("stopped");
-  EXPECT_EQ(names(layout::outcome_table(layout::format_version, {.stopping = true}).columns), expected);
-}
-
-TEST(Layout, OfVersion2LacksTheMeasuresOfTheEndOfAMove) {
-  std::vector<std::string> expected =
-      names(layout::outcome_table(layout::format_version, {.stopping = true}).columns);
-  for (const char* measure : {"final_settling_time", "zero_fraction", "midway_error", "oscillation_amplitude",
-                              "oscillation_period"}) {
-    EXPECT_EQ(std::erase(expected, measure), 1U) << measure;
-  }
-  EXPECT_EQ(names(layout::outcome_table(2, {.stopping = true}).columns), expected);
+  EXPECT_EQ(names(layout::outcome_table({.stopping = true}).columns), expected);
 }
 
 TEST(Layout, TracesHaveTheColumnsOfTheFeaturesLast) {
@@ -121,7 +111,7 @@ TEST(Fields, ScatterIsTheReverseOfGather) {
     for (const trial::SampleRecord& record : result.trace) records.push_back({record, result.row});
   }
   std::vector<trial::MoveOutcome> moves_back(moves.size());
-  const auto& measures = layout::outcome_fields(layout::format_version, study.features);
+  const auto& measures = layout::outcome_fields(study.features);
   for (const layout::RecordField<trial::MoveOutcome>& field : measures) {
     layout::scatter(field,
                     layout::columns_of<trial::MoveOutcome>({field}, layout::pointers_to(moves)).front(),

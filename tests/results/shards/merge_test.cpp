@@ -44,7 +44,7 @@ TEST(Merge, KeepsEverythingOfEveryTrial) {
   EXPECT_TRUE(file.header().complete);
   EXPECT_EQ(file.header().seed, study.seed);
   EXPECT_EQ(file.moves(), 3);
-  EXPECT_EQ(file.measures().size(), layout::outcome_fields(layout::format_version, study.features).size());
+  EXPECT_EQ(file.measures().size(), layout::outcome_fields(study.features).size());
   std::int64_t jerk = 0;
   std::int64_t record = 0;
   for (std::int64_t row = 0; row < study::trial_count(study); ++row) {
@@ -105,7 +105,7 @@ TEST(Merge, HasNoColumnForWhatTheStudyDoesNotUse) {
   study.features.stopping = false;
   const reading::AllTrialsFile file(write_sample_file(directory.path(), study));
   EXPECT_FALSE(file.root().open_group("outcome").contains("stopped"));
-  EXPECT_EQ(file.measures().size(), layout::outcome_fields(layout::format_version, study.features).size());
+  EXPECT_EQ(file.measures().size(), layout::outcome_fields(study.features).size());
   for (const trial::MoveOutcome& move : file.outcomes(file.rows())) EXPECT_FALSE(move.stopped);
   const auto moves = static_cast<std::size_t>(file.rows().count * file.moves());
   EXPECT_EQ(file.measure("stopped", file.rows()), std::vector<double>(moves, 0.0));

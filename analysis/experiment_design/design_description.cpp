@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/experiment_design/experiment_design.hpp"
-#include "analysis/identification/answer/fit_report.hpp"
+#include "analysis/fit/report.hpp"
 #include "core/loop/encoder.hpp"
 
 namespace zerocount::experiment_design {
@@ -67,7 +67,7 @@ std::string limits_text(const ExperimentDesign& design) {
     text += fmt::format(
         "LACK OF FIT: {}.\nThe manifest has effects that identify does not model; the intervals allow for "
         "them.\n",
-        record_fit::reason_of_misfit(design.identification.checks));
+        fit::reason_of_misfit(design.identification.checks));
   return text;
 }
 
@@ -126,7 +126,7 @@ document::Description<ExpectedParameter> expected_description() {
       .value(in_data("low", "lower end of the 95 % interval to expect"), [](Of p) { return p.found.low; })
       .value(in_data("high", "its upper end"), [](Of p) { return p.found.high; })
       .value(to_people("interval", "expected 95 % interval"),
-             [](Of p) { return identification::interval_text(p.found); })
+             [](Of p) { return fit::interval_text(p.found); })
       .value(to_people("width", "±"),
              [](Of p) -> std::optional<std::string> {
                if (!is_estimated(p.found)) return {};

@@ -6,11 +6,10 @@
 #include <limits>
 #include <optional>
 
-#include "analysis/identification/confidence_interval.hpp"
-#include "analysis/identification/records/checked_record.hpp"
-#include "analysis/record_fit/encoder_noise.hpp"
-#include "analysis/record_fit/reading_replicates.hpp"
-#include "analysis/record_fit/residual_checks.hpp"
+#include "analysis/fit/observations.hpp"
+#include "analysis/fit/presliding/contact.hpp"
+#include "analysis/fit/records/checked_record.hpp"
+#include "analysis/fit/residuals.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/machine_inputs.hpp"
@@ -75,45 +74,42 @@ SimulatedRecord simulate(const Machine& machine, const TorqueProtocol& protocol)
 
 namespace {
 
-using identification::coordinate_count;
-using identification::TestRecord;
+using fit::coordinate_count;
+using fit::TestRecord;
 
 /// The fit of a record, at the truth in place of a fit.
 struct TrueFit {
   std::vector<TestRecord> records;
-  record_fit::FitSetting setting;
-  record_fit::FittedModel model;
+  fit::FitSetting setting;
+  fit::FittedModel model;
   std::vector<double> noise;  ///< of the record, counts
-  record_fit::Observations observations;
+  fit::Observations observations;
   /// [parameter] of the keys of a manifest; without those that the fit does not leave free.
-  std::array<std::optional<identification::Quantity>, identification::time_offset> quantities;
+  std::array<std::optional<fit::Quantity>, fit::time_offset> quantities;
 };
 
 bool is_creep(std::size_t coordinate) {
-  return coordinate == identification::log_alpha || coordinate == identification::log_limit ||
-         coordinate == identification::creep_exponent;
+  return coordinate == fit::log_alpha || coordinate == fit::log_limit || coordinate == fit::creep_exponent;
 }
 
 TrueFit true_fit(const Machine& machine, const TorqueProtocol& protocol, const SimulatedRecord& simulated) {
   TrueFit fit;
   fit.records.push_back(test_record_of(machine, protocol, simulated));
-  identification::ContactParameters contact = machine.contact;
+  fit::ContactParameters contact = machine.contact;
   const bool creeps = contact.friction.alpha > 0.0;
   if (!creeps) contact.friction.alpha = 1e-9;  // its logarithm is to be finite
   for (std::size_t j = 0; j < coordinate_count; ++j) fit.setting.free.push_back(creeps || !is_creep(j));
-  const double creep_torque = identification::creep_torque_for(fit.records, {});
-  fit.setting.model = identification::contact_model(creep_torque);
-  fit.setting.prior = identification::point_of(contact, creep_torque);
-  record_fit::FitPoint point{fit.setting.prior, Eigen::VectorXd(1)};
+  const double creep_torque = fit::creep_torque_for(fit.records, {});
+  fit.setting.model = fit::contact_model(creep_torque);
+  fit.setting.prior = fit::point_of(contact, creep_torque);
+  fit::FitPoint point{fit.setting.prior, Eigen::VectorXd(1)};
   point.offset[0] = machine.parameters.initial.encoder_phase;
-  fit.model = record_fit::model_at(fit.records, point, fit.setting);
-  fit.noise = record_fit::noise_along(fit.records, fit.model);
-  fit.observations = record_fit::observations_along(fit.records, fit.model, fit.noise);
-  for (const identification::Quantity& quantity :
-       identification::fitted_quantities(point.axis, creep_torque)) {
+  fit.model = fit::model_at(fit.records, point, fit.setting);
+  fit.noise = fit::noise_along(fit.records, fit.model);
+  fit.observations = fit::observations_along(fit.records, fit.model, fit.noise);
+  for (const fit::Quantity& quantity : fit::fitted_quantities(point.axis, creep_torque)) {
     for (std::size_t j = 0; j < fit.quantities.size(); ++j) {
-      if (quantity.key == identification::coordinate_keys[j] && fit.setting.free[j])
-        fit.quantities[j] = quantity;
+      if (quantity.key == fit::coordinate_keys[j] && fit.setting.free[j]) fit.quantities[j] = quantity;
     }
   }
   return fit;
@@ -124,7 +120,7 @@ TrueFit true_fit(const Machine& machine, const TorqueProtocol& protocol, const S
 TestRecord test_record_of(const Machine& machine, const TorqueProtocol& protocol,
                           const SimulatedRecord& simulated) {
   const trial::TrialParameters& parameters = machine.parameters;
-  identification::RawSeries series;
+  fit::RawSeries series;
   series.name = "simulated record";
   for (std::size_t k = 0; k < protocol.torque.size(); ++k) {
     series.time.push_back(static_cast<double>(k) * protocol.sample_time);
@@ -139,19 +135,18 @@ TestRecord test_record_of(const Machine& machine, const TorqueProtocol& protocol
   series.linear = machine.axis == parameters::AxisKind::linear;
   series.dac_bits = parameters.dac.bits;
   series.units_known = true;
-  TestRecord record = identification::checked_record(series, true);
-  record.parts = record_fit::parts_of(record);
+  TestRecord record = fit::checked_record(series, true);
+  record.parts = fit::parts_of(record);
   return record;
 }
 
 double log_spread(const Machine& machine, const TorqueProtocol& protocol, const SimulatedRecord& simulated) {
   const TrueFit fit = true_fit(machine, protocol, simulated);
-  const Eigen::MatrixXd covariance =
-      record_fit::textbook_covariance(fit.model, fit.observations, fit.setting)
-          .topLeftCorner(identification::contact_dimension, identification::contact_dimension);
+  const Eigen::MatrixXd covariance = fit::textbook_covariance(fit.model, fit.observations, fit.setting)
+                                         .topLeftCorner(fit::contact_dimension, fit::contact_dimension);
   double sum = 0.0;
   double count = 0.0;
-  for (const std::optional<identification::Quantity>& quantity : fit.quantities) {
+  for (const std::optional<fit::Quantity>& quantity : fit.quantities) {
     if (!quantity) continue;
     sum += 0.5 * std::log(quantity->slope.dot(covariance * quantity->slope));
     count += 1.0;
@@ -163,24 +158,23 @@ Widths expected_widths(const Machine& machine, const TorqueProtocol& protocol,
                        const SimulatedRecord& simulated) {
   constexpr std::size_t replicates = 200;
   const TrueFit fit = true_fit(machine, protocol, simulated);
-  const record_fit::ReadingReplicates found =
-      record_fit::replicate_readings(fit.records, fit.model, fit.setting, fit.noise, replicates);
+  const fit::ReadingReplicates found =
+      fit::replicate_readings(fit.records, fit.model, fit.setting, fit.noise, replicates);
   Widths widths;
-  for (const std::optional<identification::Quantity>& quantity : fit.quantities) {
+  for (const std::optional<fit::Quantity>& quantity : fit.quantities) {
     widths.push_back(std::numeric_limits<double>::infinity());
     if (!quantity) continue;
-    const auto errors = found.errors.leftCols(identification::contact_dimension);
-    widths.back() = record_fit::interval_of_errors(*quantity, errors, 1.0).half_width();
+    const auto errors = found.errors.leftCols(fit::contact_dimension);
+    widths.back() = fit::interval_of_errors(*quantity, errors, 1.0).half_width();
   }
   return widths;
 }
 
-identification::Identification identified(const Machine& machine, const TorqueProtocol& protocol,
-                                          const SimulatedRecord& simulated,
-                                          const identification::StageReport& report) {
-  identification::IdentificationOptions options;
+fit::Identification identified(const Machine& machine, const TorqueProtocol& protocol,
+                               const SimulatedRecord& simulated, const fit::StageReport& report) {
+  fit::IdentificationOptions options;
   options.report = report;
-  return identification::identify({test_record_of(machine, protocol, simulated)}, options);
+  return fit::identify({test_record_of(machine, protocol, simulated)}, options);
 }
 
 }  // namespace zerocount::experiment_design

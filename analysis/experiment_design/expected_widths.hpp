@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "analysis/experiment_design/torque_protocol.hpp"
-#include "analysis/identification/contact_coordinates.hpp"
-#include "analysis/identification/identification.hpp"
+#include "analysis/fit/presliding/contact.hpp"
+#include "analysis/fit/presliding/identification.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/study/study.hpp"
 
@@ -19,7 +19,7 @@ namespace zerocount::experiment_design {
 struct Machine {
   parameters::AxisKind axis{parameters::AxisKind::rotary};
   trial::TrialParameters parameters;
-  identification::ContactParameters contact;  ///< where the test is made
+  fit::ContactParameters contact;  ///< where the test is made
 };
 
 /// The machine with the median of each quantity that the manifest draws.
@@ -41,14 +41,14 @@ struct SimulatedRecord {
 SimulatedRecord simulate(const Machine& machine, const TorqueProtocol& protocol);
 
 /// Half-widths of the 95 % intervals of the parameters with a manifest key, in the order of
-/// identification::coordinate_keys: of the logarithm, of n itself. Infinite for what the machine does not
+/// fit::coordinate_keys: of the logarithm, of n itself. Infinite for what the machine does not
 /// have (creep).
 using Widths = std::vector<double>;
 
 /// The record as `identify` would read it from a file.
 /// @throws Failure (bad_data) if `identify` would refuse it.
-identification::TestRecord test_record_of(const Machine& machine, const TorqueProtocol& protocol,
-                                          const SimulatedRecord& simulated);
+fit::TestRecord test_record_of(const Machine& machine, const TorqueProtocol& protocol,
+                               const SimulatedRecord& simulated);
 
 /// How narrow the parameters come out by the linear theory: mean of the logarithms of the standard deviations
 /// of ln k1, ln k2, ln β, ln c, ln J, ln α, ln λ and n, from the information matrix at the machine's own
@@ -62,8 +62,7 @@ Widths expected_widths(const Machine& machine, const TorqueProtocol& protocol,
 
 /// Identifies the record.
 /// @throws Failure (bad_data) if `identify` refuses it.
-identification::Identification identified(const Machine& machine, const TorqueProtocol& protocol,
-                                          const SimulatedRecord& simulated,
-                                          const identification::StageReport& report);
+fit::Identification identified(const Machine& machine, const TorqueProtocol& protocol,
+                               const SimulatedRecord& simulated, const fit::StageReport& report);
 
 }  // namespace zerocount::experiment_design

@@ -29,7 +29,7 @@ void require_known_law(const study::Study& study, const Machine& machine) {
 
 /// Time in which an oscillation about the spring falls to 1/e, s: 2J/c, or of an overdamped motion the
 /// reciprocal of its slower rate.
-double ring_down_time(const identification::ContactParameters& contact) {
+double ring_down_time(const fit::ContactParameters& contact) {
   const double damping = contact.plant.presliding_damping;
   const double discriminant = damping * damping - 4.0 * contact.plant.inertia * contact.friction.k1;
   if (discriminant <= 0.0) return 2.0 * contact.plant.inertia / damping;
@@ -63,7 +63,7 @@ void require_room(const ProtocolFrame& frame) {
                             static_cast<double>(min_samples(frame)) * frame.sample_time));
 }
 
-double guess_of(const identification::ContactParameters& contact, std::size_t parameter) {
+double guess_of(const fit::ContactParameters& contact, std::size_t parameter) {
   const double values[] = {contact.friction.k1,     contact.friction.k2,
                            contact.friction.beta,   contact.plant.presliding_damping,
                            contact.plant.inertia,   contact.friction.alpha,
@@ -72,22 +72,22 @@ double guess_of(const identification::ContactParameters& contact, std::size_t pa
 }
 
 /// Half-width over value.
-double relative_width(std::size_t parameter, double width, const identification::ContactParameters& contact) {
-  return parameter == identification::creep_exponent ? width / contact.friction.n : std::sinh(width);
+double relative_width(std::size_t parameter, double width, const fit::ContactParameters& contact) {
+  return parameter == fit::creep_exponent ? width / contact.friction.n : std::sinh(width);
 }
 
 std::vector<ExpectedParameter> expected_parameters(const ExperimentDesign& design,
                                                    const std::vector<Machine>& machines,
                                                    const std::vector<Widths>& widths) {
   std::vector<ExpectedParameter> parameters;
-  for (const identification::ParameterEstimate& estimate : design.identification.parameters) {
-    const auto at = std::ranges::find(identification::coordinate_keys, estimate.key);
-    if (estimate.key.empty() || at == identification::coordinate_keys.end()) continue;
-    const auto j = static_cast<std::size_t>(at - identification::coordinate_keys.begin());
+  for (const fit::ParameterEstimate& estimate : design.identification.parameters) {
+    const auto at = std::ranges::find(fit::coordinate_keys, estimate.key);
+    if (estimate.key.empty() || at == fit::coordinate_keys.end()) continue;
+    const auto j = static_cast<std::size_t>(at - fit::coordinate_keys.begin());
     ExpectedParameter parameter{estimate.key, estimate.unit, guess_of(design.median.contact, j), estimate};
     parameter.narrowest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < machines.size(); ++i) {
-      if (!(widths[i][j] <= record_fit::max_half_width(j != identification::creep_exponent))) continue;
+      if (!(widths[i][j] <= fit::max_half_width(j != fit::creep_exponent))) continue;
       const double relative = relative_width(j, widths[i][j], machines[i].contact);
       parameter.narrowest = std::min(parameter.narrowest, relative);
       parameter.widest = std::max(parameter.widest, relative);
@@ -105,7 +105,7 @@ std::vector<Widths> widths_on(const std::vector<Machine>& machines, const Torque
     try {
       widths[i] = expected_widths(machines[i], protocol, simulate(machines[i], protocol));
     } catch (const Failure&) {
-      widths[i].assign(identification::time_offset, std::numeric_limits<double>::infinity());
+      widths[i].assign(fit::time_offset, std::numeric_limits<double>::infinity());
     }
   });
   return widths;
@@ -122,7 +122,7 @@ void set_shape(ExperimentDesign& design, const ProtocolShape& shape) {
 /// whether a fit converges from its starting values; shapes nearer to the usual one are easier for it. A
 /// record that is not explained is taken if there is no other: the manifest may have effects that `identify`
 /// does not model.
-void identify_median(ExperimentDesign& design, const identification::StageReport& report) {
+void identify_median(ExperimentDesign& design, const fit::StageReport& report) {
   const std::vector<JudgedShape> shapes = design.search.improvements;
   std::optional<ExperimentDesign> unexplained;
   std::string refusal;

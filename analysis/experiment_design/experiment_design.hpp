@@ -20,15 +20,15 @@ struct DesignSettings {
   double max_travel{std::numeric_limits<double>::infinity()};  ///< rad
   std::int64_t machines{16};                                   ///< besides the median one
   SearchSettings search;
-  identification::StageReport report{};
+  fit::StageReport report{};
 };
 
 /// Expected estimate of a parameter.
 struct ExpectedParameter {
-  std::string key;                          ///< in a manifest
-  std::string unit;                         ///< on this kind of axis
-  double guess{0.0};                        ///< of the median machine
-  identification::ParameterEstimate found;  ///< from the simulated record of the median machine
+  std::string key;               ///< in a manifest
+  std::string unit;              ///< on this kind of axis
+  double guess{0.0};             ///< of the median machine
+  fit::ParameterEstimate found;  ///< from the simulated record of the median machine
   /// Narrowest and widest relative half-width of the interval over the machines on which it can be told.
   double narrowest{0.0};
   double widest{0.0};
@@ -48,7 +48,7 @@ struct ExperimentDesign {
   SearchResult search;
   Machine median;
   SimulatedRecord record;  ///< of the median machine
-  identification::Identification identification;
+  fit::Identification identification;
   std::vector<ExpectedParameter> parameters;
 };
 

@@ -3,14 +3,14 @@
 
 #include <fmt/format.h>
 
-#include "analysis/identification/answer/fit_report.hpp"
+#include "analysis/fit/report.hpp"
 #include "analysis/sliding_identification/sliding_identification.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::sliding_identification {
 namespace {
 
-using identification::is_estimated;
+using fit::is_estimated;
 
 std::size_t used_samples(const SlidingRecord& record) {
   std::size_t used = 0;
@@ -107,7 +107,7 @@ std::string position_text(const SlidingIdentification& i) {
   for (const PositionWave& wave : i.waves) {
     const bool linear = i.axis == parameters::AxisKind::linear;
     const std::string name = name_of(wave) + (wave.periods == 0.0 ? "" : ".amplitude");
-    const auto& size = *std::ranges::find(i.parameters, name, &identification::ParameterEstimate::name);
+    const auto& size = *std::ranges::find(i.parameters, name, &fit::ParameterEstimate::name);
     const std::string value =
         is_estimated(size) ? fmt::format("A {} of {:.3g} {}", torque, size.value, size.unit) : "A " + torque;
     if (wave.periods == 0.0)
@@ -171,8 +171,7 @@ document::AnswerDescription<SlidingIdentification> sliding_answer() {
                            std::ranges::count_if(i.parameters, is_estimated), i.parameters.size());
       })
       .value(in_data("kind", "always sliding"), [](Of) { return "sliding"; })
-      .include(identification::estimates_description(),
-               [](Of i) -> const identification::FitReport& { return i; })
+      .include(fit::estimates_description(), [](Of i) -> const fit::FitReport& { return i; })
       .object(in_data("correlation", "correlation of the errors of the fitted parameters"),
               document::Description<SlidingIdentification>()
                   .value(in_data("parameters", "names, in the order of the matrix"),
@@ -203,7 +202,7 @@ document::AnswerDescription<SlidingIdentification> sliding_answer() {
       .table({"unexplained", "What the unexplained torque repeats with",
               "cross-validated over strokes; empty with fewer than 4 strokes"},
              force_description(), &SlidingIdentification::forces)
-      .value(identification::fragment_item(), &SlidingIdentification::fragment);
+      .value(fit::fragment_item(), &SlidingIdentification::fragment);
   return answer;
 }
 

@@ -12,8 +12,8 @@
 namespace zerocount::sliding_identification {
 namespace {
 
-using identification::EstimateStatus;
-using identification::ParameterEstimate;
+using fit::EstimateStatus;
+using fit::ParameterEstimate;
 
 enum class Scale { linear, positive, logarithmic };
 
@@ -85,9 +85,9 @@ std::vector<Quantity> quantities_of(const SlidingFit& fit) {
 bool is_narrow(const ParameterEstimate& estimate, Scale scale) {
   switch (scale) {
     case Scale::positive:
-      return estimate.low > 0.0 && estimate.half_width() <= record_fit::max_half_width(true) * estimate.value;
+      return estimate.low > 0.0 && estimate.half_width() <= fit::max_half_width(true) * estimate.value;
     case Scale::logarithmic:
-      return estimate.half_width() <= record_fit::max_half_width(true);
+      return estimate.half_width() <= fit::max_half_width(true);
     case Scale::linear:
       break;
   }
@@ -138,8 +138,8 @@ std::vector<ParameterEstimate> estimates_of(const SlidingFit& fit, parameters::A
 namespace {
 
 std::string normal_text(const ParameterEstimate& estimate, double mean) {
-  return fmt::format("{{normal: {{mean: {}, sd: {}}}}}", identification::with_digits(mean, estimate),
-                     identification::manifest_number(estimate.standard_error, 0.1));
+  return fmt::format("{{normal: {{mean: {}, sd: {}}}}}", fit::with_digits(mean, estimate),
+                     fit::manifest_number(estimate.standard_error, 0.1));
 }
 
 /// The lines below `disturbance:`, of the estimated offset and ripples.
@@ -158,7 +158,7 @@ std::string disturbance_lines(const SlidingIdentification& identification) {
     const ParameterEstimate& phase = parameter(name_of(wave) + ".phase");
     const double pitch = 2.0 * std::numbers::pi / wave.wave_number;
     ripples += fmt::format("    - {{amplitude: {}, {}: {:.12g}, phase: {}}}   # {}, by the angle as read\n",
-                           identification::distribution_text(amplitude),
+                           fit::distribution_text(amplitude),
                            identification.axis == parameters::AxisKind::linear ? "pitch" : "periods",
                            identification.axis == parameters::AxisKind::linear ? pitch : wave.periods,
                            normal_text(phase, phase.value), amplitude.unit);
@@ -172,7 +172,7 @@ std::string sliding_fragment(const SlidingIdentification& identification) {
   const auto parameter = [&](std::string_view name) -> const ParameterEstimate& {
     return *std::ranges::find(identification.parameters, name, &ParameterEstimate::name);
   };
-  identification::Fragment fragment;
+  fit::Fragment fragment;
   fragment.source = "Identified from the sliding motion in";
   for (const SlidingRecord& record : identification.records) fragment.records.push_back(record.name);
   const ParameterEstimate& offset = parameter("offset");
@@ -180,24 +180,24 @@ std::string sliding_fragment(const SlidingIdentification& identification) {
   if (is_estimated(offset)) {
     fragment.remarks += fmt::format("# A constant {} of {} {} acts against the drive: disturbance.torque.\n",
                                     parameters::text_on(identification.axis, "$torque"),
-                                    identification::with_digits(offset.value, offset), offset.unit);
+                                    fit::with_digits(offset.value, offset), offset.unit);
   }
-  fragment.plant = identification::manifest_lines(identification.parameters, "plant");
+  fragment.plant = fit::manifest_lines(identification.parameters, "plant");
   if (!is_estimated(parameter("breakaway_level")) && is_estimated(parameter("coulomb_level"))) {
-    fragment.friction = identification::manifest_line(parameter("coulomb_level"), "breakaway") +
+    fragment.friction = fit::manifest_line(parameter("coulomb_level"), "breakaway") +
                         "  coulomb_ratio: 1   # sliding shows no level above the Coulomb level\n";
   } else {
-    fragment.friction = identification::manifest_lines(identification.parameters, "friction");
+    fragment.friction = fit::manifest_lines(identification.parameters, "friction");
   }
   for (const PositionWave& wave : identification.waves) {
     if (wave.periods != 0.0) continue;
     const ParameterEstimate& slope = parameter(name_of(wave));
     fragment.remarks += fmt::format("# A {} of {} {} times the position acts, too; a manifest has none.\n",
                                     parameters::text_on(identification.axis, "$torque"),
-                                    identification::with_digits(slope.value, slope), slope.unit);
+                                    fit::with_digits(slope.value, slope), slope.unit);
   }
   const std::string disturbance = disturbance_lines(identification);
-  return identification::fragment_text(fragment, identification.axis) +
+  return fit::fragment_text(fragment, identification.axis) +
          (disturbance.empty() ? "" : "disturbance:\n" + disturbance);
 }
 

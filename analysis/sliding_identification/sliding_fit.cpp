@@ -9,7 +9,7 @@
 #include <ceres/problem.h>
 #include <fmt/format.h>
 
-#include "analysis/record_fit/joint_fit.hpp"
+#include "analysis/fit/solver.hpp"
 #include "analysis/sliding_identification/torque_balance.hpp"
 #include "core/failure/failure.hpp"
 #include "core/numerics/dense.hpp"
@@ -42,12 +42,12 @@ double solve(SlidingFit& fit) {
     if (!fit.free[static_cast<std::size_t>(j)]) known.push_back(j);
   }
   problem.SetManifold(fit.point.data(), new ceres::SubsetManifold(size, known));
-  record_fit::SearchSetting search;
+  fit::SearchSetting search;
   search.max_steps = 60;
   search.tolerance = 1e-9;
   search.trust_region = 1e12;  // Gauss–Newton steps, damped where they fail
   search.many_blocks = true;
-  const record_fit::SearchResult found = record_fit::search_least_squares(problem, search);
+  const fit::SearchResult found = fit::search_least_squares(problem, search);
   if (!found.found) {
     throw Failure(
         ExitCode::bad_data,

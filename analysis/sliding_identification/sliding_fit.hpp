@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "analysis/identification/answer/fit_report.hpp"
+#include "analysis/fit/report.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
 
 namespace zerocount::sliding_identification {
@@ -66,6 +66,6 @@ constexpr double min_excess_ratio = 3.5;  ///< of the Stribeck excess to its sta
 
 /// The reported parameters with their 95 % intervals. What the fit has no parameter for, or knows too badly,
 /// is not identifiable.
-std::vector<identification::ParameterEstimate> estimates_of(const SlidingFit& fit, parameters::AxisKind axis);
+std::vector<fit::ParameterEstimate> estimates_of(const SlidingFit& fit, parameters::AxisKind axis);
 
 }  // namespace zerocount::sliding_identification

@@ -86,7 +86,7 @@ SlidingFit best_fit(std::span<const SlidingRecord> records, const std::vector<Po
     SlidingFit fit = fit_sliding(records, start, free, waves);
     const SlidingPoint error = fit.covariance.diagonal().cwiseSqrt();
     const bool shown = fit.point[stribeck_excess] >= min_excess_ratio * error[stribeck_excess] &&
-                       error[log_stribeck_velocity] < 0.5 * record_fit::max_half_width(true);
+                       error[log_stribeck_velocity] < 0.5 * fit::max_half_width(true);
     return shown ? fit : without;
   } catch (const Failure&) {
     return without;
@@ -170,7 +170,7 @@ void refuse_unexplained(const SlidingIdentification& result) {
 }  // namespace
 
 std::string reason_of_distrust(const SlidingIdentification& identification) {
-  if (std::ranges::none_of(identification.parameters, identification::is_estimated))
+  if (std::ranges::none_of(identification.parameters, fit::is_estimated))
     return "no parameter is identifiable from these records";
   const auto position = std::ranges::find(identification.forces, "position", &RepeatingForce::with);
   constexpr double tolerated = 0.1;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/document/answer.hpp"
-#include "analysis/identification/answer/fit_report.hpp"
+#include "analysis/fit/report.hpp"
 #include "analysis/sliding_identification/reversal_friction.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
 #include "analysis/sliding_identification/unexplained_force.hpp"
@@ -17,7 +17,7 @@ namespace zerocount::sliding_identification {
 /// The parameters are inertia, sliding_damping, coulomb_level, breakaway_level, coulomb_ratio,
 /// stribeck_velocity, offset, and for each torque that depends on the position its amplitude and phase, or
 /// its slope.
-struct SlidingIdentification : identification::FitReport {
+struct SlidingIdentification : fit::FitReport {
   std::vector<SlidingRecord> records;        ///< with the windows of the fit
   std::vector<PositionWave> waves;           ///< torques that depend on the position
   double misfit{0.0};                        ///< root mean square of the residuals, in resolutions

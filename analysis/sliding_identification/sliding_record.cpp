@@ -10,7 +10,7 @@
 #include <ceres/autodiff_cost_function.h>
 #include <fmt/format.h>
 
-#include "analysis/identification/records/checked_record.hpp"
+#include "analysis/fit/records/checked_record.hpp"
 #include "analysis/sliding_identification/sliding_fit.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "core/failure/failure.hpp"
@@ -123,14 +123,14 @@ void set_velocities(SlidingRecord& record) {
 }  // namespace
 
 SlidingRecord sliding_record(const records::RawSeries& series, double pitch) {
-  record_fit::TestRecord sampled;
-  sampled.sample_time = identification::checked_sample_time(series);
-  sampled.intervals = identification::uneven_intervals(series);
-  identification::check_jumps(series);
+  fit::TestRecord sampled;
+  sampled.sample_time = fit::checked_sample_time(series);
+  sampled.intervals = fit::uneven_intervals(series);
+  fit::check_jumps(series);
   SlidingRecord record;
   record.name = series.name;
   record.axis = series.linear ? parameters::AxisKind::linear : parameters::AxisKind::rotary;
-  record.torque = identification::courses_of(series, sampled);
+  record.torque = fit::courses_of(series, sampled);
   record.smoothing = smoothing_samples;
   const double unit = series.count_size > 0.0 ? series.count_size : 1.0;
   record.origin = unit * series.angle.front();
@@ -138,7 +138,7 @@ SlidingRecord sliding_record(const records::RawSeries& series, double pitch) {
   double now = 0.0;
   for (std::size_t k = 0; k < series.time.size(); ++k) {
     record.time.push_back(now);
-    now += record_fit::interval_after(sampled, k);
+    now += fit::interval_after(sampled, k);
     record.position.push_back(unit * (series.angle[k] - series.angle.front()));
   }
   if (std::ranges::count(series.torque, series.torque.front()) == std::ssize(series.torque))

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/identification/identification.hpp"
-#include "analysis/identification/records/checked_record.hpp"
-#include "analysis/law_identification/law_identification.hpp"
+#include "analysis/fit/laws/law_identification.hpp"
+#include "analysis/fit/presliding/identification.hpp"
+#include "analysis/fit/records/checked_record.hpp"
 #include "analysis/records/raw_series.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/page.hpp"
@@ -150,40 +150,37 @@ records::SeriesChoice series_choice(const command_line::Arguments& arguments) {
 }
 
 /// The least value of a known parameter.
-double min_known(identification::Coordinate coordinate) {
-  if (coordinate == identification::time_offset) return -identification::max_time_offset;
-  return coordinate == identification::creep_exponent ? 1.0 : std::numeric_limits<double>::min();
+double min_known(fit::Coordinate coordinate) {
+  if (coordinate == fit::time_offset) return -fit::max_time_offset;
+  return coordinate == fit::creep_exponent ? 1.0 : std::numeric_limits<double>::min();
 }
 
 /// "KEY=VALUE".
-identification::KnownParameter known_parameter(const command_line::Arguments& arguments,
-                                               const std::string& text) {
+fit::KnownParameter known_parameter(const command_line::Arguments& arguments, const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string key = text.substr(0, equals);
-  const auto found =
-      std::find(identification::coordinate_keys.begin(), identification::coordinate_keys.end(), key);
-  if (equals == std::string::npos || found == identification::coordinate_keys.end()) {
+  const auto found = std::find(fit::coordinate_keys.begin(), fit::coordinate_keys.end(), key);
+  if (equals == std::string::npos || found == fit::coordinate_keys.end()) {
     arguments.refuse(fmt::format("option '--fix': '{}' is not KEY=VALUE with KEY one of {}", text,
-                                 fmt::join(identification::coordinate_keys, ", ")));
+                                 fmt::join(fit::coordinate_keys, ", ")));
   }
-  const auto coordinate =
-      static_cast<identification::Coordinate>(found - identification::coordinate_keys.begin());
+  const auto coordinate = static_cast<fit::Coordinate>(found - fit::coordinate_keys.begin());
   const double value =
       command_line::number_from(arguments, "fix", text.substr(equals + 1), min_known(coordinate));
-  if (coordinate == identification::time_offset && value > identification::max_time_offset) {
+  if (coordinate == fit::time_offset && value > fit::max_time_offset) {
     arguments.refuse(
         fmt::format("option '--fix': a time offset of {:g} samples; expected {:g} to {:g}; "
                     "put a larger one into --delay",
-                    value, -identification::max_time_offset, identification::max_time_offset));
+                    value, -fit::max_time_offset, fit::max_time_offset));
   }
   return {coordinate, value};
 }
 
-identification::IdentificationOptions identification_options(const command_line::Arguments& arguments) {
-  identification::IdentificationOptions options;
+fit::IdentificationOptions identification_options(const command_line::Arguments& arguments) {
+  fit::IdentificationOptions options;
   for (const std::string& text : arguments.values("fix")) {
     options.known.push_back(known_parameter(arguments, text));
-    const auto same = [&](const identification::KnownParameter& known) {
+    const auto same = [&](const fit::KnownParameter& known) {
       return known.coordinate == options.known.back().coordinate;
     };
     if (std::any_of(options.known.begin(), options.known.end() - 1, same)) {
@@ -303,20 +300,20 @@ sliding_identification::SlidingIdentification identify_sliding_axis(
   return sliding_identification::identify_sliding(std::move(found));
 }
 
-std::vector<identification::TestRecord> read_records(const command_line::Arguments& arguments) {
-  std::vector<identification::TestRecord> found;
+std::vector<fit::TestRecord> read_records(const command_line::Arguments& arguments) {
+  std::vector<fit::TestRecord> found;
   for (const records::RawSeries& series : read_all_series(arguments)) {
-    found.push_back(identification::checked_record(series, arguments.has("any-magnitude")));
+    found.push_back(fit::checked_record(series, arguments.has("any-magnitude")));
   }
   return found;
 }
 
-identification::Identification identify_with_progress(const command_line::Arguments& arguments,
-                                                      std::vector<identification::TestRecord> records,
-                                                      identification::IdentificationOptions options) {
+fit::Identification identify_with_progress(const command_line::Arguments& arguments,
+                                           std::vector<fit::TestRecord> records,
+                                           fit::IdentificationOptions options) {
   commands::StageProgress progress("zerocount identify", arguments.has("quiet"));
   options.report = [&](std::string_view stage) { progress.enter(stage); };
-  return identification::identify(std::move(records), options);
+  return fit::identify(std::move(records), options);
 }
 
 /// The output files and streams.
@@ -348,20 +345,18 @@ void refuse_picture_of_several(const command_line::Arguments& arguments, const I
       "option '--plot': a picture shows one record, but there are {}; write a page (.html)", records));
 }
 
-void write_draws(const identification::Identification& found, std::size_t wanted,
-                 const std::filesystem::path& place) {
-  const std::string reason = identification::reason_of_missing_draws(found.draws, wanted);
+void write_draws(const fit::Identification& found, std::size_t wanted, const std::filesystem::path& place) {
+  const std::string reason = fit::reason_of_missing_draws(found.draws, wanted);
   if (found.draws.rows.empty()) {
     status::tell("zerocount identify: {} is not written: {}\n", place.string(), reason);
     return;
   }
   if (!reason.empty()) status::tell("zerocount identify: {}: {}\n", place.string(), reason);
-  command_line::write_text(place, identification::posterior_table(found));
+  command_line::write_text(place, fit::posterior_table(found));
 }
 
-document::AnswerDescription<identification::Identification> answer_with_figures() {
-  document::AnswerDescription<identification::Identification> answer =
-      identification::identification_answer();
+document::AnswerDescription<fit::Identification> answer_with_figures() {
+  document::AnswerDescription<fit::Identification> answer = fit::identification_answer();
   answer.items.figures(report::identification_figures);
   return answer;
 }
@@ -376,7 +371,7 @@ ExitCode write_answer(const command_line::Arguments& arguments, const IdentifyOu
 }
 
 ExitCode write_identification(const command_line::Arguments& arguments, const IdentifyOutputs& outputs,
-                              const identification::Identification& found, std::size_t wanted_draws) {
+                              const fit::Identification& found, std::size_t wanted_draws) {
   const document::Answer answer =
       answer_with_figures().of(found, identification_verdict(found.parameters, found.checks));
   if (outputs.posterior) write_draws(found, wanted_draws, *outputs.posterior);
@@ -387,7 +382,7 @@ ExitCode write_identification(const command_line::Arguments& arguments, const Id
 }
 
 ExitCode identify_records(const command_line::Arguments& arguments, const IdentifyOutputs& outputs,
-                          identification::IdentificationOptions options) {
+                          fit::IdentificationOptions options) {
   if (arguments.has("sliding")) {
     refuse_fractional_delay(arguments);
     const auto found = identify_sliding_axis(arguments);
@@ -398,18 +393,17 @@ ExitCode identify_records(const command_line::Arguments& arguments, const Identi
                             found, reason.empty() ? ExitCode::success : ExitCode::inconclusive),
                         found.fragment);
   }
-  const law_identification::LawChoice choice = chosen_laws(arguments);
+  const fit::LawChoice choice = chosen_laws(arguments);
   if (!choice.laws.empty()) {
     refuse_options_beside_laws(arguments);
     const auto compared = identify_laws(arguments, choice, read_records(arguments));
-    const law_identification::IdentifiedLaw& best = compared.laws.front();
-    return write_answer(
-        arguments, outputs,
-        law_identification::laws_answer().of(compared, identification_verdict(best.parameters, best.checks)),
-        best.fragment);
+    const fit::IdentifiedLaw& best = compared.laws.front();
+    return write_answer(arguments, outputs,
+                        fit::laws_answer().of(compared, identification_verdict(best.parameters, best.checks)),
+                        best.fragment);
   }
   const std::size_t wanted_draws = options.draws;
-  std::vector<identification::TestRecord> records = read_records(arguments);
+  std::vector<fit::TestRecord> records = read_records(arguments);
   refuse_picture_of_several(arguments, outputs, records.size());
   return write_identification(arguments, outputs,
                               identify_with_progress(arguments, std::move(records), std::move(options)),
@@ -417,7 +411,7 @@ ExitCode identify_records(const command_line::Arguments& arguments, const Identi
 }
 
 ExitCode identify(const command_line::Arguments& arguments) {
-  identification::IdentificationOptions options = identification_options(arguments);
+  fit::IdentificationOptions options = identification_options(arguments);
   const IdentifyOutputs outputs = identify_outputs(arguments);
   return commands::recorded(outputs.timeline, "identify",
                             [&] { return identify_records(arguments, outputs, std::move(options)); });
@@ -486,8 +480,8 @@ commands::Command identify_command() {
           identify_help,
           identify,
           [] {
-            return std::vector{identification::identification_answer().complete_type(),
-                               law_identification::laws_answer().complete_type(),
+            return std::vector{fit::identification_answer().complete_type(),
+                               fit::laws_answer().complete_type(),
                                sliding_identification::sliding_answer().complete_type()};
           }};
 }

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/law_identification/law_identification.hpp"
+#include "analysis/fit/laws/law_identification.hpp"
 #include "runners/commands/stage_progress.hpp"
 #include "runners/status/status.hpp"
 
@@ -15,13 +15,13 @@ std::vector<command_line::OptionSpec> law_options() {
   return {
       {"model", "LAW",
        fmt::format("friction law to fit, {} (default presliding), or all; may be repeated, to compare laws",
-                   fmt::join(law_identification::law_words(), ", ")),
+                   fmt::join(fit::law_words(), ", ")),
        true},
       {"series-compliance", "", "fit the compliance of a fixture in series with the contact, too"}};
 }
 
-law_identification::LawChoice chosen_laws(const command_line::Arguments& arguments) {
-  const std::vector<std::string> words = law_identification::law_words();
+fit::LawChoice chosen_laws(const command_line::Arguments& arguments) {
+  const std::vector<std::string> words = fit::law_words();
   std::vector<std::string> wanted;
   for (const std::string& word : arguments.values("model")) {
     if (word == "all") {
@@ -33,12 +33,12 @@ law_identification::LawChoice chosen_laws(const command_line::Arguments& argumen
           fmt::format("option '--model': '{}' is not one of {}, all", word, fmt::join(words, ", ")));
     }
   }
-  law_identification::LawChoice choice{{}, arguments.has("series-compliance")};
+  fit::LawChoice choice{{}, arguments.has("series-compliance")};
   const std::string& usual = words.front();
   if (wanted.empty() && choice.series_compliance) wanted.push_back(usual);
   for (const std::string& word : words) {
     if (std::find(wanted.begin(), wanted.end(), word) != wanted.end())
-      choice.laws.push_back(law_identification::law_of(word));
+      choice.laws.push_back(fit::law_of(word));
   }
   const bool presliding_alone = choice.laws.size() == 1 && wanted.front() == usual;
   if (presliding_alone && !choice.series_compliance) choice.laws.clear();
@@ -54,24 +54,22 @@ void refuse_options_beside_laws(const command_line::Arguments& arguments) {
   }
 }
 
-ExitCode identification_verdict(std::span<const identification::ParameterEstimate> parameters,
-                                const record_fit::ResidualChecks& checks) {
+ExitCode identification_verdict(std::span<const fit::ParameterEstimate> parameters,
+                                const fit::ResidualChecks& checks) {
   if (!checks.passed) {
-    status::tell("zerocount identify: the result must not be trusted: {}\n",
-                 record_fit::reason_of_misfit(checks));
+    status::tell("zerocount identify: the result must not be trusted: {}\n", fit::reason_of_misfit(checks));
     return ExitCode::inconclusive;
   }
-  if (std::ranges::any_of(parameters, identification::is_estimated)) return ExitCode::success;
+  if (std::ranges::any_of(parameters, fit::is_estimated)) return ExitCode::success;
   status::tell("zerocount identify: no parameter is identifiable from these records\n");
   return ExitCode::inconclusive;
 }
 
-law_identification::LawComparison identify_laws(const command_line::Arguments& arguments,
-                                                const law_identification::LawChoice& choice,
-                                                std::vector<identification::TestRecord> records) {
+fit::LawComparison identify_laws(const command_line::Arguments& arguments, const fit::LawChoice& choice,
+                                 std::vector<fit::TestRecord> records) {
   commands::StageProgress progress("zerocount identify", arguments.has("quiet"));
-  return law_identification::compare_laws(std::move(records), choice,
-                                          [&](std::string_view stage) { progress.enter(stage); });
+  return fit::compare_laws(std::move(records), choice,
+                           [&](std::string_view stage) { progress.enter(stage); });
 }
 
 }  // namespace zerocount::identification_commands

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/identification/records/checked_record.hpp"
+#include "analysis/fit/records/checked_record.hpp"
 #include "analysis/records/text_table.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
 #include "runners/identification_commands/record_options.hpp"
@@ -43,8 +43,8 @@ void read_record(const std::filesystem::path& path, const std::vector<std::strin
   std::vector<records::RawSeries> found = records::read_columns(table, choice);
   identification_commands::exclude_times(arguments, found);
   for (const records::RawSeries& series : found) {
-    fuzz::require_clear_refusal([&] { identification::checked_record(series, true); });
-    fuzz::require_clear_refusal([&] { identification::checked_record(series, false); });
+    fuzz::require_clear_refusal([&] { fit::checked_record(series, true); });
+    fuzz::require_clear_refusal([&] { fit::checked_record(series, false); });
     fuzz::require_clear_refusal([&] { sliding_identification::sliding_record(series); });
   }
 }

@@ -14,11 +14,11 @@ namespace zerocount::experiment_design {
 struct ExperimentDesign;
 }
 
-namespace zerocount::identification {
+namespace zerocount::fit {
 struct FittedRecord;
 struct Identification;
 struct RecordSummary;
-}  // namespace zerocount::identification
+}  // namespace zerocount::fit
 
 /// Answers with their figures, for pages.
 namespace zerocount::report {
@@ -40,20 +40,20 @@ document::Figure experiment_figure(const experiment_design::ExperimentDesign& de
 
 /// A figure for each record: the readings and the fit over time, the residuals over time with the band of
 /// rounding and noise, and the torque over both angles.
-std::vector<Figure> identification_figures(const identification::Identification& identification);
+std::vector<Figure> identification_figures(const fit::Identification& identification);
 
 /// The samples of a record for a figure: of each of at most `buckets` groups of equal length, and of the
 /// parts of a group that are masked or not, the first, the last, and those with the extreme torque, reading,
 /// fitted value and residual.
-std::vector<std::size_t> drawn_samples(const identification::FittedRecord& record, std::size_t buckets);
+std::vector<std::size_t> drawn_samples(const fit::FittedRecord& record, std::size_t buckets);
 
 /// Standard deviation of the noise of a record's readings, in their unit. Of readings that are not counts by
 /// the differences of successive residuals, to which slow departures of the model from the record add little:
 /// σ² is half their mean square (von Neumann et al., Ann. Math. Statist. 12 (1941) 153).
-double reading_noise(const identification::RecordSummary& record, const identification::FittedRecord& fit);
+double reading_noise(const fit::RecordSummary& record, const fit::FittedRecord& fit);
 
 /// Half the width of the band in which rounding and noise leave the residuals, in the record's unit: half a
 /// count for counts, plus 1.96 standard deviations of the noise.
-double residual_band(const identification::RecordSummary& record, const identification::FittedRecord& fit);
+double residual_band(const fit::RecordSummary& record, const fit::FittedRecord& fit);
 
 }  // namespace zerocount::report

@@ -4,16 +4,16 @@
 #include <fmt/format.h>
 
 #include "analysis/experiment_design/experiment_design.hpp"
-#include "analysis/identification/identification.hpp"
+#include "analysis/fit/presliding/identification.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/theory/point_theory.hpp"
 
 namespace zerocount::report {
 namespace {
 
-using identification::FittedRecord;
-using identification::Identification;
-using identification::RecordSummary;
+using fit::FittedRecord;
+using fit::Identification;
+using fit::RecordSummary;
 using nlohmann::ordered_json;
 
 constexpr double normal_95 = 1.96;  ///< standard deviations to each side of 95 % of a normal distribution

@@ -122,10 +122,10 @@ TEST(ExperimentDesign, IdentifyReportsTheExpectedWidths) {
     const Widths widths = expected_widths(machine, design.protocol, record);
     const auto found = identified(machine, design.protocol, record, {});
     EXPECT_LT(found.checks.widening, 1.25);
-    for (const identification::ParameterEstimate& one : found.parameters) {
-      const auto key = std::ranges::find(identification::coordinate_keys, one.key);
-      if (one.key.empty() || one.status != identification::EstimateStatus::estimated) continue;
-      const double expected = widths[static_cast<std::size_t>(key - identification::coordinate_keys.begin())];
+    for (const fit::ParameterEstimate& one : found.parameters) {
+      const auto key = std::ranges::find(fit::coordinate_keys, one.key);
+      if (one.key.empty() || one.status != fit::EstimateStatus::estimated) continue;
+      const double expected = widths[static_cast<std::size_t>(key - fit::coordinate_keys.begin())];
       const double width =
           one.key == "friction.n" ? 0.5 * (one.high - one.low) : 0.5 * std::log(one.high / one.low);
       EXPECT_LT(width / expected, 1.5) << one.key;
@@ -146,10 +146,9 @@ TEST(ExperimentDesign, TellsWhatCannotBeTold) {
   settings.machines = 2;
   const ExperimentDesign design =
       design_experiment(study_of(manifest_with(), {"friction.alpha=0.005", "encoder.fine=50000"}), settings);
-  EXPECT_EQ(parameter_of(design, "friction.alpha").found.status,
-            identification::EstimateStatus::not_identifiable);
+  EXPECT_EQ(parameter_of(design, "friction.alpha").found.status, fit::EstimateStatus::not_identifiable);
   EXPECT_EQ(parameter_of(design, "friction.alpha").told, 0);
-  EXPECT_EQ(parameter_of(design, "friction.k1").found.status, identification::EstimateStatus::estimated);
+  EXPECT_EQ(parameter_of(design, "friction.k1").found.status, fit::EstimateStatus::estimated);
   EXPECT_NE(text_of(design).find("friction.alpha cannot be told from this record, because "),
             std::string::npos)
       << text_of(design);
@@ -188,7 +187,7 @@ TEST(ExperimentDesign, ALinearAxisIsARotaryOneInOtherUnits) {
       "controller: {units: si, ki: 1.0e+5}\ninitial: {encoder_phase: {uniform: [0, 1]}}\n";
   const ExperimentDesign design = design_experiment(study_of(linear), quick_settings());
   EXPECT_EQ(parameter_of(design, "friction.k1").unit, "N/m");
-  EXPECT_EQ(parameter_of(design, "friction.k1").found.status, identification::EstimateStatus::estimated);
+  EXPECT_EQ(parameter_of(design, "friction.k1").found.status, fit::EstimateStatus::estimated);
   EXPECT_TRUE(protocol_table(design).starts_with("t [s],force [N],code\n"));
   EXPECT_EQ(text_of(design).find("N m"), std::string::npos) << text_of(design);
 }

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "analysis/identification/identification.hpp"
+#include "analysis/fit/presliding/identification.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/distributions/distribution.hpp"
 #include "experiments/manifest/load_study.hpp"
@@ -31,13 +31,13 @@ constexpr Named names[] = {{"k1", "friction.k1"},
                            {"n", "friction.n"}};
 
 /// Values and intervals over all magnitudes, some given, some open.
-identification::Identification random_identification(std::mt19937_64& random) {
+fit::Identification random_identification(std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  identification::Identification found;
+  fit::Identification found;
   found.records.push_back({});
   found.records.back().name = "ramps.csv";
   for (const Named& named : names) {
-    identification::ParameterEstimate parameter;
+    fit::ParameterEstimate parameter;
     parameter.name = named.name;
     parameter.key = named.key;
     parameter.unit = "unit";
@@ -52,16 +52,16 @@ identification::Identification random_identification(std::mt19937_64& random) {
       parameter.low = parameter.value * std::exp(-half_width);
       parameter.high = parameter.value * std::exp(half_width);
     }
-    parameter.status = kind < 0.6   ? identification::EstimateStatus::estimated
-                       : kind < 0.8 ? identification::EstimateStatus::known
-                                    : identification::EstimateStatus::not_identifiable;
-    if (parameter.status == identification::EstimateStatus::not_identifiable) {
+    parameter.status = kind < 0.6   ? fit::EstimateStatus::estimated
+                       : kind < 0.8 ? fit::EstimateStatus::known
+                                    : fit::EstimateStatus::not_identifiable;
+    if (parameter.status == fit::EstimateStatus::not_identifiable) {
       parameter.value = parameter.low = parameter.high = std::numeric_limits<double>::quiet_NaN();
       parameter.reason = "there is no ring-down: the torque never steps";
     }
     found.parameters.push_back(parameter);
   }
-  found.fragment = identification::manifest_fragment(found);
+  found.fragment = fit::manifest_fragment(found);
   return found;
 }
 
@@ -91,7 +91,7 @@ double sampled(const study::Study& study, const std::string& key, double proport
 TEST(ManifestFragment, IsPartOfAManifestWhateverTheNumbers) {
   std::mt19937_64 random(61);
   for (int round = 0; round < 200; ++round) {
-    const identification::Identification found = random_identification(random);
+    const fit::Identification found = random_identification(random);
     EXPECT_NO_THROW(study_with(found.fragment)) << found.fragment;
   }
 }
@@ -100,10 +100,10 @@ TEST(ManifestFragment, IsPartOfAManifestWhateverTheNumbers) {
 TEST(ManifestFragment, DistributionsHaveTheIntervals) {
   std::mt19937_64 random(62);
   for (int round = 0; round < 5; ++round) {
-    const identification::Identification found = random_identification(random);
+    const fit::Identification found = random_identification(random);
     const study::Study study = study_with(found.fragment);
-    for (const identification::ParameterEstimate& parameter : found.parameters) {
-      if (parameter.key.empty() || parameter.status != identification::EstimateStatus::estimated) continue;
+    for (const fit::ParameterEstimate& parameter : found.parameters) {
+      if (parameter.key.empty() || parameter.status != fit::EstimateStatus::estimated) continue;
       const double width = parameter.high - parameter.low;
       if (parameter.name == "n" && parameter.low < 1.0 + width) continue;  // cut at 1
       EXPECT_NEAR(sampled(study, parameter.key, 0.025), parameter.low, 0.1 * width) << parameter.name;
@@ -113,17 +113,17 @@ TEST(ManifestFragment, DistributionsHaveTheIntervals) {
 }
 
 /// Errors of λ and n that correlate, and the intervals that belong to them.
-identification::Identification correlated_creep(std::mt19937_64& random) {
+fit::Identification correlated_creep(std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  identification::Identification found;
+  fit::Identification found;
   found.records.push_back({});
   found.records.back().name = "holds.csv";
   const auto add = [&](const char* name, double middle, double low, double high) {
-    identification::ParameterEstimate& one = found.parameters.emplace_back();
+    fit::ParameterEstimate& one = found.parameters.emplace_back();
     one.name = name;
     one.key = std::string("friction.") + name;
     one.unit = "unit";
-    one.status = identification::EstimateStatus::estimated;
+    one.status = fit::EstimateStatus::estimated;
     one.value = middle;
     one.low = low;
     one.high = high;
@@ -142,7 +142,7 @@ identification::Identification correlated_creep(std::mt19937_64& random) {
       Eigen::MatrixXd{{sd_of_lambda * sd_of_lambda, correlation * sd_of_lambda * sd_of_n},
                       {correlation * sd_of_lambda * sd_of_n, sd_of_n * sd_of_n}};
   found.correlations = {{"lambda", "n", correlation}};
-  found.fragment = identification::manifest_fragment(found);
+  found.fragment = fit::manifest_fragment(found);
   return found;
 }
 
@@ -150,10 +150,10 @@ identification::Identification correlated_creep(std::mt19937_64& random) {
 TEST(ManifestFragment, DrawsCreepWithTheCorrelationOfItsErrors) {
   std::mt19937_64 random(64);
   for (int round = 0; round < 10; ++round) {
-    const identification::Identification found = correlated_creep(random);
+    const fit::Identification found = correlated_creep(random);
     const study::Study study = study_with(found.fragment);
     EXPECT_EQ(found.fragment.find("lambda"), std::string::npos) << found.fragment;
-    for (const identification::ParameterEstimate& one : found.parameters) {
+    for (const fit::ParameterEstimate& one : found.parameters) {
       const double width = one.high - one.low;
       EXPECT_NEAR(sampled(study, one.key, 0.025), one.low, 0.1 * width) << one.name << found.fragment;
       EXPECT_NEAR(sampled(study, one.key, 0.975), one.high, 0.1 * width) << one.name << found.fragment;
@@ -170,19 +170,19 @@ TEST(ManifestFragment, DrawsCreepWithTheCorrelationOfItsErrors) {
 }
 
 TEST(ManifestFragment, GivenValuesStandAsTheyAreAndOpenOnesAsComments) {
-  identification::Identification found;
+  fit::Identification found;
   found.records.push_back({});
-  identification::ParameterEstimate given;
+  fit::ParameterEstimate given;
   given.name = "n";
   given.key = "friction.n";
-  given.status = identification::EstimateStatus::known;
+  given.status = fit::EstimateStatus::known;
   given.value = given.low = given.high = 2.1;
-  identification::ParameterEstimate open;
+  fit::ParameterEstimate open;
   open.name = "inertia";
   open.key = "plant.inertia";
   open.reason = "there is no ring-down";
   found.parameters = {given, open};
-  const std::string fragment = identification::manifest_fragment(found);
+  const std::string fragment = fit::manifest_fragment(found);
   EXPECT_NE(fragment.find("\nfriction:\n  n: 2.1 "), std::string::npos) << fragment;
   EXPECT_NE(fragment.find("# inertia: not identifiable, because there is no ring-down"), std::string::npos)
       << fragment;
@@ -191,14 +191,14 @@ TEST(ManifestFragment, GivenValuesStandAsTheyAreAndOpenOnesAsComments) {
 
 TEST(IdentificationReport, JsonReadsBackToTheSameDoubles) {
   std::mt19937_64 random(63);
-  const identification::Identification found = random_identification(random);
-  const auto json = document::json(identification::identification_answer().of(found));
+  const fit::Identification found = random_identification(random);
+  const auto json = document::json(fit::identification_answer().of(found));
   ASSERT_EQ(json["parameters"].size(), found.parameters.size());
   for (std::size_t i = 0; i < found.parameters.size(); ++i) {
-    const identification::ParameterEstimate& parameter = found.parameters[i];
+    const fit::ParameterEstimate& parameter = found.parameters[i];
     const auto& object = json["parameters"][i];
     EXPECT_EQ(object["name"], parameter.name);
-    if (parameter.status == identification::EstimateStatus::not_identifiable) {
+    if (parameter.status == fit::EstimateStatus::not_identifiable) {
       EXPECT_TRUE(object["value"].is_null());
       EXPECT_EQ(object["status"], "not_identifiable");
       EXPECT_EQ(object["reason"], parameter.reason);
@@ -214,13 +214,13 @@ TEST(IdentificationReport, JsonReadsBackToTheSameDoubles) {
 
 TEST(IdentificationReport, TextSaysWhatIsOpenAndWhatDoesNotFit) {
   std::mt19937_64 random(64);
-  identification::Identification found = random_identification(random);
-  found.parameters[0].status = identification::EstimateStatus::not_identifiable;
+  fit::Identification found = random_identification(random);
+  found.parameters[0].status = fit::EstimateStatus::not_identifiable;
   found.parameters[0].reason = "nothing was seen";
   found.checks.passed = false;
   found.checks.widening = 2.5;
   found.checks.spread_chance = 0.002;
-  const std::string text = document::text(identification::identification_answer().of(found));
+  const std::string text = document::text(fit::identification_answer().of(found));
   EXPECT_NE(text.find("k1 is not identifiable from this, because nothing was seen."), std::string::npos)
       << text;
   EXPECT_NE(text.find("LACK OF FIT"), std::string::npos) << text;

@@ -1,7 +1,5 @@
 // Joint draws: their ranks are those of the replicates, their limits those of the intervals, and each is a
 // value that a manifest may have.
-#include "analysis/identification/joint_draws.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/fit/presliding/identification.hpp"
 #include "core/numerics/interval.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
@@ -22,20 +21,20 @@ constexpr double creep_torque = 0.07;
 Eigen::MatrixXd correlated_errors(Eigen::Index replicates, double size, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   const auto next = [&] { return normal(random); };
-  const Eigen::Index columns = identification::contact_dimension + 1;  // with one record's offset
+  const Eigen::Index columns = fit::contact_dimension + 1;  // with one record's offset
   const Eigen::MatrixXd mixing = Eigen::MatrixXd::NullaryExpr(columns, columns, next);
   return size * Eigen::MatrixXd::NullaryExpr(replicates, columns, next) * mixing;
 }
 
 /// The manifest's parameters of a contact, with profiles that are wider than the replicates say.
-std::vector<identification::EstimatedQuantity> estimated_quantities(
-    const identification::ContactParameters& contact, const Eigen::MatrixXd& errors, double widening) {
-  const record_fit::Point point = identification::point_of(contact, creep_torque);
-  std::vector<identification::EstimatedQuantity> quantities;
-  for (const identification::Quantity& quantity : identification::fitted_quantities(point, creep_torque)) {
+std::vector<fit::EstimatedQuantity> estimated_quantities(const fit::ContactParameters& contact,
+                                                         const Eigen::MatrixXd& errors, double widening) {
+  const fit::Point point = fit::point_of(contact, creep_torque);
+  std::vector<fit::EstimatedQuantity> quantities;
+  for (const fit::Quantity& quantity : fit::fitted_quantities(point, creep_torque)) {
     if (quantity.key.empty()) continue;
-    const auto linear = record_fit::interval_of_errors(quantity, errors, widening);
-    record_fit::QuantityEstimate profiled = linear;
+    const auto linear = fit::interval_of_errors(quantity, errors, widening);
+    fit::QuantityEstimate profiled = linear;
     if (quantities.size() % 2 == 1) {
       profiled.value = quantity.value;
       profiled.low = quantity.value - 1.3 * (linear.value - linear.low);
@@ -57,18 +56,18 @@ std::vector<std::size_t> order_of(const std::vector<double>& values) {
 TEST(JointDraws, HaveTheRanksOfTheReplicatesAndTheLimitsOfTheIntervals) {
   std::mt19937_64 random(92);
   for (const double widening : {1.0, 2.5}) {
-    identification::ContactParameters contact = random_contact(random);
+    fit::ContactParameters contact = random_contact(random);
     contact.friction.n = 4.0;  // far from its limit, so that no draw is left out
     const Eigen::MatrixXd errors = correlated_errors(999, 0.01, random);
     const auto quantities = estimated_quantities(contact, errors, widening);
     ASSERT_EQ(quantities.size(), 8u);
-    identification::JointDraws draws;
-    identification::append_draws(quantities, errors, widening, 2000, draws);
+    fit::JointDraws draws;
+    fit::append_draws(quantities, errors, widening, 2000, draws);
     ASSERT_EQ(draws.rows.size(), 999u);
     for (std::size_t j = 0; j < quantities.size(); ++j) {
-      const identification::Quantity& quantity = quantities[j].quantity;
+      const fit::Quantity& quantity = quantities[j].quantity;
       const Eigen::VectorXd own =
-          -errors.leftCols<identification::contact_dimension>() * quantity.slope;  // estimate less error
+          -errors.leftCols<fit::contact_dimension>() * quantity.slope;  // estimate less error
       std::vector<double> drawn;
       for (const std::vector<double>& row : draws.rows)
         drawn.push_back(quantity.logarithmic ? std::log(row[j]) : row[j]);
@@ -83,12 +82,12 @@ TEST(JointDraws, HaveTheRanksOfTheReplicatesAndTheLimitsOfTheIntervals) {
 
 TEST(JointDraws, AreValuesThatAManifestMayHave) {
   std::mt19937_64 random(93);
-  identification::ContactParameters contact = random_contact(random);
+  fit::ContactParameters contact = random_contact(random);
   contact.friction.n = 1.05;
   const Eigen::MatrixXd errors = correlated_errors(500, 0.1, random);
   const auto quantities = estimated_quantities(contact, errors, 1.0);
-  identification::JointDraws draws;
-  identification::append_draws(quantities, errors, 1.0, 500, draws);
+  fit::JointDraws draws;
+  fit::append_draws(quantities, errors, 1.0, 500, draws);
   EXPECT_LT(draws.rows.size(), 450u);  // of the others, n would be below 1
   EXPECT_GT(draws.rows.size(), 200u);
   for (const std::vector<double>& row : draws.rows) {
@@ -99,13 +98,13 @@ TEST(JointDraws, AreValuesThatAManifestMayHave) {
     }
   }
   draws.keys = {"friction.n"};
-  EXPECT_NE(identification::reason_of_missing_draws(draws, 500)
+  EXPECT_NE(fit::reason_of_missing_draws(draws, 500)
                 .find(std::to_string(draws.rows.size()) + " of 500 draws are valid"),
             std::string::npos);
-  EXPECT_EQ(identification::reason_of_missing_draws(draws, draws.rows.size()), "");
-  EXPECT_EQ(identification::reason_of_missing_draws({}, 500), "there is no parameter to draw");
-  identification::JointDraws few;
-  identification::append_draws(quantities, errors, 1.0, 7, few);
+  EXPECT_EQ(fit::reason_of_missing_draws(draws, draws.rows.size()), "");
+  EXPECT_EQ(fit::reason_of_missing_draws({}, 500), "there is no parameter to draw");
+  fit::JointDraws few;
+  fit::append_draws(quantities, errors, 1.0, 7, few);
   EXPECT_EQ(few.rows, std::vector(draws.rows.begin(), draws.rows.begin() + 7));
 }
 
@@ -113,7 +112,7 @@ TEST(JointErrors, AreThoseOfTheReplicates) {
   std::mt19937_64 random(94);
   const Eigen::MatrixXd errors = correlated_errors(300, 0.02, random);
   const auto quantities = estimated_quantities(random_contact(random), errors, 1.0);
-  const identification::JointErrors joint = identification::joint_errors(quantities, errors, 3.0);
+  const fit::JointErrors joint = fit::joint_errors(quantities, errors, 3.0);
   ASSERT_EQ(joint.names.size(), quantities.size());
   for (std::size_t j = 0; j < quantities.size(); ++j) {
     const auto at = static_cast<Eigen::Index>(j);
@@ -127,11 +126,10 @@ TEST(JointErrors, AreThoseOfTheReplicates) {
     values.array() -= values.mean();
     return Eigen::VectorXd(values.normalized());
   };
-  const Eigen::VectorXd of_lambda = errors.col(identification::creep_exponent) * std::log(creep_torque) -
-                                    errors.col(identification::log_limit);
+  const Eigen::VectorXd of_lambda =
+      errors.col(fit::creep_exponent) * std::log(creep_torque) - errors.col(fit::log_limit);
   EXPECT_EQ(joint.names[6], "lambda");
-  EXPECT_NEAR(joint.correlation(0, 6), centred(errors.col(identification::log_k1)).dot(centred(of_lambda)),
-              1e-9);
+  EXPECT_NEAR(joint.correlation(0, 6), centred(errors.col(fit::log_k1)).dot(centred(of_lambda)), 1e-9);
 }
 
 }  // namespace

@@ -25,10 +25,10 @@ TorqueProgramme& TorqueProgramme::hold(double duration) {
   return *this;
 }
 
-identification::ContactParameters random_contact(std::mt19937_64& random) {
+fit::ContactParameters random_contact(std::mt19937_64& random) {
   std::uniform_real_distribution<double> half_to_double(-std::numbers::ln2, std::numbers::ln2);
   const auto factor = [&] { return std::exp(half_to_double(random)); };
-  identification::ContactParameters contact;
+  fit::ContactParameters contact;
   contact.friction.k1 *= factor();
   contact.friction.k2 *= factor();
   contact.friction.beta *= factor();
@@ -45,8 +45,7 @@ identification::ContactParameters random_contact(std::mt19937_64& random) {
 namespace {
 
 /// From sample k to the next, with a torque that is late by `skew` samples (or early, if it is negative).
-void advance_skewed(const identification::TestRecord& record, std::size_t k, double skew,
-                    plant::Plant& plant) {
+void advance_skewed(const fit::TestRecord& record, std::size_t k, double skew, plant::Plant& plant) {
   const auto torque_of = [&](double sample) {
     if (sample < 0.0) return motion::constant_torque(0.0);
     return record.torque[std::min(static_cast<std::size_t>(sample), record.torque.size() - 1)];
@@ -59,11 +58,10 @@ void advance_skewed(const identification::TestRecord& record, std::size_t k, dou
 
 }  // namespace
 
-identification::TestRecord simulated_test(const motion::PlantParameters& rotor,
-                                          const friction::FrictionAlongRotor& friction,
-                                          const TorqueProgramme& programme, const TestInstrument& instrument,
-                                          std::mt19937_64& random) {
-  identification::TestRecord record;
+fit::TestRecord simulated_test(const motion::PlantParameters& rotor,
+                               const friction::FrictionAlongRotor& friction, const TorqueProgramme& programme,
+                               const TestInstrument& instrument, std::mt19937_64& random) {
+  fit::TestRecord record;
   record.name = "simulated";
   record.sample_time = programme.sample_time();
   record.unit = 2.0 * std::numbers::pi / instrument.counts_per_revolution;
@@ -86,9 +84,8 @@ identification::TestRecord simulated_test(const motion::PlantParameters& rotor,
   return record;
 }
 
-identification::TestRecord simulated_test(const identification::ContactParameters& contact,
-                                          const TorqueProgramme& programme, const TestInstrument& instrument,
-                                          std::mt19937_64& random) {
+fit::TestRecord simulated_test(const fit::ContactParameters& contact, const TorqueProgramme& programme,
+                               const TestInstrument& instrument, std::mt19937_64& random) {
   return simulated_test(contact.plant, {contact.friction, {}}, programme, instrument, random);
 }
 
@@ -129,7 +126,7 @@ std::vector<TorqueProgramme> short_test() {
   return {test};
 }
 
-double true_value(const identification::ContactParameters& contact, const std::string& name, double skew) {
+double true_value(const fit::ContactParameters& contact, const std::string& name, double skew) {
   const std::map<std::string, double> values{{"k1", contact.friction.k1},
                                              {"k2", contact.friction.k2},
                                              {"k1_plus_k2", contact.friction.k1 + contact.friction.k2},
@@ -145,15 +142,15 @@ double true_value(const identification::ContactParameters& contact, const std::s
 
 namespace {
 
-void count(const identification::Identification& found, const identification::ContactParameters& truth,
-           double skew, int set, CoverageStudy& study) {
+void count(const fit::Identification& found, const fit::ContactParameters& truth, double skew, int set,
+           CoverageStudy& study) {
   study.parameters.resize(found.parameters.size());
   for (std::size_t i = 0; i < found.parameters.size(); ++i) {
-    const identification::ParameterEstimate& parameter = found.parameters[i];
+    const fit::ParameterEstimate& parameter = found.parameters[i];
     IntervalCoverage& coverage = study.parameters[i];
     coverage.name = parameter.name;
-    if (parameter.status == identification::EstimateStatus::not_identifiable) ++coverage.open;
-    if (parameter.status != identification::EstimateStatus::estimated) continue;
+    if (parameter.status == fit::EstimateStatus::not_identifiable) ++coverage.open;
+    if (parameter.status != fit::EstimateStatus::estimated) continue;
     const double value = true_value(truth, parameter.name, skew);
     ++coverage.estimated;
     if (parameter.low <= value && value <= parameter.high) ++coverage.held;
@@ -174,19 +171,18 @@ void count(const identification::Identification& found, const identification::Co
 }  // namespace
 
 CoverageStudy study_coverage(int first, int sets, const std::vector<TorqueProgramme>& programmes,
-                             const TestInstrument& instrument,
-                             const identification::IdentificationOptions& options) {
+                             const TestInstrument& instrument, const fit::IdentificationOptions& options) {
   CoverageStudy study;
   study.sets = sets;
   for (int set = first; set < first + sets; ++set) {
     std::mt19937_64 random(static_cast<std::uint64_t>(set));
-    const identification::ContactParameters truth = random_contact(random);
-    std::vector<identification::TestRecord> records;
+    const fit::ContactParameters truth = random_contact(random);
+    std::vector<fit::TestRecord> records;
     for (const TorqueProgramme& programme : programmes) {
       records.push_back(simulated_test(truth, programme, instrument, random));
     }
     try {
-      count(identification::identify(records, options), truth, instrument.skew, set, study);
+      count(fit::identify(records, options), truth, instrument.skew, set, study);
     } catch (const Failure&) {
       ++study.refused;
     }

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/identification/contact_coordinates.hpp"
-#include "analysis/identification/identification.hpp"
-#include "analysis/record_fit/test_record.hpp"
+#include "analysis/fit/presliding/contact.hpp"
+#include "analysis/fit/presliding/identification.hpp"
+#include "analysis/fit/record.hpp"
 
 namespace zerocount::testing {
 
@@ -38,18 +38,16 @@ struct TestInstrument {
 };
 
 /// A rig of the paper's kind: its numbers, each times a random factor of 0.5 to 2, and n between 1.5 and 2.5.
-identification::ContactParameters random_contact(std::mt19937_64& random);
+fit::ContactParameters random_contact(std::mt19937_64& random);
 
 /// A test of a rotor, simulated by core's Plant sample by sample, and read by an encoder of random phase.
-identification::TestRecord simulated_test(const motion::PlantParameters& plant,
-                                          const friction::FrictionAlongRotor& friction,
-                                          const TorqueProgramme& programme, const TestInstrument& instrument,
-                                          std::mt19937_64& random);
+fit::TestRecord simulated_test(const motion::PlantParameters& plant,
+                               const friction::FrictionAlongRotor& friction, const TorqueProgramme& programme,
+                               const TestInstrument& instrument, std::mt19937_64& random);
 
 /// The same of a contact of the pre-sliding model.
-identification::TestRecord simulated_test(const identification::ContactParameters& contact,
-                                          const TorqueProgramme& programme, const TestInstrument& instrument,
-                                          std::mt19937_64& random);
+fit::TestRecord simulated_test(const fit::ContactParameters& contact, const TorqueProgramme& programme,
+                               const TestInstrument& instrument, std::mt19937_64& random);
 
 /// Slow loading and unloading with inner loops; four steps with their ring-downs; two holds. One record each.
 std::vector<TorqueProgramme> three_tests();
@@ -61,8 +59,7 @@ std::vector<TorqueProgramme> one_test();
 std::vector<TorqueProgramme> short_test();
 
 /// The contact's parameter of the name that its estimate has; `skew` for the time offset.
-double true_value(const identification::ContactParameters& contact, const std::string& name,
-                  double skew = 0.0);
+double true_value(const fit::ContactParameters& contact, const std::string& name, double skew = 0.0);
 
 /// How often the intervals of a parameter held the truth.
 struct IntervalCoverage {
@@ -88,6 +85,6 @@ struct CoverageStudy {
 /// Identifies `sets` random contacts, number `first` on, by simulated tests; the set number seeds each.
 CoverageStudy study_coverage(int first, int sets, const std::vector<TorqueProgramme>& programmes,
                              const TestInstrument& instrument,
-                             const identification::IdentificationOptions& options = {});
+                             const fit::IdentificationOptions& options = {});
 
 }  // namespace zerocount::testing

@@ -28,12 +28,12 @@ double elongation_at(const StopElements& spring, double x, double torque, double
 
 }  // namespace
 
-identification::TestRecord quasistatic_test(const friction::FrictionParameters& friction, double damping,
-                                            const TorqueProgramme& programme, double counts_per_revolution,
-                                            double phase) {
+fit::TestRecord quasistatic_test(const friction::FrictionParameters& friction, double damping,
+                                 const TorqueProgramme& programme, double counts_per_revolution,
+                                 double phase) {
   constexpr std::size_t elements = 1500;
   StopElements spring(friction, elements);
-  identification::TestRecord record;
+  fit::TestRecord record;
   record.name = "quasistatic";
   record.sample_time = programme.sample_time();
   record.unit = 2.0 * std::numbers::pi / counts_per_revolution;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "analysis/record_fit/test_record.hpp"
+#include "analysis/fit/record.hpp"
 #include "core/friction/parameters.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 
@@ -11,8 +11,8 @@ namespace zerocount::testing {
 ///
 /// @param damping c, N m s/rad.
 /// @returns the readings of an encoder of that phase.
-identification::TestRecord quasistatic_test(const friction::FrictionParameters& friction, double damping,
-                                            const TorqueProgramme& programme, double counts_per_revolution,
-                                            double phase);
+fit::TestRecord quasistatic_test(const friction::FrictionParameters& friction, double damping,
+                                 const TorqueProgramme& programme, double counts_per_revolution,
+                                 double phase);
 
 }  // namespace zerocount::testing

@@ -4,15 +4,15 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/identification/identification.hpp"
+#include "analysis/fit/presliding/identification.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 
 namespace zerocount {
 namespace {
 
-using identification::ContactParameters;
-using identification::Identification;
-using identification::TestRecord;
+using fit::ContactParameters;
+using fit::Identification;
+using fit::TestRecord;
 
 /// The higher frequency (Hz) of a rotor on the spring `ground` with a load, from the two equations of motion.
 double higher_frequency(const motion::PlantParameters& plant, double ground) {
@@ -30,7 +30,7 @@ Identification identified(const motion::PlantParameters& plant, const friction::
   std::vector<TestRecord> records;
   for (const testing::TorqueProgramme& programme : testing::three_tests())
     records.push_back(testing::simulated_test(plant, friction, programme, instrument, random));
-  return identification::identify(std::move(records), {{}, 100, 0, 0.05});
+  return fit::identify(std::move(records), {{}, 100, 0, 0.05});
 }
 
 void expect_frequency_of_second_mass(unsigned seed) {
@@ -70,7 +70,7 @@ TEST(Identification, NoiseThatOneRecordDoesNotShowIsThatOfTheOthers) {
   std::mt19937_64 random(1);
   const ContactParameters contact = testing::random_contact(random);
   const Identification found = identified(contact.plant, {contact.friction, {}}, random, 0.05);
-  for (const identification::RecordSummary& record : found.records) {
+  for (const fit::RecordSummary& record : found.records) {
     EXPECT_GT(record.noise, 0.04) << record.name;
     EXPECT_LT(record.noise, 0.15) << record.name;
   }

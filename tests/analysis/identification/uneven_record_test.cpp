@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/identification/identification.hpp"
-#include "analysis/identification/records/checked_record.hpp"
+#include "analysis/fit/presliding/identification.hpp"
+#include "analysis/fit/records/checked_record.hpp"
 #include "core/plant/plant.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 
@@ -13,8 +13,8 @@ namespace zerocount::testing {
 namespace {
 
 /// A test whose samples are 0.3 to 1.7 intervals apart; the torque is held from each to the next.
-records::RawSeries uneven_series(const identification::ContactParameters& contact,
-                                 const TorqueProgramme& programme, std::mt19937_64& random) {
+records::RawSeries uneven_series(const fit::ContactParameters& contact, const TorqueProgramme& programme,
+                                 std::mt19937_64& random) {
   records::RawSeries series;
   series.name = "uneven.csv";
   series.count_size = 2.0 * std::numbers::pi / 1.62e6;
@@ -35,14 +35,14 @@ records::RawSeries uneven_series(const identification::ContactParameters& contac
 
 TEST(UnevenRecords, GiveTheTruth) {
   std::mt19937_64 random(77);
-  identification::ContactParameters truth;
+  fit::ContactParameters truth;
   const records::RawSeries series = uneven_series(truth, short_test().front(), random);
-  const identification::TestRecord record = identification::checked_record(series, false);
+  const fit::TestRecord record = fit::checked_record(series, false);
   ASSERT_FALSE(record.intervals.empty());
-  const identification::Identification found = identification::identify({record});
+  const fit::Identification found = fit::identify({record});
   EXPECT_TRUE(found.checks.passed);
-  for (const identification::ParameterEstimate& parameter : found.parameters) {
-    ASSERT_EQ(parameter.status, identification::EstimateStatus::estimated) << parameter.name;
+  for (const fit::ParameterEstimate& parameter : found.parameters) {
+    ASSERT_EQ(parameter.status, fit::EstimateStatus::estimated) << parameter.name;
     const double value = true_value(truth, parameter.name);
     EXPECT_LT(std::abs(parameter.value - value), 4.0 * parameter.standard_error) << parameter.name;
     if (parameter.name != "time_offset") {
@@ -54,15 +54,14 @@ TEST(UnevenRecords, GiveTheTruth) {
 // A burst of wrong readings, with which the record would be refused. The torque acts all the same.
 TEST(MaskedRecords, GiveTheTruth) {
   std::mt19937_64 random(78);
-  identification::ContactParameters truth;
+  fit::ContactParameters truth;
   records::RawSeries series = uneven_series(truth, short_test().front(), random);
   for (std::size_t k = 3000; k < 3100; ++k) series.angle[k] += 200.0;
   EXPECT_TRUE(records::exclude(series, {series.time[2999], series.time[3100]}));
-  const identification::Identification found =
-      identification::identify({identification::checked_record(series, false)});
+  const fit::Identification found = fit::identify({fit::checked_record(series, false)});
   EXPECT_TRUE(found.checks.passed);
   EXPECT_EQ(found.records.front().excluded, 102u);
-  for (const identification::ParameterEstimate& parameter : found.parameters) {
+  for (const fit::ParameterEstimate& parameter : found.parameters) {
     const double value = true_value(truth, parameter.name);
     EXPECT_LT(std::abs(parameter.value - value), 4.0 * parameter.standard_error) << parameter.name;
   }

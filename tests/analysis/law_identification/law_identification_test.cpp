@@ -1,6 +1,6 @@
 // Records of rotors with every friction law, which are to be told apart by them, and the law's parameters
 // found.
-#include "analysis/law_identification/law_identification.hpp"
+#include "analysis/fit/laws/law_identification.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +18,10 @@
 namespace zerocount::testing {
 namespace {
 
+using fit::EstimateStatus;
+using fit::IdentifiedLaw;
+using fit::LawComparison;
 using friction::FrictionModel;
-using identification::EstimateStatus;
-using law_identification::IdentifiedLaw;
-using law_identification::LawComparison;
 
 /// A rotor with its friction, and the values of the parameters by name.
 struct Truth {
@@ -82,7 +82,7 @@ Truth maxwell_slip_rotor(std::mt19937_64& random) {
 }
 
 Truth contact_rotor(FrictionModel law, std::mt19937_64& random) {
-  const identification::ContactParameters contact = random_contact(random);
+  const fit::ContactParameters contact = random_contact(random);
   Truth truth{contact.plant, {.uniform = contact.friction, .profiled = {}, .model = law}, {}};
   for (const char* name : {"k1", "k2", "beta", "presliding_damping", "inertia", "alpha", "lambda", "n"}) {
     truth.values[name] = true_value(contact, name);
@@ -104,8 +104,8 @@ Truth rotor_of(FrictionModel law, std::mt19937_64& random) {
 }
 
 /// Steps, slow loops, and holds that are long enough to show creep.
-identification::TestRecord record_of(const Truth& truth, std::mt19937_64& random,
-                                     const TestInstrument& instrument = {}) {
+fit::TestRecord record_of(const Truth& truth, std::mt19937_64& random,
+                          const TestInstrument& instrument = {}) {
   TorqueProgramme test;
   test.step(0.08).hold(0.05).step(0.0).hold(0.05);
   test.ramp(0.1, 0.8).hold(0.3).ramp(-0.1, 0.8).ramp(0.15, 0.8).hold(0.4);
@@ -121,7 +121,7 @@ struct Held {
 /// @param widening of the intervals, before the truth is looked for in them
 Held held_by(const IdentifiedLaw& law, const Truth& truth, double widening = 1.0) {
   Held count;
-  for (const identification::ParameterEstimate& parameter : law.parameters) {
+  for (const fit::ParameterEstimate& parameter : law.parameters) {
     if (parameter.status != EstimateStatus::estimated) continue;
     const double value = truth.values.at(parameter.name);
     ++count.estimated;
@@ -143,37 +143,35 @@ Truth loaded_rotor(std::mt19937_64& random) {
 TEST(LawIdentification, SaysIfNoLawExplainsARecord) {
   std::mt19937_64 random(5);
   const Truth truth = loaded_rotor(random);
-  const LawComparison found = law_identification::compare_laws({record_of(truth, random)},
-                                                               {{FrictionModel::dahl, FrictionModel::lugre}});
+  const LawComparison found =
+      fit::compare_laws({record_of(truth, random)}, {{FrictionModel::dahl, FrictionModel::lugre}});
   for (const IdentifiedLaw& law : found.laws) EXPECT_FALSE(law.checks.passed);
-  EXPECT_NE(document::text(law_identification::laws_answer().of(found)).find("LACK OF FIT"),
-            std::string::npos);
+  EXPECT_NE(document::text(fit::laws_answer().of(found)).find("LACK OF FIT"), std::string::npos);
   EXPECT_NE(found.laws.front().fragment.find("# Lack of fit"), std::string::npos);
 }
 
 TEST(LawIdentification, RefusesWhatALawDoesNotRemember) {
   std::mt19937_64 random(6);
-  const identification::TestRecord record = record_of(rotor_of(FrictionModel::spring, random), random);
-  EXPECT_THROW(law_identification::compare_laws({record, record}, {{FrictionModel::spring}}), Failure);
-  identification::TestRecord preloaded = record;
+  const fit::TestRecord record = record_of(rotor_of(FrictionModel::spring, random), random);
+  EXPECT_THROW(fit::compare_laws({record, record}, {{FrictionModel::spring}}), Failure);
+  fit::TestRecord preloaded = record;
   preloaded.start.preload = 0.05;
-  EXPECT_THROW(law_identification::compare_laws({preloaded}, {{FrictionModel::dahl}}), Failure);
-  identification::TestRecord hardened = record;
+  EXPECT_THROW(fit::compare_laws({preloaded}, {{FrictionModel::dahl}}), Failure);
+  fit::TestRecord hardened = record;
   hardened.start.hardening = 1e-5;
-  EXPECT_THROW(law_identification::compare_laws({hardened}, {{FrictionModel::spring}}), Failure);
+  EXPECT_THROW(fit::compare_laws({hardened}, {{FrictionModel::spring}}), Failure);
 }
 
 TEST(LawIdentification, LeavesOutWhatCannotBeFittedWithItsReason) {
   std::mt19937_64 random(6);
-  identification::TestRecord record = record_of(rotor_of(FrictionModel::spring, random), random);
+  fit::TestRecord record = record_of(rotor_of(FrictionModel::spring, random), random);
   record.start.preload = 0.05;  // which the spring remembers, and Dahl's law does not
-  const LawComparison found =
-      law_identification::compare_laws({record}, {{FrictionModel::spring, FrictionModel::dahl}});
+  const LawComparison found = fit::compare_laws({record}, {{FrictionModel::spring, FrictionModel::dahl}});
   ASSERT_EQ(found.laws.size(), 1u);
   EXPECT_EQ(found.laws.front().law, FrictionModel::spring);
   ASSERT_EQ(found.left_out.size(), 1u);
   EXPECT_EQ(found.left_out.front().law, FrictionModel::dahl);
-  const std::string text = document::text(law_identification::laws_answer().of(found));
+  const std::string text = document::text(fit::laws_answer().of(found));
   EXPECT_NE(text.find("dahl is left out, which says nothing about the contact: "), std::string::npos) << text;
   EXPECT_NE(text.find("which the friction model dahl does not remember"), std::string::npos) << text;
 }
@@ -202,9 +200,9 @@ TEST(LawIdentification, ALawMustExplainTheRecordBeforeBicCompares) {
   std::mt19937_64 random(3);
   const Truth truth = lugre_rotor(800.0, 0.5, 0.3, 5.54e-4);
   const TorqueProgramme test = slow_levels({0.19, -0.15, 0.11, -0.075, 0.075, -0.11, 0.15, -0.19, 0.0}, 1.0);
-  const LawComparison found = law_identification::compare_laws(
-      {simulated_test(truth.plant, truth.friction, test, {.torque_step = 2e-5}, random)},
-      {{FrictionModel::dahl, FrictionModel::lugre}});
+  const LawComparison found =
+      fit::compare_laws({simulated_test(truth.plant, truth.friction, test, {.torque_step = 2e-5}, random)},
+                        {{FrictionModel::dahl, FrictionModel::lugre}});
   EXPECT_EQ(found.laws.front().law, FrictionModel::lugre);
   EXPECT_TRUE(found.laws.front().checks.passed);
   for (std::size_t i = 1; i < found.laws.size(); ++i)
@@ -217,24 +215,22 @@ TEST(LawIdentification, SearchesAgainForALawThatItMissed) {
   std::mt19937_64 random(4);
   const Truth truth = lugre_rotor(300.0, 0.75, 0.3, 6e-4);
   const TorqueProgramme test = slow_levels({0.1875, -0.15, 0.1125, 0.0}, 0.75);
-  const LawComparison found = law_identification::compare_laws(
-      {simulated_test(truth.plant, truth.friction, test,
-                      {.counts_per_revolution = 2.5e7, .torque_step = 1e-6}, random)},
-      {{FrictionModel::lugre}});
-  EXPECT_TRUE(found.laws.front().checks.passed)
-      << document::text(law_identification::laws_answer().of(found));
+  const LawComparison found =
+      fit::compare_laws({simulated_test(truth.plant, truth.friction, test,
+                                        {.counts_per_revolution = 2.5e7, .torque_step = 1e-6}, random)},
+                        {{FrictionModel::lugre}});
+  EXPECT_TRUE(found.laws.front().checks.passed) << document::text(fit::laws_answer().of(found));
 }
 
 void expect_fixture_told_from_contact(FrictionModel law) {
   std::mt19937_64 random(21);
   Truth truth = rotor_of(law, random);
   truth.values["series_compliance"] = 1e-3;
-  const identification::TestRecord record = record_of(truth, random, {.compliance = 1e-3});
-  const LawComparison rigid = law_identification::compare_laws({record}, {{law}});
+  const fit::TestRecord record = record_of(truth, random, {.compliance = 1e-3});
+  const LawComparison rigid = fit::compare_laws({record}, {{law}});
   EXPECT_FALSE(rigid.laws.front().checks.passed);
-  const LawComparison found = law_identification::compare_laws({record}, {{law}, true});
-  EXPECT_TRUE(found.laws.front().checks.passed)
-      << document::text(law_identification::laws_answer().of(found));
+  const LawComparison found = fit::compare_laws({record}, {{law}, true});
+  EXPECT_TRUE(found.laws.front().checks.passed) << document::text(fit::laws_answer().of(found));
   const Held held = held_by(found.laws.front(), truth);
   EXPECT_GE(held.held, held.estimated - 1);
   // The sliding damping may be open.
@@ -269,12 +265,11 @@ class EachLaw : public ::testing::TestWithParam<FrictionModel> {};
 TEST_P(EachLaw, IsToldFromTheNearestWithItsParameters) {
   std::mt19937_64 random(11);
   const Truth truth = rotor_of(GetParam(), random);
-  const LawComparison found =
-      law_identification::compare_laws({record_of(truth, random)}, {nearest_of(GetParam())});
+  const LawComparison found = fit::compare_laws({record_of(truth, random)}, {nearest_of(GetParam())});
   const IdentifiedLaw& law = found.laws.front();
   ASSERT_EQ(law.law, GetParam());
   EXPECT_GT(found.laws.back().information_criterion, 10.0);
-  EXPECT_TRUE(law.checks.passed) << document::text(law_identification::laws_answer().of(found));
+  EXPECT_TRUE(law.checks.passed) << document::text(fit::laws_answer().of(found));
   const Held held = held_by(law, truth, 2.0);
   EXPECT_EQ(held.held, held.estimated);
   EXPECT_GE(held.estimated, 4);
@@ -286,10 +281,9 @@ TEST_P(EachLaw, DISABLED_IsFoundInItsOwnRecordsWithItsParameters) {
   for (int rig = 0; rig < rigs; ++rig) {
     std::mt19937_64 random(static_cast<std::uint64_t>(100 * rig + 7));
     const Truth truth = rotor_of(GetParam(), random);
-    const LawComparison found = law_identification::compare_laws({record_of(truth, random)}, {{GetParam()}});
+    const LawComparison found = fit::compare_laws({record_of(truth, random)}, {{GetParam()}});
     const IdentifiedLaw& law = found.laws.front();
-    EXPECT_TRUE(law.checks.passed) << "rig " << rig << ": "
-                                   << document::text(law_identification::laws_answer().of(found));
+    EXPECT_TRUE(law.checks.passed) << "rig " << rig << ": " << document::text(fit::laws_answer().of(found));
     const Held held = held_by(law, truth);
     all.held += held.held;
     all.estimated += held.estimated;
@@ -303,7 +297,7 @@ TEST_P(EachLaw, DISABLED_IsToldFromTheOthers) {
   std::mt19937_64 random(11);
   const Truth truth = rotor_of(GetParam(), random);
   const std::vector<FrictionModel> laws = rivals_of(GetParam());
-  const LawComparison found = law_identification::compare_laws({record_of(truth, random)}, {laws});
+  const LawComparison found = fit::compare_laws({record_of(truth, random)}, {laws});
   EXPECT_EQ(found.laws.size(), laws.size());
   EXPECT_EQ(found.laws.front().law, GetParam());
   EXPECT_GT(found.laws[1].information_criterion, 10.0);

@@ -1,26 +1,26 @@
 // The models of the laws: their paths and derivatives.
-#include "analysis/law_identification/law_model.hpp"
+#include "analysis/fit/laws/law_model.hpp"
 
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "analysis/record_fit/axis_model.hpp"
+#include "analysis/fit/model.hpp"
 #include "core/friction/law.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 
 namespace zerocount::testing {
 namespace {
 
-using law_identification::LawModel;
-using law_identification::LawPoint;
+using fit::LawModel;
+using fit::LawPoint;
 
-identification::TestRecord short_record() {
+fit::TestRecord short_record() {
   std::mt19937_64 random(3);
-  const identification::ContactParameters contact = random_contact(random);
+  const fit::ContactParameters contact = random_contact(random);
   TorqueProgramme test;
   test.step(0.08).hold(0.05).step(0.0).hold(0.05).ramp(0.1, 0.8).hold(0.2).ramp(-0.1, 0.8);
-  identification::TestRecord record = simulated_test(contact, test, {}, random);
+  fit::TestRecord record = simulated_test(contact, test, {}, random);
   record.parts = parts_of(record);
   return record;
 }
@@ -28,13 +28,13 @@ identification::TestRecord short_record() {
 // A moving time offset moves the path by the velocity, and coordinates that a law does not have have no
 // effect.
 TEST(LawModel, HasDerivativesOfItsFreeCoordinatesAlone) {
-  const identification::TestRecord record = short_record();
-  const auto scales = law_identification::scales_of(std::span(&record, 1));
-  for (const friction::FrictionModel law : law_identification::fitted_laws()) {
-    const LawModel model = law_identification::law_model(law, scales, std::span(&record, 1));
+  const fit::TestRecord record = short_record();
+  const auto scales = fit::scales_of(std::span(&record, 1));
+  for (const friction::FrictionModel law : fit::fitted_laws()) {
+    const LawModel model = fit::law_model(law, scales, std::span(&record, 1));
     const LawPoint& point = model.starts.front();
-    const record_fit::RecordMotion motion =
-        record_fit::modelled_motions({&record, 1}, model.axis, point, model.free).front();
+    const fit::RecordMotion motion =
+        fit::modelled_motions({&record, 1}, model.axis, point, model.free).front();
     for (Eigen::Index j = 0; j < point.size(); ++j) {
       if (!model.free[static_cast<std::size_t>(j)]) {
         EXPECT_EQ(motion.sensitivity.col(j).norm(), 0.0);
@@ -43,9 +43,9 @@ TEST(LawModel, HasDerivativesOfItsFreeCoordinatesAlone) {
       constexpr double step = 1e-3;
       LawPoint moved = point;
       moved[j] += step;
-      const Eigen::VectorXd there = record_fit::modelled_path(record, model.axis, moved);
+      const Eigen::VectorXd there = fit::modelled_path(record, model.axis, moved);
       moved[j] -= 2.0 * step;
-      const Eigen::VectorXd back = record_fit::modelled_path(record, model.axis, moved);
+      const Eigen::VectorXd back = fit::modelled_path(record, model.axis, moved);
       const Eigen::VectorXd slope = (there - back) / (2.0 * step);
       EXPECT_LT((slope - motion.sensitivity.col(j)).norm(), 0.05 * slope.norm() + 1e-2)
           << friction::traits_of(law).word << " coordinate " << j;

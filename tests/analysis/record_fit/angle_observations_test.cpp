@@ -1,12 +1,11 @@
 // What readings say of the angle: errors as claimed, whatever the encoder's phase, and without favour.
-#include "analysis/record_fit/angle_observations.hpp"
-
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "analysis/fit/observations.hpp"
 #include "tests/analysis/record_fit/wandering_path.hpp"
 
 namespace zerocount::testing {
@@ -22,12 +21,12 @@ struct ErrorSums {
 ErrorSums errors_of(double most, double noise) {
   std::mt19937_64 random(31);
   ErrorSums sums;
-  std::vector<record_fit::AngleObservation> observations;
+  std::vector<fit::AngleObservation> observations;
   for (int round = 0; round < 300; ++round) {
     const Eigen::VectorXd path = wandering_path(1000, most, random);
-    record_fit::observe(counted(), path, read(path, noise, random), noise, observations);
-    for (const record_fit::AngleObservation& o : observations) {
-      const double error = (o.position - record_fit::mean_over(o, path).value()) / std::sqrt(o.variance);
+    fit::observe(counted(), path, read(path, noise, random), noise, observations);
+    for (const fit::AngleObservation& o : observations) {
+      const double error = (o.position - fit::mean_over(o, path).value()) / std::sqrt(o.variance);
       sums.count += 1.0;
       sums.mean += error;
       sums.variance += error * error;
@@ -50,15 +49,15 @@ TEST(AngleObservations, ErrorsHaveNoMeanAndTheVarianceClaimed) {
 
 TEST(AngleObservations, EdgesLieBetweenTheSamplesThatSawThemPassed) {
   std::mt19937_64 random(32);
-  std::vector<record_fit::AngleObservation> observations;
+  std::vector<fit::AngleObservation> observations;
   for (int round = 0; round < 100; ++round) {
     const Eigen::VectorXd path = wandering_path(500, 0.7, random);
     const Eigen::VectorXd readings = read(path, 0.0, random);
-    record_fit::observe(counted(), path, readings, 0.0, observations);
+    fit::observe(counted(), path, readings, 0.0, observations);
     std::size_t changes = 0;
     for (Eigen::Index k = 1; k < path.size(); ++k) changes += readings[k] != readings[k - 1] ? 1 : 0;
     EXPECT_EQ(observations.size(), changes);
-    for (const record_fit::AngleObservation& o : observations) {
+    for (const fit::AngleObservation& o : observations) {
       const auto k = static_cast<Eigen::Index>(o.first);
       EXPECT_EQ(o.last, o.first + 1);
       EXPECT_EQ(o.position, std::max(readings[k], readings[k + 1]));
@@ -72,9 +71,9 @@ TEST(AngleObservations, FastReadingsAllCount) {
   std::mt19937_64 random(33);
   Eigen::VectorXd path(50);
   for (Eigen::Index k = 0; k < path.size(); ++k) path[k] = 3.7 * static_cast<double>(k) + 0.1;
-  std::vector<record_fit::AngleObservation> observations;
+  std::vector<fit::AngleObservation> observations;
   const Eigen::VectorXd readings = read(path, 0.0, random);
-  record_fit::observe(counted(), path, readings, 0.0, observations);
+  fit::observe(counted(), path, readings, 0.0, observations);
   ASSERT_EQ(observations.size(), 50u);
   for (std::size_t k = 0; k < observations.size(); ++k) {
     EXPECT_EQ(observations[k].first, k);
@@ -95,9 +94,9 @@ TEST(AngleObservations, WithNoiseAveragesHaveTheVarianceClaimed) {
 }
 
 TEST(AngleObservations, ReadingsThatAreNoCountsStandForThemselves) {
-  std::vector<record_fit::AngleObservation> observations;
+  std::vector<fit::AngleObservation> observations;
   const Eigen::VectorXd readings = Eigen::VectorXd::LinSpaced(9, 0.3, 4.0);
-  record_fit::observe(record_fit::TestRecord{}, readings, readings, 0.2, observations);
+  fit::observe(fit::TestRecord{}, readings, readings, 0.2, observations);
   ASSERT_EQ(observations.size(), 9u);
   for (std::size_t k = 0; k < 9; ++k) {
     EXPECT_EQ(observations[k].position, readings[static_cast<Eigen::Index>(k)]);

@@ -1,27 +1,25 @@
 // The model's path along a record: the same as core's Plant sample by sample, and its derivatives.
-#include "analysis/record_fit/axis_model.hpp"
-
 #include <gtest/gtest.h>
 
+#include "analysis/fit/model.hpp"
 #include "core/plant/plant.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 
 namespace zerocount::testing {
 namespace {
 
-Eigen::VectorXd contact_path(const identification::TestRecord& record,
-                             const identification::ContactParameters& contact, double offset = 0.0) {
+Eigen::VectorXd contact_path(const fit::TestRecord& record, const fit::ContactParameters& contact,
+                             double offset = 0.0) {
   constexpr double creep_torque = 0.1;
-  record_fit::Point point = identification::point_of(contact, creep_torque);
-  point[identification::time_offset] = offset;
-  return record_fit::modelled_path(record, identification::contact_model(creep_torque), point);
+  fit::Point point = fit::point_of(contact, creep_torque);
+  point[fit::time_offset] = offset;
+  return fit::modelled_path(record, fit::contact_model(creep_torque), point);
 }
 
-Eigen::VectorXd sample_by_sample(const identification::TestRecord& record,
-                                 const identification::ContactParameters& contact) {
-  Eigen::VectorXd path(static_cast<Eigen::Index>(record_fit::sample_count(record)));
+Eigen::VectorXd sample_by_sample(const fit::TestRecord& record, const fit::ContactParameters& contact) {
+  Eigen::VectorXd path(static_cast<Eigen::Index>(fit::sample_count(record)));
   plant::Plant plant(contact.plant, {contact.friction, {}}, record.start, {1e-11 * record.unit});
-  for (std::size_t k = 0; k < record_fit::sample_count(record); ++k) {
+  for (std::size_t k = 0; k < fit::sample_count(record); ++k) {
     path[static_cast<Eigen::Index>(k)] = plant.theta() / record.unit;
     plant.advance(record.torque[k], record.sample_time);
   }
@@ -31,13 +29,13 @@ Eigen::VectorXd sample_by_sample(const identification::TestRecord& record,
 TEST(RecordMotion, IsThePlantsWhateverTheHolds) {
   std::mt19937_64 random(21);
   for (int round = 0; round < 6; ++round) {
-    const identification::ContactParameters contact = random_contact(random);
+    const fit::ContactParameters contact = random_contact(random);
     TorqueProgramme holds;
     holds.ramp(0.1, 0.2).hold(3.0).ramp(-0.1, 0.2).step(0.15).hold(2.0).ramp(0.14, 0.2).hold(1.0);
     std::vector<TorqueProgramme> programmes = three_tests();
     programmes.push_back(holds);
     for (const TorqueProgramme& programme : programmes) {
-      const identification::TestRecord record = simulated_test(contact, programme, {}, random);
+      const fit::TestRecord record = simulated_test(contact, programme, {}, random);
       const Eigen::VectorXd off = contact_path(record, contact) - sample_by_sample(record, contact);
       EXPECT_LT(off.cwiseAbs().maxCoeff(), 1e-2) << round;
     }
@@ -48,10 +46,10 @@ TEST(RecordMotion, IsThePlantsWhateverTheHolds) {
 // later.
 TEST(RecordMotion, OfUnevenSamplesIsThatAtTheirInstants) {
   std::mt19937_64 random(24);
-  const identification::ContactParameters contact = random_contact(random);
-  const identification::TestRecord even = simulated_test(contact, one_test().front(), {}, random);
-  identification::TestRecord uneven = even;
-  identification::TestRecord fine = even;
+  const fit::ContactParameters contact = random_contact(random);
+  const fit::TestRecord even = simulated_test(contact, one_test().front(), {}, random);
+  fit::TestRecord uneven = even;
+  fit::TestRecord fine = even;
   fine.sample_time = 0.1 * even.sample_time;
   fine.torque.clear();
   std::vector<Eigen::Index> instants;
@@ -74,9 +72,9 @@ TEST(RecordMotion, OfUnevenSamplesIsThatAtTheirInstants) {
 
 /// θ (in the record's unit) at every sample with a torque that is late by `delay` samples, 0 to 1 of which
 /// are split off every interval.
-Eigen::VectorXd with_late_torque(const identification::TestRecord& record,
-                                 const identification::ContactParameters& contact, double delay) {
-  Eigen::VectorXd path(static_cast<Eigen::Index>(record_fit::sample_count(record)));
+Eigen::VectorXd with_late_torque(const fit::TestRecord& record, const fit::ContactParameters& contact,
+                                 double delay) {
+  Eigen::VectorXd path(static_cast<Eigen::Index>(fit::sample_count(record)));
   plant::Plant plant(contact.plant, {contact.friction, {}}, record.start, {1e-11 * record.unit});
   const auto last = static_cast<double>(record.torque.size() - 1);
   const auto torque_at = [&](double sample) {
@@ -84,7 +82,7 @@ Eigen::VectorXd with_late_torque(const identification::TestRecord& record,
                         : record.torque[static_cast<std::size_t>(std::min(sample, last))];
   };
   const double before = (delay - std::floor(delay)) * record.sample_time;
-  for (std::size_t k = 0; k < record_fit::sample_count(record); ++k) {
+  for (std::size_t k = 0; k < fit::sample_count(record); ++k) {
     path[static_cast<Eigen::Index>(k)] = plant.theta() / record.unit;
     const double newest = static_cast<double>(k) - std::floor(delay);
     if (before > 0.0) plant.advance(torque_at(newest - 1.0), before);
@@ -97,11 +95,11 @@ Eigen::VectorXd with_late_torque(const identification::TestRecord& record,
 TEST(RecordMotion, ALateOrEarlyTorqueIsASplitInterval) {
   std::mt19937_64 random(26);
   for (const double delay : {0.1, 0.5, 1.0, 1.7, -0.4, -1.0, -2.0}) {
-    const identification::ContactParameters contact = random_contact(random);
+    const fit::ContactParameters contact = random_contact(random);
     TorqueProgramme test;
     // At rest as long as the torque may be early.
     test.hold(0.01).step(0.08).hold(0.3).ramp(0.1, 0.4).hold(3.0).ramp(-0.1, 0.4).step(0.05).hold(1.0);
-    identification::TestRecord record = simulated_test(contact, test, {}, random);
+    fit::TestRecord record = simulated_test(contact, test, {}, random);
     const Eigen::VectorXd expected = with_late_torque(record, contact, delay);
     const auto off = [&](double offset) {
       return (contact_path(record, contact, offset) - expected).cwiseAbs().maxCoeff();
@@ -116,8 +114,8 @@ TEST(RecordMotion, ALateOrEarlyTorqueIsASplitInterval) {
 
 TEST(RecordMotion, BeginsWithTheContactAsItIsSaidToBe) {
   std::mt19937_64 random(22);
-  const identification::ContactParameters contact = random_contact(random);
-  identification::TestRecord record = simulated_test(contact, three_tests()[2], {}, random);
+  const fit::ContactParameters contact = random_contact(random);
+  fit::TestRecord record = simulated_test(contact, three_tests()[2], {}, random);
   record.start.preload = 0.2;
   record.start.hardening = 3e-4;
   const Eigen::VectorXd path = contact_path(record, contact);
@@ -128,33 +126,31 @@ TEST(RecordMotion, BeginsWithTheContactAsItIsSaidToBe) {
 
 TEST(RecordMotion, DerivativesAreThoseOfThePath) {
   std::mt19937_64 random(23);
-  const identification::ContactParameters contact = random_contact(random);
+  const fit::ContactParameters contact = random_contact(random);
   constexpr double creep_torque = 0.1;
-  const record_fit::Point point = identification::point_of(contact, creep_torque);
-  const record_fit::AxisModel model = identification::contact_model(creep_torque);
+  const fit::Point point = fit::point_of(contact, creep_torque);
+  const fit::AxisModel model = fit::contact_model(creep_torque);
   for (const TorqueProgramme& programme : three_tests()) {
-    const identification::TestRecord record = simulated_test(contact, programme, {}, random);
-    record_fit::FreeCoordinates free(identification::coordinate_count, true);
-    free[identification::log_beta] = false;
-    const record_fit::RecordMotion motion =
-        record_fit::modelled_motions({&record, 1}, model, point, free).front();
-    for (std::size_t j = 0; j < identification::coordinate_count; ++j) {
+    const fit::TestRecord record = simulated_test(contact, programme, {}, random);
+    fit::FreeCoordinates free(fit::coordinate_count, true);
+    free[fit::log_beta] = false;
+    const fit::RecordMotion motion = fit::modelled_motions({&record, 1}, model, point, free).front();
+    for (std::size_t j = 0; j < fit::coordinate_count; ++j) {
       const auto column = motion.sensitivity.col(static_cast<Eigen::Index>(j));
       if (!free[j]) {
         EXPECT_EQ(column.cwiseAbs().maxCoeff(), 0.0);
         continue;
       }
       // Central differences over a hundred times the step.
-      record_fit::Point up = point;
-      record_fit::Point down = point;
+      fit::Point up = point;
+      fit::Point down = point;
       up[static_cast<Eigen::Index>(j)] += 1e-4;
       down[static_cast<Eigen::Index>(j)] -= 1e-4;
       const Eigen::VectorXd expected =
-          (record_fit::modelled_path(record, model, up) - record_fit::modelled_path(record, model, down)) /
-          2e-4;
+          (fit::modelled_path(record, model, up) - fit::modelled_path(record, model, down)) / 2e-4;
       const double scale = std::max(1.0, expected.cwiseAbs().maxCoeff());
       EXPECT_LT((column - expected).norm(), 1e-2 * expected.norm() + 1e-3)
-          << identification::coordinate_keys[j] << scale;
+          << fit::coordinate_keys[j] << scale;
     }
   }
 }
@@ -163,23 +159,20 @@ TEST(RecordMotion, DerivativesAreThoseOfThePath) {
 TEST(RecordMotion, DerivativesBesideKnownPathsAreTheSameAndCountTheRest) {
   std::mt19937_64 random(25);
   constexpr double creep_torque = 0.1;
-  const identification::TestRecord record =
-      simulated_test(random_contact(random), three_tests()[1], {}, random);
+  const fit::TestRecord record = simulated_test(random_contact(random), three_tests()[1], {}, random);
   for (const bool with_offset : {false, true}) {
-    const record_fit::Point point = identification::point_of(random_contact(random), creep_torque);
-    record_fit::FreeCoordinates free(identification::coordinate_count, true);
-    free[identification::time_offset] = with_offset;
-    record_fit::FreeCoordinates offset_alone(identification::coordinate_count, false);
-    offset_alone[identification::time_offset] = with_offset;
-    const record_fit::AxisModel model = identification::contact_model(creep_torque);
-    const std::vector<record_fit::RecordMotion> all =
-        record_fit::modelled_motions({&record, 1}, model, point, free);
+    const fit::Point point = fit::point_of(random_contact(random), creep_torque);
+    fit::FreeCoordinates free(fit::coordinate_count, true);
+    free[fit::time_offset] = with_offset;
+    fit::FreeCoordinates offset_alone(fit::coordinate_count, false);
+    offset_alone[fit::time_offset] = with_offset;
+    const fit::AxisModel model = fit::contact_model(creep_torque);
+    const std::vector<fit::RecordMotion> all = fit::modelled_motions({&record, 1}, model, point, free);
     const std::int64_t samples_of_all = model.simulated->exchange(0);
-    std::vector<record_fit::RecordMotion> paths =
-        record_fit::modelled_motions({&record, 1}, model, point, offset_alone);
-    EXPECT_EQ(model.simulated->load(), record_fit::samples_of_paths({&record, 1}, model, point));
-    const std::vector<record_fit::RecordMotion> after =
-        record_fit::modelled_motions({&record, 1}, model, point, free, std::move(paths));
+    std::vector<fit::RecordMotion> paths = fit::modelled_motions({&record, 1}, model, point, offset_alone);
+    EXPECT_EQ(model.simulated->load(), fit::samples_of_paths({&record, 1}, model, point));
+    const std::vector<fit::RecordMotion> after =
+        fit::modelled_motions({&record, 1}, model, point, free, std::move(paths));
     EXPECT_EQ(model.simulated->load(), samples_of_all);
     EXPECT_TRUE(after.front().path == all.front().path);
     EXPECT_TRUE(after.front().sensitivity == all.front().sensitivity);
@@ -188,10 +181,9 @@ TEST(RecordMotion, DerivativesBesideKnownPathsAreTheSameAndCountTheRest) {
 
 TEST(RecordMotion, CoordinatesAndParametersAreInverse) {
   std::mt19937_64 random(24);
-  const identification::ContactParameters contact = random_contact(random);
+  const fit::ContactParameters contact = random_contact(random);
   for (const double creep_torque : {0.05, 1.0}) {
-    const identification::ContactParameters back =
-        identification::contact_at(identification::point_of(contact, creep_torque), creep_torque);
+    const fit::ContactParameters back = fit::contact_at(fit::point_of(contact, creep_torque), creep_torque);
     for (const std::string name :
          {"k1", "k2", "beta", "presliding_damping", "inertia", "alpha", "lambda", "n"}) {
       EXPECT_NEAR(true_value(back, name) / true_value(contact, name), 1.0, 1e-12) << name;

@@ -1,5 +1,3 @@
-#include "analysis/record_fit/encoder_noise.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -7,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/fit/observations.hpp"
 #include "tests/analysis/record_fit/wandering_path.hpp"
 
 namespace zerocount::testing {
@@ -19,7 +18,7 @@ double mean_estimate(double noise, const Path& path, std::mt19937_64& random) {
   double sum = 0.0;
   for (int round = 0; round < rounds; ++round) {
     const Eigen::VectorXd one = path();
-    sum += record_fit::counting_noise(counted(), one, read(one, noise, random));
+    sum += fit::counting_noise(counted(), one, read(one, noise, random));
   }
   return sum / rounds / noise;
 }
@@ -52,7 +51,7 @@ TEST(CountingNoise, IsNoneWhereThereIsNone) {
   std::uniform_real_distribution<double> speed(0.05, 3.0);
   for (int round = 0; round < 200; ++round) {
     const Eigen::VectorXd path = wandering_path(5000, speed(random), random);
-    EXPECT_EQ(record_fit::counting_noise(counted(), path, read(path, 0.0, random)), 0.0);
+    EXPECT_EQ(fit::counting_noise(counted(), path, read(path, 0.0, random)), 0.0);
   }
 }
 
@@ -61,7 +60,7 @@ TEST(CountingNoise, IsNotWhatTheModelFailsToFollow) {
   const Eigen::VectorXd path = wandering_path(20000, 0.1, random);
   Eigen::VectorXd off = path;
   for (Eigen::Index k = 0; k < off.size(); ++k) off[k] += 5.0 * std::sin(1e-3 * static_cast<double>(k));
-  EXPECT_NEAR(record_fit::counting_noise(counted(), off, read(path, 0.1, random)), 0.1, 0.02);
+  EXPECT_NEAR(fit::counting_noise(counted(), off, read(path, 0.1, random)), 0.1, 0.02);
 }
 
 // A straight line bridges masked readings. Over a step it is far from the path, and so are its edges.
@@ -70,7 +69,7 @@ TEST(CountingNoise, IgnoresTheLinesInPlaceOfMaskedReadings) {
   for (int round = 0; round < 100; ++round) {
     Eigen::VectorXd path = wandering_path(2000, 0.15, random);
     path.tail(1000).array() += 300.0;
-    record_fit::TestRecord record = counted();
+    fit::TestRecord record = counted();
     record.excluded.assign(2000, false);
     Eigen::VectorXd readings = read(path, 0.0, random);
     const double height = readings[1060] - readings[979];
@@ -78,15 +77,15 @@ TEST(CountingNoise, IgnoresTheLinesInPlaceOfMaskedReadings) {
       record.excluded[static_cast<std::size_t>(k)] = true;
       readings[k] = std::round(readings[979] + height * static_cast<double>(k - 979) / 81.0);
     }
-    EXPECT_GT(record_fit::counting_noise(counted(), path, readings), 0.0);
-    EXPECT_EQ(record_fit::counting_noise(record, path, readings), 0.0);
+    EXPECT_GT(fit::counting_noise(counted(), path, readings), 0.0);
+    EXPECT_EQ(fit::counting_noise(record, path, readings), 0.0);
   }
 }
 
 /// Two records of one encoder, without edges in common.
 double edge_noise_of(double noise, double most, double model_error, std::mt19937_64& random) {
-  std::vector<record_fit::TestRecord> records;
-  record_fit::FittedModel model;
+  std::vector<fit::TestRecord> records;
+  fit::FittedModel model;
   for (int record = 0; record < 2; ++record) {
     Eigen::VectorXd path = wandering_path(3000, most, random);
     const Eigen::VectorXd readings = read(path, noise, random);
@@ -96,7 +95,7 @@ double edge_noise_of(double noise, double most, double model_error, std::mt19937
       path[k] += model_error * std::sin(2e-3 * static_cast<double>(k));
     model.motions.push_back({path, {}});
   }
-  return record_fit::edge_noise(records, model, records.front().unit);
+  return fit::edge_noise(records, model, records.front().unit);
 }
 
 TEST(EdgeNoise, IsFoundBelowATenthOfACount) {

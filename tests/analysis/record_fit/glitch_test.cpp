@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/record_fit/residual_checks.hpp"
+#include "analysis/fit/residuals.hpp"
 
 namespace zerocount::testing {
 namespace {
 
 struct NoisyRecord {
-  identification::TestRecord record;
+  fit::TestRecord record;
   Eigen::VectorXd path;
 };
 
@@ -35,7 +35,7 @@ TEST(Glitch, NoiseIsNone) {
     const double noise = std::uniform_real_distribution<double>(0.0, 3.0)(random);
     for (const bool counted : {true, false}) {
       const NoisyRecord noisy = noisy_record(noise, counted, random);
-      EXPECT_FALSE(record_fit::find_glitch(noisy.record, noisy.path)) << noise << counted;
+      EXPECT_FALSE(fit::find_glitch(noisy.record, noisy.path)) << noise << counted;
     }
   }
 }
@@ -48,7 +48,7 @@ TEST(Glitch, AReadingFarBeyondTheNoiseIsOne) {
       NoisyRecord noisy = noisy_record(noise, counted, random);
       const std::size_t at = std::uniform_int_distribution<std::size_t>(10, 19'900)(random);
       noisy.record.reading[at] += std::ceil(20.0 * noise + 4.0);
-      const auto found = record_fit::find_glitch(noisy.record, noisy.path);
+      const auto found = fit::find_glitch(noisy.record, noisy.path);
       ASSERT_TRUE(found) << noise << counted;
       EXPECT_EQ(*found, at);
     }
@@ -61,9 +61,9 @@ TEST(Glitch, AReadingOnTheCourseOfItsNeighboursIsNone) {
   NoisyRecord exact = noisy_record(0.0, true, random);
   Eigen::VectorXd wrong = exact.path;
   wrong[700] -= 6.0;
-  EXPECT_FALSE(record_fit::find_glitch(exact.record, wrong));
+  EXPECT_FALSE(fit::find_glitch(exact.record, wrong));
   exact.record.reading[700] += 6.0;
-  EXPECT_TRUE(record_fit::find_glitch(exact.record, exact.path));
+  EXPECT_TRUE(fit::find_glitch(exact.record, exact.path));
 }
 
 TEST(Glitch, APathThatMissesTheOtherReadingsAccusesNone) {
@@ -72,17 +72,17 @@ TEST(Glitch, APathThatMissesTheOtherReadingsAccusesNone) {
   exact.record.reading[700] += 6.0;
   const Eigen::VectorXd wrong =
       exact.path.array() + 2.0 * Eigen::ArrayXd::LinSpaced(exact.path.size(), -1.0, 1.0);
-  EXPECT_FALSE(record_fit::find_glitch(exact.record, wrong));
+  EXPECT_FALSE(fit::find_glitch(exact.record, wrong));
 }
 
 TEST(Glitch, AMaskedReadingIsNone) {
   std::mt19937_64 random(3);
   NoisyRecord noisy = noisy_record(0.2, true, random);
   noisy.record.reading[700] += 50.0;
-  EXPECT_TRUE(record_fit::find_glitch(noisy.record, noisy.path));
+  EXPECT_TRUE(fit::find_glitch(noisy.record, noisy.path));
   noisy.record.excluded.assign(noisy.record.reading.size(), false);
   noisy.record.excluded[700] = true;
-  EXPECT_FALSE(record_fit::find_glitch(noisy.record, noisy.path));
+  EXPECT_FALSE(fit::find_glitch(noisy.record, noisy.path));
 }
 
 }  // namespace

@@ -1,24 +1,24 @@
 // Branches, holds and ring-downs, as the torque shows them.
 #include <gtest/gtest.h>
 
-#include "analysis/record_fit/test_record.hpp"
+#include "analysis/fit/record.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 
 namespace zerocount::testing {
 namespace {
 
-record_fit::RecordParts parts_of_programme(const TorqueProgramme& programme, double torque_step = 2.4e-4) {
+fit::RecordParts parts_of_programme(const TorqueProgramme& programme, double torque_step = 2.4e-4) {
   std::mt19937_64 random(41);
   TestInstrument instrument;
   instrument.torque_step = torque_step;
-  return record_fit::parts_of(simulated_test({}, programme, instrument, random));
+  return fit::parts_of(simulated_test({}, programme, instrument, random));
 }
 
 TEST(RecordParts, BranchesGoFromTurnToTurn) {
   TorqueProgramme programme;
   programme.ramp(0.1, 0.4).ramp(-0.05, 0.4).ramp(0.02, 0.4).hold(0.1).ramp(-0.1, 0.4);
   for (const double torque_step : {0.0, 2.4e-4}) {
-    const record_fit::RecordParts parts = parts_of_programme(programme, torque_step);
+    const fit::RecordParts parts = parts_of_programme(programme, torque_step);
     ASSERT_EQ(parts.branches.size(), 4u);
     EXPECT_EQ(parts.reversals(), 3u);
     const double turns[] = {0.0, 0.1, -0.05, 0.02, -0.1};
@@ -42,7 +42,7 @@ TEST(RecordParts, SmallSwingsAreNoReversals) {
 TEST(RecordParts, HoldsBeginWithARingDownAfterAStepOnly) {
   TorqueProgramme programme;
   programme.step(0.1).hold(0.2).ramp(0.15, 0.1).hold(0.3).step(0.0).hold(0.1);
-  const record_fit::RecordParts parts = parts_of_programme(programme);
+  const fit::RecordParts parts = parts_of_programme(programme);
   ASSERT_EQ(parts.holds.size(), 3u);
   EXPECT_TRUE(parts.holds[0].rings_down);
   EXPECT_FALSE(parts.holds[1].rings_down);
@@ -56,7 +56,7 @@ TEST(RecordParts, ATorqueThatNeverTurnsHasNoReversal) {
   programme.ramp(0.1, 0.2);
   EXPECT_EQ(parts_of_programme(programme).reversals(), 0u);
   EXPECT_EQ(parts_of_programme(programme).branches.size(), 1u);
-  EXPECT_TRUE(record_fit::parts_of(identification::TestRecord{}).branches.empty());
+  EXPECT_TRUE(fit::parts_of(fit::TestRecord{}).branches.empty());
 }
 
 }  // namespace

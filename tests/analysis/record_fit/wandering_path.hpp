@@ -4,7 +4,7 @@
 #include <numbers>
 #include <random>
 
-#include "analysis/record_fit/test_record.hpp"
+#include "analysis/fit/record.hpp"
 
 namespace zerocount::testing {
 
@@ -28,8 +28,8 @@ inline Eigen::VectorXd read(const Eigen::VectorXd& path, double noise, std::mt19
   return path.unaryExpr([&](double at) { return std::floor(at + noise * normal(random)); });
 }
 
-inline record_fit::TestRecord counted() {
-  record_fit::TestRecord record;
+inline fit::TestRecord counted() {
+  fit::TestRecord record;
   record.counted = true;
   return record;
 }

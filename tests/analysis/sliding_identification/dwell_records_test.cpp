@@ -54,7 +54,7 @@ void expect_dwell_coverage(
                                                {"offset", axis.offset}};
     for (const auto& parameter : identified_dwells(record(axis, random)).parameters) {
       const auto truth = truths.find(parameter.name);
-      if (truth == truths.end() || parameter.status != identification::EstimateStatus::estimated) continue;
+      if (truth == truths.end() || parameter.status != fit::EstimateStatus::estimated) continue;
       DwellCoverage& count = coverage[parameter.name];
       ++count.estimated;
       count.held += parameter.low <= truth->second && truth->second <= parameter.high ? 1 : 0;

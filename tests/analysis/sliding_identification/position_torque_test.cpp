@@ -47,9 +47,8 @@ SlidingIdentification identified(const SlidingAxis& axis, std::mt19937_64& rando
       closed_loop_record(axis, joint_loop(), swings(), 1, random), pitch)});
 }
 
-const identification::ParameterEstimate* estimate(const SlidingIdentification& found,
-                                                  const std::string& name) {
-  const auto place = std::ranges::find(found.parameters, name, &identification::ParameterEstimate::name);
+const fit::ParameterEstimate* estimate(const SlidingIdentification& found, const std::string& name) {
+  const auto place = std::ranges::find(found.parameters, name, &fit::ParameterEstimate::name);
   return place == found.parameters.end() ? nullptr : &*place;
 }
 
@@ -59,7 +58,7 @@ struct Held {
   int estimated{0};
 
   void add(const SlidingIdentification& found, const std::string& name, double truth) {
-    const identification::ParameterEstimate* one = estimate(found, name);
+    const fit::ParameterEstimate* one = estimate(found, name);
     if (one == nullptr || !is_estimated(*one)) return;
     ++estimated;
     held += one->low <= truth && truth <= one->high ? 1 : 0;
@@ -77,7 +76,7 @@ void expect_gravity_and_ripple_covered(int axes) {
     EXPECT_EQ(reason_of_distrust(found), "") << i;
     ASSERT_EQ(found.waves.size(), axis.ripple.size()) << i;
     EXPECT_EQ(found.waves.front().periods, 1.0) << i;
-    const identification::ParameterEstimate* inertia = estimate(found, "inertia");
+    const fit::ParameterEstimate* inertia = estimate(found, "inertia");
     ASSERT_TRUE(inertia != nullptr && is_estimated(*inertia)) << i;
     EXPECT_NEAR(inertia->value, axis.mass, 0.01 * axis.mass) << i;
     // The identified axis moves under the recorded torque as the axis did.
@@ -125,7 +124,7 @@ TEST(PositionTorque, WhatIsLeftOfItIsNotTrusted) {
   EXPECT_NE(reason_of_distrust(unknown), "");
   const SlidingIdentification known = identified(axis, random, 2.0 * std::numbers::pi / 15.0);
   EXPECT_EQ(reason_of_distrust(known), "");
-  const identification::ParameterEstimate* amplitude = estimate(known, "ripple.1.amplitude");
+  const fit::ParameterEstimate* amplitude = estimate(known, "ripple.1.amplitude");
   ASSERT_TRUE(amplitude != nullptr && is_estimated(*amplitude));
   EXPECT_NEAR(amplitude->value, 6.0, 0.1);
   EXPECT_NE(known.fragment.find("pitch: 0.4188"), std::string::npos) << known.fragment;

@@ -15,8 +15,8 @@
 namespace zerocount::testing {
 namespace {
 
-using identification::EstimateStatus;
-using identification::ParameterEstimate;
+using fit::EstimateStatus;
+using fit::ParameterEstimate;
 using sliding_identification::SlidingIdentification;
 
 SlidingIdentification identified(const records::RawSeries& series) {

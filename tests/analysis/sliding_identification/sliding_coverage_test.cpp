@@ -52,7 +52,7 @@ CoverageOf coverage(int axes,
                                                {"stribeck_velocity", axis.stribeck_velocity},
                                                {"offset", axis.offset}};
     for (const auto& parameter : found.parameters) {
-      if (parameter.status != identification::EstimateStatus::estimated) continue;
+      if (parameter.status != fit::EstimateStatus::estimated) continue;
       SlidingCoverage& count = coverage[parameter.name];
       ++count.estimated;
       const double truth = truths.at(parameter.name);

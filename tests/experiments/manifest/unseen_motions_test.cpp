@@ -93,8 +93,8 @@ TEST(UnseenMotions, InSomeTrialsAreAWarningWithTheirProportion) {
 }
 
 TEST(UnseenMotions, OfAStudyRecordedEarlierAreAWarning) {
-  const study::Study study = parse_study(
-      commanded("{units: si, targets: [1.0e-4]}", "encoder: {fine: 3600}\n"), "old.h5:/manifest", {}, 5);
+  const study::Study study = manifest::recorded_study(
+      commanded("{units: si, targets: [1.0e-4]}", "encoder: {fine: 3600}\n"), "old.h5:/manifest", {});
   ASSERT_FALSE(study.warnings.empty());
   EXPECT_TRUE(says(study.warnings.back(), "does not see"));
 }

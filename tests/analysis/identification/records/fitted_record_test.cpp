@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/identification/identification.hpp"
-#include "analysis/identification/records/checked_record.hpp"
+#include "analysis/fit/presliding/identification.hpp"
+#include "analysis/fit/records/checked_record.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 
 namespace zerocount::testing {
@@ -14,18 +14,18 @@ namespace {
 // What is drawn is what the report sums up: its root mean square is that of the summary.
 TEST(FittedRecords, LeaveTheMisfitOfTheSummary) {
   std::mt19937_64 random(31);
-  const identification::ContactParameters contact = random_contact(random);
-  std::vector<identification::TestRecord> records;
+  const fit::ContactParameters contact = random_contact(random);
+  std::vector<fit::TestRecord> records;
   for (const TorqueProgramme& programme : three_tests())
     records.push_back(simulated_test(contact, programme, {}, random));
   records[1].excluded.assign(records[1].reading.size(), false);
   for (std::size_t k = 40; k < 60; ++k) records[1].excluded[k] = true;
-  identification::IdentificationOptions options;
+  fit::IdentificationOptions options;
   options.replicates = 100;
-  const identification::Identification found = identification::identify(records, options);
+  const fit::Identification found = fit::identify(records, options);
   ASSERT_EQ(found.fitted.size(), records.size());
   for (std::size_t r = 0; r < records.size(); ++r) {
-    const identification::FittedRecord& beside = found.fitted[r];
+    const fit::FittedRecord& beside = found.fitted[r];
     double squares = 0.0;
     double used = 0.0;
     for (std::size_t k = 0; k < beside.time.size(); ++k) {
@@ -66,15 +66,14 @@ TEST(FittedRecords, HaveTheTimesAndReadingsOfTheFile) {
     records::RawSeries series = series_at(times);
     series.angle[200] = 0.3;
     EXPECT_TRUE(records::exclude(series, {times[199], times[201]}));
-    const identification::TestRecord record = identification::checked_record(series, true);
+    const fit::TestRecord record = fit::checked_record(series, true);
     EXPECT_EQ(record.intervals.empty(), even);
-    const identification::FittedRecord beside =
-        identification::fitted_record(record, Eigen::VectorXd::Constant(400, 2.0));
+    const fit::FittedRecord beside = fit::fitted_record(record, Eigen::VectorXd::Constant(400, 2.0));
     for (std::size_t k = 0; k < times.size(); ++k) {
       EXPECT_NEAR(beside.time[k], times[k], 1e-9) << k;
       EXPECT_NEAR(beside.reading[k] * record.unit, series.angle[k] - series.angle[0], 1e-12) << k;
       EXPECT_EQ(beside.excluded[k], k >= 199 && k <= 201) << k;
-      EXPECT_EQ(beside.fitted[k], 2.0 - record_fit::middle_of_reading(record));
+      EXPECT_EQ(beside.fitted[k], 2.0 - fit::middle_of_reading(record));
     }
   }
 }

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/identification/identification.hpp"
-#include "analysis/identification/records/checked_record.hpp"
+#include "analysis/fit/presliding/identification.hpp"
+#include "analysis/fit/records/checked_record.hpp"
 #include "core/failure/failure.hpp"
 #include "core/plant/plant.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
@@ -15,10 +15,10 @@
 namespace zerocount::testing {
 namespace {
 
-identification::RawSeries series_of(const identification::TestRecord& record) {
-  identification::RawSeries series;
+fit::RawSeries series_of(const fit::TestRecord& record) {
+  fit::RawSeries series;
   series.name = "simulated";
-  for (std::size_t k = 0; k < record_fit::sample_count(record); ++k) {
+  for (std::size_t k = 0; k < fit::sample_count(record); ++k) {
     series.time.push_back(record.sample_time * static_cast<double>(k));
     series.torque.push_back(record.torque[k].now);
     series.angle.push_back(record.reading[k]);
@@ -28,15 +28,15 @@ identification::RawSeries series_of(const identification::TestRecord& record) {
 }
 
 /// Noise of half a count before rounding.
-void add_noise(identification::RawSeries& series, std::mt19937_64& random) {
+void add_noise(fit::RawSeries& series, std::mt19937_64& random) {
   std::uniform_real_distribution<double> within_count(0.0, 1.0);
   std::normal_distribution<double> noise(0.0, 0.5);
   for (double& count : series.angle) count = std::floor(count + within_count(random) + noise(random));
 }
 
 /// The first sample at which core's plant slides.
-std::optional<std::size_t> breakaway_sample(const identification::ContactParameters& contact,
-                                            const identification::TestRecord& record) {
+std::optional<std::size_t> breakaway_sample(const fit::ContactParameters& contact,
+                                            const fit::TestRecord& record) {
   plant::Plant plant(contact.plant, {contact.friction, {}}, {}, {1e-11 * record.unit});
   for (std::size_t k = 0; k < record.torque.size(); ++k) {
     if (plant.sliding()) return k;
@@ -67,8 +67,8 @@ TorqueProgramme breaking_away(double rate) {
 }
 
 /// Random rigs with a random level of sliding friction that break away at 0.1 N m.
-identification::ContactParameters random_breakaway(std::mt19937_64& random) {
-  identification::ContactParameters contact = random_contact(random);
+fit::ContactParameters random_breakaway(std::mt19937_64& random) {
+  fit::ContactParameters contact = random_contact(random);
   contact.friction.breakaway = 0.1;
   contact.friction.coulomb_ratio = std::uniform_real_distribution<double>(0.5, 1.0)(random);
   return contact;
@@ -79,7 +79,7 @@ constexpr std::array breakaway_rates{0.1, 0.2, 0.4};
 void expect_no_cut(std::uint64_t rigs) {
   for (std::uint64_t set = 0; set < rigs; ++set) {
     std::mt19937_64 random(set);
-    const identification::ContactParameters contact = random_contact(random);
+    const fit::ContactParameters contact = random_contact(random);
     std::vector<TorqueProgramme> programmes{growing_steps(random)};
     for (const auto& protocol : {three_tests(), one_test(), short_test()}) {
       programmes.insert(programmes.end(), protocol.begin(), protocol.end());
@@ -87,11 +87,10 @@ void expect_no_cut(std::uint64_t rigs) {
     TestInstrument instrument;
     instrument.skew = set % 2 == 0 ? 0.0 : 3.0;
     for (std::size_t i = 0; i < programmes.size(); ++i) {
-      identification::RawSeries series =
-          series_of(simulated_test(contact, programmes[i], instrument, random));
-      EXPECT_FALSE(identification::find_gross_sliding(series)) << "rig " << set << ", programme " << i;
+      fit::RawSeries series = series_of(simulated_test(contact, programmes[i], instrument, random));
+      EXPECT_FALSE(fit::find_gross_sliding(series)) << "rig " << set << ", programme " << i;
       add_noise(series, random);
-      EXPECT_FALSE(identification::find_gross_sliding(series)) << "rig " << set << ", noisy programme " << i;
+      EXPECT_FALSE(fit::find_gross_sliding(series)) << "rig " << set << ", noisy programme " << i;
     }
   }
 }
@@ -107,14 +106,14 @@ TEST(GrossSliding, DISABLED_NoTestOfManyRigsBelowTheBreakawayIsCut) {
 TEST(GrossSliding, ABreakawayIsFoundShortlyBeforeIt) {
   for (std::uint64_t set = 0; set < 30; ++set) {
     std::mt19937_64 random(set);
-    const identification::ContactParameters contact = random_breakaway(random);
+    const fit::ContactParameters contact = random_breakaway(random);
     TestInstrument instrument;
     instrument.noise = set % 2 == 0 ? 0.0 : 0.5;
     const TorqueProgramme programme = breaking_away(breakaway_rates.at(set % 3));
-    const identification::TestRecord record = simulated_test(contact, programme, instrument, random);
+    const fit::TestRecord record = simulated_test(contact, programme, instrument, random);
     const std::optional<std::size_t> truth = breakaway_sample(contact, record);
     ASSERT_TRUE(truth) << set;
-    const auto sliding = identification::find_gross_sliding(series_of(record));
+    const auto sliding = fit::find_gross_sliding(series_of(record));
     ASSERT_TRUE(sliding) << set;
     EXPECT_LE(sliding->first, *truth) << set;
     EXPECT_GE(sliding->first + 50, *truth) << set;
@@ -123,12 +122,11 @@ TEST(GrossSliding, ABreakawayIsFoundShortlyBeforeIt) {
 
 /// Slow loading to 0.1 N m within 0.25 s, and a slide from sample `breakaway` on, with the acceleration of
 /// `acceleration` counts per sample².
-identification::RawSeries made_slide(std::size_t breakaway, double acceleration) {
+fit::RawSeries made_slide(std::size_t breakaway, double acceleration) {
   TorqueProgramme programme;
   programme.ramp(0.1, 0.4);
   std::mt19937_64 random(3);
-  identification::RawSeries series =
-      series_of(simulated_test(identification::ContactParameters{}, programme, {}, random));
+  fit::RawSeries series = series_of(simulated_test(fit::ContactParameters{}, programme, {}, random));
   for (std::size_t k = breakaway; k < series.angle.size(); ++k) {
     const auto after = static_cast<double>(k - breakaway);
     series.angle[k] += std::round(0.5 * acceleration * after * after);
@@ -138,7 +136,7 @@ identification::RawSeries made_slide(std::size_t breakaway, double acceleration)
 
 TEST(GrossSliding, TooEarlyABreakawayIsRefused) {
   try {
-    identification::checked_record(made_slide(80, 100.0), false);
+    fit::checked_record(made_slide(80, 100.0), false);
     FAIL();
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::bad_data);
@@ -146,41 +144,41 @@ TEST(GrossSliding, TooEarlyABreakawayIsRefused) {
         << failure.what();
     EXPECT_NE(std::string(failure.what()).find("--sliding"), std::string::npos) << failure.what();
   }
-  EXPECT_GE(record_fit::sample_count(identification::checked_record(made_slide(300, 100.0), false)), 250u);
+  EXPECT_GE(fit::sample_count(fit::checked_record(made_slide(300, 100.0), false)), 250u);
 }
 
 TEST(GrossSliding, TheFlagOfAFileIsBelieved) {
-  identification::RawSeries series = made_slide(300, 100.0);
+  fit::RawSeries series = made_slide(300, 100.0);
   series.sliding.assign(series.time.size(), false);
-  EXPECT_TRUE(identification::checked_record(series, true).note.empty());
+  EXPECT_TRUE(fit::checked_record(series, true).note.empty());
 }
 
 TEST(GrossSliding, ALeapOfTheReadingIsNoSlide) {
   for (const double leap : {-1e5, 1e5}) {
-    identification::RawSeries series = made_slide(499, 0.0);
+    fit::RawSeries series = made_slide(499, 0.0);
     for (std::size_t k = 300; k < series.angle.size(); ++k) series.angle[k] += leap;
-    EXPECT_FALSE(identification::find_gross_sliding(series));
-    EXPECT_TRUE(identification::find_gross_sliding(made_slide(300, std::copysign(100.0, leap))));
+    EXPECT_FALSE(fit::find_gross_sliding(series));
+    EXPECT_TRUE(fit::find_gross_sliding(made_slide(300, std::copysign(100.0, leap))));
   }
 }
 
 TEST(GrossSliding, MaskedReadingsShowNoSlide) {
-  identification::RawSeries series = made_slide(400, 100.0);
-  EXPECT_TRUE(identification::find_gross_sliding(series));
+  fit::RawSeries series = made_slide(400, 100.0);
+  EXPECT_TRUE(fit::find_gross_sliding(series));
   EXPECT_TRUE(records::exclude(series, {399 * 5e-4, 1.0}));
-  EXPECT_FALSE(identification::find_gross_sliding(series));
+  EXPECT_FALSE(fit::find_gross_sliding(series));
 }
 
 // The samples before the breakaway give k1.
 TEST(GrossSliding, TheRestOfTheRecordIsIdentified) {
   for (std::uint64_t set = 0; set < 2; ++set) {
     std::mt19937_64 random(set);
-    const identification::ContactParameters contact = random_breakaway(random);
-    const identification::TestRecord record = simulated_test(contact, breaking_away(0.4), {}, random);
-    const identification::TestRecord part = identification::checked_record(series_of(record), false);
+    const fit::ContactParameters contact = random_breakaway(random);
+    const fit::TestRecord record = simulated_test(contact, breaking_away(0.4), {}, random);
+    const fit::TestRecord part = fit::checked_record(series_of(record), false);
     EXPECT_NE(part.note.find("begins to slide"), std::string::npos) << part.note;
-    const identification::Identification found = identification::identify({part}, {{}, 100});
-    const identification::ParameterEstimate& k1 = found.parameters.front();
+    const fit::Identification found = fit::identify({part}, {{}, 100});
+    const fit::ParameterEstimate& k1 = found.parameters.front();
     ASSERT_EQ(k1.name, "k1");
     const double truth = contact.friction.k1;
     EXPECT_TRUE((k1.low <= truth && truth <= k1.high) || std::abs(k1.value / truth - 1.0) < 0.03)

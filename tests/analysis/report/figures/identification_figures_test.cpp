@@ -1,5 +1,5 @@
 // The figures of an identification: what is drawn of a record is what the fit left of it.
-#include "analysis/identification/identification.hpp"
+#include "analysis/fit/presliding/identification.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/page.hpp"
 #include "tests/support/test.hpp"
@@ -7,8 +7,8 @@
 namespace zerocount::testing {
 namespace {
 
-using identification::FittedRecord;
-using identification::Identification;
+using fit::FittedRecord;
+using fit::Identification;
 using nlohmann::ordered_json;
 
 /// A record of counts with noise, outliers of one sample, and some masked stretches.
@@ -31,7 +31,7 @@ FittedRecord random_record(std::uint64_t seed, std::size_t samples, bool masked)
 
 /// The page of `identify --plot`.
 std::string page_of(const Identification& found) {
-  document::AnswerDescription<Identification> answer = identification::identification_answer();
+  document::AnswerDescription<Identification> answer = fit::identification_answer();
   answer.items.figures(report::identification_figures);
   return report::html_page(report::answer_page(answer.of(found)));
 }
@@ -40,7 +40,7 @@ std::string page_of(const Identification& found) {
 Identification identification_of(std::vector<FittedRecord> records) {
   Identification found;
   for (const FittedRecord& record : records) {
-    identification::RecordSummary& summary = found.records.emplace_back();
+    fit::RecordSummary& summary = found.records.emplace_back();
     summary.name = "test " + std::to_string(found.records.size());
     summary.samples = record.time.size();
     summary.duration = record.time.back() - record.time.front();
@@ -194,7 +194,7 @@ TEST(IdentificationPage, AnglesAreInMicroradians) {
 TEST(ReadingNoise, IsThatOfTheReadingsAlone) {
   std::mt19937_64 random(9);
   std::normal_distribution<double> normal(0.0, 0.3);
-  identification::RecordSummary record;
+  fit::RecordSummary record;
   FittedRecord beside;
   for (std::size_t k = 0; k < 20000; ++k) {
     beside.time.push_back(1e-3 * static_cast<double>(k));

@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+
+#include "analysis/fit/laws/law_identification.hpp"
+#include "analysis/fit/report.hpp"
+#include "analysis/text/text.hpp"
+#include "core/friction/law.hpp"
+
+namespace zerocount::fit {
+
+namespace {
+
+using document::in_data;
+
+/// Difference of the information criterion that is strong evidence (Kass & Raftery, J. Am. Stat. Assoc. 90,
+/// 1995, 773: 6 to 10 strong, above 10 very strong).
+constexpr double strong_evidence = 10.0;
+
+std::string_view to_string(const IdentifiedLaw& law) {
+  return friction::traits_of(law.law).word;
+}
+
+/// The lead of the best law that explains the records over the next one that does.
+std::string lead_of(const LawComparison& comparison) {
+  const IdentifiedLaw& best = comparison.laws.front();
+  const IdentifiedLaw& next = comparison.laws[1];
+  if (!next.checks.passed)
+    return fmt::format("{} explains the records, and no other of these {} laws was found to", to_string(best),
+                       comparison.laws.size());
+  if (next.information_criterion > strong_evidence)
+    return fmt::format("{} explains the records best; {} is next, {:.0f} higher in BIC", to_string(best),
+                       to_string(next), next.information_criterion);
+  return fmt::format(
+      "{} explains the records; the BIC of {} and {} differ by {:.1f} only: the records do not distinguish "
+      "them",
+      to_string(best), to_string(best), to_string(next), next.information_criterion);
+}
+
+/// The law that explains the records best, or the nearest one.
+std::string laws_headline(const LawComparison& comparison) {
+  const IdentifiedLaw& best = comparison.laws.front();
+  const bool alone = comparison.laws.size() == 1;
+  if (!best.checks.passed)
+    return fmt::format("LACK OF FIT: {} was found to explain the records{}: {}",
+                       alone ? fmt::format("no fit of {}", to_string(best)) : "none of these laws",
+                       alone ? "" : fmt::format("; {} is the nearest", to_string(best)),
+                       reason_of_misfit(best.checks));
+  return alone ? fmt::format("{} explains the records", to_string(best)) : lead_of(comparison);
+}
+
+/// The laws that could not be fitted, a line each.
+std::string laws_left_out_text(const LawComparison& comparison) {
+  std::string text;
+  for (const LawLeftOut& law : comparison.left_out)
+    text += fmt::format("{} is left out, which says nothing about the contact: {}\n",
+                        friction::traits_of(law.law).word, text::printable(law.reason));
+  return text;
+}
+
+/// What was left out of the records, a line each.
+std::string left_out_of_records_text(const LawComparison& comparison) {
+  std::string text;
+  for (const RecordExtent& record : comparison.records) {
+    const std::string name = text::printable(record.name);
+    if (!record.note.empty()) text += fmt::format("{}: {}\n", name, record.note);
+    if (record.excluded > 0)
+      text += fmt::format("{}: {} samples masked by --exclude\n", name, record.excluded);
+  }
+  return text;
+}
+
+std::string missing_text(const LawComparison& comparison) {
+  const IdentifiedLaw& best = comparison.laws.front();
+  return missing_parameters_text(best.parameters) +
+         (best.converged ? "" : "The fit to all readings did not converge within its steps.");
+}
+
+/// A law, and the unit of its residual.
+struct LawReading {
+  const IdentifiedLaw& law;
+  std::string unit;
+};
+
+std::vector<LawReading> laws_of(const LawComparison& comparison) {
+  std::vector<LawReading> readings;
+  for (const IdentifiedLaw& law : comparison.laws)
+    readings.push_back({law, parameters::unit_on(comparison.axis, "rad")});
+  return readings;
+}
+
+document::Description<LawReading> law_description() {
+  using Of = const LawReading&;
+  const auto for_people = [](const char* key, const char* heading) {
+    return document::Item{
+        .key = key, .heading = heading, .shown = document::Shown::to_people, .numeric = true};
+  };
+  return document::Description<LawReading>()
+      .value({"law", "law", "word of the friction law"}, [](Of r) { return to_string(r.law); })
+      .value({"fitted", "fitted", "fitted numbers, with the time offset"}, [](Of r) { return r.law.fitted; })
+      .value(for_people("residual", "residual"),
+             [](Of r) { return fmt::format("{:.3g} {}", r.law.misfit, r.unit); })
+      .value(for_people("of_travel", "of the travel"),
+             [](Of r) { return fmt::format("{:.3g} %", 100.0 * r.law.misfit_over_travel); })
+      .value(in_data("misfit", "root mean square of the residuals, rad or m"),
+             [](Of r) { return r.law.misfit; })
+      .value(in_data("misfit_over_travel", "the same over the travel of the records", "1"),
+             [](Of r) { return r.law.misfit_over_travel; })
+      .value({"bic_above_least", "BIC − best",
+              "Schwarz's criterion less that of the best law, the first one; negative for one that does not "
+              "explain the records"},
+             [](Of r) { return r.law.information_criterion; })
+      .value({"explained", "encoder and noise explain it", "whether they explain the residuals"},
+             [](Of r) { return r.law.checks.passed; })
+      .value(in_data("spread", "root mean square of the residuals over their standard deviations", "1"),
+             [](Of r) { return r.law.checks.spread; })
+      .value(in_data("expected_spread", "its mean over replicates", "1"),
+             [](Of r) { return r.law.checks.expected_spread; })
+      .value(in_data("widening", "factor that widened the intervals", "1"),
+             [](Of r) { return r.law.checks.widening; })
+      .value(in_data("converged", "whether the fit converged"), [](Of r) { return r.law.converged; })
+      .table(in_data("parameters", "its parameters"), estimate_description(),
+             [](Of r) { return r.law.parameters; })
+      .value(in_data("manifest", "the law as a fragment of a manifest"), [](Of r) { return r.law.fragment; });
+}
+
+document::Description<LawLeftOut> left_out_description() {
+  return document::Description<LawLeftOut>()
+      .value(in_data("law", "word of the friction law"),
+             [](const LawLeftOut& l) { return friction::traits_of(l.law).word; })
+      .value(in_data("reason", "why it could not be fitted"),
+             [](const LawLeftOut& l) { return text::printable(l.reason); });
+}
+
+document::Description<RecordExtent> law_record_description() {
+  using Of = const RecordExtent&;
+  return document::Description<RecordExtent>()
+      .value(in_data("name", "file, and part of it"), [](Of r) { return text::printable(r.name); })
+      .value(in_data("samples", "samples of the record"), &RecordExtent::samples)
+      .value(in_data("excluded", "samples masked by --exclude"), &RecordExtent::excluded)
+      .value(in_data("note", "what was cut out of it"), [](Of r) { return text::printable(r.note); });
+}
+
+}  // namespace
+
+document::AnswerDescription<LawComparison> laws_answer() {
+  using Of = const LawComparison&;
+  document::AnswerDescription<LawComparison> answer{
+      {.name = "identify-laws", .meaning = "friction laws compared on the same records", .csv_table = "laws"},
+      {}};
+  answer.items.headline(laws_headline)
+      .value(in_data("kind", "always laws"), [](Of) { return "laws"; })
+      .value(axis_item(), [](Of c) { return parameters::axis_labels.at(static_cast<std::size_t>(c.axis)); })
+      .table({.key = "laws", .meaning = "the laws, the best one first"}, law_description(), laws_of)
+      .table(in_data("left_out", "laws that could not be fitted"), left_out_description(),
+             &LawComparison::left_out)
+      .sentence(laws_left_out_text)
+      .value(in_data("readings", "readings of all records"), &LawComparison::readings)
+      .value(in_data("effective_readings", "those that count as independent in BIC"),
+             &LawComparison::effective_readings)
+      .sentence([](Of c) {
+        return fmt::format("{} readings, of which {:.0f} count as independent in BIC", c.readings,
+                           c.effective_readings);
+      })
+      .value(in_data("sample_time", "time between samples", "s"), &LawComparison::sample_time)
+      .table(in_data("records", "the records"), law_record_description(), &LawComparison::records)
+      .sentence(left_out_of_records_text)
+      .table({.key = "best", .heading = "Parameters of the best law", .shown = document::Shown::to_people},
+             estimate_description(), [](Of c) { return c.laws.front().parameters; })
+      .sentence(missing_text)
+      .value(fragment_item(), [](Of c) { return c.laws.front().fragment; });
+  return answer;
+}
+
+}  // namespace zerocount::fit

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "analysis/document/answer.hpp"
+#include "analysis/fit/laws/law_model.hpp"
+#include "analysis/fit/presliding/contact_fit.hpp"
+#include "analysis/fit/presliding/identification.hpp"
+#include "analysis/fit/record.hpp"
+#include "analysis/fit/residuals.hpp"
+#include "analysis/fit/solver.hpp"
+#include "core/friction/friction_model.hpp"
+
+namespace zerocount::fit {
+
+/// Squares in multiples of those of another law from which a law is not searched further.
+inline constexpr double hopeless = 100.0;
+
+/// A law fitted to records.
+struct LawFit {
+  FitSetting setting;
+  FittedModel model;
+  std::vector<double> noise;  ///< [record] of the readings, in the record's unit; 0: counts without noise
+  Observations observations;
+  /// [record] residuals of all readings that are not masked, of the fit to them, in the record's unit
+  std::vector<std::vector<double>> residuals;
+  double squares{0.0};  ///< of the fit to all readings, over the variance of a count
+  bool converged{false};
+};
+
+/// Fits a law by non-linear least squares: first to all readings with equal weights, a few steps from the
+/// best of the starting points and to the end from the best of these; then to the observations
+/// (observe()), in three rounds.
+/// A law whose best starting points leave a hundred times the squares of another one is fitted with fewer
+/// steps, and without a search among its local minima.
+/// @param least_squares of the laws fitted before; infinite without any
+/// @throws Failure (bad_data) if the law cannot be simulated from any of its starting points.
+LawFit fit_law(Records records, const LawModel& model, double least_squares);
+
+/// Fits a law whose fit `found` does not explain the records again, from many more starting points, scattered
+/// at random about those of the law and about `found`. @returns the better fit of both.
+LawFit search_again(Records records, const LawModel& model, double least_squares, LawFit found);
+
+/// The errors of a fit.
+struct LawErrors {
+  Eigen::MatrixXd errors;  ///< see ReadingReplicates
+  ResidualChecks checks;
+};
+
+/// 300 replicates of the readings (replicate_readings()).
+LawErrors errors_of(Records records, const LawFit& fit);
+
+/// A friction law identified from records.
+struct IdentifiedLaw : FitReport {
+  friction::FrictionModel law{friction::FrictionModel::presliding};
+  std::size_t fitted{0};              ///< coordinates of the fit, with the time offset
+  double misfit{0.0};                 ///< root mean square of the residuals of all readings, rad or m
+  double misfit_over_travel{0.0};     ///< the same over the travel of the records, dimensionless
+  double information_criterion{0.0};  ///< BIC less that of the best law
+  ResidualChecks checks;
+  bool converged{true};
+};
+
+/// A law that could not be fitted to the records. That says nothing about the contact.
+struct LawLeftOut {
+  friction::FrictionModel law{friction::FrictionModel::presliding};
+  std::string reason;
+};
+
+/// The laws that were fitted to the same records.
+struct LawComparison {
+  parameters::AxisKind axis{parameters::AxisKind::rotary};
+  /// Those that explain the records first, each group by its information criterion.
+  std::vector<IdentifiedLaw> laws;
+  std::vector<LawLeftOut> left_out;
+  std::vector<RecordExtent> records;
+  double effective_readings{0.0};  ///< number of independent residuals
+  std::size_t readings{0};
+  double sample_time{0.0};  ///< of the time offsets, s
+};
+
+/// The words of the laws that compare_laws() takes: those that move before they slide.
+std::vector<std::string> law_words();
+
+/// The law of one of these words.
+friction::FrictionModel law_of(const std::string& word);
+
+/// The laws that are fitted.
+struct LawChoice {
+  std::vector<friction::FrictionModel> laws;
+  bool series_compliance{false};  ///< fits the compliance of a fixture beside each law
+};
+
+/// Fits friction laws to material tests, all of the same contact, and compares them by Schwarz's information
+/// criterion (Ann. Statist. 6, 1978, 461) on the same readings:
+///
+///   BIC = Σ_r m_r·ln(S_r/N_r) + p·ln Σ m_r,
+///
+/// with the sum of squares S_r of the N_r readings of record r and p fitted parameters, the
+/// phase of each record among them. Residuals of
+/// neighbouring readings are alike, so that m_r is the number of independent ones, N_r over the correlation
+/// length of the residuals of the law with the least squares of this record (Thiébaux & Zwiers, J. Climate
+/// Appl. Meteor. 23, 1984, 800).
+///
+/// A law must explain the records (check_residuals()) before BIC compares it: BIC of a law that
+/// does not is the best of wrong ones. A law that does not explain them is searched again (search_again()).
+/// A law that begins in a state that it does not have, or cannot be simulated along the records, is left out.
+/// @throws Failure (bad_data) if a record is given twice, or no law can be fitted
+LawComparison compare_laws(std::vector<TestRecord> records, const LawChoice& choice,
+                           const StageReport& report = {});
+
+/// The comparison, the parameters of every law, and the fragment of a manifest of the best one.
+document::AnswerDescription<LawComparison> laws_answer();
+
+}  // namespace zerocount::fit

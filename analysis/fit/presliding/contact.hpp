@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "analysis/fit/model.hpp"
+#include "core/friction/parameters.hpp"
+#include "core/motion/parameters.hpp"
+
+namespace zerocount::fit {
+
+struct ContactFit;
+
+/// The identified parameters of a rotor and its contact.
+struct ContactParameters {
+  motion::PlantParameters plant;
+  friction::FrictionParameters friction;
+};
+
+/// The coordinates in which a contact is fitted. The parameters of the contact are logarithms, except for n,
+/// because they are positive and their uncertainty is relative. The last coordinate belongs to the records.
+enum Coordinate : std::size_t {
+  log_k1,          ///< ln k1, of N m/rad
+  log_k2,          ///< ln k2, of N m/rad
+  log_beta,        ///< ln β, of 1/rad
+  log_damping,     ///< ln c, of N m s/rad
+  log_inertia,     ///< ln J, of kg m²
+  log_alpha,       ///< ln α, of 1/s
+  log_limit,       ///< ln(σ0ⁿ/λ), of rad: the hardening at which creep ends under the torque σ0
+  creep_exponent,  ///< n; a fit may pass through values below 1
+  time_offset      ///< samples by which the torque acts later than recorded; common to all records
+};
+inline constexpr std::size_t coordinate_count = 9;
+/// coordinate_count as an Eigen index.
+inline constexpr auto contact_dimension = static_cast<Eigen::Index>(coordinate_count);
+
+/// A Point of a contact. Not aligned, so that structs that contain it need no special alignment.
+using ContactPoint = Eigen::Matrix<double, coordinate_count, 1, Eigen::DontAlign>;
+
+/// Name of the parameter of each coordinate: its manifest key (for log_limit friction.lambda), and that of
+/// the time offset, which is not a parameter of a manifest.
+inline constexpr std::array<std::string_view, coordinate_count> coordinate_keys{
+    "friction.k1",   "friction.k2",    "friction.beta",   "plant.presliding_damping",
+    "plant.inertia", "friction.alpha", "friction.lambda", "friction.n",
+    "time_offset"};
+
+/// @param creep_torque σ0, N m. It should be near the torques at which creep was observed; otherwise limit
+/// and exponent are strongly correlated. @returns parameters whose breakaway torque is never reached.
+ContactParameters contact_at(const ContactPoint& point, double creep_torque);
+
+/// The pre-sliding model in these coordinates.
+AxisModel contact_model(double creep_torque);
+
+/// The inverse of contact_at, except for the breakaway torque, with a time offset of 0.
+ContactPoint point_of(const ContactParameters& contact, double creep_torque);
+
+/// All reported quantities of a contact, in the order of the report: k1, k2, k1_plus_k2, beta,
+/// presliding_damping, inertia, alpha, lambda, n, time_offset.
+std::vector<Quantity> fitted_quantities(const Point& point, double creep_torque);
+
+/// The coordinate that a quantity depends on: the first of several.
+Coordinate coordinate_of(const Quantity& quantity);
+
+/// The interval by profile likelihood: its ends are the values at which the minimum sum of squares exceeds
+/// that of the fit by the amount that the ends of `estimate` would have in a linear model. An end that is not
+/// found within a factor of 4 (n: ± 2) is infinite. Only for quantities that are parameters of the manifest.
+QuantityEstimate interval_by_profile(Records records, const ContactFit& fit, const Quantity& quantity,
+                                     const QuantityEstimate& estimate);
+
+}  // namespace zerocount::fit

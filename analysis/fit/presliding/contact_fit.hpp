@@ -1,0 +1,84 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/fit/presliding/contact.hpp"
+#include "analysis/fit/residuals.hpp"
+#include "analysis/fit/solver.hpp"
+
+namespace zerocount::fit {
+
+/// A parameter with a value given by the user.
+struct KnownParameter {
+  Coordinate coordinate{log_k1};  ///< coordinate of the parameter, by coordinate_keys
+  double value{0.0};              ///< in the parameter's own unit
+};
+
+/// Called with the name of each stage of a computation when it begins, for messages; may be empty.
+using StageReport = std::function<void(std::string_view)>;
+
+/// A contact fitted to records.
+struct ContactFit {
+  double creep_torque{1.0};  ///< σ0 of the coordinates, N m
+  double effort{1.0};        ///< see fit_contact()
+  FitSetting setting;
+  FittedModel model;
+  Observations observations;  ///< [record]
+  std::vector<double> noise;  ///< [record] of the readings, in the record's unit; 0 for counts without noise
+  /// [record] Root mean square of the residuals of the readings, in the record's unit. Quantisation alone
+  /// gives 0.29.
+  std::vector<double> misfit;
+};
+
+/// σ0 of the coordinates for these records, N m: 1 N m if λ is known, because the coordinate is then ln(1/λ)
+/// for every n; otherwise 0.7 of the largest torque.
+double creep_torque_for(Records records, const std::vector<KnownParameter>& known);
+
+/// Fits the contact to all records together. First a rough fit from the starting point, to all readings with
+/// equal weights, which converges from far away. Then fits to the observations (see observe()), repeated with
+/// updated observations until the fit no longer changes.
+/// @throws Failure (bad_data) if a single reading is an outlier, the model does not explain a record, or the
+/// fit ends at a rotor that cannot be simulated.
+/// @param effort factor on the number of simulated samples after which no other starting points are tried
+ContactFit fit_contact(Records records, const std::vector<KnownParameter>& known,
+                       const StageReport& report = {}, double effort = 1.0);
+
+/// True if the search for other starting points ended because of the effort.
+bool has_ended_early(const ContactFit& fit);
+
+/// Repeats the fit with a time offset of 0, the given delay.
+void keep_time_offset(Records records, ContactFit& fit);
+
+/// Repeats the fit from other values of β and keeps the fit with the smallest spread of residuals. A spring
+/// that softens within a count or two has little influence on the rough fit, which may end far away. Records
+/// of slow parts alone are left as they are: their β has been searched.
+/// @returns whether `fit` changed.
+bool improve_softening(Records records, ContactFit& fit);
+
+/// The reason why the records do not determine a coordinate, derived from their parts: a clause that
+/// completes "because …".
+std::string missing_information(Records records, const ContactFit& fit, Coordinate coordinate);
+
+/// Sentence for a search that stopped at its effort limit, without the full stop.
+std::string left_out_text(double effort);
+
+// Checks of the records after a fit. Each throws Failure (bad_data) with the record, the place in it and
+// the reason.
+
+/// Refuses records with a single outlier (see find_glitch()).
+void refuse_glitches(Records records, const FitPoint& point, const FitSetting& setting);
+
+/// Refuses residuals whose root mean square exceeds 2 % of a record's travel and 2 counts.
+/// @param tolerance factor on these limits
+void refuse_unexplained(Records records, const ContactFit& fit, double tolerance);
+
+/// Refuses a spread of the residuals of more than 30 times that of the simulated replicates.
+/// @param cause a sentence that names a likely cause, without its full stop; may be empty
+void refuse_gross_misfit(Records records, const ContactFit& fit, const ResidualChecks& checks,
+                         const std::string& cause);
+
+}  // namespace zerocount::fit

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "analysis/document/answer.hpp"
+#include "analysis/fit/presliding/contact.hpp"
+#include "analysis/fit/presliding/contact_fit.hpp"
+#include "analysis/fit/record.hpp"
+#include "analysis/fit/records/checked_record.hpp"
+#include "analysis/fit/report.hpp"
+#include "analysis/fit/residuals.hpp"
+
+namespace zerocount::fit {
+
+/// A sample of the joint distribution of the estimated parameters.
+struct JointDraws {
+  std::vector<std::string> keys;          ///< in a manifest, one for each column
+  std::vector<std::vector<double>> rows;  ///< [draw][column] in the parameter's own unit
+};
+
+/// An estimated parameter of the manifest with its intervals, on the quantity's own scale.
+struct EstimatedQuantity {
+  Quantity quantity;
+  QuantityEstimate by_replicates;  ///< see interval_of_errors()
+  QuantityEstimate reported;       ///< the same, or the profile's
+};
+
+/// Appends one draw for each row of `errors` (see ReadingReplicates): with the error e of a replicate, whose
+/// mean is ē, and the widening w, the draw is value − w·(e − ē). Where the reported interval is the
+/// profile's, the distances above and below the value are scaled to its two ends. Both are monotonic, so that
+/// the rank correlations are those of the replicates. Draws with n < 1 are left out.
+/// @param max_rows ends the draws
+void append_draws(std::span<const EstimatedQuantity> quantities, const Eigen::MatrixXd& errors,
+                  double widening, std::size_t max_rows, JointDraws& draws);
+
+/// Reason why there are fewer draws than wanted; empty if there are as many.
+std::string reason_of_missing_draws(const JointDraws& draws, std::size_t wanted);
+
+/// Covariance of the errors of estimated quantities, on their own scales: of logarithms, except for n and the
+/// time offset.
+struct JointErrors {
+  std::vector<std::string> names;
+  Eigen::MatrixXd covariance;  ///< [names, names]
+
+  double correlation(Eigen::Index one, Eigen::Index other) const;
+};
+
+/// The covariance of the errors of replicates, widened.
+JointErrors joint_errors(std::span<const EstimatedQuantity> quantities, const Eigen::MatrixXd& errors,
+                         double widening);
+
+/// The detected parts of a record, and the quality of the fit.
+struct RecordSummary : RecordExtent {
+  double duration{0.0};  ///< s
+  bool counted{false};
+  double unit{0.0};  ///< of the readings, rad or m
+  std::size_t branches{0};
+  std::size_t reversals{0};
+  std::size_t holds{0};
+  std::size_t ring_downs{0};
+  double misfit{0.0};  ///< root mean square of the residuals, in the readings' unit
+  double noise{0.0};   ///< of the readings, standard deviation in their unit
+};
+
+/// The parameters k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda, n and time_offset.
+struct Identification : FitReport {
+  double sample_time{0.0};  ///< of the time offset, s: of the first record
+  std::vector<RecordSummary> records;
+  std::vector<FittedRecord> fitted;  ///< [record] for figures
+  ResidualChecks checks;
+  /// Frequencies at which the fitted rotor rings: on k1 after large steps, on k1 + k2 after small ones.
+  FrequencyRange own_ringing;
+  /// Searched only if the checks failed, below own_ringing.low/1.2 and above 1.2·own_ringing.high.
+  std::optional<ResidualLine> residual_line;
+  double effort{1.0};        ///< see fit_contact()
+  bool search_ended{false};  ///< not explained, and no more starting points were tried because of the effort
+  /// Correlation of the errors of a pair of estimated parameters; listed if its magnitude is 0.9 or more.
+  struct Correlation {
+    std::string one;
+    std::string other;
+    double value{0.0};
+  };
+  std::vector<Correlation> correlations;
+  JointErrors errors;  ///< of all estimated parameters but k1 + k2
+  JointDraws draws;    ///< so many as the options ask for
+};
+
+struct IdentificationOptions {
+  std::vector<KnownParameter> known;
+  std::size_t replicates{500};
+  std::size_t draws{0};  ///< joint draws of the parameters
+  double effort{1.0};    ///< see fit_contact()
+  StageReport report{};
+};
+
+/// Refuses a record that is given twice: it would have twice its weight.
+/// @throws Failure: bad_data; bad_input if the records are of a rotary and a linear axis
+void check_different(Records records);
+
+/// Identifies a rotor and its contact from material tests, all of the same contact.
+///
+/// The value is the fit minus its mean error in the replicates. The 95 % interval is the fit minus the 97.5 %
+/// and the 2.5 % quantile of that error; it is widened if the encoder alone does not explain the residuals.
+/// If the interval is so wide that the model is not linear across it, it is computed by profile likelihood at
+/// the same level. A parameter whose interval spans more than a factor of 4 (n: more than 2) is not
+/// identifiable.
+///
+/// The time offset between torque and angle is fitted together with the contact, before any reading is called
+/// wrong; so the other intervals include its uncertainty. If its interval is wider than ±1 sample, the fit is
+/// repeated with the given delay.
+/// @throws Failure (bad_data) if a record is given twice, the torque reverses less than twice, a single
+/// reading is an outlier, or the model does not explain the records.
+Identification identify(std::vector<TestRecord> records, const IdentificationOptions& options = {});
+
+/// A sentence that names the line of the residuals and its likely cause, without the full stop; empty if
+/// there is none.
+std::string second_mass_text(const Identification& identification);
+
+/// The identified parameters as a fragment of a manifest, with the strong correlations as comments.
+std::string manifest_fragment(const Identification& identification);
+
+/// The joint draws as a table for the key `samples` of a manifest: comments with #, a header with the keys of
+/// the parameters, and a line of comma-separated numbers for each draw.
+std::string posterior_table(const Identification& identification);
+
+/// The parameters, the parts of the records, the checks of the residuals and the fragment of a manifest.
+document::AnswerDescription<Identification> identification_answer();
+
+}  // namespace zerocount::fit

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "analysis/fit/record.hpp"
+#include "analysis/records/raw_series.hpp"
+
+namespace zerocount::fit {
+
+using records::place_of;
+using records::RawSeries;
+using records::TorqueKind;
+
+/// Kind of the axis of a series.
+inline parameters::AxisKind axis_of(const RawSeries& series) {
+  return series.linear ? parameters::AxisKind::linear : parameters::AxisKind::rotary;
+}
+
+/// Checks the series and converts it to a record for the fit. The record ends where the hook begins to slide,
+/// and its note says so: where the series flags it, or, in a series without flags, where find_gross_sliding()
+/// finds it.
+/// @param any_magnitude whether to accept values that suggest other units
+/// @throws Failure (bad_data) with the reason if one of the checks below fails.
+TestRecord checked_record(const RawSeries& series, bool any_magnitude);
+
+/// The torque over each sample interval. If the motor torque was sampled behind an amplifier of known
+/// bandwidth, its samples u and u′ at both ends of an interval are two points of one exponential, which gives
+/// the commanded torque.
+/// @param record its sampling intervals
+std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, const TestRecord& record);
+
+// Requirements on a series. Each check throws Failure (bad_data) with the place and the reason.
+
+/// Requires at least 100 samples with increasing times, without gaps: no interval is longer than 1.75 times
+/// the usual one (the median), because the torque in between is unknown, or shorter than a tenth of it.
+/// @returns the sampling interval, s.
+double checked_sample_time(const RawSeries& series);
+
+/// The interval after each sample, s, of a series with checked times that deviate from a regular grid by more
+/// than a quarter of the sampling interval; empty for one on the grid, whose deviations are taken for those
+/// of its clock.
+std::vector<double> uneven_intervals(const RawSeries& series);
+
+/// Requires magnitudes that are plausible for an axis on its bearing's friction, in SI units. Values wrong by
+/// a factor of a thousand suggest another unit.
+///
+/// | quantity | rotary axis | linear axis |
+/// | --- | --- | --- |
+/// | sampling interval | 1 µs … 20 ms | 1 µs … 20 ms |
+/// | largest torque or force | 1e-3 … 20 N m | 1e-3 … 2e4 N |
+/// | travel (maximum − minimum) | 4e-6 … 0.05 rad | 5e-9 … 0.01 m |
+/// | range of the torque or force over travel | 1 … 2e4 N m/rad | 100 … 1e10 N/m |
+void check_magnitudes(const RawSeries& series, const TestRecord& record);
+
+/// Requires a torque that is not always 0, and an angle that changes.
+void check_change(const RawSeries& series, const TestRecord& record);
+
+/// Requires a travel of at least 5 counts, in the direction of the torque. Friction takes energy: where the
+/// torque takes it from the motion, one of both has the wrong sign; where it gives energy and the angle does
+/// not rise with the torque all the same, the axis slides.
+void check_motion(const RawSeries& series, const TestRecord& record);
+
+/// Refuses a step of the angle by a quarter of the travel or more that stays, 50 times as long as all others
+/// within 10 samples, without a step of the torque: no motion is like that.
+void check_jumps(const RawSeries& series);
+
+/// Refuses a single reading whose distance from its neighbours is more than ten times that of all others.
+void check_glitches(const RawSeries& series, const TestRecord& record);
+
+/// Refuses a clipped torque: a DAC code that stays at the end of its range for 3 samples, or a torque that
+/// stays at its extreme after a slow rise while the angle continues and returns.
+void check_clipping(const RawSeries& series, const TestRecord& record);
+
+/// A record beside the fit, sample by sample. Readings are in the record's unit.
+struct FittedRecord {
+  std::vector<double> time;     ///< [sample] as recorded, s
+  std::vector<double> torque;   ///< [sample] of the motor, N m, without the fitted time offset
+  std::vector<double> reading;  ///< [sample] as recorded; masked ones too
+  std::vector<double> fitted;   ///< [sample] expected reading: the fitted angle, less half a count for counts
+  std::vector<bool> excluded;   ///< [sample] masked readings
+};
+
+/// @param path [sample] fitted angle with the encoder's offset, in the record's unit
+FittedRecord fitted_record(const TestRecord& record, const Eigen::VectorXd& path);
+
+/// Reading minus fitted value of a sample, in the record's unit.
+inline double residual(const FittedRecord& record, std::size_t sample) {
+  return record.reading[sample] - record.fitted[sample];
+}
+
+/// A stretch in which the rotor slides, seen from torque and angle.
+struct GrossSliding {
+  std::size_t first{0};     ///< sample at or shortly before the breakaway
+  std::size_t seen{0};      ///< sample at which sliding is certain
+  double travel{0.0};       ///< in the window that ends there, in the unit of the series' angle
+  double travel_before{0};  ///< maximum − minimum angle before that window, in the same unit
+};
+
+/// Finds the first gross sliding of a material test.
+///
+/// Before the rotor slides, its travel is that of a spring with creep. Elastic travel grows with the range of
+/// the torque, creep with its power n. Both are largest at the first visit of a torque. The rotor slides if
+///
+///   |θ(k) − θ(k − w)| ≥ 5·X·(U₁/U₀)³,
+///
+/// with the travel X up to the sample k − w, the range U₁ of the torque up to k, and the range U₀ up to
+/// k − 3w, so that the rotor has had time to follow. The factor 5 allows for overshoot after a step and for
+/// a spring that softens, the exponent for creep with n up to 3. The windows w are 8, 16, 32 … samples, at
+/// most a quarter of the record before, so that they have little creep.
+///
+/// A leap between two samples is a fault of the reading and not motion: no step may be more than half of the
+/// travel in the window. Masked readings are replaced by the last one before.
+///
+/// Not found: slides that are short compared with the travel before, and slides without pre-sliding travel
+/// before them.
+std::optional<GrossSliding> find_gross_sliding(const records::RawSeries& series);
+
+}  // namespace zerocount::fit

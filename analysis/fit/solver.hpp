@@ -1,0 +1,167 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "analysis/fit/model.hpp"
+#include "analysis/fit/observations.hpp"
+#include "analysis/fit/record.hpp"
+
+namespace ceres {
+class IterationCallback;
+class Problem;
+}  // namespace ceres
+namespace zerocount::fit {
+
+/// When a search by least squares ends, and how it steps. The defaults are those of Ceres.
+struct SearchSetting {
+  int max_steps{50};
+  int max_invalid_steps{5};  ///< in a row: the residuals are not finite there
+  double tolerance{1e-6};    ///< relative decrease of the sum of squares by a step that ends the search
+  double parameter_tolerance{1e-8};        ///< relative change of the parameters that ends it
+  double trust_region{1e4};                ///< radius for the first step
+  bool many_blocks{false};                 ///< eliminates parameter blocks that few residuals depend on
+  ceres::IterationCallback* end{nullptr};  ///< called after each step; not owned
+};
+
+struct SearchResult {
+  bool found{false};  ///< otherwise the residuals are not finite, and the parameters are as before
+  bool converged{false};
+  double squares{0.0};  ///< sum of the squared residuals
+};
+
+/// Moves the parameters of the problem to the least sum of squares: Levenberg and Marquardt, on one thread.
+///
+/// The program calls ceres::Solve() nowhere else. It prints nothing: what Ceres would write to standard error
+/// through glog, such as "Residual and Jacobian evaluation failed", is in the result, and the caller says
+/// what it means for the records.
+SearchResult search_least_squares(ceres::Problem& problem, const SearchSetting& setting);
+
+/// The unknowns of a fit: the coordinates of the model, and for each record the encoder's reading at θ = 0.
+struct FitPoint {
+  Point axis;
+  Eigen::VectorXd offset;  ///< [record] in the record's unit
+};
+
+/// Settings of a fit.
+struct FitSetting {
+  AxisModel model;
+  FreeCoordinates free{};
+  /// Mean of a weak normal prior on the free coordinates, which keeps undetermined coordinates finite. Its
+  /// standard deviation `prior_spread` corresponds to a parameter known to a factor of 400.
+  Point prior;
+  double prior_spread{3.0};
+  double tolerance{1e-6};  ///< relative change of the sum of squares at which the fit ends
+  int max_steps{50};
+  /// Simulated samples (AxisModel::simulated) at which the fit ends after its present step.
+  double max_simulated{std::numeric_limits<double>::infinity()};
+};
+
+/// The observations of each record.
+using Observations = std::vector<std::vector<AngleObservation>>;
+
+/// Every reading that is not masked as an observation with the variance of a count.
+Observations all_readings(Records records);
+
+/// Result of a fit.
+struct FitResult {
+  FitPoint point;
+  double squares{0.0};    ///< the minimum sum of squares
+  bool converged{false};  ///< within the steps of the setting
+};
+
+/// Minimises the sum of squares of (observed − modelled angle)/√variance and of the prior, starting at
+/// `start`. Non-linear least squares by Ceres (Levenberg–Marquardt, dense QR). If the fit fails, the point is
+/// `start` and `squares` is infinite.
+FitResult fit_jointly(Records records, const Observations& observations, const FitPoint& start,
+                      const FitSetting& setting);
+
+/// fit_jointly() with the starting point as the mean of the prior.
+FitResult fit_from(Records records, const Observations& observations, const FitPoint& start,
+                   FitSetting setting);
+
+/// fit_from() each of the results, in parallel; by their sums of squares.
+std::vector<FitResult> fits_from(Records records, const Observations& observations,
+                                 std::vector<FitResult> starts, const FitSetting& setting);
+
+/// A point with the offsets for which the residuals of all readings have the mean 0, and their sum of squares
+/// over the variance of a count; infinite where the motion cannot be simulated, or is too fast for the
+/// sampling.
+FitResult with_mean_offsets(Records records, const AxisModel& model, const Point& point);
+
+/// How many starting points are tried.
+struct SearchWidth {
+  std::size_t tried{6};  ///< the best of them, each for `steps` steps
+  int steps{12};
+  std::size_t continued{3};  ///< the best of these fits are results
+};
+
+/// A few steps from the best of the starting points, in parallel. @returns the fits, by their sums of
+/// squares, those within four times the smallest.
+std::vector<FitResult> promising_fits(Records records, const Observations& observations,
+                                      const std::vector<Point>& starts, FitSetting setting,
+                                      const SearchWidth& width = {});
+
+/// The model at a point, with its linearisation.
+struct FittedModel {
+  FitPoint point;
+  std::vector<RecordMotion> motions;  ///< [record]; the paths include the offsets
+};
+
+FittedModel model_at(Records records, const FitPoint& point, const FitSetting& setting);
+
+/// The readings as observations (see observe()) along the paths of a model.
+/// @param noise [record] of the readings, in the record's unit
+Observations observations_along(Records records, const FittedModel& model, const std::vector<double>& noise);
+
+/// False if the simulation did not follow the record.
+bool is_finite(const RecordMotion& motion);
+
+/// Textbook covariance of the errors of a fit, valid for independent observations: the inverse of the normal
+/// matrix, including the prior.
+Eigen::MatrixXd textbook_covariance(const FittedModel& model, const Observations& observations,
+                                    const FitSetting& setting);
+
+/// Normal equations of the linearised model: `matrix`·d = `gradient` gives the step d to its least squares.
+/// The first rows belong to the coordinates, the others to the offsets. Rows of fixed
+/// coordinates are those of the identity.
+struct NormalEquations {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd gradient;
+  double squares{0.0};          ///< sum of squares at the model, without the prior
+  std::size_t observations{0};  ///< in the sum
+};
+
+/// The residuals of all observations and of the prior at the model.
+NormalEquations normal_equations(const FittedModel& model, const Observations& observations,
+                                 const FitSetting& setting);
+
+/// Adds each of `changes` to the model's point, and adapts the free coordinates of `setting` and the offsets
+/// by one step of linear least squares with the model's sensitivities. Their sums of squares are those of the
+/// linear model.
+/// @returns those with a smaller sum than the model's by more than chance, by their sums of squares.
+std::vector<FitResult> better_points(Records records, const Observations& observations,
+                                     const FittedModel& model, const FitSetting& setting,
+                                     const std::vector<Point>& changes);
+
+class NormalEquationsSum {
+ public:
+  NormalEquationsSum(std::size_t records, const FitSetting& setting);
+
+  /// Adds the observations of record number `record` with the modelled path `path`.
+  void add(std::size_t record, const std::vector<AngleObservation>& observations, const Eigen::VectorXd& path,
+           const Eigen::MatrixXd& sensitivity);
+
+  /// Adds the prior, including its gradient at the coordinates `at`.
+  NormalEquations with_prior(const Point& at) const;
+
+ private:
+  const FitSetting& setting_;
+  NormalEquations sum_;
+};
+
+}  // namespace zerocount::fit

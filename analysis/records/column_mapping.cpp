@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "analysis/text/text.hpp"
+#include "core/text/trimmed.hpp"
 
 namespace zerocount::records {
 namespace {
@@ -28,24 +29,18 @@ constexpr std::array<QuantityRow, 8> quantity_rows{{{"time", text::Dimension::ti
                                                     {"position", text::Dimension::length},
                                                     {"repetition", std::nullopt}}};
 
-std::string_view without_blanks(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return text;
-}
-
 /// The product of "*NUMBER" and "/NUMBER", one after the other; none if the text is something else.
 std::optional<double> product_of(std::string_view text) {
   double product = 1.0;
   while (!text.empty()) {
     const char sign = text.front();
     if (sign != '*' && sign != '/') return std::nullopt;
-    text = without_blanks(text.substr(1));
+    text = text::trimmed(text.substr(1));
     double number = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc{} || !std::isfinite(number) || number == 0.0) return std::nullopt;
     product = sign == '*' ? product * number : product / number;
-    text = without_blanks(text.substr(static_cast<std::size_t>(end - text.data())));
+    text = text::trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
   }
   return std::isfinite(product) && product != 0.0 ? std::optional(product) : std::nullopt;
 }
@@ -99,20 +94,20 @@ ParsedMapping parse_mapping(std::string_view text) {
     return parsed;
   };
   const std::size_t equals = text.find('=');
-  const std::string_view name = without_blanks(text.substr(0, equals));
+  const std::string_view name = text::trimmed(text.substr(0, equals));
   const auto row = std::find_if(quantity_rows.begin(), quantity_rows.end(),
                                 [&](const QuantityRow& known) { return known.name == name; });
   if (equals == std::string_view::npos || row == quantity_rows.end()) {
     return refuse(fmt::format("expected QUANTITY=COLUMN, with QUANTITY one of {}", quantity_names()));
   }
   parsed.mapping.quantity = static_cast<Quantity>(row - quantity_rows.begin());
-  std::string_view column = without_blanks(text.substr(equals + 1));
+  std::string_view column = text::trimmed(text.substr(equals + 1));
   const std::size_t close = column.rfind(']');
   const std::size_t open = close == std::string_view::npos ? close : column.rfind('[', close);
   if (open != std::string_view::npos) {
     const std::string_view unit = column.substr(open + 1, close - open - 1);
-    const std::string_view factors = without_blanks(column.substr(close + 1));
-    column = without_blanks(column.substr(0, open));
+    const std::string_view factors = text::trimmed(column.substr(close + 1));
+    column = text::trimmed(column.substr(0, open));
     parsed.mapping.unit = text::unit_named(unit);
     if (!parsed.mapping.unit) {
       return refuse(fmt::format("'{}' is not a known unit; expected one of {}", text::printable(unit),

@@ -9,6 +9,7 @@
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "core/text/number_text.hpp"
+#include "core/text/trimmed.hpp"
 #include "core/text/unit.hpp"
 #include "experiments/yaml/text_file.hpp"
 
@@ -22,16 +23,9 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r';
 }
 
-/// Removes surrounding blanks.
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 /// Removes surrounding blanks and quotation marks.
 std::string_view unquoted(std::string_view text) {
-  text = trimmed(text);
+  text = text::trimmed(text);
   if (text.size() >= 2 && text.front() == '"' && text.back() == '"') return text.substr(1, text.size() - 2);
   return text;
 }
@@ -65,7 +59,7 @@ std::string_view next_cell(std::string_view& line, Separator separator, bool& mo
   const std::string_view cell = line.substr(0, end);
   more = end < line.size();
   line.remove_prefix(more ? end + 1 : end);
-  if (separator == Separator::blanks) line = trimmed(line);
+  if (separator == Separator::blanks) line = text::trimmed(line);
   return unquoted(cell);
 }
 
@@ -176,14 +170,14 @@ std::size_t titles_above_header(const std::vector<std::string_view>& first, std:
 std::string_view without_brackets(std::string_view unit) {
   const bool bracketed =
       (unit.starts_with('[') && unit.ends_with(']')) || (unit.starts_with('(') && unit.ends_with(')'));
-  return bracketed ? trimmed(unit.substr(1, unit.size() - 2)) : unit;
+  return bracketed ? text::trimmed(unit.substr(1, unit.size() - 2)) : unit;
 }
 
 }  // namespace
 
 std::vector<std::string_view> cells_of(std::string_view line, Separator separator) {
   std::vector<std::string_view> cells;
-  if (separator == Separator::blanks) line = trimmed(line);
+  if (separator == Separator::blanks) line = text::trimmed(line);
   for (bool more = true; more;) cells.push_back(next_cell(line, separator, more));
   return cells;
 }
@@ -206,9 +200,9 @@ TextTable::TextTable(const std::filesystem::path& path, std::optional<Separator>
   for (std::size_t number = 1; at < text_.size(); ++number) {
     const std::size_t end = std::min(text_.find('\n', at), text_.size());
     const std::string_view line = std::string_view(text_).substr(at, end - at);
-    const std::string_view shown = trimmed(line);
+    const std::string_view shown = text::trimmed(line);
     if (shown.starts_with('#') || shown.starts_with('%')) {
-      if (content.empty()) comment_above = trimmed(shown.substr(1));
+      if (content.empty()) comment_above = text::trimmed(shown.substr(1));
     } else if (!shown.empty()) {
       content.push_back({line.ends_with('\r') ? line.substr(0, line.size() - 1) : line, number});
     }
@@ -260,13 +254,13 @@ void TextTable::read_header(std::string_view line) {
     for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
       const std::size_t bracket = cell.find(open);
       if (bracket == std::string_view::npos || !cell.ends_with(close)) continue;
-      const std::string_view inside = trimmed(cell.substr(bracket + 1, cell.size() - bracket - 2));
+      const std::string_view inside = text::trimmed(cell.substr(bracket + 1, cell.size() - bracket - 2));
       if (open == '(' && !text::unit_named(inside)) {
-        perhaps = {trimmed(cell.substr(0, bracket)), inside};
+        perhaps = {text::trimmed(cell.substr(0, bracket)), inside};
         continue;
       }
       unit = inside;
-      cell = trimmed(cell.substr(0, bracket));
+      cell = text::trimmed(cell.substr(0, bracket));
       break;
     }
     columns_.push_back(
@@ -343,7 +337,7 @@ std::string_view TextTable::cell(std::size_t row, std::size_t column) const {
   std::string_view line = std::string_view(text_).substr(starts_[row]);
   line = line.substr(0, line.find('\n'));
   if (line.ends_with('\r')) line.remove_suffix(1);
-  if (separator_ == Separator::blanks) line = trimmed(line);
+  if (separator_ == Separator::blanks) line = text::trimmed(line);
   bool more = true;
   for (std::size_t i = 0; i < column; ++i) next_cell(line, separator_, more);
   return next_cell(line, separator_, more);

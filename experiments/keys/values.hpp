@@ -27,9 +27,9 @@ struct Reading {
   yaml::Problems& problems;
   study::StudyPlan& plan;  ///< gets the distributions
   study::Study& study;
-  bool recorded{false};                    ///< the study exists already: its faults are told as warnings
-  TrialGroups groups{};                    ///< the study has the keys `rigs`, `worlds`
-  bool plugin_failed{false};               ///< the user's controller could not be loaded
+  bool recorded{false};       ///< it has results: a target that the encoder does not see is a warning
+  TrialGroups groups{};       ///< the study has the keys `rigs`, `worlds`
+  bool plugin_failed{false};  ///< the user's controller could not be loaded
   std::vector<ProfileRequest> profiles{};  ///< [index of a value of kind profile]
   std::vector<std::string> warnings{};     ///< allowed but possibly unintended
   /// The value of the slot of its rate, if the value read last changes with age. Whoever takes that value

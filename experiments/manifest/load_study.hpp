@@ -28,7 +28,7 @@ study::Study parse_study(std::string text, std::string_view source,
                          const std::vector<std::string>& overrides = {},
                          const sections::Companions& companions = {});
 
-/// As parse_study, of a study that has results: what was allowed when they were made is told as a warning.
+/// As parse_study, of a study that has results: a target that the encoder does not see is a warning.
 study::Study recorded_study(std::string text, std::string_view source,
                             const std::vector<std::string>& overrides,
                             const sections::Companions& companions = {});

@@ -11,7 +11,7 @@ namespace zerocount::manifest {
 
 /// Converts the manifest `root` to a Study, without its text, overrides and hashes. Errors are added to
 /// `problems`; with errors the study must not be used.
-/// @param recorded as Reading
+/// @param recorded the study has results (Reading::recorded)
 /// @param samples inserted in `root` before, or null
 study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sections::Companions& companions,
                            const sections::SamplesTable* samples, yaml::Problems& problems);

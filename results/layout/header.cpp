@@ -128,9 +128,7 @@ void require_version(const hdf5::File& file) {
                                                   fmt::format(fmt::runtime(advice), format_version)));
 }
 
-/// Files from before there were two have no such attribute.
 study::Engine read_engine(const hdf5::File& file) {
-  if (!file.has_attribute("engine")) return study::Engine::reference;
   const std::string name = file.text("engine");
   for (const study::Engine engine : {study::Engine::batch, study::Engine::reference}) {
     if (name == name_of(engine)) return engine;

@@ -68,8 +68,8 @@ struct FileHeader {
   std::optional<std::string> samples;  ///< exact text of the table of joint draws, if there is one
 };
 
-/// A file that is valid as far as it was read, but is not for this use: another format or a newer version of
-/// it, or trials of another study or by another build of the program. Its exit code is bad_data.
+/// A file that is valid as far as it was read, but is not for this use: another format or version, or
+/// trials of another study or by another build of the program. Its exit code is bad_data.
 class ForeignFile : public Failure {
  public:
   /// The message is "PATH: what it is".
@@ -105,15 +105,15 @@ std::optional<std::string> read_single_text(const hdf5::File& file, const std::s
 
 /// Reads the header of a study or of a shard, and checks the format, its version and the checksum of the
 /// manifest.
-/// @throws RareFile; ForeignFile for another format or a newer version, Failure (bad_data) for damage.
+/// @throws RareFile; ForeignFile for another format or version, Failure (bad_data) for damage.
 FileHeader read_header(const hdf5::File& file);
 /// Reads the header of a file of `zerocount rare`. @throws ForeignFile for any other, Failure (bad_data)
 FileHeader read_rare_header(const hdf5::File& file);
 /// Whether the file is one of `zerocount rare`. @throws ForeignFile for a format that is not zerocount's
 bool is_rare(const hdf5::File& file);
 
-/// The study whose trials the file `path` holds: its manifest with its overrides, the defaults of its format
-/// version and its engine. Whoever needs the study of a results file takes it from here.
+/// The study whose trials the file `path` holds: its manifest with its overrides, and its
+/// engine. Whoever needs the study of a results file takes it from here.
 /// @param plugin the user's controller; null: as recorded, so that no trials can be run
 /// @throws Failure (bad_input) as parse_study does, (bad_data) if the file has other numbers of design points
 /// or trials than its manifest; see also require_same_plugin.
@@ -125,7 +125,7 @@ void require_same_plugin(const std::filesystem::path& path, const FileHeader& he
                          const plugin::ControllerPlugin* plugin);
 
 /// @throws ForeignFile unless `header`, of the file `path`, is of this study, by this build of the program
-/// (see same_build) and the study's engine, and of the current version of the layout.
+/// (see same_build) and the study's engine.
 void require_same_study(const std::filesystem::path& path, const FileHeader& header,
                         const study::Study& study);
 

@@ -11,7 +11,6 @@ namespace {
 using M = trial::MoveOutcome;
 using enum Statistic;
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double margin_of_rates = 0.02;
 
 constexpr ValidValues a_count{"a count, not negative"};

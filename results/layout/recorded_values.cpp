@@ -6,6 +6,7 @@
 #include "core/hash/sha256.hpp"
 
 namespace zerocount::layout {
+
 manifest_text::ManifestValues manifest_values(const FileHeader& header, const std::string& source) {
   manifest_text::ManifestValues values;
   try {

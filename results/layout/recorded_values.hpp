@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,10 +16,9 @@ namespace zerocount::layout {
 manifest_text::ManifestValues manifest_values(const FileHeader& header, const std::string& source);
 
 /// The values in which the study of the file `path` differs from this one: those of the manifest with its
-/// overrides, the order of keys where it numbers results, the table of samples, and defaults that changed
-/// since the file was written. Whoever adds trials to those of a file asks this: nothing but what may differ
-/// there (for an extension the number of trials) may be in the answer. The controller is compared by
-/// require_same_plugin().
+/// overrides, the order of keys where it numbers results, and the table of samples. Whoever adds trials to
+/// those of a file asks this: nothing but what may differ there (for an extension the number of trials) may
+/// be in the answer. The controller is compared by require_same_plugin().
 /// @throws Failure (bad_data) as manifest_values() does.
 std::vector<manifest_text::ManifestDifference> study_differences(const std::filesystem::path& path,
                                                                  const FileHeader& header,

@@ -99,13 +99,12 @@ TEST_F(EngineOption, IsBatchUnlessSaidOtherwiseAndIsRecorded) {
   EXPECT_FALSE(fs::exists(at("x.h5")));
 }
 
-/// The engine is the reference's in files from before there were two.
-TEST_F(EngineOption, IsTheReferenceOfFilesThatDoNotSay) {
+TEST_F(EngineOption, IsNamedInEveryFile) {
   folder_.write("study.yaml", small_manifest(3));
-  complete("study.yaml", "old.h5", {"--engine", "reference"});
-  remove_attribute(at("old.h5"), "engine");
-  EXPECT_EQ(reading::AllTrialsFile(at("old.h5")).header().engine, study::Engine::reference);
   complete("study.yaml", "odd.h5");
+  fs::copy_file(at("odd.h5"), at("silent.h5"));
+  remove_attribute(at("silent.h5"), "engine");
+  EXPECT_TRUE(says(refusal({"summary", "silent.h5"}, 4), "engine"));
   replace_attribute(at("odd.h5"), "engine", "steam");
   EXPECT_TRUE(says(refusal({"summary", "odd.h5"}, 4), "steam"));
 }

@@ -95,6 +95,8 @@ TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
             "gate.yaml:1:10: require: 'success_rate = 1' cannot be understood; expected a text such as "
             "'success_rate "
             "≥ 0.995' (or >=, ≤, <=), or goal");
+  for (const char* text : {"goal 5", "success_rate ≥ 0.9 of", "success_rate ≥", "≥ 0.9", "Success ≥ 0.9"})
+    EXPECT_TRUE(says(fault(fmt::format("require: {}\n", text)), "cannot be understood")) << text;
   EXPECT_EQ(fault("require: [success_rate ≥ 99.5]\n"),
             "gate.yaml:1:11: require.0: 99.5 is not a proportion; expected a number from 0 to 1");
   EXPECT_EQ(fault("require: settling_time.p95 ≥ 0.1\n"),

@@ -44,7 +44,7 @@ TEST(MoveEvent, AMeasureIsComparedWithTheLimit) {
   const study::Study study = study_with_goal();
   for (const auto& [text, at_limit, above] :
        {std::tuple{"settling_time > 0.2", false, true}, std::tuple{"settling_time>=0.2", true, true},
-        std::tuple{" settling_time < 0.2 ", false, false}, std::tuple{"settling_time <= 0.2", true, false}}) {
+        std::tuple{" settling_time < 0.2 ", false, false}, std::tuple{"settling_time ≤ 0.2", true, false}}) {
     const MoveEvent event = parse_event(study, text);
     EXPECT_EQ(happens(event, move_with(0.2)), at_limit) << text;
     EXPECT_EQ(happens(event, move_with(0.3)), above) << text;
@@ -69,7 +69,8 @@ TEST(MoveEvent, TheScoreGrowsTowardsTheEvent) {
 TEST(MoveEvent, SaysWhatIsWrongWithAText) {
   const study::Study study = study_with_goal();
   for (const auto& [text, expected] :
-       {std::pair{"settling_time", "compares nothing"}, std::pair{"settling_time > soon", "no number"},
+       {std::pair{"settling_time", "compares nothing"}, std::pair{"settling_time = 1", "compares nothing"},
+        std::pair{"settling_time > soon", "no number"},
         std::pair{"settling_tine > 1", "did you mean 'settling_time'?"},
         std::pair{"band_settling_time[7] > 1", "names no measure"}}) {
     try {

@@ -171,7 +171,7 @@ TEST(Evidence, MovesAreComparedWithTheirPartners) {
   EXPECT_NEAR(measures[3].baseline, 0.01, 1e-15);
 }
 
-// What can be said of the tests and bounds in closed form.
+// Tests and bounds against their closed forms.
 
 constexpr double z95 = 1.6448536269514722;
 

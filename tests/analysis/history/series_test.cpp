@@ -238,7 +238,7 @@ TEST(ChangePoint, FindsTwoChangesOneAfterTheOther) {
   EXPECT_LT(changes[1].z, 0.0);
 }
 
-// The same from the definition, for two levels of which one is known in closed form.
+// The likelihood ratio follows from its definition where the maximum is known in closed form.
 TEST(ChangePoint, HasTheLikelihoodRatioOfItsDefinition) {
   // 30 of 100, then 60 of 200: 2·ln of the likelihoods at 0.3 and 0.3 against 0.3 is 0; then 90 of 100.
   const std::vector<Measurement> rates{{0.3, 100.0, 1.0, 0}, {0.3, 200.0, 1.0, 1}, {0.9, 100.0, 2.5, 2}};

@@ -237,7 +237,7 @@ TEST(CriterionCurves, ThereAreNoneWhereTheCriteriaSayNothing) {
   EXPECT_TRUE(criterion_curves(manifest::parse_study(head, "test"), 0, strange).empty());
 }
 
-// What `check` says of the theory of points.
+// The theory of design points in the answer of `check`.
 
 document::Answer theory_with(const std::string& friction) {
   const study::Study study = manifest::parse_study(

@@ -284,8 +284,8 @@ TEST(Learning, DoesNotAdviseWhatFindsNoBadWorld) {
   EXPECT_FALSE(learned.does_better_than_no_measurement());
 }
 
-// What a measurement says of the worlds, and "all are good" or "all are bad" of those that it leaves open, is
-// right more often than the word alone.
+// A measurement is worth it if its verdicts, with one word for all worlds that it leaves open, are right more
+// often than that word for all worlds.
 TEST(Learning, DoesBetterWhereItIsRightMoreOftenThanAWordForAll) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     const Worlds worlds(seed, 30);

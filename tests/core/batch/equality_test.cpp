@@ -203,7 +203,7 @@ std::vector<trial::TrialParameters> trials_under(friction::FrictionModel model, 
   return trials;
 }
 
-/// How far a trial's samples agree: up to the first other count or code.
+/// The samples of a trial up to the first at which count or code differ.
 struct SampleAgreement {
   bool parts{false};       ///< there is one
   double difference{0.0};  ///< largest of θ up to there, over 1e-6 count and 1e-9 of the travel

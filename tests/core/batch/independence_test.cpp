@@ -142,7 +142,7 @@ TEST(BatchObserversAre, ToldOfEachSampleInTheOrderOfTheTrial) {
   }
 }
 
-// Which trials lanes run, and that those they do not run are told apart by every parameter that matters.
+// Lanes run the trials that they support; every parameter that excludes a trial is found.
 
 struct Change {
   const char* what;

@@ -233,7 +233,8 @@ trial::TrialParameters standing_trial(std::uint64_t number) {
   return p;
 }
 
-/// Of `lines` lines whose amplitudes add up to `peak` of the torque of breakaway; without control.
+/// A trial without control under `lines` lines of a vibration, whose amplitudes add up to `peak` times the
+/// breakaway torque.
 trial::TrialParameters vibrated_trial(RandomBlocks& draw, double peak, int lines, int number) {
   trial::TrialParameters p;
   p.friction.model = friction::FrictionModel::coulomb;

@@ -154,7 +154,8 @@ TEST(RigProportion, IsSharperThanThatOfOneMark) {
   EXPECT_GT(median_low(0.99, 0.8, 300, 100), 0.75);    // of 0.9
 }
 
-// Of rigs of which half are far below, the bound is of those in question.
+// Half of the rigs hold far fewer moves than the claim asks for: the bound on the proportion stays near one
+// half.
 TEST(RigProportion, OfHalfOfTheRigsLeavesTheOthersOut) {
   std::vector<RigMoves> rigs(200, {20, 20, 20});
   for (std::size_t rig = 0; rig < rigs.size(); rig += 2) rigs[rig].met = 4;

@@ -264,7 +264,7 @@ TEST(Gms, IsTheSpringOfThePaperInTheLimitOfManyElements) {
     const double level = torque(random);
     go_slowly(plant, level);
     spring.move_to_torque(level);
-    // Of 1e-4: the last element stands for a wide cell.
+    // Of about 1e-4 rad: the last element stands for a wide cell of the distribution.
     EXPECT_NEAR(plant.theta(), spring.elongation(), 3e-7) << i;
   }
 }

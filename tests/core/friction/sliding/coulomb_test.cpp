@@ -351,7 +351,7 @@ TEST(FreeMotion, IsThatOfTheTextbook) {
     const Push push = pushes.next();
     const FreeMotion end = free_motion(push.plant, push.start, push.torque, push.duration);
     const Textbook exact = textbook(push);
-    // What the terms add up to at most: theirs is the rounding.
+    // The largest sum of the terms, which scales their rounding error.
     const double speed =
         std::abs(push.start.omega) +
         (std::abs(push.torque.now) + std::abs(push.torque.settled)) / push.plant.inertia * push.duration;
@@ -368,7 +368,7 @@ FrictionAlongRotor no_friction() {
   return friction;
 }
 
-// What a contact would begin with is not there.
+// A free plant ignores the state in which a contact would start.
 TEST(FreePlant, HasNoContact) {
   RandomPushes pushes;
   motion::PlantStart start;

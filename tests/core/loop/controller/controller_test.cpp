@@ -110,7 +110,7 @@ struct Input {
   double torque;
 };
 
-/// What comes of the signal by y_k = Σ bᵢ·x_{k−i} − Σ aᵢ·y_{k−i}.
+/// The filter's output y_k = Σ bᵢ·x_{k−i} − Σ aᵢ·y_{k−i} for the input x.
 std::vector<double> filtered(const TransferFunction& transfer, const std::vector<double>& x) {
   std::vector<double> y(x.size(), 0.0);
   for (std::size_t k = 0; k < x.size(); ++k) {

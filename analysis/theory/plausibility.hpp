@@ -89,7 +89,7 @@ struct FrozenLoop;
 ///     by an axis that stands in the middle of its count, or by the linear loop of trial_loops()
 ///   - a code of the converter that moves the axis by more than the whole band or tolerance even where its
 ///     friction is stiffest, Δu/(k1 + k2). The rule of the paper (issue 4 of its section 3), with k1, is
-///     stricter than zero counts need (docs/hardware.md, dac-resolution)
+///     stricter than zero counts need (docs/findings.md, dac-resolution)
 ///   - those of moves (move_plausibility.cpp); those of the torque range without a goal too
 ///
 /// A test of whole trials fails at a point under a condition if it fails in each of the trials examined

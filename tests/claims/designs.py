@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tunes every design of docs/designs.md, each with several seeds of the search, and prints the tables of the page.
+"""Tunes the designs of experiments/manifests/designs.yaml, each with several seeds of the search, and prints the tables behind docs/findings.md.
 
     designs.py PROGRAM MANIFEST [--rows TEXT] [--seeds N] [--budget TRIALS] [--jobs N]
 

@@ -123,7 +123,7 @@ std::string word_of(FrictionModel law) {
   return std::string(friction::traits_of(law).word);
 }
 
-// The table of docs/friction-and-control.md.
+// The deviations that docs/findings.md states.
 TEST(HuntingPrediction, DISABLED_IsThatOfLongTrialsOfManyLoopsOfEveryLaw) {
   for (const FrictionModel law : laws_with_friction) {
     const Comparison c = compared(law, 20, 1 << 18, 1);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `zerocount monitor` tells of the cause of a change, beside a model: the table of causes in docs/monitor.md.
+"""What `zerocount monitor` tells of the cause of a change, beside a model.
 
 usage: monitor_causes.py PROGRAM [--machines N] [--rows PATTERN]
 

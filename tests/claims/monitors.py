@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Delays of detection of `zerocount monitor` for changes of one simulated machine: the last table of docs/monitor.md.
+"""Delays of detection of `zerocount monitor` for changes of one simulated machine: the table of docs/monitor.md.
 
 usage: monitors.py PROGRAM ROOT [--rows PATTERN]
 

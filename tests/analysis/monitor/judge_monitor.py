@@ -1,4 +1,4 @@
-"""The bets of docs/monitor.md, once more: `zerocount monitor` beside this program, on random logs.
+"""The bets of analysis/monitor/change_test.hpp, once more: `zerocount monitor` beside this program, on random logs.
 
 usage: judge_monitor.py PROGRAM
 """

@@ -41,7 +41,7 @@ constexpr const char* compare_help =
     "name. A point is compared under each of its conditions, and by each goal.\n"
     "\n"
     "Margins and absolute requirements are given in a YAML file; missing ones have defaults\n"
-    "(analysis/comparison/README.md):\n"
+    "(docs/compare.md):\n"
     "  fail_on: changed                 # as --changed-fails\n"
     "  margins: {success_rate: 0.01, settling_time: {relative: 0.05, absolute: 1.0e-3}}\n"
     "  require: success_rate ≥ 0.995\n"

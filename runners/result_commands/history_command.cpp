@@ -39,7 +39,7 @@ constexpr const char* history_help =
     "are a new series; another seed or number of trials is not. Of a study with a goal only its\n"
     "measures are shown, unless --measure names another. The probability of a false alarm is stated\n"
     "below the table. The method, and the tables of the database:\n"
-    "analysis/history/README.md\n"
+    "docs/history.md\n"
     "\n"
     "history plot draws the series: values with bounds, and the first run after each change.\n"
     "\n"

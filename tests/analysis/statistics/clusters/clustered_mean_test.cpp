@@ -396,7 +396,7 @@ TEST(ClusteredProportion, LowerBoundsHoldWhereAFewClustersAlwaysOrHalfFail) {
   }
 }
 
-// Prints the table of analysis/statistics/coverage.md.
+// The table behind analysis/statistics/coverage.md.
 TEST(ClusteredProportion, DISABLED_CoversMixtures) {
   constexpr int studies = 4000;
   for (const double others : {1.0, 0.999, 0.99, 0.9}) {

@@ -9,6 +9,7 @@
 #include "core/loop/controller/cascade.hpp"
 #include "core/loop/controller/controller.hpp"
 #include "core/loop/controller/disturbance_observer.hpp"
+#include "core/loop/controller/feedforward.hpp"
 #include "core/loop/controller/filter.hpp"
 #include "core/loop/controller/pid.hpp"
 #include "core/loop/controller/torque_hold.hpp"
@@ -17,6 +18,8 @@
 namespace zerocount::controller_code {
 namespace {
 
+/// Writes the chain block by block: a block's constants and states become names, and the formulas of
+/// core/loop, with terms for numbers, its statements.
 class ChainWriter {
  public:
   ChainWriter(const ControllerToWrite& of, Precision precision)
@@ -51,9 +54,10 @@ class ChainWriter {
   Term local(const std::string& name, Type type = Type::number) {
     return write_.variable({name, Role::local, type});
   }
-  /// The coefficient as a constant; 0 if it is 0.
-  Term coefficient(const std::string& name, double value, const std::string& meaning) {
-    return value == 0.0 ? Term(0.0) : write_.constant(name, value, meaning);
+  /// The coefficient as a constant, but for the value with which it does not act.
+  Term coefficient(const std::string& name, double value, const std::string& meaning,
+                   double without_effect = 0.0) {
+    return value == without_effect ? Term(value) : write_.constant(name, value, meaning);
   }
   /// "N m/count".
   std::string torque_per(std::string_view divisor) const {
@@ -82,15 +86,8 @@ class ChainWriter {
     const loop::ErrorDeadbandConstants<double> zone = loop::error_deadband_constants(blocks_.error_deadband);
     if (!(zone.band > 0.0)) return;
     const Term band = write_.constant("error_deadband", zone.band, "errors that count as 0, counts");
-    const Term beyond = zone.subtracted > 0.0 ? choice(error_ > 0.0, error_ - band, error_ + band) : error_;
     e_ = local("acting_error");
-    write_.assign(e_, choice(magnitude(error_) <= band, 0.0, beyond));
-  }
-
-  /// For how many samples |error| has been within the band.
-  void write_run(const Term& run, const Term& band, const Term& restarts) {
-    write_.branch(restarts, [&] { write_.assign(run, 0.0); });
-    write_.assign(run, choice(magnitude(error_) <= band, run + 1.0, 0.0));
+    write_.assign(e_, loop::acting_error<Term>({band, zone.subtracted > 0.0 ? band : Term(0.0)}, error_));
   }
 
   void write_standstill() {
@@ -100,9 +97,11 @@ class ChainWriter {
     const Term still = state("still", "samples for which the error has been within the band of standstill");
     const Term band = write_.constant("standstill_band", c.band, "counts");
     const Term dwell = write_.constant("standstill_dwell", c.dwell, "samples");
+    Term run = still;
+    const Term stands = loop::stands_still<Term>({band, dwell, c.kp, c.ki, c.kd}, run, new_target_, error_);
+    write_.assign(still, run);
     stands_now_ = local("stands", Type::flag);
-    write_run(still, band, new_target_);
-    write_.assign(*stands_now_, both(still >= dwell, !new_target_));
+    write_.assign(*stands_now_, stands);
   }
 
   void write_hold() {
@@ -115,9 +114,11 @@ class ChainWriter {
     const Term leave = c.leave == c.enter ? enter : write_.constant("hold_leave", c.leave, "counts");
     const Term dwell = write_.constant("hold_dwell", c.dwell, "samples");
     const Term fresh = local("fresh", Type::flag);
-    write_.assign(fresh, either(new_target_, !started_));
-    write_run(within, enter, fresh);
-    write_.assign(holding, both(!fresh, either(within >= dwell, both(holding, magnitude(error_) <= leave))));
+    write_.assign(fresh, new_target_ | !started_);
+    loop::HoldState<Term> now{within, holding, held};
+    loop::holds_torque<Term>({enter, leave, dwell}, now, fresh, error_);
+    write_.assign(within, now.run);
+    write_.assign(holding, now.holding);
     // The chain is written first, because it decides what has to be remembered.
     write_.branch(
         !holding,
@@ -149,51 +150,37 @@ class ChainWriter {
   /// d, counts.
   void write_difference() {
     const double pole = loop::derivative_pole(blocks_, sample_rate_);
-    const Term change = difference_of_counts(count_, *last_count_);
     const bool remembered = pole != 0.0 || (cascade_ && blocks_.hold.enter >= 0.0);
     difference_ =
         remembered ? state("difference", "of successive counts, filtered, counts") : local("difference");
-    if (pole == 0.0) {
-      write_.assign(*difference_, change);
-      return;
-    }
-    const Term a = write_.constant("derivative_pole", pole, "of the filter of the difference of counts");
-    const Term b = write_.constant("derivative_gain", 1.0 - pole, "of the filter: 1 - derivative_pole");
-    write_.assign(*difference_, a * *difference_ + b * change);
+    const Term a = coefficient("derivative_pole", pole, "of the filter of the difference of counts");
+    write_.assign(*difference_,
+                  loop::filtered_difference(a, *difference_, difference_of_counts(count_, *last_count_)));
   }
 
-  /// I ← clamp(ρ·I + increment), under its conditions.
+  /// I, changed by the increment under its conditions.
   Term write_integral(const Term& increment) {
     const loop::TorqueRange range = loop::integral_range(
         of_.controller.anti_windup, loop::lowest_torque(of_.dac), loop::highest_torque(of_.dac));
     const loop::IntegralConstants<double> c = loop::integral_constants(blocks_, sample_rate_, range);
-    Term integral = state("integral_torque", "I, " + torque_unit_, Type::number, of_.initial_integral);
-    std::optional<Term> changes;
-    if (c.enter >= 0.0) {
-      const Term inside = state("inside", "the error is within the deadband of the integral", Type::flag);
-      const Term enter = write_.constant("deadband", c.enter, "in which the integral stays, counts");
-      const Term bound = c.leave == c.enter
-                             ? enter
-                             : choice(inside, write_.constant("deadband_leave", c.leave, "counts"), enter);
-      write_.assign(inside, magnitude(error_) <= bound);
-      changes = !inside;
-    }
-    if (std::isfinite(c.zone)) {
-      const Term is_near = magnitude(error_) <= write_.constant("integrator_zone", c.zone, "counts");
-      changes = changes ? both(*changes, is_near) : is_near;
-    }
-    const Term kept =
-        c.retention == 1.0
-            ? integral
-            : write_.constant("retention", c.retention, "of the integral, per sample") * integral;
-    Term changed = kept + increment;
-    if (std::isfinite(c.lowest))
-      changed =
-          Term(Operation::limited,
-               {changed, write_.constant("lowest_torque", c.lowest, "of the converter, " + torque_unit_),
-                write_.constant("highest_torque", c.highest, "of the converter, " + torque_unit_)});
-    const auto change = [&] { write_.assign(integral, changed); };
-    changes ? write_.branch(*changes, change) : change();
+    const Term integral = state("integral_torque", "I, " + torque_unit_, Type::number, of_.initial_integral);
+    const bool has_deadband = c.enter >= 0.0;
+    const Term inside = has_deadband
+                            ? state("inside", "the error is within the deadband of the integral", Type::flag)
+                            : Term(0.0);
+    const Term enter = has_deadband
+                           ? write_.constant("deadband", c.enter, "in which the integral stays, counts")
+                           : Term(c.enter);
+    const Term leave = c.leave == c.enter ? enter : write_.constant("deadband_leave", c.leave, "counts");
+    const Term zone = coefficient("integrator_zone", c.zone, "counts", unbounded);
+    const Term retention = coefficient("retention", c.retention, "of the integral, per sample", 1.0);
+    const std::string of_converter = "of the converter, " + torque_unit_;
+    const Term lowest = coefficient("lowest_torque", c.lowest, of_converter, -unbounded);
+    const Term highest = coefficient("highest_torque", c.highest, of_converter, unbounded);
+    loop::IntegralState<Term> now{integral, inside};
+    loop::integrate<Term>({enter, leave, zone, retention, lowest, highest}, now, error_, increment);
+    if (has_deadband) write_.assign(inside, now.inside);
+    write_.assign(integral, now.integral);
     return integral;
   }
 
@@ -213,7 +200,7 @@ class ChainWriter {
     const Term one = constant(name, usual);
     if (!stands_now_) return one;
     const Term still = constant("standstill_" + name, at_standstill);
-    return is_zero(one) && is_zero(still) ? one : choice(*stands_now_, still, one);
+    return is_zero(one) && is_zero(still) ? one : select(*stands_now_, still, one);
   }
 
   /// I, changed by the trapezoidal rule; 0 without integral. `last` becomes the input of the sample before.
@@ -236,12 +223,13 @@ class ChainWriter {
                          {per_radian / sample_rate_, "N m s/rad"});
     if (last_count_) write_difference();
     const Term integral = write_trapezoid(ki, e_, last_error_, "last_error", "of the sample before, counts");
-    const Term damping = difference_ ? kd * *difference_ : Term(0.0);
-    write_.assign(u_, integral + kp * e_ - damping);
+    write_.assign(u_, loop::pid_torque(integral, kp, e_, kd, difference_.value_or(0.0)));
     if (last_error_) write_.assign(*last_error_, e_);
   }
 
-  Term velocity_error() const { return *kv_ * e_ - *velocity_ * *difference_; }
+  Term velocity_error() const {
+    return loop::velocity_error<Term>({*kv_, *velocity_, 0.0, 0.0}, e_, *difference_);
+  }
 
   void write_cascade() {
     write_.remark("position loop around a velocity loop");
@@ -262,7 +250,7 @@ class ChainWriter {
     write_.assign(w, velocity_error());
     const Term integral = write_trapezoid(ki, w, last_velocity_error_, "last_velocity_error",
                                           "of the sample before, " + angle_unit_ + "/s");
-    write_.assign(u_, kp * w + integral);
+    write_.assign(u_, loop::cascade_torque(integral, kp, w));
     if (last_velocity_error_) write_.assign(*last_velocity_error_, w);
   }
 
@@ -276,17 +264,17 @@ class ChainWriter {
       const auto part = [&](const char* letter, double value) {
         return coefficient(fmt::format("{}_{}", name, letter), value, "of " + name);
       };
-      const Term b0 = part("b0", c.b0);
-      const Term b1 = part("b1", c.b1);
-      const Term b2 = part("b2", c.b2);
-      const Term a1 = part("a1", c.a1);
-      const Term a2 = part("a2", c.a2);
+      // Also where b0 is 0: a term of its own is the output, which both states read.
+      const Term b0 = write_.constant(name + "_b0", c.b0, "of " + name);
+      const loop::BiquadConstants<Term> parts{b0, part("b1", c.b1), part("b2", c.b2), part("a1", c.a1),
+                                              part("a2", c.a2)};
       const Term first = state(name + "_first", torque_unit_);
       const Term second = state(name + "_second", torque_unit_);
       write_.assign(x, u_);
-      write_.assign(u_, b0 * x + first);
-      write_.assign(first, b1 * x - a1 * u_ + second);
-      write_.assign(second, b2 * x - a2 * u_);
+      loop::BiquadState<Term> after{first, second};
+      write_.assign(u_, loop::biquad_step(parts, after, x));
+      write_.assign(first, after.s1);
+      write_.assign(second, after.s2);
     }
   }
 
@@ -295,14 +283,10 @@ class ChainWriter {
     const auto part = [&](const char* name, double value, std::string_view unit) {
       return coefficient(fmt::format("feedforward_{}", name), value, parameters::unit_on(of_.axis, unit));
     };
-    const Term speed = write_.input(Input::velocity);
-    const Term of_velocity = part("velocity", velocity, "N m s/rad") * speed;
-    const Term of_acceleration =
-        part("acceleration", acceleration, "N m s^2/rad") * write_.input(Input::acceleration);
-    const Term constant = part("friction", friction, "N m");
-    const Term of_friction =
-        is_zero(constant) ? constant : choice(speed > 0.0, constant, choice(speed < 0.0, -constant, 0.0));
-    const Term added = of_velocity + of_acceleration + of_friction;
+    const Term added = loop::feedforward_torque<Term>(
+        {part("velocity", velocity, "N m s/rad"), part("acceleration", acceleration, "N m s^2/rad"),
+         part("friction", friction, "N m")},
+        write_.input(Input::velocity), write_.input(Input::acceleration));
     if (is_zero(added)) return;
     write_.remark("feed-forward");
     write_.assign(u_, u_ + added);
@@ -324,12 +308,10 @@ class ChainWriter {
     const Term estimate = local("estimate");
     write_.assign(inertia, acceleration * difference_of_counts(count_, *first_count_));
     write_.assign(filtered, q * write_.input(Input::torque));
-    write_.assign(estimate, inertia - filtered + first);
-    // Twice the sum without a literal, which some compilers of Structured Text take in double precision.
-    const Term together = local("together");
-    write_.assign(together, inertia + filtered);
-    write_.assign(first, -(together + together) - a1 * estimate + second);
-    write_.assign(second, inertia - filtered - a2 * estimate);
+    loop::BiquadState<Term> after{first, second};
+    write_.assign(estimate, loop::observer_step<Term>({1.0, 1.0, a1, a2}, after, inertia, filtered));
+    write_.assign(first, after.s1);
+    write_.assign(second, after.s2);
     write_.assign(u_, u_ - estimate);
   }
 
@@ -342,7 +324,7 @@ class ChainWriter {
       const double step = std::fmod(2.0 * dither.frequency / sample_rate_, 2.0);
       const Term half_periods = write_.constant("dither_step", step, "half periods of the dither per sample");
       const Term phase = state("phase", "of the dither, half periods");
-      write_.assign(u_, u_ + choice(phase < 1.0, amplitude, -amplitude));
+      write_.assign(u_, u_ + select(phase < 1.0, amplitude, -amplitude));
       write_.assign(phase, phase + half_periods);
       write_.branch(phase >= 2.0, [&] { write_.assign(phase, phase - 2.0); });
       return;
@@ -352,7 +334,7 @@ class ChainWriter {
     const Term sample = state("sample", "its number, from 0");
     const Term half_periods = local("half_periods");
     write_.assign(half_periods, 2.0 * frequency * sample / rate);
-    write_.assign(u_, u_ + choice(Term(Operation::is_even, {half_periods}), amplitude, -amplitude));
+    write_.assign(u_, u_ + select(Term(Operation::is_even, {half_periods}), amplitude, -amplitude));
     write_.assign(sample, sample + 1.0);
   }
 

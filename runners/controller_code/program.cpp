@@ -160,12 +160,25 @@ void ProgramWriter::remark(const std::string& text) {
 }
 
 void ProgramWriter::assign(const Term& variable, const Term& value) {
-  at_->push_back({.kind = Statement::Kind::assignment, .term = value, .variable = variable.index()});
+  at_->push_back(
+      {.kind = Statement::Kind::assignment, .term = shortened(value), .variable = variable.index()});
+  std::erase_if(assigned_, [&](const Assigned& one) { return one.variable.index() == variable.index(); });
+  if (!value.operands().empty()) assigned_.push_back({value, variable});
+}
+
+Term ProgramWriter::shortened(const Term& term) const {
+  const auto found =
+      std::ranges::find_if(assigned_, [&](const Assigned& one) { return is_same(one.value, term); });
+  if (found != assigned_.end()) return found->variable;
+  if (term.operands().empty()) return term;
+  std::vector<Term> operands;
+  for (const Term& operand : term.operands()) operands.push_back(shortened(operand));
+  return {term.operation(), operands};
 }
 
 void ProgramWriter::branch(const Term& condition, const std::function<void()>& holds,
                            const std::function<void()>& otherwise) {
-  Statement statement{.kind = Statement::Kind::branch, .term = condition};
+  Statement statement{.kind = Statement::Kind::branch, .term = shortened(condition)};
   statement.holds = statements_of(holds);
   if (otherwise) statement.otherwise = statements_of(otherwise);
   at_->push_back(std::move(statement));
@@ -174,7 +187,9 @@ void ProgramWriter::branch(const Term& condition, const std::function<void()>& h
 Statements ProgramWriter::statements_of(const std::function<void()>& write) {
   Statements statements;
   Statements* const outside = std::exchange(at_, &statements);
+  assigned_.clear();
   write();
+  assigned_.clear();
   at_ = outside;
   return statements;
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,6 +40,8 @@ enum class Operation {
   either
 };
 
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
 /// An expression.
 class Term {
  public:
@@ -52,9 +55,14 @@ class Term {
   std::size_t index() const { return node_->index; }  ///< of a constant or variable in the program
   double value() const { return node_->value; }       ///< of a literal
 
-  // What is 0 as written, such as a gain that does not act, leaves no term behind.
+  friend bool is_same(const Term& a, const Term& b) { return a.node_ == b.node_; }
+  friend bool is_literal(const Term& a) { return a.operation() == Operation::literal; }
+  friend bool is_literal(const Term& a, double value) { return is_literal(a) && a.value() == value; }
+  friend bool is_zero(const Term& a) { return is_literal(a, 0.0); }
 
-  friend bool is_zero(const Term& a) { return a.operation() == Operation::literal && a.value() == 0.0; }
+  // The functions of core/numerics/number.hpp, by which the formulas of core/loop give terms. What does not
+  // act, such as a gain of 0 or an endless range, is a literal and leaves no term behind.
+
   friend Term operator-(const Term& a) { return {Operation::negative, {a}}; }
   friend Term operator+(const Term& a, const Term& b) {
     return is_zero(a) ? b : is_zero(b) ? a : Term(Operation::sum, {a, b});
@@ -65,19 +73,47 @@ class Term {
     return b.operation() == Operation::product ? -b.operands()[0] * b.operands()[1] : -b;
   }
   friend Term operator*(const Term& a, const Term& b) {
-    return is_zero(a) || is_zero(b) ? Term(0.0) : Term(Operation::product, {a, b});
+    if (is_zero(a) || is_zero(b)) return 0.0;
+    if (is_literal(a, 1.0)) return b;
+    if (is_literal(b, 1.0)) return a;
+    if (is_literal(b, -1.0)) return -a;
+    // Some compilers of Structured Text take a literal in double precision.
+    if (is_literal(a, -2.0)) return -(b + b);
+    if (b.operation() == Operation::choice && is_literal(b.operands()[1]))
+      return select(b.operands()[0], a * b.operands()[1], a * b.operands()[2]);
+    return {Operation::product, {a, b}};
   }
   friend Term operator/(const Term& a, const Term& b) { return {Operation::quotient, {a, b}}; }
-  friend Term operator<=(const Term& a, const Term& b) { return {Operation::at_most, {a, b}}; }
+  friend Term operator<=(const Term& a, const Term& b) {
+    const bool never = a.operation() == Operation::magnitude && is_literal(b) && b.value() < 0.0;
+    return never ? Term(0.0) : Term(Operation::at_most, {a, b});
+  }
   friend Term operator>=(const Term& a, const Term& b) { return {Operation::at_least, {a, b}}; }
   friend Term operator<(const Term& a, const Term& b) { return {Operation::below, {a, b}}; }
-  friend Term operator>(const Term& a, const Term& b) { return {Operation::above, {a, b}}; }
+  friend Term operator>(const Term& a, const Term& b) {
+    return is_literal(b, unbounded) ? Term(0.0) : Term(Operation::above, {a, b});
+  }
+  friend Term operator!=(const Term& flag, const Term& /*zero*/) { return flag; }
+  friend Term operator==(const Term& flag, const Term& /*zero*/) { return !flag; }
   friend Term operator!(const Term& a) { return {Operation::negation, {a}}; }
-  friend Term both(const Term& a, const Term& b) { return {Operation::both, {a, b}}; }
-  friend Term either(const Term& a, const Term& b) { return {Operation::either, {a, b}}; }
-  friend Term magnitude(const Term& x) { return {Operation::magnitude, {x}}; }
-  friend Term choice(const Term& condition, const Term& where_it_holds, const Term& otherwise) {
+  friend Term operator&(const Term& a, const Term& b) { return {Operation::both, {a, b}}; }
+  friend Term operator|(const Term& a, const Term& b) {
+    return is_zero(a) ? b : is_zero(b) ? a : Term(Operation::either, {a, b});
+  }
+  friend Term select(const Term& condition, const Term& where_it_holds, const Term& otherwise) {
+    if (is_zero(condition) || is_same(where_it_holds, otherwise)) return otherwise;
+    if (is_literal(where_it_holds, 1.0) && is_zero(otherwise)) return condition;
     return {Operation::choice, {condition, where_it_holds, otherwise}};
+  }
+  friend Term abs(const Term& x) { return {Operation::magnitude, {x}}; }
+  friend Term sign(const Term& x) { return select(x > 0.0, 1.0, select(x < 0.0, -1.0, 0.0)); }
+  // Only one of the other: a range.
+  friend Term max(const Term& x, const Term& lowest) {
+    return is_literal(lowest, -unbounded) ? x : Term(Operation::limited, {x, lowest, unbounded});
+  }
+  friend Term min(const Term& x, const Term& highest) {
+    if (is_literal(highest, unbounded)) return x;
+    return {Operation::limited, {x.operands()[0], x.operands()[1], highest}};
   }
 
  private:
@@ -150,6 +186,8 @@ class ProgramWriter {
   Term variable(const Variable& variable);
 
   void remark(const std::string& text);
+  /// What the value has in common with one that was assigned before, and still stands, is read from that
+  /// variable.
   void assign(const Term& variable, const Term& value);
   void branch(const Term& condition, const std::function<void()>& holds,
               const std::function<void()>& otherwise = {});
@@ -157,10 +195,18 @@ class ProgramWriter {
   Program finished(const Term& wanted);
 
  private:
+  struct Assigned {
+    Term value;
+    Term variable;
+  };
+
   Statements statements_of(const std::function<void()>& write);
+  /// The term with variables in place of what they have.
+  Term shortened(const Term& term) const;
 
   Program program_;
   Statements* at_;
+  std::vector<Assigned> assigned_;  ///< since the last branch began or ended
 };
 
 /// The program as a control law of this process, statement by statement in its precision.

@@ -1,9 +1,24 @@
 #pragma once
 
 #include "core/loop/controller/control_block.hpp"
-#include "core/numerics/sign.hpp"
+#include "core/numerics/number.hpp"
 
 namespace zerocount::loop {
+
+template <class Number>
+struct FeedforwardConstants {
+  Number velocity;      ///< N m s/rad
+  Number acceleration;  ///< N m s²/rad
+  Number friction;      ///< N m
+};
+
+/// velocity·ṙ + acceleration·r̈ + friction·sgn(ṙ), N m. @param velocity ṙ, rad/s. @param acceleration r̈,
+/// rad/s².
+template <class Number>
+Number feedforward_torque(const FeedforwardConstants<Number>& c, const Number& velocity,
+                          const Number& acceleration) {
+  return c.velocity * velocity + c.acceleration * acceleration + c.friction * sign(velocity);
+}
 
 /// Torque from the motion of the unrounded reference r (rad) at t_k, added to that of the blocks before:
 ///
@@ -20,9 +35,8 @@ class Feedforward {
     return torque + added_;
   }
   void observe(const Feedback& now) {
-    const auto& [velocity, acceleration, position] = now.reference;
-    added_ = gains_.velocity * velocity + gains_.acceleration * acceleration +
-             gains_.friction * numerics::sign_of(velocity);
+    const FeedforwardConstants<double> c{gains_.velocity, gains_.acceleration, gains_.friction};
+    added_ = feedforward_torque(c, now.reference.velocity, now.reference.acceleration);
   }
   static void pause(const Feedback& /*now*/) {}
   double take_over(double torque) const { return torque - added_; }

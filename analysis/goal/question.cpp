@@ -228,7 +228,7 @@ GoalTimes slowest_goal_times(const Question& question, const measures::PointSumm
 const measures::MeasureStatistics& settling_of(const Question& question,
                                                const measures::PointSummary& point) {
   return question.claim() ? *slowest_goal_times(question, point).statistics
-                          : point.of(&trial::MoveOutcome::settling_time);
+                          : point.of(&trial::MoveOutcome::arrival_time);
 }
 
 std::string settling_measure(const Question& question) {

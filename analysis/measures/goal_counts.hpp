@@ -63,7 +63,7 @@ inline double latest(const CountedGoal& goal) {
 /// never.
 inline double settling_time(const CountedGoal& goal, const trial::MoveOutcome& move) {
   if (goal.tolerance) return move.tolerance_settling_times[*goal.tolerance];
-  return goal.slot ? move.bands[*goal.slot].settling_time : move.settling_time;
+  return goal.slot ? move.bands[*goal.slot].settling_time : move.arrival_time;
 }
 
 /// Whether the move does what is asked. @param move that is asked

@@ -206,7 +206,7 @@ void PointAccumulator::add_trial_settling_times(const MovesOfTrials& some) {
     double& slowest = values_.emplace_back(0.0);
     for (const trial::MoveOutcome* move : some.moves.subspan(first, some.of_trial)) {
       const bool arrived = trial::was_run(*move) && move->arrived;
-      slowest = arrived ? std::max(slowest, move->settling_time) : statistics::unknown;
+      slowest = arrived ? std::max(slowest, move->arrival_time) : statistics::unknown;
       if (!arrived) break;
     }
   }

@@ -66,8 +66,8 @@ summary_answer::PointDescription time_columns(const summary::StudySummary& summa
                   [quantile](Point p) { return quantile_text(p, quantile(p.statistics())); });
   };
   using Statistics = const measures::PointSummary&;
-  add("arrival, median", [](Statistics s) { return s.of(&trial::MoveOutcome::settling_time).median; });
-  add("arrival, 95 %", [](Statistics s) { return s.of(&trial::MoveOutcome::settling_time).p95; });
+  add("arrival, median", [](Statistics s) { return s.of(&trial::MoveOutcome::arrival_time).median; });
+  add("arrival, 95 %", [](Statistics s) { return s.of(&trial::MoveOutcome::arrival_time).p95; });
   for (const std::int64_t band : summary.features.bands.values())
     add(fmt::format("settled ±{}, 95 %", band),
         [band](Statistics s) { return measures::of_band(s, "band_settling_time", band).p95; });

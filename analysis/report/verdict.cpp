@@ -234,7 +234,7 @@ std::string median_bounds_text(const ReportedStudy& reported, const statistics::
 
 void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const measures::PointSummary& point = point_of(reported, best);
-  const measures::MeasureStatistics& settling = point.of(&trial::MoveOutcome::settling_time);
+  const measures::MeasureStatistics& settling = point.of(&trial::MoveOutcome::arrival_time);
   const measures::MeasureStatistics& jerks = point.of(&trial::MoveOutcome::jerk_count);
   if (settling.n == 0) return;
   lines.push_back(fmt::format("{} of the moves arrived{}: {}, {}.", text::percentage(settling.n, point.moves),

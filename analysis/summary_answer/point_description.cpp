@@ -427,7 +427,7 @@ bool asks_all_moves_alike(const goal::Question& question) {
 }  // namespace
 
 std::string settling_text(Statistics point, double time) {
-  if (!std::isnan(time) || point.of(&trial::MoveOutcome::settling_time).moves == 0)
+  if (!std::isnan(time) || point.of(&trial::MoveOutcome::arrival_time).moves == 0)
     return text::short_number(time);
   return std::isnan(point.hold) ? "> hold" : fmt::format("> {} s", text::short_number(point.hold));
 }

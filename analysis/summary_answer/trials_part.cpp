@@ -253,7 +253,7 @@ void add_assurance(PointDescription& point, const summary::StudySummary& summary
   using Limit = statistics::ToleranceLimit;
   document::Description<Limit> limit;
   limit.value(document::in_data("content", "proportion of axes", "1"), &Limit::content)
-      .value(document::in_data("within", "time in which at least these settle", "s"), &Limit::within);
+      .value(document::in_data("within", "time in which at least these arrive", "s"), &Limit::within);
   PointDescription object;
   object
       .value({.key = "success_at_least",
@@ -279,7 +279,7 @@ void add_assurance(PointDescription& point, const summary::StudySummary& summary
     const std::string axes = text::percent(content);
     object.value({.key = key_of_limit(content),
                   .heading = axes + " arrive by",
-                  .meaning = fmt::format("time in which at least {} of axes settle", axes),
+                  .meaning = fmt::format("time in which at least {} of axes arrive", axes),
                   .unit = "s",
                   .shown = Shown::not_in_json,
                   .column = key_of_limit(content)},

@@ -85,7 +85,7 @@ MoveOutcome outcome_of_move(const MoveTiming& timing, const RunningMeasures<doub
     outcome.arrived = true;
     outcome.stable = end.finite && m.largest_since_arrival <= 1.0;
     outcome.arrival = whole(m.arrival);
-    outcome.settling_time = m.arrival * timing.sample_time;
+    outcome.arrival_time = m.arrival * timing.sample_time;
     const double since_arrival = m.samples - m.arrival;
     outcome.zero_fraction = (since_arrival - static_cast<double>(jerks.samples())) / since_arrival;
   }

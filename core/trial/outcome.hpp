@@ -81,7 +81,7 @@ struct MoveOutcome {
   bool controller_failed{false};
   bool stopped{false};       ///< ended at the sample at which it had diverged, or not run after one that was
   std::int64_t arrival{-1};  ///< first sample of the arrival dwell, from the move's start; −1 if never
-  double settling_time{std::numeric_limits<double>::quiet_NaN()};  ///< arrival·T, s; NaN if never
+  double arrival_time{std::numeric_limits<double>::quiet_NaN()};  ///< arrival·T, s; NaN if never
   /// k·T with the smallest k such that e_k = … = e_{N−1} = 0, s; NaN where e_{N−1} ≠ 0, or the motion was
   /// lost.
   double final_settling_time{std::numeric_limits<double>::quiet_NaN()};

@@ -11,7 +11,6 @@ int main() {
   const zerocount::trial::TrialOutcome outcome = zerocount::trial::run_trial(axis);
   const zerocount::trial::MoveOutcome& move = outcome.moves.front();
   const bool zero = move.outcome == zerocount::trial::Outcome::zero_count;
-  std::printf("%s, settled after %.4f s\n", zero ? "zero counts of error" : "not at zero",
-              move.settling_time);
+  std::printf("%s, settled after %.4f s\n", zero ? "zero counts of error" : "not at zero", move.arrival_time);
   return zero ? 0 : 1;
 }

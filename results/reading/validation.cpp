@@ -137,7 +137,7 @@ void validate_outcomes(const layout::TableIo& outcomes,
     require_valid(outcomes, fields, field, moves, row_of);
   require_all(outcomes, fields, *find_field(fields, "arrived"), moves, row_of,
               "1 exactly where there is a settling time",
-              [](const trial::MoveOutcome& move) { return move.arrived != std::isnan(move.settling_time); });
+              [](const trial::MoveOutcome& move) { return move.arrived != std::isnan(move.arrival_time); });
 }
 
 void validate_bands(const layout::TableIo& table, std::int64_t first_row,

@@ -39,7 +39,7 @@ TrialRecord random_trial(std::int64_t row, std::int64_t moves) {
     move.arrived = random() % 4 != 0;
     if (move.arrived) {
       move.arrival = static_cast<std::int64_t>(random() % 300);
-      move.settling_time = static_cast<double>(move.arrival) / 2000.0;
+      move.arrival_time = static_cast<double>(move.arrival) / 2000.0;
       move.stable = random() % 3 != 0;
       move.jerk_count = static_cast<std::int64_t>(random() % 30);
     }

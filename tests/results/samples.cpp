@@ -41,7 +41,7 @@ trial::MoveOutcome sample_move(std::mt19937_64& random, std::int64_t move, std::
   outcome.arrived = small(random) < 8;
   if (outcome.arrived) {
     outcome.arrival = small(random) * 10;
-    outcome.settling_time = static_cast<double>(outcome.arrival) / 2000.0;
+    outcome.arrival_time = static_cast<double>(outcome.arrival) / 2000.0;
     outcome.stable = small(random) < 7;
   }
   outcome.broke_away = small(random) < 2;

@@ -63,7 +63,7 @@ std::int64_t add_jerks(FigureData& data, const reading::AllTrialsFile& file, con
     ++added;
     const bool towards = jerk.direction == numerics::sign_of(move.outcome.holding_torque);
     data.rows.push_back(ordered_json::array(
-        {number, move.row % file.header().trials, move.move, datum(jerk.onset - move.outcome.settling_time),
+        {number, move.row % file.header().trials, move.move, datum(jerk.onset - move.outcome.arrival_time),
          datum(jerk.duration), jerk.magnitude, towards ? "towards the holding torque" : "against it"}));
   }
   return left_out;

@@ -66,7 +66,7 @@ SettlingTime time_in(const measures::CountedGoal& goal) {
 }
 
 std::optional<double> arrival_time(const trial::MoveOutcome& move) {
-  return move.arrived ? move.settling_time : std::nan("");
+  return move.arrived ? move.arrival_time : std::nan("");
 }
 
 /// The latest time; 0 where no move settles.
@@ -90,7 +90,7 @@ std::vector<std::pair<double, double>> steps_of(const SettledMoves& moves, std::
 }
 
 const measures::MeasureStatistics& settling_of(const ReportedStudy& reported, std::int64_t point) {
-  return point_of(reported, point).of(&trial::MoveOutcome::settling_time);
+  return point_of(reported, point).of(&trial::MoveOutcome::arrival_time);
 }
 
 /// The points with arrivals; if there are too many, evenly spaced ones from the best to the worst, of which
@@ -101,7 +101,7 @@ std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
   std::vector<std::int64_t> with_arrivals;
   const auto& points = reported.summary.points;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].of(&trial::MoveOutcome::settling_time).n > 0)
+    if (points[i].of(&trial::MoveOutcome::arrival_time).n > 0)
       with_arrivals.push_back(static_cast<std::int64_t>(i));
   }
   if (std::ssize(with_arrivals) <= most) return with_arrivals;
@@ -155,7 +155,7 @@ std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
       reported.study.rigs == 0 && moves_per_trial > 1 ? fmt::format(" of {} moves each", moves_per_trial)
                                                       : "");
   const auto arriving = std::count_if(points.begin(), points.end(), [](const measures::PointSummary& point) {
-    return point.of(&trial::MoveOutcome::settling_time).n > 0;
+    return point.of(&trial::MoveOutcome::arrival_time).n > 0;
   });
   if (std::ssize(shown) < arriving) {
     caption += fmt::format("Shown are {} of {} points: the chosen one{}. ", shown.size(), arriving,

@@ -76,7 +76,7 @@ std::string settling_sentence(std::span<const ToleranceLimit> limits) {
   for (const ToleranceLimit& limit : limits) {
     if (std::isnan(limit.within)) continue;
     sentence += fmt::format("{}{} {}within {} s", sentence.empty() ? "" : ", ", text::percent(limit.content),
-                            sentence.empty() ? "settle " : "", text::short_number(limit.within));
+                            sentence.empty() ? "arrive " : "", text::short_number(limit.within));
   }
   return sentence;
 }

@@ -29,7 +29,7 @@ TrialRecord trial_of(bool success, int samples) {
   move.outcome = success ? trial::Outcome::zero_count : trial::Outcome::one_count;
   move.arrived = move.stable = true;
   move.arrival = samples;
-  move.settling_time = samples * 0.0005;
+  move.arrival_time = samples * 0.0005;
   return {{{move}}, {}};
 }
 

@@ -40,7 +40,7 @@ trial::MoveOutcome random_move(testing::Draws& draws, bool open_loop) {
   move.arrived = !open_loop && draws.chance(0.8);
   move.stable = move.arrived && draws.chance(0.9);
   move.broke_away = draws.chance(0.3);
-  if (move.arrived) move.settling_time = sample_time * std::floor(draws.uniform(10.0, 60.0));
+  if (move.arrived) move.arrival_time = sample_time * std::floor(draws.uniform(10.0, 60.0));
   if (move.arrived) move.zero_fraction = draws.uniform(0.0, 1.0);
   move.overshoot = static_cast<std::int64_t>(draws.uniform(0.0, 9.0));
   move.final_error = static_cast<std::int64_t>(draws.uniform(-3.0, 3.0));

@@ -27,7 +27,7 @@ goal: {band: 2, within: 0.1, moves: 0.9}
 trial::MoveOutcome move_with(double settling_time) {
   trial::MoveOutcome move;
   move.outcome = trial::Outcome::zero_count;
-  move.settling_time = settling_time;
+  move.arrival_time = settling_time;
   for (trial::BandOutcome& band : move.bands) band.settling_time = settling_time;
   return move;
 }

@@ -19,7 +19,7 @@ trial::MoveOutcome move_that(trial::Outcome outcome, double settling_time) {
   move.outcome = outcome;
   move.arrived = std::isfinite(settling_time);
   move.stable = move.arrived && outcome <= trial::Outcome::one_count;
-  move.settling_time = settling_time;
+  move.arrival_time = settling_time;
   return move;
 }
 
@@ -43,7 +43,7 @@ TEST(PointStatistics, WithoutTrialsNothingIsKnown) {
   EXPECT_TRUE(std::isnan(none.success_rate().clopper_pearson.low));
   EXPECT_TRUE(std::isnan(none.success_rate().clopper_pearson.high));
   EXPECT_TRUE(std::isnan(none.of(&trial::MoveOutcome::final_error).mean));
-  EXPECT_TRUE(std::isnan(none.of(&trial::MoveOutcome::settling_time).median.value));
+  EXPECT_TRUE(std::isnan(none.of(&trial::MoveOutcome::arrival_time).median.value));
   EXPECT_TRUE(std::isnan(none.of(&trial::MoveOutcome::jerk_count).mean));
   EXPECT_TRUE(std::isnan(none.jerk_agreement));
 }
@@ -166,7 +166,7 @@ TEST(PointStatistics, QuantilesOfSettlingTimesAreOfAllMovesAndTheRestOfThoseThat
   for (int i = 1; i <= 100; ++i) point.add({{move_that(trial::Outcome::zero_count, i / 2000.0)}}, {});
   for (int i = 0; i < 50; ++i) point.add({{move_that(trial::Outcome::oscillating, never)}}, {});
   const PointSummary statistics = point.statistics();
-  const MeasureStatistics& settling = statistics.of(&trial::MoveOutcome::settling_time);
+  const MeasureStatistics& settling = statistics.of(&trial::MoveOutcome::arrival_time);
   EXPECT_EQ(statistics.trials, 150);
   EXPECT_EQ(settling.n, 100);
   EXPECT_NEAR(settling.mean, 50.5 / 2000.0, 1e-15);

@@ -35,7 +35,7 @@ trial::MoveOutcome move_with(bool success) {
   move.arrived = success;
   if (success) {
     move.arrival = 20;
-    move.settling_time = 0.01;
+    move.arrival_time = 0.01;
   }
   return move;
 }

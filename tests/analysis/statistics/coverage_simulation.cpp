@@ -147,8 +147,8 @@ class Simulation {
       move.outcome = zero ? trial::Outcome::zero_count : trial::Outcome::one_count;
       move.stable = zero;
       const double settled = time * std::exp(population_.move_effect * normal_(random_));
-      move.settling_time = std::ceil(settled / sample_time) * sample_time;
-      move.arrived = move.settling_time <= hold;
+      move.arrival_time = std::ceil(settled / sample_time) * sample_time;
+      move.arrived = move.arrival_time <= hold;
       move.final_position = 0.0;
       trial.moves.push_back(move);
     }
@@ -236,7 +236,7 @@ std::vector<Coverage> coverage_of(const Population& population, const Sample& sa
       add_to(trials, trial);
       add_moves_to(moves, trial);
       for (const trial::MoveOutcome& move : trial.moves)
-        if (move.arrived) times.add(move.settling_time);
+        if (move.arrived) times.add(move.arrival_time);
       jerks.add(static_cast<double>(trial.moves[0].jerk_count));
     }
     const auto stream = static_cast<std::uint32_t>(repetition);
@@ -250,13 +250,13 @@ std::vector<Coverage> coverage_of(const Population& population, const Sample& sa
                   is_inside(found.of(&trial::MoveOutcome::stable).rate.clopper_pearson, truth.success),
                   is_inside(of_trials.of(&trial::MoveOutcome::stable).rate.clopper_pearson, truth.success));
     counter.count("settling mean",
-                  is_inside(found.of(&trial::MoveOutcome::settling_time).mean_bounds, truth.mean_time),
+                  is_inside(found.of(&trial::MoveOutcome::arrival_time).mean_bounds, truth.mean_time),
                   is_inside(statistics::student_t(times), truth.mean_time));
     counter.count("settling median",
-                  is_inside(found.of(&trial::MoveOutcome::settling_time).median, truth.median),
-                  is_inside(of_moves.of(&trial::MoveOutcome::settling_time).median, truth.median));
-    counter.count("settling p95", is_inside(found.of(&trial::MoveOutcome::settling_time).p95, truth.p95),
-                  is_inside(of_moves.of(&trial::MoveOutcome::settling_time).p95, truth.p95));
+                  is_inside(found.of(&trial::MoveOutcome::arrival_time).median, truth.median),
+                  is_inside(of_moves.of(&trial::MoveOutcome::arrival_time).median, truth.median));
+    counter.count("settling p95", is_inside(found.of(&trial::MoveOutcome::arrival_time).p95, truth.p95),
+                  is_inside(of_moves.of(&trial::MoveOutcome::arrival_time).p95, truth.p95));
     counter.count("jerk mean", is_inside(found.of(&trial::MoveOutcome::jerk_count).mean_bounds, truth.jerks),
                   is_inside(statistics::student_t(jerks), truth.jerks));
     if (sample.rigs == 0) continue;

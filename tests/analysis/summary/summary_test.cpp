@@ -34,7 +34,7 @@ measures::PointSummary point_of(int zero, int lost) {
     trial::MoveOutcome move;
     move.outcome = trial::Outcome::zero_count;
     move.arrived = move.stable = true;
-    move.settling_time = static_cast<double>(random() % 400) / 2000.0;
+    move.arrival_time = static_cast<double>(random() % 400) / 2000.0;
     move.holding_torque = 0.013 + 1e-5 * static_cast<double>(random() % 1000);
     move.jerk_count = 2;
     const double onset = static_cast<double>(random() % 1000) / 2000.0;

@@ -21,7 +21,7 @@ trial::MoveOutcome arrived_after(double seconds) {
   trial::MoveOutcome move;
   move.outcome = trial::Outcome::zero_count;
   move.arrived = move.stable = true;
-  move.settling_time = seconds;
+  move.arrival_time = seconds;
   return move;
 }
 
@@ -98,14 +98,14 @@ TEST(AssuranceSection, TellsTheSameInEveryForm) {
 TEST(AssuranceSection, BoundsOfMeansAreThoseOfTheBootstrapOfTheirPoint) {
   std::vector<double> slowest;
   const measures::PointAccumulator point = trials_of_two_moves(60, 0, slowest);
-  const measures::MeasureStatistics none = point.statistics().of(&trial::MoveOutcome::settling_time);
+  const measures::MeasureStatistics none = point.statistics().of(&trial::MoveOutcome::arrival_time);
   EXPECT_TRUE(std::isnan(none.mean_bounds.low));
   const measures::MeasureStatistics first =
-      point.statistics({.bootstrap = measures::BootstrapDraws{7, 0}}).of(&trial::MoveOutcome::settling_time);
+      point.statistics({.bootstrap = measures::BootstrapDraws{7, 0}}).of(&trial::MoveOutcome::arrival_time);
   const measures::MeasureStatistics again =
-      point.statistics({.bootstrap = measures::BootstrapDraws{7, 0}}).of(&trial::MoveOutcome::settling_time);
+      point.statistics({.bootstrap = measures::BootstrapDraws{7, 0}}).of(&trial::MoveOutcome::arrival_time);
   const measures::MeasureStatistics other =
-      point.statistics({.bootstrap = measures::BootstrapDraws{7, 1}}).of(&trial::MoveOutcome::settling_time);
+      point.statistics({.bootstrap = measures::BootstrapDraws{7, 1}}).of(&trial::MoveOutcome::arrival_time);
   EXPECT_LT(first.mean_bounds.low, first.mean);
   EXPECT_GT(first.mean_bounds.high, first.mean);
   EXPECT_EQ(again.mean_bounds.low, first.mean_bounds.low);

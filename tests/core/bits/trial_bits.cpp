@@ -40,7 +40,7 @@ class BitHash {
 
   void add(const trial::MoveOutcome& move) {
     add(static_cast<std::int64_t>(move.outcome));
-    for (const double measure : {move.settling_time, move.zero_fraction, move.oscillation_period,
+    for (const double measure : {move.arrival_time, move.zero_fraction, move.oscillation_period,
                                  move.true_error, move.final_position, move.holding_torque, move.peak_torque,
                                  move.creep, move.rest_error_rms, move.rest_torque_noise, move.step_motion}) {
       add(measure);

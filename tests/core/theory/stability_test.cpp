@@ -225,7 +225,7 @@ TEST(SlowApproach, TellsWhenTrialsArrive) {
       const double expected = slow_arrival_time(step, p.friction.uniform, p.encoder, p.controller);
       p.command.targets = {60, 60 - step};
       p.command.hold = 20.0 * slow_time_constant(860.0, p.encoder, p.controller);
-      const double time = trial::run_trial(p).moves[1].settling_time;
+      const double time = trial::run_trial(p).moves[1].arrival_time;
       EXPECT_GT(expected, 0.7 * time) << ki << " " << step;
       EXPECT_LT(expected, 1.5 * time) << ki << " " << step;
     }

@@ -60,7 +60,7 @@ double shown(double value) {
 
 /// But what goes on after the last sample: broke_away and reversal_depth.
 auto measures(const trial::MoveOutcome& m) {
-  return std::tuple(m.outcome, m.arrived, m.stable, m.saturated, m.arrival, shown(m.settling_time),
+  return std::tuple(m.outcome, m.arrived, m.stable, m.saturated, m.arrival, shown(m.arrival_time),
                     shown(m.final_settling_time), shown(m.zero_fraction), shown(m.travel_time), m.overshoot,
                     m.final_error, shown(m.true_error), shown(m.final_position), shown(m.holding_torque),
                     shown(m.peak_torque), shown(m.creep), m.phase_changes, m.encoder_disagreement,
@@ -113,7 +113,7 @@ void expect_not_run(const trial::MoveOutcome& move) {
   EXPECT_FALSE(move.arrived || move.stable || move.broke_away || move.saturated);
   EXPECT_EQ(move.arrival, -1);
   for (const double real :
-       {move.settling_time, move.travel_time, move.true_error, move.final_position, move.holding_torque,
+       {move.arrival_time, move.travel_time, move.true_error, move.final_position, move.holding_torque,
         move.peak_torque, move.creep, move.jerk_agreement, move.final_settling_time, move.zero_fraction,
         move.oscillation_amplitude, move.oscillation_period}) {
     EXPECT_TRUE(std::isnan(real));
@@ -271,7 +271,7 @@ TEST(Interruption, EndsABatchAndLeavesTheEngineAsItWas) {
     EXPECT_THROW(engine.run(trials, outcomes, observers), trial::Interrupted);
     engine.run(trials, outcomes);
     for (const trial::TrialOutcome& outcome : outcomes) {
-      EXPECT_EQ(outcome.moves.front().settling_time, expected.moves.front().settling_time);
+      EXPECT_EQ(outcome.moves.front().arrival_time, expected.moves.front().arrival_time);
       EXPECT_EQ(outcome.moves.front().final_error, expected.moves.front().final_error);
     }
   }

@@ -146,7 +146,7 @@ void judge(const Errors& errors, const trial::TrialParameters& p, std::size_t mo
   if (arrival == errors.size()) return;
   outcome.arrived = true;
   outcome.arrival = static_cast<std::int64_t>(arrival);
-  outcome.settling_time = static_cast<double>(arrival) / rate;
+  outcome.arrival_time = static_cast<double>(arrival) / rate;
   outcome.stable = largest(errors.begin() + outcome.arrival, errors.end()) <= 1;
   outcome.zero_fraction = static_cast<double>(std::count(errors.begin() + outcome.arrival, errors.end(), 0)) /
                           static_cast<double>(errors.end() - errors.begin() - outcome.arrival);
@@ -221,7 +221,7 @@ void expect_same_measures(const trial::MoveOutcome& measured, const trial::MoveO
     }
   };
   expect_same(measured.travel_time, expected.travel_time, 1e-12, "travel_time");
-  expect_same(measured.settling_time, expected.settling_time, 1e-12, "settling_time");
+  expect_same(measured.arrival_time, expected.arrival_time, 1e-12, "arrival_time");
   expect_same(measured.final_settling_time, expected.final_settling_time, 1e-12, "final_settling_time");
   expect_same(measured.zero_fraction, expected.zero_fraction, 1e-12, "zero_fraction");
   expect_same(measured.oscillation_amplitude, expected.oscillation_amplitude, 0.0, "amplitude");

@@ -167,7 +167,7 @@ std::map<std::string, std::int64_t> sights() {
       seen["oscillation with a period"] += !std::isnan(m.oscillation_period);
       seen["oscillation without a period"] +=
           !std::isnan(m.oscillation_amplitude) && std::isnan(m.oscillation_period);
-      seen["settled for good later than at first"] += m.final_settling_time > m.settling_time;
+      seen["settled for good later than at first"] += m.final_settling_time > m.arrival_time;
       seen["away from zero after arrival"] += m.zero_fraction < 1.0;
       seen["open loop"] += m.outcome == trial::Outcome::open_loop;
       seen["jerks"] += m.jerk_count;

@@ -158,8 +158,8 @@ TEST(ALawOfTheTests, RunsATrialInClosedLoopFromAManifest) {
   EXPECT_NEAR(move.final_position, move.holding_torque / 200.0, 1e-9);
   // The error dies out with the time constant of the linear loop.
   const double tau = theory::slowest_time_constant(200.0, p.plant, p.encoder, p.controller);
-  EXPECT_GT(move.settling_time, 1.5 * tau);
-  EXPECT_LT(move.settling_time, 6.0 * tau);
+  EXPECT_GT(move.arrival_time, 1.5 * tau);
+  EXPECT_LT(move.arrival_time, 6.0 * tau);
 }
 
 TEST(ALawOfTheTests, IsUnstableBeyondTheBoundOfItsStiffness) {

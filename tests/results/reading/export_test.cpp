@@ -89,7 +89,7 @@ TEST_F(Export, OutcomesHaveOneRowPerMoveAndWordsForVerdicts) {
     EXPECT_EQ(rows[i + 1][1], std::to_string(i % 2));
     EXPECT_EQ(rows[i + 1][2], words[static_cast<std::size_t>(outcomes[i].outcome)]);
     EXPECT_EQ(rows[i + 1][3], outcomes[i].arrived ? "1" : "0");
-    EXPECT_EQ(rows[i + 1][5], reading::number_text(outcomes[i].settling_time));
+    EXPECT_EQ(rows[i + 1][5], reading::number_text(outcomes[i].arrival_time));
   }
 }
 

@@ -274,7 +274,7 @@ Histogram tally_of_study(double ki, int trials) {
     histogram.zero_count += move.outcome == trial::Outcome::zero_count;
     histogram.stable += move.stable;
     histogram.broke_away += move.broke_away;
-    if (move.arrived) histogram.settling_times.push_back(move.settling_time);
+    if (move.arrived) histogram.settling_times.push_back(move.arrival_time);
   }
   return histogram;
 }

@@ -12,7 +12,7 @@ shards::TrialResult settled() {
   trial::MoveOutcome move;
   move.outcome = trial::Outcome::zero_count;
   move.arrived = move.stable = true;
-  move.settling_time = 0.1;
+  move.arrival_time = 0.1;
   move.holding_torque = 0.0123456789;
   shards::TrialResult result;
   result.inputs = {110.0};
@@ -46,7 +46,7 @@ TEST(Replay, NamesEveryMeasureThatDiffers) {
 
 TEST(Replay, TellsNeverFromAValue) {
   shards::TrialResult other = settled();
-  other.outcome.moves[0].settling_time = std::numeric_limits<double>::quiet_NaN();
+  other.outcome.moves[0].arrival_time = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(verification::differences(columns, settled(), other).size(), 1u);
 }
 

@@ -129,7 +129,7 @@ TEST(Tolerance, SentencesSayWhatWasShown) {
   EXPECT_EQ(claim_sentence(success_claim(0, 300, 0.95)),
             "at most 1 % of axes succeed, with 95 % confidence (no success in 300 trials)");
   const ToleranceLimit limits[] = {{0.95, 0.062}, {0.999, std::nan("")}, {0.99, 0.081}};
-  EXPECT_EQ(settling_sentence(limits), "95 % settle within 0.062 s, 99 % within 0.081 s");
+  EXPECT_EQ(settling_sentence(limits), "95 % arrive within 0.062 s, 99 % within 0.081 s");
   EXPECT_EQ(settling_sentence({}), "");
 }
 

@@ -308,8 +308,8 @@ void note_units(StudyComparison& result, const StudyPair& pair) {
         "and what decides is more worlds");
   } else if (pair.baseline.rigs > 0 || pair.current.rigs > 0) {
     result.notes.push_back(
-        "the trials of a rig are not independent: tests and bounds are over rigs, and what decides is more "
-        "trials on more rigs, in the same proportion");
+        "the trials of a machine are not independent: tests and bounds are over machines, and what decides "
+        "is more trials on more machines, in the same proportion");
   }
   if (!pair.in_worlds) return;
   result.notes.emplace_back(!pair.goals.empty()

@@ -426,8 +426,9 @@ std::string legend(Comparison comparison) {
       100.0 * comparison.confidence, comparison.tests, 100.0 * comparison.false_discovery_rate,
       100.0 * decision_probability,
       any_contrast(comparison)
-          ? "\nA p below the false discovery rate beside bounds that hold 0: bounds allow for one more rig "
-            "or trial that differs by as much as one can, p does not; more rigs bring them together."
+          ? "\nA p below the false discovery rate beside bounds that hold 0: bounds allow for one more "
+            "machine or trial that differs by as much as one can, p does not; more machines bring them "
+            "together."
           : "");
 }
 

@@ -151,7 +151,7 @@ Sample sample_of(const BothTrials& trials, const GateMeasure& measure) {
 std::string test_name(const Sample& sample, bool over_rigs) {
   if (sample.failures) return sample.paired ? "McNemar, exact" : "Fisher, exact";
   return fmt::format("{}{}", sample.paired ? "signed rank and paired t" : "Smirnov and Welch's t",
-                     over_rigs ? ", over rigs" : "");
+                     over_rigs ? ", over machines" : "");
 }
 
 /// Takes the values of the sample and, where there are enough of them, the change that they show.
@@ -193,7 +193,7 @@ void compare_quantile(Judgement& result, const GateMeasure& measure, const BothT
   result.baseline_n = units(trials.baseline);
   result.current_n = units(trials.current);
   result.test = fmt::format("{} % quantile of all moves of the goal, by the moves later than that of both{}",
-                            100.0 * judged_quantile, over_rigs(trials) ? ", over rigs" : "");
+                            100.0 * judged_quantile, over_rigs(trials) ? ", over machines" : "");
   if (std::min(result.baseline_n, result.current_n) < min_values) {
     result.note = fmt::format("fewer than {} {}", min_values, over_rigs(trials) ? "rigs" : "trials");
     return;

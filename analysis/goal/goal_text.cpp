@@ -243,7 +243,7 @@ std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_
     return fmt::format(
         "The proportion is so close to the goal that no study of up to 10⁹ trials{} decides it with a "
         "probability of {}",
-        on_rigs ? " on 10⁵ rigs" : "", chance);
+        on_rigs ? " on 10⁵ machines" : "", chance);
   }
   if (needs.rigs == 0)
     return fmt::format("About {} decide it with a probability of {}, by what these leave likely",
@@ -263,7 +263,7 @@ std::vector<std::string> status_words() {
 
 document::Description<Needs> needs_description() {
   return document::Description<Needs>()
-      .value(document::in_data("rigs", "machines; 0 without rigs"), &Needs::rigs)
+      .value(document::in_data("rigs", "machines; 0 without machines"), &Needs::rigs)
       .value(document::in_data("trials", "trials of a design point"), &Needs::trials);
 }
 

@@ -23,23 +23,24 @@
 namespace zerocount::goal {
 namespace {
 
-constexpr QuestionWords words_of_goal{.subject = "goal",
-                                      .title = "Moves in the goal",
-                                      .events = "moves",
-                                      .meeting = "moves that meet the goal",
-                                      .meet = "meet the goal",
-                                      .head = "moves in goal",
-                                      .rate = "rate of moves in goal",
-                                      .hits = "moves in goal",
-                                      .settles = "settles in the goal's band",
-                                      .failed = "missed the goal",
-                                      .succeeded = "met the goal",
-                                      .failure = "miss",
-                                      .failing = "trials that miss the goal",
-                                      .trial_rate = "rate of trials in goal",
-                                      .rig_head = "rigs w/o miss",
-                                      .rig_meaning = "proportion of rigs all of whose moves meet the goal",
-                                      .falls_short = "fall short of the goal by their observed rates"};
+constexpr QuestionWords words_of_goal{
+    .subject = "goal",
+    .title = "Moves in the goal",
+    .events = "moves",
+    .meeting = "moves that meet the goal",
+    .meet = "meet the goal",
+    .head = "moves in goal",
+    .rate = "rate of moves in goal",
+    .hits = "moves in goal",
+    .settles = "settles in the goal's band",
+    .failed = "missed the goal",
+    .succeeded = "met the goal",
+    .failure = "miss",
+    .failing = "trials that miss the goal",
+    .trial_rate = "rate of trials in goal",
+    .rig_head = "machines w/o miss",
+    .rig_meaning = "proportion of machines all of whose moves meet the goal",
+    .falls_short = "fall short of the goal by their observed rates"};
 
 constexpr QuestionWords words_of_success{
     .subject = "success",
@@ -56,8 +57,8 @@ constexpr QuestionWords words_of_success{
     .failure = "failure",
     .failing = "failed trials",
     .trial_rate = "success rate",
-    .rig_head = "rigs w/o failure",
-    .rig_meaning = "proportion of rigs all of whose trials ended at zero error",
+    .rig_head = "machines w/o failure",
+    .rig_meaning = "proportion of machines all of whose trials ended at zero error",
     .falls_short = "are shown to succeed less often than the median world"};
 
 /// A time that is never reached is later than any other.

@@ -129,10 +129,10 @@ const std::vector<text::ReportField<PointRepeatability>>& point_repeatability_fi
        "zero_repeatability as a proportion of trials, NaN of a single cycle", false,
        [](P p) { return p.zero_rate; }},
       {"", "zero_repeatability_rate_low", "1",
-       "lower 95 % bound of zero_repeatability_rate: Clopper-Pearson, with rigs Korn-Graubard", false,
+       "lower 95 % bound of zero_repeatability_rate: Clopper-Pearson, with machines Korn-Graubard", false,
        [](P p) { return p.zero_bounds.low; }},
       {"", "zero_repeatability_rate_high", "1",
-       "upper 95 % bound of zero_repeatability_rate: Clopper-Pearson, with rigs Korn-Graubard", false,
+       "upper 95 % bound of zero_repeatability_rate: Clopper-Pearson, with machines Korn-Graubard", false,
        [](P p) { return p.zero_bounds.high; }},
   };
   return fields;

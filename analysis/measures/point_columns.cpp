@@ -158,18 +158,21 @@ std::vector<StatisticField> jerk_statistic_fields() {
 
 std::vector<StatisticField> rig_fields() {
   return {
-      {"rigs", "n", "1", "rigs that the trials ran on", true, [](S s) { return text::to_double(s.rigs.n); }},
+      {"rigs", "n", "1", "machines that the trials ran on", true,
+       [](S s) { return text::to_double(s.rigs.n); }},
       {"rigs", "success_sd", "1",
-       "standard deviation between rigs of the probability of success (beta-binomial, moment estimate)",
+       "standard deviation between machines of the probability of success (beta-binomial, moment estimate)",
        false, [](S s) { return s.rigs.success_sd; }},
-      {"rigs", "without_failure", "1", "rigs all of whose trials succeeded, as a proportion of the rigs",
-       false, [](S s) { return s.rigs.without_failure; }},
+      {"rigs", "without_failure", "1",
+       "machines all of whose trials succeeded, as a proportion of the machines", false,
+       [](S s) { return s.rigs.without_failure; }},
       {"rigs", "without_failure_low", "1", "lower 95 % Clopper-Pearson bound of rigs_without_failure", false,
        [](S s) { return s.rigs.without_failure_bounds.low; }},
       {"rigs", "without_failure_high", "1", "upper 95 % Clopper-Pearson bound of rigs_without_failure", false,
        [](S s) { return s.rigs.without_failure_bounds.high; }},
       {"rigs", "worst_5_percent", "1",
-       "mean success rate of the worst 5 % of the rigs (of R rigs the R/20 with the lowest, rounded up)",
+       "mean success rate of the worst 5 % of the machines (of R machines the R/20 with the lowest, rounded "
+       "up)",
        false, [](S s) { return s.rigs.worst_5_percent; }},
   };
 }

@@ -47,14 +47,15 @@ summary_answer::PointDescription outcome_columns(const summary::StudySummary& su
       .value({.heading = "lost"}, count(&Counts::nonfinite));
   if (!summary.features.rigs) return columns;
   return columns
-      .value({.heading = "rigs without failure [95 % bounds]", .unit = "1", .notation = Notation::percent},
-             [](Point p) {
-               const statistics::RigStatistics& rigs = p.statistics().rigs;
-               return document::Bounded{rigs.without_failure, rigs.without_failure_bounds.low,
-                                        rigs.without_failure_bounds.high};
-             })
-      .value({.heading = "sd between rigs"}, [](Point p) { return p.statistics().rigs.success_sd; })
-      .value({.heading = "worst 5 % of rigs", .unit = "1", .notation = Notation::percent},
+      .value(
+          {.heading = "machines without failure [95 % bounds]", .unit = "1", .notation = Notation::percent},
+          [](Point p) {
+            const statistics::RigStatistics& rigs = p.statistics().rigs;
+            return document::Bounded{rigs.without_failure, rigs.without_failure_bounds.low,
+                                     rigs.without_failure_bounds.high};
+          })
+      .value({.heading = "sd between machines"}, [](Point p) { return p.statistics().rigs.success_sd; })
+      .value({.heading = "worst 5 % of machines", .unit = "1", .notation = Notation::percent},
              [](Point p) { return p.statistics().rigs.worst_5_percent; });
 }
 
@@ -76,11 +77,11 @@ summary_answer::PointDescription time_columns(const summary::StudySummary& summa
 
 /// What the report says of zero counts beyond the summary.
 document::Description<SummaryReading> zero_count_description(const summary::StudySummary& summary) {
-  const std::string of_rigs = summary.features.rigs
-                                  ? " Sd between rigs: standard deviation of the success probability. Worst "
-                                    "5 % of rigs: mean observed success rate of the rigs with the lowest "
-                                    "rates."
-                                  : "";
+  const std::string of_rigs =
+      summary.features.rigs ? " Sd between rigs: standard deviation of the success probability. Worst "
+                              "5 % of machines: mean observed success rate of the machines with the lowest "
+                              "rates."
+                            : "";
   document::Description<SummaryReading> tables;
   if (summary.features.open_loop) return tables;
   return tables

@@ -180,7 +180,7 @@ void add_rigs(std::vector<std::string>& lines, const ReportedStudy& reported, st
   const statistics::RigStatistics& rigs = point_of(reported, best).rigs;
   if (rigs.n == 0) return;
   std::string line =
-      fmt::format("{} of {} rigs had no failure; the worst 5 % of them succeeded in {} of their trials.",
+      fmt::format("{} of {} machines had no failure; the worst 5 % of them succeeded in {} of their trials.",
                   std::llround(rigs.without_failure * static_cast<double>(rigs.n)), rigs.n,
                   proportion_text(rigs.worst_5_percent));
   if (rigs.tolerance.min_rigs > 0) {

@@ -177,7 +177,8 @@ void add_notes(const PointInputs& point, const SensitivityOutput& output, const 
   }
   if (used.of_rigs > 0) {
     result.notes.push_back(fmt::format(
-        "of each of the {} rigs the first trial is used: the others are not independent of it", point.rigs));
+        "of each of the {} machines the first trial is used: the others are not independent of it",
+        point.rigs));
   }
   if (trials.late > 0) {
     result.notes.push_back(fmt::format("{} of {} trials have a move that {}; it counts with its duration",

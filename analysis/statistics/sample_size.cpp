@@ -123,11 +123,11 @@ std::int64_t rigs_for_halfwidth(double halfwidth, double confidence, double rate
   if (!(rig_sd >= 0.0 && rig_sd * rig_sd <= rate * (1.0 - rate))) {
     throw Failure(
         ExitCode::bad_input,
-        fmt::format("a standard deviation of {} between rigs; with a success rate of {} it is from 0 "
+        fmt::format("a standard deviation of {} between machines; with a success rate of {} it is from 0 "
                     "to {:.4g}",
                     rig_sd, rate, std::sqrt(rate * (1.0 - rate))));
   }
-  const std::string refusal = fmt::format("the half-width would need more than {} rigs", max_rigs);
+  const std::string refusal = fmt::format("the half-width would need more than {} machines", max_rigs);
   return least(2, max_rigs, refusal, [&](std::int64_t rigs) {
     return halfwidth_of(rate, rig_sd, rigs, trials_per_rig, confidence) <= halfwidth;
   });
@@ -143,13 +143,13 @@ SequentialCost sequential_cost(double halfwidth, double confidence, double rate,
 
 RigPlan plan_tolerance(double content, double success, double confidence, std::int64_t rigs) {
   require_confidence(confidence);
-  require_open_unit("proportion of rigs", content);
+  require_open_unit("proportion of machines", content);
   require_open_unit("success rate", success);
   const std::int64_t fewest = min_rigs_for_tolerance(content, confidence);
   if (rigs == 0) rigs = fewest + (fewest + 1) / 2;
   if (rigs < fewest) {
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{} rigs cannot show something of {} of all rigs with {} confidence; "
+                  fmt::format("{} machines cannot show something of {} of all machines with {} confidence; "
                               "expected {} or more",
                               rigs, text::percent(content), text::percent(confidence), fewest));
   }

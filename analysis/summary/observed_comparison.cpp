@@ -52,7 +52,7 @@ ObservedComparison compare_observed(const measures::PointSummary& point,
   }
   if (counts.of > point.rigs.trials_of_rig) {
     return {counts, std::nullopt,
-            fmt::format("it takes {} trials or more on each simulated rig, here are {}", counts.of,
+            fmt::format("it takes {} trials or more on each simulated machine, here are {}", counts.of,
                         point.rigs.trials_of_rig)};
   }
   return {counts,
@@ -76,12 +76,12 @@ std::string statement_on(const measures::PointSummary& point, const ObservedComp
                : fmt::format("consistent with some world (p = {})", p);
   }
   if (comparison.test->p <= 1.0 - confidence) {
-    return fmt::format("differs (p = {}): the real rig succeeded {} often than the simulation says", p,
+    return fmt::format("differs (p = {}): the real machine succeeded {} often than the simulation says", p,
                        is_better(point, comparison.counts) ? "more" : "less");
   }
   if (comparison.test->lowest_p > 1.0 - confidence) {
     return fmt::format("consistent (p = {}), as any result would be: the trials{} are too few", p,
-                       point.rigs.n > 0 ? " or the rigs" : "");
+                       point.rigs.n > 0 ? " or the machines" : "");
   }
   return fmt::format("consistent (p = {})", p);
 }
@@ -89,12 +89,13 @@ std::string statement_on(const measures::PointSummary& point, const ObservedComp
 const std::vector<ObservedField>& observed_fields() {
   using O = const std::optional<ObservedComparison>&;
   static const std::vector<ObservedField> fields{
-      {"", "observed_successes", "1", "trials that succeeded on the real rig", true,
+      {"", "observed_successes", "1", "trials that succeeded on the real machine", true,
        [](O o) { return o ? text::to_double(o->counts.successes) : statistics::unknown; }},
-      {"", "observed_trials", "1", "trials on the real rig", true,
+      {"", "observed_trials", "1", "trials on the real machine", true,
        [](O o) { return o ? text::to_double(o->counts.of) : statistics::unknown; }},
-      {"", "observed_p_value", "1", "two-sided p-value of the trials on the real rig against those simulated",
-       false, [](O o) { return o && o->test ? o->test->p : statistics::unknown; }}};
+      {"", "observed_p_value", "1",
+       "two-sided p-value of the trials on the real machine against those simulated", false,
+       [](O o) { return o && o->test ? o->test->p : statistics::unknown; }}};
   return fields;
 }
 

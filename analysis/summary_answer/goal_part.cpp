@@ -87,7 +87,7 @@ document::Description<goal::ClaimVerdict> verdict_description(const goal::Questi
                });
   }
   if (on_rigs)
-    description.value(document::in_data("rigs_without_miss", "rigs all of whose moves meet the goal"),
+    description.value(document::in_data("rigs_without_miss", "machines all of whose moves meet the goal"),
                       &goal::ClaimVerdict::rigs_without_miss);
   return description;
 }
@@ -118,16 +118,17 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
         {.key = "goals", .meaning = "each of the goals, by name", .shown = Shown::in_data, .free_keys = true},
         goals_description(question, summary.features.rigs), &PointReading::verdict);
   if (!several && question.conditions.empty()) return;
-  point.value(document::in_data(
-                  "machines_together",
-                  "proportion of rigs that meet all goals on machines, as observed; nothing where only one "
-                  "claim is on machines",
-                  "1"),
-              [question](const PointReading& p) -> std::optional<double> {
-                const auto all = goal::rigs_meeting_all(question, p.statistics());
-                if (!all) return std::nullopt;
-                return statistics::rate(all->rigs, all->of);
-              });
+  point.value(
+      document::in_data(
+          "machines_together",
+          "proportion of machines that meet all goals on machines, as observed; nothing where only one "
+          "claim is on machines",
+          "1"),
+      [question](const PointReading& p) -> std::optional<double> {
+        const auto all = goal::rigs_meeting_all(question, p.statistics());
+        if (!all) return std::nullopt;
+        return statistics::rate(all->rigs, all->of);
+      });
 }
 
 bool has_several_claims(const summary::StudySummary& summary) {

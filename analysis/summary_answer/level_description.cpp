@@ -113,7 +113,7 @@ document::Description<LevelReading> level_description(const summary::StudySummar
   return level
       .value({.key = "observed",
               .heading = "observed",
-              .meaning = "what was observed on the real rig",
+              .meaning = "what was observed on the real machine",
               .shown = Shown::not_in_json},
              [](Level l) { return summary::observed_at(l.point.summary, l.point.point); })
       .shown_as(

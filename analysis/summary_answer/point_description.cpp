@@ -228,7 +228,7 @@ PointDescription point_description(const summary::StudySummary& summary) {
   add_levels(point, summary);
   if (!summary.features.open_loop) add_question_columns(point, summary);
   add_prediction(point, summary);
-  point.value({"observed", "observed", "what was observed on the real rig"}, observed_on_rig);
+  point.value({"observed", "observed", "what was observed on the real machine"}, observed_on_rig);
   add_undecided(point, summary);
   add_observed(point, summary);
   add_repeatability(point, summary);

@@ -150,8 +150,8 @@ struct ConfirmationReading {
   std::string size_text() const {
     return fmt::format("{}{}{}", confirmed.trials,
                        confirmed.rigs == 0       ? ""
-                       : has_one_trial_per_rig() ? ", each on a rig of its own"
-                                                 : fmt::format(" on {} rigs", confirmed.rigs),
+                       : has_one_trial_per_rig() ? ", each on a machine of its own"
+                                                 : fmt::format(" on {} machines", confirmed.rigs),
                        summary.question.worlds > 0 ? ", on average over new worlds" : "");
   }
   /// Clopper–Pearson bounds, where the trials are independent: unless they share rigs, in a study with a
@@ -184,14 +184,14 @@ document::Description<ConfirmationReading> confirmation_description(const StudyS
       .value({"zero_count", "succeeded", "new trials that succeeded"},
              [](Confirmed c) { return c.confirmed.successes; })
       .value({"success_rate", "success rate [bounds]",
-              "their proportion, with bounds of Clopper and Pearson unless trials share rigs", "1",
+              "their proportion, with bounds of Clopper and Pearson unless trials share machines", "1",
               document::Notation::percent},
              [](Confirmed c) {
                const statistics::ConfidenceInterval bounds = c.bounds().value_or(
                    statistics::ConfidenceInterval{statistics::unknown, statistics::unknown});
                return document::Bounded{c.rate(), bounds.low, bounds.high};
              })
-      .value(document::in_data("one_trial_per_rig", "whether every new trial has a rig of its own"),
+      .value(document::in_data("one_trial_per_rig", "whether every new trial has a machine of its own"),
              &ConfirmationReading::has_one_trial_per_rig);
   if (summary.question.claim())
     description.object({.key = "goal", .meaning = "whether the new trials meet the goal"},
@@ -268,8 +268,8 @@ std::string design_line(const StudySummary& summary) {
   std::string line = fmt::format("design: {}", summary.design);
   if (features.rigs && !summary.points.empty()) {
     line += fmt::format(
-        ", {} rigs: bounds are of all rigs that the manifest describes, and more trials on the same rigs "
-        "narrow them only so far",
+        ", {} machines: bounds are of all machines that the manifest describes, and more trials on the same "
+        "machines narrow them only so far",
         rigs_of(summary));
   }
   if (summary.question.worlds > 0) {

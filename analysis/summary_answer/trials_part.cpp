@@ -40,7 +40,7 @@ std::string simulated_text(Point p) {
   const measures::PointSummary& point = p.statistics();
   if (point.judged == 0) return "–";
   return fmt::format("{} of {}{}{}", text::percentage(point.outcomes.zero_count, point.judged), point.judged,
-                     point.rigs.n > 0 ? fmt::format(" on {} rigs", point.rigs.n) : "",
+                     point.rigs.n > 0 ? fmt::format(" on {} machines", point.rigs.n) : "",
                      p.summary.question.worlds > 0 ? ", on average over the worlds" : "");
 }
 
@@ -69,11 +69,12 @@ std::string note_on_stopping(const summary::StudySummary& summary) {
       "outcomes decided the number of trials, after every {} at each point; all other bounds are those of a "
       "number fixed beforehand{}",
       summary.stop->block,
-      rigs == 0 ? ""
-                : fmt::format("\nthese bounds are of the mean over the {} rigs of the study, which more "
-                              "trials narrow; those over all rigs are in the table above, and more rigs "
-                              "narrow them",
-                              rigs));
+      rigs == 0
+          ? ""
+          : fmt::format("\nthese bounds are of the mean over the {} machines of the study, which more "
+                        "trials narrow; those over all machines are in the table above, and more machines "
+                        "narrow them",
+                        rigs));
 }
 
 /// With one trial per rig, nothing is known of the moves of a rig.
@@ -119,11 +120,11 @@ std::string key_of_limit(double content) {
 
 PointDescription assurance_of_rigs(const summary::StudySummary& summary) {
   return PointDescription()
-      .value(in_json("content", "proportion of rigs", "1"),
+      .value(in_json("content", "proportion of machines", "1"),
              [](Point p) { return p.statistics().rigs.tolerance.content; })
       .value({.key = "zero_at_least",
-              .heading = shows_rigs(summary) ? "90 % of rigs ≥" : "",
-              .meaning = "proportion of moves in which at least these rigs hold zero at least",
+              .heading = shows_rigs(summary) ? "90 % of machines ≥" : "",
+              .meaning = "proportion of moves in which at least these machines hold zero at least",
               .unit = "1",
               .numeric = true,
               .column = "rigs_zero_at_least"},
@@ -162,20 +163,20 @@ void add_observed(PointDescription& point, const summary::StudySummary& summary)
   const std::string method = fmt::format(
       "{}, each point by itself: it differs where p ≤ {}. Consistent counts do not prove the "
       "simulation right: they only do not contradict it",
-      summary.features.rigs ? "rank of the real rig among the simulated ones, by as many trials of each"
+      summary.features.rigs ? "rank of the real machine among the simulated ones, by as many trials of each"
                             : "Fisher's exact test",
       text::percent(1.0 - summary.confidence));
   PointDescription object;
   object
       .value({.key = "successes",
-              .heading = "real rig",
-              .meaning = "trials that succeeded on the real rig",
+              .heading = "real machine",
+              .meaning = "trials that succeeded on the real machine",
               .column = "observed_successes"},
              [](Point p) { return p.observed->counts.successes; })
       .shown_as([](Point p) {
         return fmt::format("{} of {}", p.observed->counts.successes, p.observed->counts.of);
       })
-      .value({.key = "of", .meaning = "trials on the real rig", .column = "observed_trials"},
+      .value({.key = "of", .meaning = "trials on the real machine", .column = "observed_trials"},
              [](Point p) { return p.observed->counts.of; })
       .value({.heading = "simulated"}, simulated_text)
       .value({.key = "p_value",
@@ -186,18 +187,18 @@ void add_observed(PointDescription& point, const summary::StudySummary& summary)
       .value(in_json("lowest_p_value", "lowest p-value that any result can have", "1"),
              [](Point p) { return p.observed->test ? p.observed->test->lowest_p : statistics::unknown; })
       .value({.key = "verdict",
-              .meaning = "whether the simulation and the real rig are consistent",
+              .meaning = "whether the simulation and the real machine are consistent",
               .shown = Shown::in_json,
               .words = {std::begin(summary::observed_verdicts), std::end(summary::observed_verdicts)}},
              [](Point p) { return summary::verdict_on(*p.observed, p.summary.confidence); })
       .value({.key = "statement",
-              .heading = "the simulation and the rig",
+              .heading = "the simulation and the machine",
               .meaning = "the verdict in words",
               .shown = Shown::not_in_csv},
              observed_statement);
   point.object({.key = "observed_counts",
-                .meaning = "trials on the real rig against those simulated",
-                .own_table = "observed on the real rig",
+                .meaning = "trials on the real machine against those simulated",
+                .own_table = "observed on the real machine",
                 .note = method},
                object, [](Point p) { return p.observed ? &p : nullptr; });
 }
@@ -239,7 +240,7 @@ void add_stopping(PointDescription& point, const summary::StudySummary& summary)
              [](Point p) { return p.summary.stop->confidence; })
       .value(in_json("reached", "whether the bounds are as narrow as asked for"), is_reached);
   if (summary.features.rigs)
-    object.value(in_json("of_rigs", "rigs of the study, over whose mean the bounds are"),
+    object.value(in_json("of_rigs", "machines of the study, over whose mean the bounds are"),
                  [](Point p) { return p.statistics().rigs.n; });
   point.object({.key = "stopping",
                 .meaning = "what the rule that ended the study asked for, and what was reached",
@@ -287,7 +288,7 @@ void add_assurance(PointDescription& point, const summary::StudySummary& summary
   }
   object.value(in_json("statement", "the same in words"), assurance_statement);
   if (summary.features.rigs)
-    object.object({.key = "rigs", .meaning = "what is shown of single rigs"}, assurance_of_rigs(summary),
+    object.object({.key = "rigs", .meaning = "what is shown of single machines"}, assurance_of_rigs(summary),
                   [](Point p) { return p.statistics().rigs.tolerance.min_rigs > 0 ? &p : nullptr; });
   point.object({.key = "assurance",
                 .meaning = "what the trials show of all axes that the manifest describes",

@@ -181,7 +181,7 @@ string source_text(const LowestStiffness& lowest) {
       break;
   }
   if (lowest.rigs == 0) return "the lowest along the profiles";
-  return fmt::format("the lowest along the profiles of {} rigs", lowest.rigs);
+  return fmt::format("the lowest along the profiles of {} machines", lowest.rigs);
 }
 
 Description<PointTheory> lowest_description() {

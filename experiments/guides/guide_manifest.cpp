@@ -108,7 +108,7 @@ std::string encoder_and_amplifier(const std::string& resolution) {
 std::string hardware(const Guide& guide, const GuideAxis& axis, const Lowest& lowest) {
   switch (guide.axis) {
     case AxisKind::rotary:
-      return "# resolution of encoder and converter: the defaults, which are those of the paper's rig\n" +
+      return "# resolution of encoder and converter: the defaults, which are those of the paper's machine\n" +
              encoder_and_amplifier("") + controller(axis.load.mass, lowest, 2000);
     case AxisKind::linear:
       break;
@@ -132,7 +132,8 @@ std::string guide_manifest(const Guide& guide, const GuideAxis& axis) {
       "# A starting point: {}. {} measured on your axis.\n"
       "# Replace {} by what zerocount identify finds in your records, and the loop by yours.\n"
       "{}"
-      "# Each of the rigs draws its friction once from these ranges. Sources: zerocount parameters --guides\n"
+      "# Each of the machines draws its friction once from these ranges. Sources: zerocount parameters "
+      "--guides\n"
       "zerocount: 1\n"
       "name: {}\n"
       "description: {}, {}\n"

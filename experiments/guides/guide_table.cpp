@@ -30,7 +30,7 @@ constexpr const char* grease = "no publication found; below the friction itself 
 Numbers assumed_of_contacts() {
   return {
       {"friction.alpha", "1/s", 0.1, 2, assumed, "creep lasts seconds, as in Fig. 8 of the paper"},
-      {"friction.n", "1", 2, 2, assumed, "as of the paper's rig, where it is assumed too"},
+      {"friction.n", "1", 2, 2, assumed, "as of the paper's machine, where it is assumed too"},
       {creep_part, "1", 0.01, 0.1, assumed, "creep is small beside the travel before sliding"},
       {"friction.stribeck_velocity", "m/s", 5e-4, 5e-3, assumed,
        "about 1e-3 m/s, which Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995) 419, simulate"},

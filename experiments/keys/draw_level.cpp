@@ -28,7 +28,7 @@ std::optional<Misfit> misfit_of(study::DrawLevel level, const parameters::Parame
       return groups.worlds ? std::nullopt : std::optional(no_worlds);
     case study::DrawLevel::rig:
       if (groups.rigs) return std::nullopt;
-      return Misfit{"the study has no rigs", "the key rigs, or study, trial or contact here"};
+      return Misfit{"the study has no machines", "the key rigs, or study, trial or contact here"};
     case study::DrawLevel::trial:
       if (drawn == Drawn::value) return std::nullopt;
       return profile_of_rotor;

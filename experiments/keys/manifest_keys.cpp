@@ -136,21 +136,19 @@ std::span<const GeneralKey> general_keys() {
       {"seed", "seed of all random numbers, 0 to 2^64 - 1", "a whole number"},
       whole({"trials", "trials at each design point", "the number of trials at each design point"}, 1,
             max_study_trials, &study::Study::trials),
-      whole(
-          {"rigs",
-           "number of rigs; trial i runs on rig i mod rigs, and `trials` must be a multiple of it (default: "
-           "no trials share a rig)"},
-          2, max_rigs, &study::Study::rigs),
-      whole(
-          {"worlds",
-           "number of worlds, which differ in what all machines share and nobody knows (`per: world`); rig r "
-           "lives in world r mod worlds, without rigs trial i in world i mod worlds (default: none)"},
-          2, max_worlds, &study::Study::worlds),
+      whole({"rigs",
+             "number of machines; trial i runs on machine i mod rigs, and `trials` must be a multiple of it "
+             "(default: no trials share a machine)"},
+            2, max_rigs, &study::Study::rigs),
+      whole({"worlds",
+             "number of worlds, which differ in what all machines share and nobody knows (`per: world`); "
+             "machine r lives in world r mod worlds, without `rigs` trial i in world i mod worlds (default: "
+             "none)"},
+            2, max_worlds, &study::Study::worlds),
       {"conditions",
        "conditions that every machine has to bear, names and overrides of parameters: {empty: {}, loaded: "
-       "{plant.inertia: 4.6}}; trial i runs under condition floor(i/R) mod C (R rigs, or 1), and `trials` "
-       "must "
-       "be a multiple of R*C"},
+       "{plant.inertia: 4.6}}; trial i runs under condition floor(i/R) mod C (R machines, or 1), and "
+       "`trials` must be a multiple of R*C"},
       {"ages",
        "ages of every machine at which it is simulated, of values that have `aging` beside them: {at: [0, "
        "1.0e+5, "
@@ -172,11 +170,10 @@ std::span<const GeneralKey> general_keys() {
       map({"goal",
            "what the axis must achieve: {band: 1, within: 0.05, moves: 0.99, machines: 0.99, confidence: "
            "0.95}: the error is within 1 count for good after 0.05 s in at least 99 % of the moves of at "
-           "least 99 % of the machines, claimed with 95 % confidence; without `machines` (which needs rigs) "
-           "in at least 99 % of all moves; default band 0, confidence 0.95; `tolerance` (rad) in place of "
-           "band: the "
-           "position error itself stays within it; on: [0, 1]: the moves that it is about (default all); "
-           "limits: {overshoot: 200, peak_torque: 45}: largest values of measures of a move"},
+           "least 99 % of the machines, claimed with 95 % confidence; without `machines` (which needs "
+           "`rigs`) in at least 99 % of all moves; default band 0, confidence 0.95; `tolerance` (rad) in "
+           "place of band: the position error itself stays within it; on: [0, 1]: the moves that it is about "
+           "(default all); limits: {overshoot: 200, peak_torque: 45}: largest values of measures of a move"},
           "goal: {band: 1, within: 0.05, moves: 0.99}",
           {whole({"band"}, 0, max_band, &study::Goal::band),
            real({"tolerance"}, numerics::above(0), &study::Goal::tolerance),
@@ -245,8 +242,8 @@ std::span<const GeneralKey> general_keys() {
       {"samples",
        "joint draws of several parameters, such as those of zerocount identify --posterior: path of a CSV "
        "table from the folder of the manifest, or {file: FILE, per: rig}; its header has the dotted paths of "
-       "the parameters, and each world, rig or trial takes one row"},
-      {"observed", "observations on the real rig, by case or point label: texts or counts"},
+       "the parameters, and each world, machine or trial takes one row"},
+      {"observed", "observations on the real machine, by case or point label: texts or counts"},
       {"sweep", "design points: grid (product of lists), cases (named), or both (product)"},
       label(
           {"controller.units",

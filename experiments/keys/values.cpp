@@ -185,7 +185,8 @@ bool check_rotor(const ProfileRequest& request, const study::Rotors& rotors, std
     return true;  // a fast sufficient test
   const friction::ValueRange values = friction::range_over_revolution(*profile);
   if (numerics::contains(parameter.range, numerics::closed(values.low, values.high))) return true;
-  const std::string of_rig = request.level == study::DrawLevel::rig ? fmt::format(" of rig {}", rotor) : "";
+  const std::string of_rig =
+      request.level == study::DrawLevel::rig ? fmt::format(" of machine {}", rotor) : "";
   reading.problems.add(
       request.place, request.path,
       fmt::format("its values {}{}, {:.6g} to {:.6g} with this seed, exceed the allowed range {}",

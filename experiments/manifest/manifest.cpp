@@ -182,7 +182,7 @@ std::string turns_text(const study::Study& study) {
   };
   const std::int64_t conditions = std::ssize(study.condition_names);
   if (study.rigs == 0) return counted(conditions, "condition");
-  std::string text = fmt::format("{} rigs", study.rigs);
+  std::string text = fmt::format("{} machines", study.rigs);
   if (conditions > 0) text += " under each of " + counted(conditions, "condition");
   if (!study.ages.at.empty()) text += " at each of " + counted(std::ssize(study.ages.at), "age");
   return text;
@@ -210,8 +210,8 @@ void check_turns(Manifest& m) {
   if (m.study().design == study::Design::saltelli && m.study().rigs > 0) {
     const yaml::Field design = yaml::find_field(m.root, "design").value();
     m.problems().add(design,
-                     "this design changes one factor at a time, but the trials of a rig share factors",
-                     "monte_carlo, latin_hypercube or sobol with rigs");
+                     "this design changes one factor at a time, but the trials of a machine share factors",
+                     "monte_carlo, latin_hypercube or sobol with machines");
   }
 }
 
@@ -248,8 +248,8 @@ void check_worlds(Manifest& m) {
                                                                : "trials under each condition";
   if (m.study().rigs > 0 && units % m.study().worlds != 0) {
     m.problems().add(
-        field, fmt::format("{} rigs cannot be divided equally among {} worlds", units, m.study().worlds),
-        fmt::format("a divisor of the number of rigs, or {} rigs",
+        field, fmt::format("{} machines cannot be divided equally among {} worlds", units, m.study().worlds),
+        fmt::format("a divisor of the number of machines, or {} machines",
                     nearest_multiples(units, m.study().worlds)));
   } else if (units > 0 && units < m.study().worlds) {
     m.problems().add(field, fmt::format("the study has only {} {}", units, name),

@@ -72,7 +72,7 @@ std::vector<ListedDistribution> listed_distributions(const parameters::StudyUnit
   rows.push_back({std::string(keys::per_key),
                   fmt::format("{{…, per: {}}}", fmt::join(keys::draw_level_labels, " | ")),
                   "beside any of these: how often the value is drawn; contact only for friction, study or "
-                  "rig only for a profile"});
+                  "machine only for a profile"});
   return rows;
 }
 

@@ -62,7 +62,7 @@ void read_ages(const yaml::Field& root, keys::Reading& reading) {
     reading.problems.add_missing(field->node->place, "ages.at", "a rising list of ages: at: [0, 1.0e+5]");
   }
   if (!reading.groups.rigs)
-    reading.problems.add(*field, "only rigs have ages: the study has none",
+    reading.problems.add(*field, "only machines have ages: the study has none",
                          "the key rigs, such as rigs: 100");
   reading.plan.ages = ages.at;
 }

@@ -95,7 +95,7 @@ std::optional<std::uint32_t> read_drawn(const yaml::Field& field, keys::Reading&
     const std::string fault = fault_of(*value);
     if (fault.empty()) continue;
     reading.problems.add(field, fmt::format("{} cannot be correlated: {}", *name, fault),
-                         "a distribution drawn for each world, rig or trial");
+                         "a distribution drawn for each world, machine or trial");
     return std::nullopt;
   }
   return static_cast<std::uint32_t>(slots->first);
@@ -160,7 +160,8 @@ void make_copula(const yaml::Field& list, const std::vector<Pair>& pairs, keys::
   copula.slots = slots_of(pairs, reading.plan);
   const auto level = common_level(copula.slots, reading.plan);
   if (!level) {
-    reading.problems.add(list, "these parameters are not drawn equally often: for each world, rig or trial",
+    reading.problems.add(list,
+                         "these parameters are not drawn equally often: for each world, machine or trial",
                          fmt::format("the same `{}` for all of them", keys::per_key));
     return;
   }

@@ -183,7 +183,7 @@ void read_goal(const yaml::Field& field, std::string_view name, keys::Reading& r
   if (const auto on = yaml::find_field(field, "on")) read_moves(*on, reading.plan, goal.on, problems);
   const auto machines = yaml::find_field(field, "machines");
   if (machines && study.rigs == 0)
-    problems.add(*machines, "without rigs no trials share a machine",
+    problems.add(*machines, "without machines no trials share a machine",
                  "`rigs`, the number of machines, or the key left out");
   if (study.stop)
     problems.add(field, "its bounds need a number of trials that does not depend on the outcomes",

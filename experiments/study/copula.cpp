@@ -49,7 +49,7 @@ std::string correlations_text(const std::vector<Correlation>& correlations) {
 }
 
 std::string samples_text(const JointSamples& samples) {
-  constexpr std::array<std::string_view, 5> names{"the study", "each world", "each rig", "each trial",
+  constexpr std::array<std::string_view, 5> names{"the study", "each world", "each machine", "each trial",
                                                   "each contact"};
   return fmt::format("{}: a row of {} ({} draw{}) for {}", fmt::join(samples.parameters, ", "), samples.file,
                      samples.rows, samples.rows == 1 ? "" : "s",

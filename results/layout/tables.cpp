@@ -15,7 +15,7 @@ Column whole_numbers(std::string_view name, std::string_view long_name) {
 }
 
 Column rig_scale() {
-  return whole_numbers("rig", "index of the rig");
+  return whole_numbers("rig", "index of the machine");
 }
 
 Column world_scale() {
@@ -216,11 +216,12 @@ Table rig_table(const std::vector<study::InputColumn>& inputs) {
 }
 
 Table rig_count_table() {
-  return {"rig",
-          whole_numbers("point", "index of the design point"),
-          rig_scale(),
-          {whole_numbers("success", "trials of the rig at the point that succeeded, in all their moves"),
-           whole_numbers("trials", "trials of the rig at the point that were judged, 0 in an open loop")}};
+  return {
+      "rig",
+      whole_numbers("point", "index of the design point"),
+      rig_scale(),
+      {whole_numbers("success", "trials of the machine at the point that succeeded, in all their moves"),
+       whole_numbers("trials", "trials of the machine at the point that were judged, 0 in an open loop")}};
 }
 
 Table world_table(const std::vector<study::InputColumn>& inputs) {
@@ -256,13 +257,14 @@ Table age_count_table(const std::string& unit, bool has_goal) {
 }
 
 Table life_table(const std::string& unit) {
-  return {"rig",
-          whole_numbers("point", "index of the design point"),
-          rig_scale(),
-          {{"life", unit,
-            "last age up to and including which the rig meets the goal under every condition, NaN if it does "
-            "not at the first",
-            hdf5::Element::float64}}};
+  return {
+      "rig",
+      whole_numbers("point", "index of the design point"),
+      rig_scale(),
+      {{"life", unit,
+        "last age up to and including which the machine meets the goal under every condition, NaN if it does "
+        "not at the first",
+        hdf5::Element::float64}}};
 }
 
 Table sums_table() {

@@ -203,13 +203,13 @@ void validate_rigs(const layout::FileHeader& header, const layout::TableIo& coun
                    std::span<const std::int64_t> success, std::span<const std::int64_t> trials) {
   const std::int64_t rigs = counts.width();
   if (counts.rows() != header.points || header.trials % rigs != 0) {
-    counts.column(0).fail("its size differs from the points and rigs of the study");
+    counts.column(0).fail("its size differs from the points and machines of the study");
   }
   const std::int64_t of_each = trials.empty() ? 0 : trials.front();
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const std::int64_t point = static_cast<std::int64_t>(i) / rigs;
     if (trials[i] != of_each || (of_each != 0 && of_each != header.trials / rigs)) {
-      counts.column(1).fail(fmt::format("row {}: {} trials of a rig; expected {}, or 0 of all", point,
+      counts.column(1).fail(fmt::format("row {}: {} trials of a machine; expected {}, or 0 of all", point,
                                         trials[i], header.trials / rigs));
     }
     if (success[i] < 0 || success[i] > trials[i]) {

@@ -80,7 +80,7 @@ void measure_pilot(PlanRequest& request, const std::string& path) {
   const std::optional<PilotPoint> worst = worst_point(path);
   if (!worst) {
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: has no differences between rigs; expected the results of a study with "
+                  fmt::format("{}: has no differences between machines; expected the results of a study with "
                               "`rigs` and several trials on each",
                               path));
   }
@@ -208,8 +208,8 @@ std::string claim_headline(const Plans& plans) {
 std::string tolerance_headline(const Plans& plans) {
   const RigPlan& fewest = plans.tolerance.front();
   return fmt::format(
-      "{} rigs with {} trials each, none of which fails, show that at least {} of rigs hold zero in at least "
-      "{} of moves, {}; trials of one move or more",
+      "{} machines with {} trials each, none of which fails, show that at least {} of machines hold zero in "
+      "at least {} of moves, {}; trials of one move or more",
       fewest.rigs, fewest.trials_per_rig, text::percent(*plans.rigs_share), text::percent(*plans.success),
       with_confidence(plans));
 }
@@ -223,7 +223,7 @@ std::string halfwidth_headline(const Plans& plans) {
     return fmt::format("{} trials bring {}{}", plans.halfwidth_without_rigs->fixed, aim,
                        plans.true_success ? "" : ", the worst case");
   const std::vector<RigPlan>& on_rigs = plans.halfwidth_on_rigs;
-  return fmt::format("{} to {} rigs bring {}, with a standard deviation of {} between rigs{}",
+  return fmt::format("{} to {} machines bring {}, with a standard deviation of {} between machines{}",
                      on_rigs.back().rigs, on_rigs.front().rigs, aim, text::percent(*plans.rig_sd),
                      plans.pilot.empty() ? "" : " (" + plans.pilot + ")");
 }
@@ -234,15 +234,16 @@ std::string halfwidth_sentence(const Plans& plans) {
   if (plans.halfwidth_on_rigs.empty()) return "";
   const double rate = plans.rate();
   return fmt::format(
-      "more trials on a rig help little once they outnumber {:.3g}: what differs between rigs remains",
+      "more trials on a machine help little once they outnumber {:.3g}: what differs between machines "
+      "remains",
       rate * (1.0 - rate) / (*plans.rig_sd * *plans.rig_sd));
 }
 
 Description<RigPlan> rig_columns() {
   return Description<RigPlan>()
-      .value(everywhere("rigs", "rigs", "rigs"), &RigPlan::rigs)
+      .value(everywhere("rigs", "machines", "machines"), &RigPlan::rigs)
       .value(everywhere("trials_per_rig", "trials on each", "trials on each"), &RigPlan::trials_per_rig)
-      .value(everywhere("trials", "trials", "trials on all rigs"),
+      .value(everywhere("trials", "trials", "trials on all machines"),
              [](const RigPlan& plan) { return plan.rigs * plan.trials_per_rig; });
 }
 
@@ -265,17 +266,17 @@ Description<Plans> halfwidth_description() {
   return Description<Plans>()
       .value(in_data("halfwidth", "half-width of the bounds", "1"), [](Of p) { return *p.halfwidth; })
       .value(in_data("rate", "assumed rate", "1"), [](Of p) { return p.rate(); })
-      .value(in_data("rig_sd", "standard deviation of the success probability between rigs", "1"),
+      .value(in_data("rig_sd", "standard deviation of the success probability between machines", "1"),
              [](Of p) { return p.rig_sd; })
-      .table({.key = "rig_plans", .meaning = "rigs and trials; none without rig_sd"}, rig_columns(),
+      .table({.key = "rig_plans", .meaning = "machines and trials; none without rig_sd"}, rig_columns(),
              &Plans::halfwidth_on_rigs)
-      .value(everywhere("trials", "trials, decided beforehand", "trials without rigs, decided beforehand"),
-             [](Of p) {
-               return p.halfwidth_without_rigs ? std::optional(p.halfwidth_without_rigs->fixed)
-                                               : std::nullopt;
-             })
+      .value(
+          everywhere("trials", "trials, decided beforehand", "trials without machines, decided beforehand"),
+          [](Of p) {
+            return p.halfwidth_without_rigs ? std::optional(p.halfwidth_without_rigs->fixed) : std::nullopt;
+          })
       .value(everywhere("trials_with_stop", "trials with `stop`, about",
-                        "trials without rigs, decided by the outcomes"),
+                        "trials without machines, decided by the outcomes"),
              [](Of p) {
                return p.halfwidth_without_rigs ? std::optional(p.halfwidth_without_rigs->sequential)
                                                : std::nullopt;
@@ -314,12 +315,13 @@ document::AnswerDescription<Plans> success_answer() {
 
 document::AnswerDescription<Plans> rigs_answer() {
   document::AnswerDescription<Plans> answer =
-      answer_named("plan-rigs", "rigs and trials that show a proportion of successful rigs", "rig_plans",
-                   tolerance_headline);
+      answer_named("plan-rigs", "machines and trials that show a proportion of successful machines",
+                   "rig_plans", tolerance_headline);
   answer.items
-      .value(in_data("success", "proportion of its moves in which a rig holds zero", "1"), &Plans::success)
-      .value(in_data("rigs_share", "proportion of rigs to be shown to succeed", "1"), &Plans::rigs_share)
-      .table({.key = "rig_plans", .meaning = "rigs and trials, if no trial fails"}, rig_columns(),
+      .value(in_data("success", "proportion of its moves in which a machine holds zero", "1"),
+             &Plans::success)
+      .value(in_data("rigs_share", "proportion of machines to be shown to succeed", "1"), &Plans::rigs_share)
+      .table({.key = "rig_plans", .meaning = "machines and trials, if no trial fails"}, rig_columns(),
              &Plans::tolerance)
       .sentence(halfwidth_headline);
   return with_halfwidth(std::move(answer));

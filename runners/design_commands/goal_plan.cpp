@@ -52,7 +52,7 @@ std::vector<PlannedStudy> with_times(const std::vector<goal::Needs>& studies, co
 document::Description<PlannedStudy> study_columns() {
   using Of = const PlannedStudy&;
   return document::Description<PlannedStudy>()
-      .value(everywhere("rigs", "rigs", "machines; 0 without rigs"), &PlannedStudy::rigs)
+      .value(everywhere("rigs", "machines", "machines; 0 without machines"), &PlannedStudy::rigs)
       .value(to_people("trials on each"),
              [](Of one) { return one.rigs > 0 ? std::optional(one.trials / one.rigs) : std::nullopt; })
       .value(everywhere("trials", "trials", "trials of a design point"), &PlannedStudy::trials)

@@ -9,17 +9,19 @@ namespace zerocount::design_commands {
 namespace {
 
 constexpr const char* plan_help =
-    "Prints how many trials a claim needs. With a MANIFEST or a PILOT alone: the rigs and trials\n"
+    "Prints how many trials a claim needs. With a MANIFEST or a PILOT alone: the machines and trials\n"
     "that can meet the goal of the manifest, if no move misses it; or that decide it with a probability\n"
     "of 90 %, by what the pilot's results leave likely.\n"
     "--success P: the number of trials that shows that at least the proportion P of axes succeeds,\n"
     "if none, one, two, … of the trials fail; with --true-success also the probability that the\n"
     "plan shows it, and with --power the plan that has this probability. --halfwidth H: the number\n"
     "of trials for bounds of a rate within ± H.\n"
-    "With rigs, the trials of one rig are not independent. --rigs-share P: the number of rigs, and\n"
-    "of trials on each, that shows that at least the proportion P of all rigs succeeds in --success\n"
+    "With machines, the trials of one machine are not independent. --rigs-share P: the number of machines, "
+    "and\n"
+    "of trials on each, that shows that at least the proportion P of all machines succeeds in --success\n"
     "of its trials. With --halfwidth, --rig-sd is the standard deviation of the success probability\n"
-    "between rigs: assumed, or measured in a pilot FILE with rigs (at the point where it is largest;\n"
+    "between machines: assumed, or measured in a pilot FILE with machines (at the point where it is "
+    "largest;\n"
     "that point also gives the rate).\n"
     "--margin MEASURE=M, with a MANIFEST: the number of trials with which 'zerocount compare' shows,\n"
     "with the probability --power, that two equal studies differ by less than M (a number, or\n"
@@ -77,9 +79,9 @@ commands::Command plan_command() {
         excluding({"margin"}, {"halfwidth", "H", "half-width of the two-sided bounds of a rate"}),
         needing({"success"},
                 {"rigs-share", "P",
-                 "minimum proportion of rigs to be shown to succeed in --success of their trials"}),
+                 "minimum proportion of machines to be shown to succeed in --success of their trials"}),
         needing({"halfwidth"},
-                {"rig-sd", "SD", "standard deviation of the success probability between rigs"}),
+                {"rig-sd", "SD", "standard deviation of the success probability between machines"}),
         {"margin", "MEASURE=M", "largest accepted difference of two equal studies; may be repeated", true},
         {"set", "KEY=VALUE", "with a MANIFEST: override a manifest key; may be repeated", true},
         answers::format_option()},

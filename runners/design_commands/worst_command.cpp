@@ -62,11 +62,11 @@ std::string headline(const Search& search) {
 std::string replay_sentence(const Search& search) {
   const JudgedMachine& machine = search.found.in_box;
   if (!search.manifest || yaml::is_standard_stream(*search.manifest) || machine.manifest.empty()) return "";
-  return fmt::format("{0} has its manifest{1}; its worst trial: zerocount trace {2} --trial {3}",
-                     search.manifest->string(),
-                     search.found.with_profiles ? fmt::format(", of which rig {} is the machine", machine.rig)
-                                                : std::string(),
-                     text::shell_path(*search.manifest), machine.trial);
+  return fmt::format(
+      "{0} has its manifest{1}; its worst trial: zerocount trace {2} --trial {3}", search.manifest->string(),
+      search.found.with_profiles ? fmt::format(", with the profiles of machine {}", machine.rig)
+                                 : std::string(),
+      text::shell_path(*search.manifest), machine.trial);
 }
 
 document::Description<JudgedMachine> judged_description() {
@@ -85,7 +85,8 @@ document::Description<JudgedMachine> judged_description() {
 document::Description<JudgedMachine> found_description(const std::string& other_key,
                                                        const std::string& other_machine) {
   return document::Description<JudgedMachine>()
-      .value(in_data("rig", "rig of the study with its profiles; 0 without rigs"), &JudgedMachine::rig)
+      .value(in_data("rig", "machine of the study with its profiles; 0 without machines"),
+             &JudgedMachine::rig)
       .value(in_data("trial", "its worst trial, of its manifest"), &JudgedMachine::trial)
       .include(judged_description(), std::identity())
       .value(in_data("inputs", "the quantities that differ between machines, by parameter"),
@@ -251,7 +252,7 @@ document::Description<WorstMachine> worst_description() {
       .value(optional(in_data("condition", "the condition under which it does worst, with conditions")),
              &WorstMachine::condition)
       .value(in_data("rig",
-                     "number of the machine in the study: its rig, or its trial where no trials share a rig"),
+                     "number of the machine in the study, or of its trial where no trials share a machine"),
              &WorstMachine::rig)
       .value(in_data("trial", "its worst trial"), &WorstMachine::trial)
       .value(in_data("met", "proportion of its moves that meet the goal", "1"), &WorstMachine::met)

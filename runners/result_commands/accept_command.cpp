@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* accept_help =
     "Do the machines that were built meet the goal, and what was predicted of them? STUDY.h5 is a study\n"
-    "with rigs and one or several goals; each MOVES.csv is the log of one machine, with a row for each\n"
+    "with machines and one or several goals; each MOVES.csv is the log of one machine, with a row for each\n"
     "move and the columns that the goals ask for, such as band_settling_time[1] [ms], and for a goal on\n"
     "some of the moves the column move, their numbers from 0. One page shows each goal, the predicted\n"
     "proportion of moves that meet it with the interval for as many machines, the measured one with its\n"

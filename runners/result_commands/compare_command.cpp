@@ -121,24 +121,25 @@ ExitCode compare(const command_line::Arguments& arguments) {
 }  // namespace
 
 commands::Command compare_command() {
-  return {{"compare",
-           "BASELINE FILE",
-           {{"points", "A B", "compare two design points of one FILE, by label or number", false, 2},
-            command_line::read_file({"margins", "FILE", "YAML file of margins and requirements"}),
-            {"changed-fails", "", "a change for the better fails too, not only one for the worse"},
-            {"max-trials", "N",
-             "judge the first N trials of each point, at least one of every rig (default: a million moves)"},
-            answers::format_option({"junit"}),
-            command_line::written_file({"json", "FILE", "write the JSON there too"}),
-            command_line::written_file({"junit", "FILE", "write JUnit XML there too"}),
-            command_line::written_file({"markdown", "FILE", "write the Markdown summary there too"}),
-            command_line::force_option()},
-           1,
-           2},
-          "compare a results file with a baseline: the regression gate",
-          compare_help,
-          compare,
-          [] { return std::vector{report::comparison_answer().complete_type()}; }};
+  return {
+      {"compare",
+       "BASELINE FILE",
+       {{"points", "A B", "compare two design points of one FILE, by label or number", false, 2},
+        command_line::read_file({"margins", "FILE", "YAML file of margins and requirements"}),
+        {"changed-fails", "", "a change for the better fails too, not only one for the worse"},
+        {"max-trials", "N",
+         "judge the first N trials of each point, at least one of every machine (default: a million moves)"},
+        answers::format_option({"junit"}),
+        command_line::written_file({"json", "FILE", "write the JSON there too"}),
+        command_line::written_file({"junit", "FILE", "write JUnit XML there too"}),
+        command_line::written_file({"markdown", "FILE", "write the Markdown summary there too"}),
+        command_line::force_option()},
+       1,
+       2},
+      "compare a results file with a baseline: the regression gate",
+      compare_help,
+      compare,
+      [] { return std::vector{report::comparison_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::result_commands

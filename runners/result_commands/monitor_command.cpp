@@ -56,7 +56,7 @@ constexpr const char* monitor_help =
 constexpr auto polling_interval = std::chrono::milliseconds(200);
 
 std::optional<std::int64_t> rig_of(const command_line::Arguments& arguments, std::int64_t rigs) {
-  if (rigs == 0 && arguments.has("rig")) arguments.refuse("option '--rig': the study has no rigs");
+  if (rigs == 0 && arguments.has("rig")) arguments.refuse("option '--rig': the study has no machines");
   return rigs == 0 ? std::nullopt : arguments.whole_number("rig", 0, rigs - 1);
 }
 
@@ -210,7 +210,7 @@ commands::Command monitor_command() {
         {"point", "P", "design point of a results file"},
         {"condition", "NAME", "condition of a results file with conditions"},
         {"age", "A", "age of a results file with ages"},
-        {"rig", "R", "only this rig of a results file, from 0"},
+        {"rig", "R", "only this machine of a results file, from 0"},
         {"seed", "N", "of ties and of simulated changes (default 1)"},
         {"follow", "", "read the log while it grows, and print lines of JSON until the alarm"},
         needing({"follow"}, {"idle", "S", "end after S seconds without new moves (default: never)"})},

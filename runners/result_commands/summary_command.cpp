@@ -34,7 +34,7 @@ constexpr const char* summary_help =
     "Prints one row per design point: the goal of the manifest if it has one, the proportions of\n"
     "trials that ended at zero counts of error and that were stable (with 95 % bounds), arrival\n"
     "and settling times, jerks, the prediction of the paper's criteria (6) and (7), and the\n"
-    "observation on the real rig if the manifest has one. --legend explains the columns.\n"
+    "observation on the real machine if the manifest has one. --legend explains the columns.\n"
     "For an open-loop study, one row per design point and torque level. A table that is too wide\n"
     "for the terminal is divided. The first lines are the verdict on the best point, or on that of\n"
     "--point: what is shown of all axes that the manifest describes, which points are as good,\n"

@@ -261,13 +261,14 @@ document::Description<Plan> plan_description() {
       .value(in_data("trials", "trials of each point, or the most of them"),
              [](Of p) { return p.study.trials; })
       .value(in_data("moves", "moves of a trial"), [](Of p) { return p.study.moves; })
-      .value({"rigs", "rigs at each point", "rigs at each point; 0: none"}, [](Of p) { return p.study.rigs; })
+      .value({"rigs", "machines at each point", "machines at each point; 0: none"},
+             [](Of p) { return p.study.rigs; })
       .shown_as(rigs_text)
       .value({"worlds", "worlds", "worlds; 0: none"}, [](Of p) { return p.study.worlds; })
       .shown_as(worlds_text)
-      .value(
-          {"conditions", "under the conditions", "names of the conditions that every rig bears; empty: none"},
-          [](Of p) { return p.study.conditions; })
+      .value({"conditions", "under the conditions",
+              "names of the conditions that every machine bears; empty: none"},
+             [](Of p) { return p.study.conditions; })
       .shown_as(conditions_text)
       .value({.heading = "at the ages", .shown = document::Shown::to_people}, ages_text)
       .sentence(stop_text)
@@ -295,7 +296,7 @@ document::Description<Plan> plan_description() {
   add_inputs(
       plan, {"differ_in_contacts", "of these, drawn anew at each contact", "of these, drawn at each contact"},
       {DrawLevel::contact});
-  add_inputs(plan, {"differ_in_rigs", "differing between rigs", "inputs that differ between rigs"},
+  add_inputs(plan, {"differ_in_rigs", "differing between machines", "inputs that differ between machines"},
              {DrawLevel::rig});
   add_inputs(plan, {"differ_in_worlds", "differing between worlds", "inputs that differ between worlds"},
              {DrawLevel::world});

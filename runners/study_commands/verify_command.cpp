@@ -24,7 +24,7 @@ constexpr const char* verify_help =
     "checksum: no byte has changed since the file was written;\n"
     "statistics: the attributes are those of the manifest; inputs, measures and jerks are in their\n"
     "ranges; and the file, made again from its manifest and its trials, has the same datasets, units\n"
-    "and values: row numbers, design points, profiles, rigs and statistics. This needs room for a\n"
+    "and values: row numbers, design points, profiles, machines and statistics. This needs room for a\n"
     "copy of the file in the folder for temporary files;\n"
     "trials run again: a random sample of the trials gives the recorded inputs, measures, jerks and\n"
     "sample records, bitwise if this program on this kind of processor wrote the file; for a file\n"

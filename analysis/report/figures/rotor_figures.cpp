@@ -132,10 +132,10 @@ std::string caption_of(const ReportedStudy& reported, const std::string& paramet
                        bool failed) {
   const std::string& label = label_of(reported, shown.point);
   const std::string trials =
-      shown.rig ? fmt::format("rig {} at point {}", *shown.rig, label) : fmt::format("point {}", label);
+      shown.rig ? fmt::format("machine {} at point {}", *shown.rig, label) : fmt::format("point {}", label);
   const goal::QuestionWords& words = words_of(question_of(reported));
   std::string caption =
-      shown.rig ? fmt::format("The line is {} along the $track of rig {}, the rig with the lowest {}. ",
+      shown.rig ? fmt::format("The line is {} along the $track of machine {}, the one with the lowest {}. ",
                               parameter, *shown.rig, words.rate)
                 : fmt::format("The line is {} along the $track, the same in all trials. ", parameter);
   caption += failed ? fmt::format("The marks are the {} of {}, at the $rotor_angle where they ended. ",

@@ -150,7 +150,7 @@ std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
       reported.summary.features.dependent_trials
           ? "would contain the whole curve of a point with 95 % confidence if its trials were independent"
           : "contain the whole curve of a point with 95 % confidence",
-      reported.study.rigs > 0 ? fmt::format("{} rigs", reported.study.rigs)
+      reported.study.rigs > 0 ? fmt::format("{} machines", reported.study.rigs)
                               : fmt::format("{} trials", study::draw_count(reported.study)),
       reported.study.rigs == 0 && moves_per_trial > 1 ? fmt::format(" of {} moves each", moves_per_trial)
                                                       : "");

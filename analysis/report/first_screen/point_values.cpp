@@ -15,7 +15,7 @@ std::string_view level_text(study::DrawLevel level) {
     case study::DrawLevel::world:
       return "per world";
     case study::DrawLevel::rig:
-      return "per rig";
+      return "per machine";
     case study::DrawLevel::trial:
       return "per trial";
     case study::DrawLevel::contact:

@@ -91,7 +91,7 @@ ObservedTest rig_rank_test(const Successes& observed, std::span<const std::int64
   require_counts(observed);
   if (observed.trials > trials) {
     throw Failure(ExitCode::bad_data,
-                  fmt::format("{} observed trials against {} on each simulated rig; expected "
+                  fmt::format("{} observed trials against {} on each simulated machine; expected "
                               "no more than those",
                               observed.trials, trials));
   }

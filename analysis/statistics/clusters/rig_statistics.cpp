@@ -121,14 +121,14 @@ RigTolerance rig_tolerance(std::span<const RigTrials> rigs, double content, doub
 std::string tolerance_sentence(const RigTolerance& tolerance) {
   const std::string level = fmt::format("{} confidence", text::percent(tolerance.confidence));
   if (std::isnan(tolerance.zero_at_least)) {
-    return fmt::format("with {}, it takes {} rigs to say in how many moves {} of rigs hold zero", level,
-                       tolerance.min_rigs, text::percent(tolerance.content));
+    return fmt::format("with {}, it takes {} machines to say in how many moves {} of machines hold zero",
+                       level, tolerance.min_rigs, text::percent(tolerance.content));
   }
   if (!(tolerance.zero_at_least > 0.0)) {
-    return fmt::format("with {} nothing is shown of the moves in which {} of rigs hold zero", level,
+    return fmt::format("with {} nothing is shown of the moves in which {} of machines hold zero", level,
                        text::percent(tolerance.content));
   }
-  return fmt::format("with {} at least {} of rigs hold zero in at least {} of moves", level,
+  return fmt::format("with {} at least {} of machines hold zero in at least {} of moves", level,
                      text::percent(tolerance.content), text::percent_at_least(tolerance.zero_at_least));
 }
 

@@ -54,9 +54,9 @@ double rule_of_three(const SuccessClaim& claim) {
 std::string claim_sentence(const SuccessClaim& claim) {
   if (claim.trials == 0) return "nothing: no trial";
   const std::string level = fmt::format("with {} confidence", text::percent(claim.confidence));
-  const std::string subject = claim.rigs > 0 ? "trials on all rigs" : "axes";
-  const std::string trials =
-      fmt::format("{} trials{}", claim.trials, claim.rigs > 0 ? fmt::format(" on {} rigs", claim.rigs) : "");
+  const std::string subject = claim.rigs > 0 ? "trials on all machines" : "axes";
+  const std::string trials = fmt::format("{} trials{}", claim.trials,
+                                         claim.rigs > 0 ? fmt::format(" on {} machines", claim.rigs) : "");
   if (claim.failures == claim.trials) {
     return fmt::format("at most {} of {} succeed, {} (no success in {})",
                        text::percent_at_most(claim.success_at_most), subject, level, trials);

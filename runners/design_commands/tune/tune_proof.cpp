@@ -170,7 +170,7 @@ Description<Tuning> proof_description() {
                if (!worst_goal(t).machines) return {};
                return t.answer.proof->verdict.machines.low;
              })
-      .value(in_data("rigs", "machines; 0 without rigs"), [](Of t) { return t.answer.proof->study.rigs; })
+      .value(in_data("rigs", "machines; 0 without machines"), [](Of t) { return t.answer.proof->study.rigs; })
       .value(in_data("trials", "trials"), [](Of t) { return t.answer.proof->study.trials; })
       .value(in_data("seed", "seed of the proof"), [](Of t) { return t.answer.proof->study.seed; })
       .value(in_data("attempts", "candidates or sizes that were proven"),

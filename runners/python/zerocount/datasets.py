@@ -149,7 +149,7 @@ class ResultsDatasets:
 _WHAT = {
     "trial": "trials: its study does not keep them",
     "outcome": "outcomes of trials: its study does not keep them",
-    "rig": "rigs: each trial is on a machine of its own",
+    "rig": "machines: each trial is on one of its own",
     "world": "worlds: nothing in its manifest is drawn per world",
     "age": "ages: its manifest has none",
     "level": "torque levels: its loop is closed",

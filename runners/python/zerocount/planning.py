@@ -46,9 +46,9 @@ def plan(
     halfwidth : float, optional
         Half-width of the bounds of a rate.
     rigs_share : float, optional
-        Least proportion of rigs.
+        Least proportion of machines.
     rig_sd : float, optional
-        Standard deviation of the success probability between rigs.
+        Standard deviation of the success probability between machines.
     margin : dict, optional
         Largest accepted differences by measure: ``{"settling_time": "5%"}``.
 

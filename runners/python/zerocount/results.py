@@ -173,7 +173,7 @@ class Results:
         """All statistics that the file stores, one row a design point.
 
         The bounds (``_low``, ``_high``) are those of the file, at 95 % confidence. They respect that trials of
-        a rig are not independent. Of an error band of b counts the name ends in ``[b]``.
+        a machine are not independent. Of an error band of b counts the name ends in ``[b]``.
         """
         if not self._file.attributes["complete"]:
             raise DataError(f"{self.path}: a part of a study; expected one that 'zerocount merge' joined", 4)
@@ -269,7 +269,7 @@ class Results:
         -------
         pandas.DataFrame
             Index ``trial``, the row of the trial in the file. Columns: ``point``, ``index`` (of the trial at its
-            point), ``rig`` if trials share rigs, ``world`` if the study has worlds, ``condition`` if it has
+            point), ``rig`` if trials share machines, ``world`` if the study has worlds, ``condition`` if it has
             conditions, ``age`` if it has ages, the inputs, ``success`` (zero counts at the end of every move), ``goal_met`` (every move meets the goal), ``outcome`` (of the
             worst move), and the measures of the moves, combined. ``attrs["combined"]`` tells how: ``all`` or
             ``any`` of the moves have the quality, the ``sum``, the ``largest`` magnitude (NaN if a move has none),
@@ -296,7 +296,7 @@ class Results:
         point : int or str, optional
             Number or label of a design point; default: all.
         inputs : bool
-            Join point, index, rig, world, condition, age and inputs of the trial.
+            Join point, index, machine, world, condition, age and inputs of the trial.
 
         Returns
         -------
@@ -344,7 +344,7 @@ class Results:
         Returns
         -------
         pandas.DataFrame
-            Index ``rig``. Columns: what is drawn per rig, ``trials``, and ``success``, those of them that end at
+            Index ``rig``. Columns: what is drawn per machine, ``trials``, and ``success``, those of them that end at
             zero counts. Those that meet the goal: ``trials(point).groupby("rig")["goal_met"].sum()``.
         """
         return self._machines("rig", point)
@@ -415,7 +415,7 @@ class Results:
         Returns
         -------
         pandas.DataFrame
-            Index ``rig``. Column ``life``: the last age up to and including which the rig meets the goal in its
+            Index ``rig``. Column ``life``: the last age up to and including which the machine meets the goal in its
             proportion of moves under every condition; NaN if it does not at the first.
         """
         columns = self._group("rig")

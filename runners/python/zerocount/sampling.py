@@ -237,7 +237,7 @@ def sample(
 ) -> Sample:
     """A design point of a study as a function from its random variables to an outcome, in this process.
 
-    The variables are what the manifest draws for each trial or rig. Each trial is on a machine of its own. Of a
+    The variables are what the manifest draws for each trial or machine. Each trial is on a machine of its own. Of a
     profile along the axis they are its mean, if that is drawn, and the standard normal score of the profile where the
     trial starts. A row of joint samples is one variable, its number.
 

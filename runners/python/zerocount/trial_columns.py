@@ -30,7 +30,7 @@ class TrialColumns:
     study: _zerocount.Study
 
     def inputs(self, rows: slice | None) -> dict[str, Column]:
-        """[trial] what is known before trials are run: trial, point, index, rig, world, condition and inputs."""
+        """[trial] what is known before trials are run: trial, point, index, machine, world, condition and inputs."""
         columns = self.file.group("trial", rows)
         columns.update(self.shared(columns["index"].values))
         columns.update(self.file.group("trial/input", rows))
@@ -117,9 +117,9 @@ class TrialColumns:
         return result
 
     def shared(self, index: Array) -> dict[str, Column]:
-        """[trial] what a trial shares with others: its rig, its world, its condition and its age.
+        """[trial] what a trial shares with others: its machine, its world, its condition and its age.
 
-        Trial i runs on rig i mod R, under condition i div R mod C, at age i div RC mod A, with the draws of
+        Trial i runs on machine i mod R, under condition i div R mod C, at age i div RC mod A, with the draws of
         i mod R + R * (i div RCA).
         """
         rigs, conditions, ages = max(self.study.rigs, 1), self.study.condition_names, self.study.ages
@@ -127,7 +127,7 @@ class TrialColumns:
         draw = index % rigs + rigs * (index // (of_age * max(len(ages), 1)))
         columns = {}
         if self.study.rigs > 0:
-            columns["rig"] = Column(index % rigs, ("trial",), "1", "index of the rig, the machine of the trial")
+            columns["rig"] = Column(index % rigs, ("trial",), "1", "index of the machine of the trial")
         if self.study.worlds > 0:
             columns["world"] = Column(draw % self.study.worlds, ("trial",), "1", "index of the world")
         if conditions:

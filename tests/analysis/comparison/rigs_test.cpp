@@ -55,7 +55,7 @@ TEST(ComparisonOverRigs, FindsRigsThatFailNow) {
   EXPECT_EQ(success.current_n, 60);  // rigs
   EXPECT_LT(success.p, 1e-3);
   EXPECT_GT(success.effect, 0.15);
-  EXPECT_TRUE(says(success.test, "over rigs"));
+  EXPECT_TRUE(says(success.test, "over machines"));
 }
 
 TEST(ComparisonOverRigs, RequirementsHaveBoundsOverRigs) {

@@ -88,7 +88,7 @@ void expect_rarely_wrong(int studies) {
                           Case{4, 40, false, false}, Case{2, 60, true, false}, Case{3, 60, true, true},
                           Case{4, 60, true, true}}) {
     std::string row =
-        fmt::format("| {} goals on {}, {} rigs{} |", one.goals, one.on_machines ? "machines" : "moves",
+        fmt::format("| {} goals on {}, {} machines{} |", one.goals, one.on_machines ? "machines" : "moves",
                     one.rigs, one.correlated ? ", correlated" : "");
     for (const Population& population : populations()) {
       const double wrong = wrongly_met(population, one, studies);

@@ -255,7 +255,7 @@ TEST(GoalNeedsInWorlds, HaveRigsAndTrialsForTheWorldThatNeedsMost) {
     const Needs needs = needs_of(goal, counts, 1);
     ASSERT_GT(needs.rigs, 40);
     EXPECT_EQ(needs.rigs % 2, 0);
-    ASSERT_EQ(needs.trials % needs.rigs, 0) << needs.trials << " trials on " << needs.rigs << " rigs";
+    ASSERT_EQ(needs.trials % needs.rigs, 0) << needs.trials << " trials on " << needs.rigs << " machines";
     const std::int64_t of_a_rig = needs.trials / needs.rigs;
     EXPECT_EQ(judge_goal(goal,
                          counts_on_rigs({rigs_with_rates_of(worlds[0], needs.rigs / 2, of_a_rig),

@@ -143,7 +143,7 @@ void expect_bounds_cover(int studies) {
   const double limit = 5.5 + 300.0 * std::sqrt(0.05 * 0.95 / studies);
   for (const LifeCase& one :
        {LifeCase{1, 40, 20}, LifeCase{1, 200, 20}, LifeCase{2, 40, 20}, LifeCase{2, 100, 60}}) {
-    std::string row = fmt::format("| {} condition{}, {} rigs, {} moves |", one.conditions,
+    std::string row = fmt::format("| {} condition{}, {} machines, {} moves |", one.conditions,
                                   one.conditions == 1 ? "" : "s", one.rigs, one.moves);
     const Question question = question_over(one);
     for (const Aging& aging : aging_populations()) {

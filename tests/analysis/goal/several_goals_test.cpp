@@ -142,7 +142,7 @@ TEST(SeveralGoals, AreRarelyClaimedToBeMetWhereOneIsAtItsLimit) {
       const std::vector<Verdict> verdicts = verdicts_on(goals, rates, rigs, studies);
       const auto claimed =
           std::ranges::count_if(verdicts, [](const Verdict& one) { return one.status == Status::met; });
-      EXPECT_LE(static_cast<double>(claimed), largest_number(studies)) << rigs << " rigs, " << number;
+      EXPECT_LE(static_cast<double>(claimed), largest_number(studies)) << rigs << " machines, " << number;
     }
   }
 }

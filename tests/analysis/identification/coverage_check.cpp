@@ -35,7 +35,7 @@ int main(int count, char** words) {
                                                                  : short_test(),
                                              instrument);
   fmt::print(
-      "{} rigs from number {}, noise {} counts, torque step {} N m, skew {} samples: {} refused, "
+      "{} machines from number {}, noise {} counts, torque step {} N m, skew {} samples: {} refused, "
       "{} with lack of fit\n",
       study.sets, first, instrument.noise, instrument.torque_step, instrument.skew, study.refused,
       study.lacking);
@@ -47,5 +47,5 @@ int main(int count, char** words) {
                c.estimated, 100.0 * c.held / n, c.open, std::sqrt(c.squared_errors / n),
                100.0 * c.half_widths / n, c.farthest, c.farthest_set);
   }
-  fmt::print("rigs with lack of fit: {}\n", fmt::join(study.lacking_sets, " "));
+  fmt::print("machines with lack of fit: {}\n", fmt::join(study.lacking_sets, " "));
 }

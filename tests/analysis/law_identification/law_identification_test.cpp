@@ -283,7 +283,8 @@ TEST_P(EachLaw, DISABLED_IsFoundInItsOwnRecordsWithItsParameters) {
     const Truth truth = rotor_of(GetParam(), random);
     const LawComparison found = fit::compare_laws({record_of(truth, random)}, {{GetParam()}});
     const IdentifiedLaw& law = found.laws.front();
-    EXPECT_TRUE(law.checks.passed) << "rig " << rig << ": " << document::text(fit::laws_answer().of(found));
+    EXPECT_TRUE(law.checks.passed) << "machine " << rig << ": "
+                                   << document::text(fit::laws_answer().of(found));
     const Held held = held_by(law, truth);
     all.held += held.held;
     all.estimated += held.estimated;

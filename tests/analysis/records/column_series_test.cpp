@@ -243,7 +243,7 @@ class Datasets : public ColumnSeries {
                                           "f['flat'] = numpy.arange(5, dtype='u1')\n"
                                           "f['short'] = numpy.arange(4.0)\n"
                                           "f['bad'] = numpy.array([0, 1, numpy.nan, 3, 4])\n"
-                                          "f['word'] = 'a rig'\n"
+                                          "f['word'] = 'a machine'\n"
                                           "f['cube'] = numpy.zeros((2, 2, 2))\n")
                                    .string();
     const std::string command = ZEROCOUNT_PYTHON " '" + script + "' '" + (folder_ / "log.mat").string() + "'";

@@ -44,7 +44,7 @@ TEST_F(TextTables, NumbersReadBackToTheSameDouble) {
 TEST_F(TextTables, TakesWhatOtherProgramsWrite) {
   // Byte order mark, carriage returns, quotation marks, comments, empty lines, units, no last line feed.
   const records::TextTable read =
-      table("\xEF\xBB\xBF# a rig\r\n\"t [s]\", torque [N m] \r\n\r\n\"0.5\" , 1\r\n# more\r\n1.5,2");
+      table("\xEF\xBB\xBF# a machine\r\n\"t [s]\", torque [N m] \r\n\r\n\"0.5\" , 1\r\n# more\r\n1.5,2");
   EXPECT_EQ(read.unit("t"), "s");
   EXPECT_EQ(read.unit("torque"), "N m");
   EXPECT_EQ(read.numbers("t"), (std::vector<double>{0.5, 1.5}));
@@ -109,7 +109,7 @@ TEST_F(TextTables, OneKindOfDecimalMark) {
 }
 
 TEST_F(TextTables, ALineOfUnitsBelowTheHeader) {
-  for (const std::string text : {"x;y;z\ns;mN m;-\n1;2;3\n", "% a rig\nx;y;z\n[s];[mN·m];\n1;2;3\n",
+  for (const std::string text : {"x;y;z\ns;mN m;-\n1;2;3\n", "% a machine\nx;y;z\n[s];[mN·m];\n1;2;3\n",
                                  "x;y [mN m];z\n(s);(kN);\n1;2;3\n"}) {
     const records::TextTable read = table(text);
     EXPECT_EQ(read.unit("x"), "s") << text;
@@ -139,7 +139,7 @@ TEST_F(TextTables, UnitsInRoundBracketsIfTheyAreUnits) {
 
 // What numpy.savetxt(header=…) writes, and what has no header at all.
 TEST_F(TextTables, WithoutAHeaderTheCommentAboveOrNumbersNameTheColumns) {
-  EXPECT_EQ(table("# a rig\n# x y [A]\n1 2\n3 4\n").numbers("y"), (std::vector<double>{2, 4}));
+  EXPECT_EQ(table("# a machine\n# x y [A]\n1 2\n3 4\n").numbers("y"), (std::vector<double>{2, 4}));
   const records::TextTable read = table("# of 3 November\n1 2\n3 4\n");
   EXPECT_EQ(read.numbers("#1"), (std::vector<double>{1, 3}));
   EXPECT_EQ(read.line(0), 2u);

@@ -187,7 +187,7 @@ TEST(StudySensitivity, OfRigsIsThatOfTheirFirstTrials) {
     }
     ASSERT_FALSE(many.notes.empty());
     EXPECT_EQ(many.notes.front(),
-              "of each of the 40 rigs the first trial is used: the others are not independent of it");
+              "of each of the 40 machines the first trial is used: the others are not independent of it");
   }
 }
 

@@ -260,7 +260,7 @@ std::vector<Coverage> coverage_of(const Population& population, const Sample& sa
     counter.count("jerk mean", is_inside(found.of(&trial::MoveOutcome::jerk_count).mean_bounds, truth.jerks),
                   is_inside(statistics::student_t(jerks), truth.jerks));
     if (sample.rigs == 0) continue;
-    counter.count("rigs without failure",
+    counter.count("machines without failure",
                   is_inside(found.rigs.without_failure_bounds, truth.without_failure));
     const double bound = found.rigs.tolerance.zero_at_least;
     counter.count("tolerance", std::isnan(bound) || success.rigs_at_least(bound) >= 0.9);

@@ -18,7 +18,7 @@ std::map<std::string, Coverage> expect_cover(const std::vector<Population>& popu
   for (const Population& population : populations) {
     for (const Coverage& one : coverage_of(population, sample, repetitions, 7)) {
       EXPECT_GE(static_cast<double>(one.covered), lowest_count(repetitions))
-          << one.bound << ", standard deviation between rigs " << population.success_sd;
+          << one.bound << ", standard deviation between machines " << population.success_sd;
       Coverage& sum = all[one.bound];
       sum.repetitions += one.repetitions;
       sum.covered += one.covered;

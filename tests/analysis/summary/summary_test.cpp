@@ -220,9 +220,10 @@ TEST(SummaryTable, HasRigsWhereTrialsShareThem) {
   summary.points[0].rigs.n = 20;
   summary.points[0].rigs.without_failure = 0.5;
   const std::string table = summary_text(summary);
-  EXPECT_NE(table.find("rigs w/o failure"), std::string::npos);
+  EXPECT_NE(table.find("machines w/o failure"), std::string::npos);
   EXPECT_NE(table.find("50.0 %"), std::string::npos) << table;
-  EXPECT_NE(table.find("design: monte_carlo, 20 rigs: bounds are of all rigs"), std::string::npos) << table;
+  EXPECT_NE(table.find("design: monte_carlo, 20 machines: bounds are of all machines"), std::string::npos)
+      << table;
   const auto rigs = summary_json(summary)["points"][0]["rigs"];
   EXPECT_EQ(rigs["without_failure"], 0.5);
 }

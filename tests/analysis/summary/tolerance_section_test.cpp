@@ -142,12 +142,12 @@ TEST(AssuranceSection, TellsOfRigsWhereTrialsShareThem) {
   StudySummary study = swept_study(points);
   study.features.rigs = true;
   const std::string text = testing::summary_text(study);
-  EXPECT_NE(text.find("90 % of rigs ≥"), std::string::npos) << text;
+  EXPECT_NE(text.find("90 % of machines ≥"), std::string::npos) << text;
   EXPECT_NE(text.find(text::percent_at_least(point.rigs.tolerance.zero_at_least)), std::string::npos) << text;
   const nlohmann::ordered_json assurance = testing::summary_json(study)["points"][0]["assurance"];
   const auto statement = assurance["statement"].get<std::string>();
-  EXPECT_NE(statement.find("of trials on all rigs succeed"), std::string::npos) << statement;
-  EXPECT_NE(statement.find("(100 failures in 4000 trials on 40 rigs)"), std::string::npos) << statement;
+  EXPECT_NE(statement.find("of trials on all machines succeed"), std::string::npos) << statement;
+  EXPECT_NE(statement.find("(100 failures in 4000 trials on 40 machines)"), std::string::npos) << statement;
   EXPECT_EQ(assurance["rigs"]["content"], 0.9);
   EXPECT_EQ(assurance["rigs"]["zero_at_least"], point.rigs.tolerance.zero_at_least);
   const measures::PointSummary decided = stopped.statistics({.stopped_by_outcomes = true});

@@ -273,7 +273,7 @@ TEST(MeasuredSpringOfStudy, RefusesWhatNoMachineHasWithItsNumbers) {
                  "6:41: friction.measured.secant_stiffness | = 0.398 N m | breakaway = 0.3 N m"));
   EXPECT_TRUE(has_faults(
       refusal("initial_stiffness: 860, final_stiffness: {uniform: [100, 200]}" + rest, "rigs: 2\n"),
-      "6:64: friction.measured.final_stiffness | rig | is not below"));
+      "6:64: friction.measured.final_stiffness | machine | is not below"));
   EXPECT_TRUE(has_faults(
       refusal("initial_stiffness: 860, final_stiffness: {lognormal: {median: 110, cv: 0.1}, per: contact}" +
               rest),

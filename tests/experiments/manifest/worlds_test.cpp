@@ -127,7 +127,7 @@ TEST(Worlds, ChangeNoOtherDraws) {
           for (std::int64_t point = 0; point < 2; ++point) {
             EXPECT_EQ(inputs_named(with, other_values, point, trial),
                       inputs_named(without, other_values, point, trial))
-                << design << ", rigs " << rigs << ", trial " << trial;
+                << design << ", machines " << rigs << ", trial " << trial;
           }
         }
       }
@@ -153,8 +153,8 @@ TEST(Worlds, HaveMachinesAndMovesOfTheWholeRange) {
         parts[0].emplace(world, stratum((values[0] - 90.0) / 40.0, 8));
         parts[1].emplace(world, stratum((values[1] - 600.0) / 300.0, 8));
       }
-      EXPECT_EQ(parts[0].size(), 8U * worlds) << design << ", rigs " << rigs;
-      EXPECT_EQ(parts[1].size(), 8U * worlds) << design << ", rigs " << rigs;
+      EXPECT_EQ(parts[0].size(), 8U * worlds) << design << ", machines " << rigs;
+      EXPECT_EQ(parts[1].size(), 8U * worlds) << design << ", machines " << rigs;
     }
   }
 }
@@ -233,7 +233,7 @@ INSTANTIATE_TEST_SUITE_P(
                       "per: world}}",
                       "7:78: friction.k1.per | belongs to a rotor | study or rig"},
         WorldsRefusal{"rigs: 5\nworlds: 2\nfriction: {k1: {interval: [90, 130]}}",
-                      "7:9: worlds | 5 rigs cannot be divided equally among 2 worlds | 4 or 6 rigs"},
+                      "7:9: worlds | 5 machines cannot be divided equally among 2 worlds | 4 or 6 machines"},
         WorldsRefusal{"worlds: 11\nfriction: {k1: {interval: [90, 130]}}",
                       "6:9: worlds | only 10 trials | at most 10"},
         WorldsRefusal{"design: saltelli\nworlds: 5\nfriction: {k1: {interval: [90, 130]}}",

@@ -329,7 +329,7 @@ INSTANTIATE_TEST_SUITE_P(
                        "7:10: samples | per: rig"},
         SamplesRefusal{"friction.k1\n100\n", "samples: {per: rig}", "6:10: samples | the key 'file'"},
         SamplesRefusal{"friction.k1\n100\n", "samples: {file: p.csv, per: rig}",
-                       "6:29: friction.k1.per | has no rigs"},
+                       "6:29: friction.k1.per | has no machines"},
         SamplesRefusal{"friction.k1\n100\n", "samples: 5", "6:10: samples | truth value"},
         SamplesRefusal{"friction.k1\n100\n101\n",
                        "friction: {k2: {uniform: [600, 900]}}\nsamples: p.csv\n"

@@ -341,7 +341,7 @@ TEST(Ages, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {refusal_with(k2, ""), "6:36: friction.k2.aging: the study has no ages; expected the key ages"},
       {refusal_of("zerocount: 1\nname: f\nseed: 3\ntrials: 12\nages: {at: [0, 10]}\n" + k2 + command_of_ages),
-       "5:7: ages: only rigs have ages: the study has none; expected the key rigs"},
+       "5:7: ages: only machines have ages: the study has none; expected the key rigs"},
       {refusal_with(k2, "ages: {at: [0, 10, 10]}\n"), "ages.at: the ages do not rise"},
       {refusal_with(k2, "ages: {at: []}\n"), "ages.at: found 0 ages; expected a rising list"},
       {refusal_with(k2, "ages: {at: [-1, 10]}\n"), "ages.at.0: "},
@@ -354,7 +354,7 @@ TEST(Ages, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
        "sweep.grid.friction.k1.aging: friction.k1 does not change with age in its section; expected "
        "friction.k1: {value: "},
       {refusal_with(k2, "ages: {at: [0, 1, 2, 3, 4]}\n"),
-       "12 trials cannot be divided equally among 2 rigs at each of 5 ages; expected a multiple of 10"},
+       "12 trials cannot be divided equally among 2 machines at each of 5 ages; expected a multiple of 10"},
       {refusal_with("friction: {k2: {value: 700, aging: {linear: -0.05}}}\n"),
        "k2.aging: the scale is missing"},
       {refusal_with("friction: {k2: {value: 700, aging: {scale: 2}}}\n"), "k2.aging: found 0 laws"},

@@ -263,7 +263,8 @@ TEST(Conditions, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
        "friction.lambda is drawn per trial: an override is drawn as often as its parameter; expected per: "
        "trial"},
       {of("{a: {}, b: {}, c: {}}", {"rigs=5", "trials=100"}),
-       "100 trials cannot be divided equally among 5 rigs under each of 3 conditions; expected a multiple of "
+       "100 trials cannot be divided equally among 5 machines under each of 3 conditions; expected a "
+       "multiple of "
        "15, such as 90 or 105"},
       {of("{a: {}, b: {}}", {"trials=7"}),
        "7 trials cannot be divided equally among 2 conditions; expected a multiple of 2, such as 6 or 8"},

@@ -150,7 +150,7 @@ TEST(Rigs, WhatATrialDrawsTellsNothingOfItsRig) {
       std::set<int> parts;
       for (std::int64_t k = 0; k < 64; ++k)
         parts.insert(static_cast<int>(8 * uniform_of(study, "initial.position", 64 * k + rig, 0, 6)));
-      EXPECT_EQ(parts.size(), 8U) << design << ", rig " << rig;  // all but once in 600
+      EXPECT_EQ(parts.size(), 8U) << design << ", machine " << rig;  // all but once in 600
     }
   }
 }

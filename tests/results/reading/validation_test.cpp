@@ -131,8 +131,8 @@ TEST_F(SoundValues, AreAskedOfTheCountsOfRigs) {
     const fs::path path = forged(dataset, row, value);
     expect_failure(ExitCode::bad_data, words, [&] { reading::AllTrialsFile(path).rigs(); });
   };
-  expect_counts_refused("rig/trials", 0, 4, "row 0: 4 trials of a rig; expected 5, or 0 of all");
-  expect_counts_refused("rig/trials", 1, 0, "row 1: 0 trials of a rig; expected 5, or 0 of all");
+  expect_counts_refused("rig/trials", 0, 4, "row 0: 4 trials of a machine; expected 5, or 0 of all");
+  expect_counts_refused("rig/trials", 1, 0, "row 1: 0 trials of a machine; expected 5, or 0 of all");
   expect_counts_refused("rig/success", 1, 6, "row 1: 6 successes; expected 0 to 5");
   expect_counts_refused("rig/success", 1, -1, "row 1: -1 successes; expected 0 to 5");
 }

@@ -142,7 +142,7 @@ TEST_F(Worst, IsAMachineWhereMeasuredValuesBelongTogether) {
   const ProgramResult run =
       program({"run", "independent.yaml", "-o", "independent.h5", "--set", "rigs=80", "--set", "trials=80"});
   EXPECT_EQ(run.code, 2) << run.err;
-  EXPECT_TRUE(says(run.err, "friction.measured.final_stiffness: rig "));
+  EXPECT_TRUE(says(run.err, "friction.measured.final_stiffness: machine "));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "independent.h5"));
 }
 

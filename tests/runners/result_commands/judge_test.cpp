@@ -180,8 +180,8 @@ const std::vector<Answer> answers{
     {{"plan", "@.h5"}, {"goal: |error| ≤ 2 counts"}, {}},
     {{"plan", "@.yaml"}, {"goal: |error| ≤ 2 counts"}, {}},
     {{"summary", "@.h5"},
-     {"machines in goal (worst world)", "rigs w/o miss", "machines in goal worst", "zero-count"},
-     {"zero-count", "rigs w/o failure", "zero-count worst"}},
+     {"machines in goal (worst world)", "machines w/o miss", "machines in goal worst", "zero-count"},
+     {"zero-count", "machines w/o failure", "zero-count worst"}},
     {{"summary", "@.h5", "--confirm", "12"}, {"moves in goal"}, {"succeeded"}},
     {{"status", "@-begun.h5"}, {"moves in goal", "the goal is"}, {"zero-count"}},
     {{"sensitivity", "@.h5", "--point", "0"},
@@ -202,9 +202,9 @@ const std::vector<Answer> answers{
      {"a move misses the goal: |error| ≤ 2 counts for good"},
      {"a move does not end at zero counts"}},
     {{"report", "@.h5", "-o", "@.html"},
-     {"whether the goal is met", "machines in goal", "rigs w/o miss", "Which design points meet the goal?",
-      "Which parameters decide the goal?"},
-     {"rigs without failure", "How many trials succeed?", "Which parameters decide success?"}},
+     {"whether the goal is met", "machines in goal", "machines w/o miss",
+      "Which design points meet the goal?", "Which parameters decide the goal?"},
+     {"machines without failure", "How many trials succeed?", "Which parameters decide success?"}},
 };
 
 /// The first place of any of these in the text.

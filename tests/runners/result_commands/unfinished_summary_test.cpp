@@ -98,7 +98,7 @@ TEST_F(UnfinishedSummary, WhereAPointHasNoTrialYetItsRatesAreUnknown) {
     const ProgramResult table = program({"summary", "out.h5"});
     EXPECT_EQ(table.code, 0) << table.err;
     EXPECT_TRUE(says(table.out, "1 of 2 points have none yet"));
-    for (const char* text : {"nan", "in 0 trials", "of 0", " 0 rigs", "as any result"})
+    for (const char* text : {"nan", "in 0 trials", "of 0", " 0 machines", "as any result"})
       EXPECT_FALSE(says(table.out, text));
   }
 }

@@ -252,7 +252,7 @@ TEST_F(RigStudy, CheckGivesTheBoundsAtTheSoftestRotorOfAllRigs) {
   const double bound = 0.2 * lowest / 5.54e-4 * (study.period / 1'620'000) * 0.25e-3;
   const auto theory =
       nlohmann::json::parse(program({"check", "m.yaml", "--format", "json"}).out)["theory"][0];
-  EXPECT_EQ(theory["lowest_k1_source"], "the lowest along the profiles of 200 rigs");
+  EXPECT_EQ(theory["lowest_k1_source"], "the lowest along the profiles of 200 machines");
   EXPECT_NEAR(theory["lowest_k1"].get<double>(), lowest, 2e-3 * lowest);
   EXPECT_NEAR(theory["lowest_stable_below"].get<double>(), bound, 2e-3 * bound);
 }
@@ -314,7 +314,7 @@ class Samples : public ProgramTest {
 TEST_F(Samples, AreFoundBesideTheManifest) {
   const ProgramResult check = program({"check", "studies/study.yaml"});
   EXPECT_EQ(check.code, 0) << check.err;
-  EXPECT_TRUE(says(check.out, "friction.k1, friction.k2: a row of posterior.csv (3 draws) for each rig"));
+  EXPECT_TRUE(says(check.out, "friction.k1, friction.k2: a row of posterior.csv (3 draws) for each machine"));
 }
 
 TEST_F(Samples, AreRecordedSoThatTheFileStandsAlone) {
@@ -327,7 +327,7 @@ TEST_F(Samples, AreRecordedSoThatTheFileStandsAlone) {
   }
   const ProgramResult report = program({"report", "out.h5", "-o", "out.html"});
   EXPECT_EQ(report.code, 0) << report.err;
-  EXPECT_TRUE(says(folder_.read("out.html"), "a row of posterior.csv (3 draws) for each rig"));
+  EXPECT_TRUE(says(folder_.read("out.html"), "a row of posterior.csv (3 draws) for each machine"));
 }
 
 TEST_F(Samples, OfAChangedTableAreAnotherStudy) {

@@ -191,7 +191,7 @@ TEST_F(SequentialRun, SummaryKeepsTheBoundsOfTheseRigsApartFromThoseOfAll) {
   }
   EXPECT_TRUE(differ) << result.out;
   EXPECT_TRUE(says(zerocount_program({"summary", "out.h5"}, folder_.path()).out,
-                   "these bounds are of the mean over the 10 rigs of the study"));
+                   "these bounds are of the mean over the 10 machines of the study"));
 }
 
 /// Every trial of the file can be run again from it.

@@ -88,9 +88,9 @@ void expect_no_cut(std::uint64_t rigs) {
     instrument.skew = set % 2 == 0 ? 0.0 : 3.0;
     for (std::size_t i = 0; i < programmes.size(); ++i) {
       fit::RawSeries series = series_of(simulated_test(contact, programmes[i], instrument, random));
-      EXPECT_FALSE(fit::find_gross_sliding(series)) << "rig " << set << ", programme " << i;
+      EXPECT_FALSE(fit::find_gross_sliding(series)) << "machine " << set << ", programme " << i;
       add_noise(series, random);
-      EXPECT_FALSE(fit::find_gross_sliding(series)) << "rig " << set << ", noisy programme " << i;
+      EXPECT_FALSE(fit::find_gross_sliding(series)) << "machine " << set << ", noisy programme " << i;
     }
   }
 }

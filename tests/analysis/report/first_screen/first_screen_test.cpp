@@ -81,7 +81,7 @@ TEST(FirstScreen, NamesEachAssumptionByItsSource) {
   const auto between = [&](std::size_t from, std::size_t to, const char* words) {
     return html.substr(from, to - from).find(words) != std::string::npos;
   };
-  EXPECT_TRUE(between(given, assumed, "friction.k1</b> 100 … 130\u00a0N\u00a0m/rad, per rig"));
+  EXPECT_TRUE(between(given, assumed, "friction.k1</b> 100 … 130\u00a0N\u00a0m/rad, per machine"));
   EXPECT_TRUE(between(assumed, stated, "beta</b> 1e5"));
   EXPECT_TRUE(between(assumed, stated, "k2"));
   EXPECT_TRUE(between(stated, away, "no delay"));

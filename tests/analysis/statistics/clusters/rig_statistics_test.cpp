@@ -69,14 +69,14 @@ TEST(RigTolerance, WithoutAFailureIsTheBoundOfTheTrialsOfOneRig) {
   EXPECT_TRUE(std::isnan(few.zero_at_least));
   EXPECT_EQ(few.min_rigs, 29);
   EXPECT_EQ(tolerance_sentence(few),
-            "with 95 % confidence, it takes 29 rigs to say in how many moves 90 % of rigs hold zero");
+            "with 95 % confidence, it takes 29 machines to say in how many moves 90 % of machines hold zero");
   // With 40 rigs, those below the worst are at most p = 1 − 0.05^(1/40) = 7.2 % of all; a rig that shows no
   // failure in 100 trials with a probability of δ = 1 − p/10 % = 28 % holds zero in δ^(1/100) = 98.7 %.
   const RigTolerance all = rig_tolerance(rigs_with(100, std::vector<std::int64_t>(40, 100)), 0.9, 0.95);
   const double p = 1.0 - std::pow(0.05, 1.0 / 40.0);
   EXPECT_NEAR(all.zero_at_least, std::pow(1.0 - p / 0.1, 1.0 / 100.0), 1e-9);
   EXPECT_EQ(tolerance_sentence(all),
-            "with 95 % confidence at least 90 % of rigs hold zero in at least 98.7 % of moves");
+            "with 95 % confidence at least 90 % of machines hold zero in at least 98.7 % of moves");
 }
 
 TEST(RigTolerance, MovesOfOneTrialMayAllBeAlike) {

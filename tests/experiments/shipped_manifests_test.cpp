@@ -225,7 +225,7 @@ TEST(ManifestPages, TheirManifestsAreUnderstoodWithoutWarnings) {
         << block.text;
   }
   EXPECT_EQ(whole, 1);
-  EXPECT_EQ(parts, 20);
+  EXPECT_EQ(parts, 18);
 }
 
 TEST(ManifestPages, TheFirstManifestUsesEverySection) {

@@ -160,7 +160,7 @@ GateRules expanded(GateRules rules, const std::multimap<std::string, std::string
 /// The requirements at a point: those of every point and its own.
 std::vector<Requirement> requirements_of(const GateRules& rules, const std::string& label);
 
-/// Reads the YAML file of margins and requirements (its language: README.md of this folder).
+/// Reads the YAML file of margins and requirements (its language: docs/compare.md).
 /// @param labels of the design points that are compared, which the file may name
 /// @throws Failure (bad_input) with every mistake, one a line, as `file:line:column: path: what; expected`;
 /// also where there is no such file

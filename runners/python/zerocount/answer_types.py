@@ -45,11 +45,11 @@ class CheckAnswer(Answer):
     moves : int
         Moves of a trial.
     rigs : int
-        Rigs at each point; 0: none.
+        Machines at each point; 0: none.
     worlds : int
         Worlds; 0: none.
     conditions : list[str]
-        Names of the conditions that every rig bears; empty: none.
+        Names of the conditions that every machine bears; empty: none.
     judged_by : str or None
         What the moves are judged by; null without targets.
     stopping : pandas.DataFrame
@@ -73,7 +73,7 @@ class CheckAnswer(Answer):
     differ_in_contacts : list[str]
         Of these, drawn at each contact.
     differ_in_rigs : list[str]
-        Inputs that differ between rigs.
+        Inputs that differ between machines.
     differ_in_worlds : list[str]
         Inputs that differ between worlds.
     same_in_points : list[str]
@@ -254,7 +254,7 @@ class Goal(Record):
         Trials without a miss that show of one machine that it meets the goal; left out where the goal is not on
         machines.
     rigs_without_miss : int or None
-        Rigs all of whose moves meet the goal.
+        Machines all of whose moves meet the goal.
     """
 
     name: str | None
@@ -287,13 +287,13 @@ class Confirmation(Record):
     zero_count : int
         New trials that succeeded.
     success_rate : float or None
-        Their proportion, with bounds of Clopper and Pearson unless trials share rigs.
+        Their proportion, with bounds of Clopper and Pearson unless trials share machines.
     success_rate_low : float or None
         Lower bound.
     success_rate_high : float or None
         Upper bound.
     one_trial_per_rig : bool
-        Whether every new trial has a rig of its own.
+        Whether every new trial has a machine of its own.
     goal : Goal or None
         Whether the new trials meet the goal.
     """
@@ -354,9 +354,9 @@ class SummaryAnswer(Answer):
           - ``without_miss_high``: upper bound
           - ``trials_of_one_machine``: trials without a miss that show of one machine that it meets the goal; left out
             where the goal is not on machines
-          - ``rigs_without_miss``: rigs all of whose moves meet the goal
-        - ``machines_together``: proportion of rigs that meet all goals on machines, as observed; nothing where only one
-          claim is on machines
+          - ``rigs_without_miss``: machines all of whose moves meet the goal
+        - ``machines_together``: proportion of machines that meet all goals on machines, as observed; nothing where only
+          one claim is on machines
         - ``trials``: trials of the point
         - ``zero_count``: trials whose worst move ended at zero error
         - ``one_count``: trials whose worst move ended within one count
@@ -370,18 +370,18 @@ class SummaryAnswer(Answer):
         - ``broke_away``: trials in which the hook slid during any move
         - ``saturated``: trials in which the DAC clipped during any move
         - ``success_rate``: zero_count as a proportion of trials, NaN of an open-loop study
-        - ``success_rate_low``: lower 95 % bound of success_rate: Clopper-Pearson, with rigs Korn-Graubard
-        - ``success_rate_high``: upper 95 % bound of success_rate: Clopper-Pearson, with rigs Korn-Graubard
-        - ``success_rate_wilson_low``: lower 95 % Wilson bound of success_rate, with rigs for the effective number of
-          trials
-        - ``success_rate_wilson_high``: upper 95 % Wilson bound of success_rate, with rigs for the effective number of
-          trials
+        - ``success_rate_low``: lower 95 % bound of success_rate: Clopper-Pearson, with machines Korn-Graubard
+        - ``success_rate_high``: upper 95 % bound of success_rate: Clopper-Pearson, with machines Korn-Graubard
+        - ``success_rate_wilson_low``: lower 95 % Wilson bound of success_rate, with machines for the effective number
+          of trials
+        - ``success_rate_wilson_high``: upper 95 % Wilson bound of success_rate, with machines for the effective number
+          of trials
         - ``stable_rate``: stable as a proportion of trials, NaN of an open-loop study
-        - ``stable_rate_low``: lower 95 % bound of stable_rate: Clopper-Pearson, with rigs Korn-Graubard
-        - ``stable_rate_high``: upper 95 % bound of stable_rate: Clopper-Pearson, with rigs Korn-Graubard
-        - ``stable_rate_wilson_low``: lower 95 % Wilson bound of stable_rate, with rigs for the effective number of
+        - ``stable_rate_low``: lower 95 % bound of stable_rate: Clopper-Pearson, with machines Korn-Graubard
+        - ``stable_rate_high``: upper 95 % bound of stable_rate: Clopper-Pearson, with machines Korn-Graubard
+        - ``stable_rate_wilson_low``: lower 95 % Wilson bound of stable_rate, with machines for the effective number of
           trials
-        - ``stable_rate_wilson_high``: upper 95 % Wilson bound of stable_rate, with rigs for the effective number of
+        - ``stable_rate_wilson_high``: upper 95 % Wilson bound of stable_rate, with machines for the effective number of
           trials
         - ``settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
           p95_high, max, mean_low, mean_high): statistics of settling time
@@ -446,10 +446,10 @@ class SummaryAnswer(Answer):
           - ``stopped``: trials whose move has this quality
           - ``controller_failed``: trials whose move has this quality
         - ``prediction``.* (trials, stable, unstable, stable_share, unstable_share, verdict): by the paper's criteria
-        - ``observed``: what was observed on the real rig
+        - ``observed``: what was observed on the real machine
         - ``undecided``.* (moves, off_target, still_falling, falling_with_ripple, about_to_arrive, hold_at_least): moves
           that are neither stable nor shown unstable
-        - ``observed_counts``.* (successes, of, p_value, lowest_p_value, verdict, statement): trials on the real rig
+        - ``observed_counts``.* (successes, of, p_value, lowest_p_value, verdict, statement): trials on the real machine
           against those simulated
         - ``repeatability``.* (trials, evaluated, zero_repeatability, zero_repeatability_rate,
           zero_repeatability_rate_low, zero_repeatability_rate_high, true, encoder): values of ISO 230-2
@@ -985,7 +985,7 @@ class Needed(Record):
     Attributes
     ----------
     rigs : int
-        Machines; 0 without rigs.
+        Machines; 0 without machines.
     trials : int
         Trials of a design point.
     """
@@ -1361,7 +1361,7 @@ class Proof(Record):
     machines_low : float or None
         Lower bound of the proportion of machines that meet the goal, if it is about machines.
     rigs : int
-        Machines; 0 without rigs.
+        Machines; 0 without machines.
     trials : int
         Trials.
     seed : int
@@ -1400,7 +1400,7 @@ class Worst(Record):
     condition : str or None
         The condition under which it does worst, with conditions.
     rig : int
-        Number of the machine in the study: its rig, or its trial where no trials share a rig.
+        Number of the machine in the study, or of its trial where no trials share a machine.
     trial : int
         Its worst trial.
     met : float or None
@@ -1804,7 +1804,7 @@ class Box(Record):
     Attributes
     ----------
     rig : int
-        Rig of the study with its profiles; 0 without rigs.
+        Machine of the study with its profiles; 0 without machines.
     trial : int
         Its worst trial, of its manifest.
     condition : str or None
@@ -1840,7 +1840,7 @@ class Likely(Record):
     Attributes
     ----------
     rig : int
-        Rig of the study with its profiles; 0 without rigs.
+        Machine of the study with its profiles; 0 without machines.
     trial : int
         Its worst trial, of its manifest.
     condition : str or None
@@ -1880,7 +1880,7 @@ class WorstAnswer(Answer):
     condition : str or None
         The condition under which it does worst, with conditions.
     rig : int
-        Number of the machine in the study: its rig, or its trial where no trials share a rig.
+        Number of the machine in the study, or of its trial where no trials share a machine.
     trial : int
         Its worst trial.
     met : float or None
@@ -2688,7 +2688,7 @@ class PlanGoalAnswer(Answer):
     plans : pandas.DataFrame
         Studies, if no move misses the goal.
 
-        - ``rigs``: machines; 0 without rigs
+        - ``rigs``: machines; 0 without machines
         - ``trials``: trials of a design point
         - ``seconds``: computing time with all cores of this machine; of goals on machines, s
 
@@ -2715,7 +2715,7 @@ class PlanPilotAnswer(Answer):
     studies : pandas.DataFrame or None
         Studies that decide it; of goals on machines.
 
-        - ``rigs``: machines; 0 without rigs
+        - ``rigs``: machines; 0 without machines
         - ``trials``: trials of a design point
         - ``seconds``: computing time with all cores of this machine; of goals on machines, s
 
@@ -2740,18 +2740,18 @@ class Halfwidth(Record):
     rate : float or None
         Assumed rate.
     rig_sd : float or None
-        Standard deviation of the success probability between rigs.
+        Standard deviation of the success probability between machines.
     rig_plans : pandas.DataFrame
-        Rigs and trials; none without rig_sd.
+        Machines and trials; none without rig_sd.
 
-        - ``rigs``: rigs
+        - ``rigs``: machines
         - ``trials_per_rig``: trials on each
-        - ``trials``: trials on all rigs
+        - ``trials``: trials on all machines
 
     trials : int or None
-        Trials without rigs, decided beforehand.
+        Trials without machines, decided beforehand.
     trials_with_stop : int or None
-        Trials without rigs, decided by the outcomes.
+        Trials without machines, decided by the outcomes.
     """
 
     halfwidth: float | None
@@ -2798,22 +2798,22 @@ class PlanSuccessAnswer(Answer):
 
 
 class PlanRigsAnswer(Answer):
-    """Rigs and trials that show a proportion of successful rigs.
+    """Machines and trials that show a proportion of successful machines.
 
     Attributes
     ----------
     confidence : float or None
         Confidence of the claim, or of the bounds.
     success : float or None
-        Proportion of its moves in which a rig holds zero.
+        Proportion of its moves in which a machine holds zero.
     rigs_share : float or None
-        Proportion of rigs to be shown to succeed.
+        Proportion of machines to be shown to succeed.
     rig_plans : pandas.DataFrame
-        Rigs and trials, if no trial fails.
+        Machines and trials, if no trial fails.
 
-        - ``rigs``: rigs
+        - ``rigs``: machines
         - ``trials_per_rig``: trials on each
-        - ``trials``: trials on all rigs
+        - ``trials``: trials on all machines
 
     halfwidth : Halfwidth or None
         Plan of the bounds of a rate.

@@ -27,48 +27,37 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// The cells of the tables in datasets.md whose head begins with `head`. Where a table has no column of
-/// dimensions, they are those in the brackets of its heading.
+/// The cells of the tables in datasets.md whose head begins with `head`.
 Rows documented(const std::string& head) {
   std::istringstream text(read_bytes(ZEROCOUNT_FORMAT_DOCUMENTATION));
   Rows rows;
   bool inside = false;
-  bool has_dimensions = false;
-  std::string heading;
   for (std::string line; std::getline(text, line);) {
-    if (line.starts_with("#")) heading = line;
     if (line.starts_with(fmt::format("| {} |", head))) {
       inside = true;
-      has_dimensions = head != "path" || cells_of(line)[2] == "dimensions";
     } else if (!line.starts_with("|")) {
       inside = false;
     } else if (inside && !line.starts_with("| ---")) {
       rows.push_back(cells_of(line));
-      if (has_dimensions) continue;
-      const std::size_t bracket = heading.find('[') + 1;
-      rows.back().insert(rows.back().begin() + 2, heading.substr(bracket, heading.find(']') - bracket));
     }
   }
   return rows;
+}
+
+/// The groups, or datasets of the root, in the table of groups.
+std::set<std::string> documented_groups() {
+  std::set<std::string> groups;
+  for (const std::vector<std::string>& row : documented("group")) {
+    std::istringstream names(row[0]);
+    for (std::string name; std::getline(names, name, ',');) groups.insert(trimmed(name));
+  }
+  return groups;
 }
 
 /// Whether core/trial/measures.md defines the measure with this path.
 bool is_defined_elsewhere(const std::string& path) {
   static const std::string definitions = read_bytes(ZEROCOUNT_MEASURE_DEFINITIONS);
   return definitions.find(fmt::format("`{}`", path.substr(path.rfind('/') + 1))) != std::string::npos;
-}
-
-/// True where `path` is `described`, in which the step `<word>` stands for any name.
-bool fits(const std::string& path, const std::string& described) {
-  std::istringstream path_steps(path);
-  std::istringstream described_steps(described);
-  std::string step;
-  std::string expected;
-  while (std::getline(described_steps, expected, '/')) {
-    if (!std::getline(path_steps, step, '/')) return false;
-    if (!expected.starts_with('<') && step != expected) return false;
-  }
-  return !std::getline(path_steps, step, '/');
 }
 
 std::string type_name(hdf5::Element element) {
@@ -78,29 +67,7 @@ std::string type_name(hdf5::Element element) {
   return names.at(element);
 }
 
-std::ptrdiff_t dimensions_of(const std::vector<std::string>& row) {
-  return row[2].empty() ? 0 : 1 + std::count(row[2].begin(), row[2].end(), ',');
-}
-
-/// The row for a dataset: the one with its path, or else the first whose pattern fits its path and role, and
-/// whose dimensions are as many.
-std::optional<std::size_t> find_row(const Rows& rows, const hdf5::Dataset& dataset) {
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i][0] == dataset.path()) return i;
-  }
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!fits(dataset.path(), rows[i][0])) continue;
-    if (dimensions_of(rows[i]) != std::ssize(dataset.extent())) continue;
-    if (dataset.has_attribute("role") &&
-        rows[i][0].find(fmt::format("<{}>", dataset.text("role"))) == std::string::npos) {
-      continue;
-    }
-    return i;
-  }
-  return std::nullopt;
-}
-
-TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
+TEST(Documentation, DescribesEveryGroupAndMeasureOfAFileAndNoOther) {
   const TemporaryFolder directory;
   const TemporaryFolder directory_with_rigs;
   const TemporaryFolder directory_with_companions;
@@ -111,26 +78,30 @@ TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
       plugin::ControllerPlugin{{"own", "1", "0123", {{"gain", "1", "a gain", 1.0, 0.0, 2.0}}}});
   with_companions.samples = study::JointSamples{
       .file = "posterior.csv", .text = "friction.k1\n110\n", .parameters = {"friction.k1"}, .rows = 1};
-  const Rows rows = documented("path");
-  ASSERT_GT(rows.size(), 40U);
-  std::set<std::size_t> used;
+  std::map<std::string, std::vector<std::string>> measures;
+  for (const std::vector<std::string>& row : documented("path")) measures.emplace(row[0], row);
+  ASSERT_GT(measures.size(), 40U);
+  std::set<std::string> found_groups;
+  std::set<std::string> found_measures;
   const auto look_up = [&](const hdf5::Dataset& dataset) {
-    const std::optional<std::size_t> found = find_row(rows, dataset);
-    ASSERT_TRUE(found) << dataset.path() << " is not described";
-    used.insert(*found);
-    const std::vector<std::string>& row = rows[*found];
-    EXPECT_TRUE(says(row[1], type_name(dataset.element()))) << dataset.path();
-    EXPECT_EQ(std::ssize(dataset.extent()), dimensions_of(row)) << dataset.path();
-    EXPECT_TRUE(row[3] == "own" || row[3] == dataset.text("units")) << dataset.path();
-    if (row[4].empty()) {
-      EXPECT_TRUE(is_defined_elsewhere(dataset.path())) << dataset.path();
-    } else if (row[0].find('<') == std::string::npos) {
-      EXPECT_TRUE(row[4].starts_with(dataset.text("long_name")))
-          << dataset.path() << ": " << dataset.text("long_name");
+    const std::string& path = dataset.path();
+    EXPECT_NE(dataset.text("units"), "") << path;
+    EXPECT_NE(dataset.text("long_name"), "") << path;
+    found_groups.insert(path.substr(0, path.find('/', 1)));
+    if (!path.starts_with("/outcome/")) return;
+    found_measures.insert(path);
+    ASSERT_TRUE(measures.contains(path)) << path << " is not described";
+    const std::vector<std::string>& row = measures.at(path);
+    EXPECT_EQ(row[1], type_name(dataset.element())) << path;
+    EXPECT_EQ(row[2], dataset.text("units")) << path;
+    if (row[3].empty()) {
+      EXPECT_TRUE(is_defined_elsewhere(path)) << path;
+    } else {
+      EXPECT_TRUE(row[3].starts_with(dataset.text("long_name"))) << path << ": " << dataset.text("long_name");
     }
     if (dataset.has_attribute("flag_values") && dataset.element() == hdf5::Element::int8) {
       std::istringstream words(dataset.text("flag_meanings"));
-      for (std::string word; words >> word;) EXPECT_TRUE(says(row[4], word)) << dataset.path();
+      for (std::string word; words >> word;) EXPECT_TRUE(says(row[3], word)) << path;
     }
   };
   for_each_dataset(write_sample_file(directory.path(), sample_study()), look_up);
@@ -143,8 +114,9 @@ TEST(Documentation, DescribesEveryDatasetOfAFileAndNoOther) {
   in_worlds.features.position_error = true;
   in_worlds.features.tolerances = {{1.0e-6}, 1};
   for_each_dataset(write_file_in_worlds(directory_with_worlds.path(), in_worlds), look_up);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    EXPECT_TRUE(used.contains(i)) << rows[i][0] << " is in no file";
+  for (const auto& [path, row] : measures)
+    EXPECT_TRUE(found_measures.contains(path)) << path << " is in no file";
+  EXPECT_EQ(found_groups, documented_groups());
 }
 
 TEST(Documentation, DescribesEveryAttributeOfTheRootAndNoOther) {

@@ -86,7 +86,7 @@ TEST_F(OpenLoop, SampleRecordsHaveNoTarget) {
   EXPECT_EQ(run({"trace", "loads.h5", "--point", "1", "--trial", "3"}).code, 0);
 }
 
-// results/datasets.md, /trace/code.
+// The code of an exact torque is 0 (core/README.md).
 TEST_F(OpenLoop, SampleRecordsOfAnExactTorqueHaveNoCode) {
   ASSERT_EQ(run({"run", "loads.yaml", "-o", "exact.h5", "--set", "command.torque.through=exact"}).code, 0);
   const reading::AllTrialsFile file(folder / "exact.h5");

@@ -167,8 +167,9 @@ void compare_sample(Judgement& result, const GateMeasure& measure, const BothTri
   result.test = test_name(sample, over_rigs(trials));
   result.paired_proportion = sample.failures && sample.paired;
   if (!measure.proportion() && std::min(result.baseline_n, result.current_n) < min_values) {
-    result.note = fmt::format("fewer than {} {} have a value{}", min_values,
-                              over_rigs(trials) ? "rigs" : "trials", trials.paired ? " in both files" : "");
+    result.note =
+        fmt::format("fewer than {} {} have a value{}", min_values, over_rigs(trials) ? "machines" : "trials",
+                    trials.paired ? " in both files" : "");
     return;
   }
   static_cast<two_samples::Change&>(result) = two_samples::change_of(sample, confidence);
@@ -195,7 +196,7 @@ void compare_quantile(Judgement& result, const GateMeasure& measure, const BothT
   result.test = fmt::format("{} % quantile of all moves of the goal, by the moves later than that of both{}",
                             100.0 * judged_quantile, over_rigs(trials) ? ", over machines" : "");
   if (std::min(result.baseline_n, result.current_n) < min_values) {
-    result.note = fmt::format("fewer than {} {}", min_values, over_rigs(trials) ? "rigs" : "trials");
+    result.note = fmt::format("fewer than {} {}", min_values, over_rigs(trials) ? "machines" : "trials");
     return;
   }
   const QuantileSample times = times_of(trials, measure);

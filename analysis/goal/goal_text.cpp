@@ -250,7 +250,7 @@ std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_
                        text::counted(needs.trials, "trial"), chance);
   const std::int64_t each = needs.trials / needs.rigs;
   return fmt::format("About {} with {} each decide it with a probability of {}, {}",
-                     text::counted(needs.rigs, "rig"), text::counted(each, "trial"), chance,
+                     text::counted(needs.rigs, "machine"), text::counted(each, "trial"), chance,
                      goal.machines ? "if machines are as these" : "by what these leave likely");
 }
 

@@ -68,7 +68,7 @@ std::string flawless_text(const ReportedStudy& reported, const statistics::Succe
       "No failure in {} trials does not prove 100 % repeatability: with 95 % confidence the probability of a "
       "failure is at most {}. To show that it is below 0.1 % takes {} {} without a failure.",
       claim.trials, text::percent_at_most(claim.failure_at_most),
-      statistics::trials_for_claim(0.999, claim.confidence, 0), claim.rigs > 0 ? "rigs" : "trials");
+      statistics::trials_for_claim(0.999, claim.confidence, 0), claim.rigs > 0 ? "machines" : "trials");
 }
 
 /// The claim of the best point, with bounds that account for its choice among all points.

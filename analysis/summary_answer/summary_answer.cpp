@@ -42,7 +42,7 @@ std::string size_line(const StudySummary& summary) {
       fmt::format("{}: {}", text::printable(summary.name), text::counted(summary.points.size(), "point"));
   if (const std::optional<std::int64_t> trials = trials_of_each(summary))
     line += " × " + text::counted(*trials, "trial");
-  if (summary.features.rigs) line += " on " + text::counted(rigs_of(summary), "rig");
+  if (summary.features.rigs) line += " on " + text::counted(rigs_of(summary), "machine");
   return line;
 }
 

@@ -243,7 +243,7 @@ void check_worlds(Manifest& m) {
   if (m.study().worlds == 0) return;
   const yaml::Field field = yaml::find_field(m.root, "worlds").value();
   const std::int64_t units = m.study().rigs > 0 ? m.study().rigs : study::draw_count(m.study());
-  const std::string_view name = m.study().rigs > 0             ? "rigs"
+  const std::string_view name = m.study().rigs > 0             ? "machines"
                                 : m.study().conditions.empty() ? "trials"
                                                                : "trials under each condition";
   if (m.study().rigs > 0 && units % m.study().worlds != 0) {

@@ -78,7 +78,7 @@ std::string smallest_headline(const GoalPlans& plans) {
   const bool on_rigs = plans.study.rigs > 0;
   return fmt::format("{} can be met from {} {} on, if no move misses {}",
                      plans.study.goals.size() > 1 ? "the goals" : "the goal",
-                     on_rigs ? first.rigs : first.trials, on_rigs ? "rigs" : "trials",
+                     on_rigs ? first.rigs : first.trials, on_rigs ? "machines" : "trials",
                      plans.study.goals.size() > 1 ? "them" : "it");
 }
 

@@ -235,7 +235,7 @@ std::string values_text(const NamedValues& values) {
 }
 
 std::string machine_name(const WorstMachine& worst, bool on_rigs) {
-  return fmt::format("{} {}", on_rigs ? "rig" : "trial", worst.rig);
+  return fmt::format("{} {}", on_rigs ? "machine" : "trial", worst.rig);
 }
 
 std::string worst_machine_text(const WorstMachine& worst, const study::Study& study) {

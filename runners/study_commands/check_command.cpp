@@ -125,7 +125,7 @@ std::optional<std::string> rigs_text(const Plan& plan) {
 std::optional<std::string> worlds_text(const Plan& plan) {
   const study::Study& study = plan.study;
   return groups_text(study.worlds,
-                     (study.rigs > 0 ? of_each(study.rigs, study.worlds, "rig")
+                     (study.rigs > 0 ? of_each(study.rigs, study.worlds, "machine")
                                      : "about " + of_each(study.trials, study.worlds, "trial")) +
                          " in each");
 }

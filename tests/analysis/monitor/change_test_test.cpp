@@ -2,6 +2,7 @@
 #include "analysis/monitor/change_test.hpp"
 
 #include "analysis/parallel/parallel.hpp"
+#include "core/numerics/normal_distribution.hpp"
 #include "tests/analysis/monitor/move_sequences.hpp"
 #include "tests/support/refusal.hpp"
 
@@ -97,6 +98,19 @@ TEST(ChangeMartingale, SeesAChangeAndItsTime) {
     }
     std::ranges::sort(errors);
     EXPECT_LE(errors[errors.size() / 2], 10.0);
+  }
+}
+
+// A value belongs to the change where the likelihood ratio of N(κ, 1) and N(0, 1) at its normal score z is
+// above 1, exp(κz − κ²/2): from z = κ/2 on. Here κ falls from 1.02 to 1.00 over the first 20 values.
+TEST(ChangeMartingale, DatesAChangeByTheLikelihoodRatioOfNormalScores) {
+  for (const auto& [score, since] : {std::pair(0.46, 21), {0.56, 1}}) {
+    std::vector<double> p(20, numerics::normal_probability(-score));
+    for (double quantile = 0.9975; quantile > 0.0; quantile -= 0.005)
+      p.push_back(numerics::normal_probability(-1.0 - numerics::normal_quantile(quantile)));
+    ChangeMartingale martingale(1000);
+    for (const double one : p) martingale.update(one);
+    EXPECT_EQ(martingale.since(p), since) << score;
   }
 }
 

@@ -59,102 +59,75 @@ std::string progress_text(const Estimate& estimate, const EstimatorState& state)
                      estimate.bounds.low, estimate.bounds.high);
 }
 
-class RareRun {
- public:
-  RareRun(const Question& question, const RareSettings& settings, const std::stop_token& stop)
-      : answer_{question, settings},
-        estimator_{question.space, measures::move_scores.size(), settings.confidence, settings.ratio,
-                   question.study.seed},
-        whole_(stop),
-        effort_(whole_.share({}, settings.seconds)),
-        line_(settings.quiet) {
-    if (std::optional<RareRecord> earlier = earlier_record(question, settings)) {
-      answer_.state = std::move(earlier->state);
-      earlier_seconds_ = earlier->seconds;
-      next_write_ += earlier_seconds_;
-    }
+/// What failures have in common, and how often their machines fail.
+void describe_failures(const trials::Effort& effort, RareAnswer& answer) {
+  try {
+    answer.inputs = failure_inputs(answer.question, answer.state);
+    answer.machines = carrying_machines(answer.question, answer.state, answer.estimate.probability, effort);
+  } catch (const trial::Interrupted&) {
+    answer.machines.reset();  // the answer does not rest on them
   }
-
-  RareAnswer run() {
-    try {
-      estimate(
-          answer_.state, estimator_,
-          [this](std::span<Trial> trials) {
-            trials_ += std::ssize(trials);
-            run_trials(answer_.question, trials, effort_);
-          },
-          [this](const EstimatorState&) { return goes_on(); });
-    } catch (const trial::Interrupted&) {
-      // The state is as it was before the trials that were in work.
-    }
-    take_estimate();
-    if (whole_.is_interrupted()) {
-      if (answer_.state.learned) write();
-      throw Failure(ExitCode::interrupted,
-                    answer_.state.learned
-                        ? fmt::format("interrupted: {} holds the trials so far; the same command goes on",
-                                      answer_.settings.output.string())
-                        : "interrupted while it learned where failures are: nothing was written");
-    }
-    describe();
-    write();
-    line_.finish("");
-    return std::move(answer_);
-  }
-
- private:
-  /// Seconds, those of earlier runs included.
-  double elapsed() const {
-    return earlier_seconds_ + std::chrono::duration<double>(Clock::now() - start_).count();
-  }
-
-  void take_estimate() {
-    answer_.estimate = answer_of(answer_.state, estimator_);
-    answer_.seconds = elapsed();
-  }
-
-  bool goes_on() {
-    const EstimatorState& state = answer_.state;
-    line_.show([&] { return progress_text(answer_of(state, estimator_), state); });
-    if (state.learned && elapsed() > next_write_) {
-      // Keeps the trials so far. Writing takes a tenth of the time at most.
-      take_estimate();
-      write();
-      next_write_ = elapsed() + std::max(seconds_between_writes, 9.0 * (elapsed() - answer_.seconds));
-    }
-    const std::optional<std::int64_t>& most = answer_.settings.max_trials;
-    return (!most || trials_ < *most) && !effort_.is_spent();
-  }
-
-  void describe() {
-    const Question& question = answer_.question;
-    try {
-      answer_.inputs = failure_inputs(question, answer_.state);
-      answer_.machines = carrying_machines(question, answer_.state, answer_.estimate.probability, whole_);
-    } catch (const trial::Interrupted&) {
-      answer_.machines.reset();  // the answer does not rest on them
-    }
-  }
-
-  void write() const {
-    if (!answer_.settings.output.empty()) write_rare_file(answer_);
-  }
-
-  RareAnswer answer_;
-  EstimatorSettings estimator_;
-  trials::Effort whole_;
-  trials::Effort effort_;  ///< with the limit of time
-  status::StatusLine line_;
-  Clock::time_point start_{Clock::now()};
-  double earlier_seconds_{0.0};
-  double next_write_{seconds_between_writes};  ///< s, by elapsed()
-  std::int64_t trials_{0};                     ///< of this run
-};
+}
 
 }  // namespace
 
 RareAnswer run_rare(const Question& question, const RareSettings& settings, const std::stop_token& stop) {
-  return RareRun(question, settings, stop).run();
+  const EstimatorSettings estimator{question.space, measures::move_scores.size(), settings.confidence,
+                                    settings.ratio, question.study.seed};
+  const trials::Effort whole(stop);
+  const trials::Effort effort = whole.share({}, settings.seconds);
+  RareAnswer answer{question, settings};
+  double earlier_seconds = 0.0;
+  if (std::optional<RareRecord> earlier = earlier_record(question, settings)) {
+    answer.state = std::move(earlier->state);
+    earlier_seconds = earlier->seconds;
+  }
+  const Clock::time_point start = Clock::now();
+  const auto elapsed = [&] {
+    return earlier_seconds + std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  const auto take_estimate = [&] {
+    answer.estimate = answer_of(answer.state, estimator);
+    answer.seconds = elapsed();
+  };
+  const auto write = [&] {
+    if (!settings.output.empty()) write_rare_file(answer);
+  };
+  status::StatusLine line(settings.quiet);
+  double next_write = earlier_seconds + seconds_between_writes;
+  std::int64_t run = 0;  // trials, of this run
+  const auto simulate = [&](std::span<Trial> trials) {
+    run += std::ssize(trials);
+    run_trials(question, trials, effort);
+  };
+  const auto goes_on = [&](const EstimatorState& state) {
+    line.show([&] { return progress_text(answer_of(state, estimator), state); });
+    if (state.learned && elapsed() > next_write) {
+      // Keeps the trials so far. Writing takes a tenth of the time at most.
+      take_estimate();
+      write();
+      next_write = elapsed() + std::max(seconds_between_writes, 9.0 * (elapsed() - answer.seconds));
+    }
+    return (!settings.max_trials || run < *settings.max_trials) && !effort.is_spent();
+  };
+  try {
+    estimate(answer.state, estimator, simulate, goes_on);
+  } catch (const trial::Interrupted&) {
+    // The state is as it was before the trials that were in work.
+  }
+  take_estimate();
+  if (whole.is_interrupted()) {
+    if (answer.state.learned) write();
+    throw Failure(ExitCode::interrupted,
+                  answer.state.learned
+                      ? fmt::format("interrupted: {} holds the trials so far; the same command goes on",
+                                    settings.output.string())
+                      : "interrupted while it learned where failures are: nothing was written");
+  }
+  describe_failures(whole, answer);
+  write();
+  line.finish("");
+  return answer;
 }
 
 }  // namespace zerocount::rare

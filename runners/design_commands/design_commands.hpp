@@ -72,6 +72,11 @@ inline document::Item optional(document::Item item) {
   return item;
 }
 
+/// The goal and the condition of a claim; people are shown what has a heading.
+document::Description<tuning::ClaimNames> named_claim_columns(std::string goal_heading = "",
+                                                              std::string condition_heading = "",
+                                                              std::string goal_key = "goal");
+
 commands::Command plan_command();
 commands::Command tune_command();
 commands::Command limits_command();

@@ -39,6 +39,16 @@ std::int64_t ExaminedPoint::trial_in_whole(std::int64_t trial) const {
   return study::turns_of(whole).trial_of(turns.draw_of(trial), same - whole.conditions.begin());
 }
 
+document::Description<tuning::ClaimNames> named_claim_columns(std::string goal_heading,
+                                                              std::string condition_heading,
+                                                              std::string goal_key) {
+  return document::Description<tuning::ClaimNames>()
+      .value(optional({std::move(goal_key), std::move(goal_heading), "its goal, of several"}),
+             &tuning::ClaimNames::goal)
+      .value(optional({"condition", std::move(condition_heading), "its condition, with conditions"}),
+             &tuning::ClaimNames::condition);
+}
+
 command_line::OptionSpec condition_option() {
   return {"condition", "NAME", "under this condition alone"};
 }

@@ -69,11 +69,7 @@ document::Description<Limit> limit_columns(const document::Item& effect) {
                         "proportion of moves, or of machines, that meet the question; unknown if it is not "
                         "simulated"),
              &Limit::rate)
-      .value(optional(everywhere("goal", "of goal", "the worst of several goals, which the rate is of")),
-             &Limit::goal)
-      .value(
-          optional(everywhere("condition", "condition or age", "the worst condition, which the rate is of")),
-          &Limit::condition)
+      .include(named_claim_columns("of goal", "condition or age"), &Limit::worst)
       .value({.key = "rates",
               .meaning = "the rates of all goals under all conditions, where there are several",
               .unit = "1",
@@ -204,17 +200,12 @@ std::string limits_headline(const PointLimits& found) {
 document::AnswerDescription<PointLimits> limits_answer() {
   document::AnswerDescription<PointLimits> answer{
       {.name = "limits", .meaning = "what stands between a point and its goal", .csv_table = "limits"}, {}};
-  const auto added = limit_columns({.key = "effect", .heading = "added", .meaning = "effect that is added"});
   answer.items.headline(limits_headline)
       .include(limits_description("with causes of failures switched off"), &PointLimits::limits)
-      .table(document::in_data("additions", "rates with an effect added to those of the study"), added,
+      .table(everywhere("additions", "with an effect added that the study may assume away",
+                        "rates with an effect added to those of the study"),
+             limit_columns({.key = "effect", .heading = "added", .meaning = "effect that is added"}),
              &PointLimits::additions)
-      .table(document::to_people("with an effect added that the study may assume away"), added,
-             [](const PointLimits& found) {
-               std::vector<Limit> rows = found.additions;
-               rows.insert(rows.begin(), found.limits.front());
-               return rows;
-             })
       .sentence(simulated_sentence);
   return answer;
 }

@@ -247,10 +247,7 @@ std::string worst_machine_text(const WorstMachine& worst, const study::Study& st
 
 document::Description<WorstMachine> worst_description() {
   return document::Description<WorstMachine>()
-      .value(optional(in_data("goal", "the goal that it meets in the fewest moves, of several")),
-             &WorstMachine::goal)
-      .value(optional(in_data("condition", "the condition under which it does worst, with conditions")),
-             &WorstMachine::condition)
+      .include(named_claim_columns(), &WorstMachine::names)
       .value(in_data("rig",
                      "number of the machine in the study, or of its trial where no trials share a machine"),
              &WorstMachine::rig)

@@ -1,3 +1,5 @@
+#include "runners/tuning/extras.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -7,8 +9,6 @@
 
 #include "core/trial/trial.hpp"
 #include "runners/status/progress.hpp"
-#include "runners/tuning/effects/effects.hpp"
-#include "runners/tuning/tuner.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -74,7 +74,7 @@ trials::Replicates TunedAxis::units() const {
 
 study::Study TunedAxis::on_units(std::vector<std::string> overrides) const {
   for (std::string& one : trials::overrides_for(study, units())) overrides.push_back(std::move(one));
-  return at_values(trials::variant_of(study, overrides), answer.free, answer.gains).value();
+  return at_values(trials::variant_of(study, overrides), free(), values).value();
 }
 
 std::optional<std::size_t> TunedAxis::lost_claim(const study::Study& of, const Change* change) const {
@@ -84,27 +84,12 @@ std::optional<std::size_t> TunedAxis::lost_claim(const study::Study& of, const C
 
 trials::Effort TunedAxis::one_of_shares(double parts, std::int64_t by_default) const {
   parts = std::max(parts, 1.0);
-  if (answer.budget.trials) {
+  if (budget.trials) {
     const std::int64_t left = std::max<std::int64_t>(effort.trials_left() - later, 0);
     return effort.share(std::llround(static_cast<double>(left) / parts), {});
   }
-  if (!answer.budget.seconds) return effort.share(by_default, {});
+  if (!budget.seconds) return effort.share(by_default, {});
   return effort.share({}, (effort.seconds_left() - static_cast<double>(later) / speed) / parts);
-}
-
-bool TunedAxis::ended(const std::function<void()>& work) const {
-  if (effort.stop().stop_requested()) return false;
-  try {
-    return trials::within(effort, work);
-  } catch (const trial::Interrupted&) {
-    return false;
-  }
-}
-
-void leave_out(TuneAnswer& answer, std::string_view extra, std::string part) {
-  answer.left_out.push_back(std::move(part));
-  if (std::ranges::find(answer.left_extras, extra) == answer.left_extras.end())
-    answer.left_extras.push_back(extra);
 }
 
 void make_extras(const std::vector<const Extra*>& wanted, TunedAxis& axis, bool quiet,
@@ -128,10 +113,10 @@ void make_extras(const std::vector<const Extra*>& wanted, TunedAxis& axis, bool 
               : std::string());
     });
     std::any found;
-    if (fits(cost, axis) && axis.ended([&] { found = extra.run(axis); })) {
-      axis.answer.extras.push_back(std::move(found));
+    if (fits(cost, axis) && ended(axis.effort, [&] { found = extra.run(axis); })) {
+      axis.extras.found.push_back(std::move(found));
     } else {
-      leave_out(axis.answer, extra.name, std::string(extra.part.empty() ? extra.name : extra.part));
+      axis.extras.left_out.push_back({std::string(extra.part.empty() ? extra.name : extra.part), extra.name});
     }
     line.clear();
     if (ready && !axis.effort.is_interrupted()) ready(extra);

@@ -69,7 +69,7 @@ struct RestPlan {
 RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t trials_of_maps,
                    std::int64_t searches, const trials::Effort& effort, double speed);
 
-/// trials::Replicates on which another control is judged: 1000, or as many as the effort is enough for.
+/// Units on which another control is judged: 1000, or as many as the effort is enough for.
 /// @throws trials::Spent if these are fewer than 50
 std::int64_t units_of_judgement(const study::Study& study, const trials::Effort& share, double speed);
 

@@ -34,8 +34,8 @@ tuning::ExtraCost cost_of_ages(const tuning::TunedAxis& axis) {
 }
 
 std::any find_lost_ages(tuning::TunedAxis& axis) {
-  return tuning::lost_ages(tuning::AgeRuns(axis.study, units_of_ages(axis), "tuning, ages", axis.effort),
-                           axis.answer.free, axis.answer.gains);
+  const study::Study tuned = trials::variant_of(axis.study, tuning::overrides_of(axis.free(), axis.values));
+  return tuning::lost_ages(tuned, units_of_ages(axis), axis.effort);
 }
 
 struct LostRow {
@@ -54,17 +54,14 @@ std::vector<LostRow> lost_rows(Of tuning) {
 document::Description<LostRow> lost_columns() {
   using Row = const LostRow&;
   return document::Description<LostRow>()
-      .value(optional(document::everywhere("goal", "goal", "name of the goal, of several")),
-             [](Row row) -> std::optional<std::string> {
-               if (row.study.goals.size() < 2) return {};
-               return row.study.goals[row.claim.claim.goal].name;
-             })
-      .value(
-          optional(document::everywhere("condition", "condition", "name of the condition, with conditions")),
-          [](Row row) -> std::optional<std::string> {
-            if (row.study.condition_names.empty()) return {};
-            return row.study.condition_names[row.claim.claim.condition];
-          })
+      .include(named_claim_columns("goal", "condition"),
+               [](Row row) {
+                 const auto& [goals, conditions] = std::tie(row.study.goals, row.study.condition_names);
+                 tuning::ClaimNames names;
+                 if (goals.size() > 1) names.goal = goals[row.claim.claim.goal].name;
+                 if (!conditions.empty()) names.condition = conditions[row.claim.claim.condition];
+                 return names;
+               })
       .value(document::everywhere(
                  "lost", "seems lost from",
                  "youngest age that was tried at which less than asked for meets the goal, to 10 %; null: "
@@ -110,9 +107,11 @@ std::vector<document::Figure> lost_ages_figures(Of tuning) {
     const study::Goal& goal = study.goals[claim.goal];
     const std::string name =
         (goal.machines ? "machines in the goal" : "moves in the goal") + tuning::text_of(study, claim);
-    for (const tuning::AgeVerdict& at : life->tried)
-      data.rows.push_back({name, datum(at.age), datum(at.rates[i].value), datum(at.rates[i].low),
-                           datum(at.rates[i].high), datum(goal.machines.value_or(goal.moves))});
+    for (const tuning::AgeVerdict& at : life->tried) {
+      const goal::BoundedProportion& rate = tuning::judged_rate(goal, at.claims[i]);
+      data.rows.push_back({name, datum(at.age), datum(rate.value), datum(rate.low), datum(rate.high),
+                           datum(tuning::asked_rate(goal))});
+    }
   }
   document::Figure figure = report::figure_of(
       "ages", "tuning-ages", "How long do the tuned values hold?",

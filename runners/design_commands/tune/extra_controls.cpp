@@ -52,8 +52,8 @@ tuning::SearchResult search_control(TunedAxis& axis, const study::Study& study, 
   settings.begins_anew = axis.has_budget();
   settings.effort = plan.effort;
   tuning::SearchResult found = search.run(settings, tuning::starts_from(tuned, control.free));
-  axis.answer.search.points += found.points;
-  axis.answer.search.trials += found.trials;
+  axis.searched.points += found.points;
+  axis.searched.trials += found.trials;
   if (found.finalists.empty() && found.cut) throw trials::Spent{};
   return found;
 }
@@ -67,13 +67,12 @@ void judge_control(const TunedAxis& axis, const study::Study& study, const Other
   std::vector<std::string> fresh = tuning::overrides_of(control.free, values);
   fresh.push_back(fmt::format("seed={}", trials::fresh_seed(study.seed, "tuning, alternative")));
   for (const std::string& one : trials::overrides_for(study, units)) fresh.push_back(one);
-  const tuning::Candidate candidate{
-      {}, values, tuning::results_of(trials::variant_of(study, fresh), units, units.count, nullptr, effort)};
-  alternative.verdict = goal::judge_goals(study.goals, counts_of(study, units, candidate.units), 1);
-  alternative.criterion = estimate_of(tuning::aim_of(study), candidate, units.count).criterion;
-  const tuning::ClaimPlace worst{alternative.verdict->goal, alternative.verdict->condition};
-  if (tuning::has_named_claims(study)) alternative.worst_goal = tuning::goal_name(study, worst);
-  alternative.worst_condition = tuning::condition_name(study, worst);
+  tuning::Judged judged = tuning::judged(
+      study, units, tuning::results_of(trials::variant_of(study, fresh), units, units.count, nullptr, effort),
+      1);
+  alternative.criterion = judged.criterion;
+  alternative.worst = tuning::names_of(study, {judged.verdict.goal, judged.verdict.condition});
+  alternative.verdict = std::move(judged.verdict);
 }
 
 /// @param tuned controls that are tuned already; gets this one
@@ -94,13 +93,13 @@ Alternative find_control(TunedAxis& axis, const OtherControl& control, const tri
 
 std::any find_controls(TunedAxis& axis) {
   const std::vector<OtherControl> controls = tuning::other_controls(axis.study);
-  std::vector<TunedValues> tuned{values_by_name(axis.answer.free, axis.answer.gains)};
+  std::vector<TunedValues> tuned{values_by_name(axis.free(), axis.values)};
   Alternatives found;
   for (std::size_t i = 0; i < controls.size(); ++i) {
     const trials::Effort share =
         axis.one_of_shares(static_cast<double>(controls.size() - i), trials_of_control);
-    if (!axis.ended([&] { found.push_back(find_control(axis, controls[i], share, tuned)); }))
-      tuning::leave_out(axis.answer, "controls", fmt::format("controls ({})", controls[i].name));
+    if (!tuning::ended(axis.effort, [&] { found.push_back(find_control(axis, controls[i], share, tuned)); }))
+      axis.extras.left_out.push_back({fmt::format("controls ({})", controls[i].name), "controls"});
   }
   return found;
 }
@@ -127,11 +126,7 @@ document::Description<Alternative> alternative_columns() {
              [](Row row) {
                return row.verdict ? std::optional(goal::bounded(row.verdict->moves)) : std::nullopt;
              })
-      .value(optional(document::everywhere("goal_name", "worst goal", "name of the worst goal, of several")),
-             &Alternative::worst_goal)
-      .value(optional(document::everywhere("condition", "worst condition or age",
-                                           "name of the worst condition, with conditions")),
-             &Alternative::worst_condition)
+      .include(named_claim_columns("worst goal", "worst condition or age", "goal_name"), &Alternative::worst)
       .value(criterion_item(),
              [](Row row) { return row.verdict ? std::optional(row.criterion) : std::nullopt; });
 }
@@ -143,10 +138,10 @@ bool is_better_within_ranges(const Alternative& one, Of tuning) {
   if (one.fixed.empty() || !one.verdict || !tuning.answer.proof) return false;
   const goal::Verdict& proven = tuning.answer.proof->verdict;
   if (one.verdict->status == goal::Status::met && proven.status == goal::Status::met)
-    return one.criterion < clearly * tuning.answer.criterion;
+    return one.criterion < clearly * tuning.answer.proof->criterion;
   if (one.verdict->status == goal::Status::met) return true;
-  return worst_goal(tuning).machines ? one.verdict->machines.low > proven.machines.high
-                                     : one.verdict->moves.low > proven.moves.high;
+  const study::Goal& goal = worst_goal(tuning);
+  return tuning::judged_rate(goal, *one.verdict).low > tuning::judged_rate(goal, proven).high;
 }
 
 std::string better_control_sentence(Of tuning) {

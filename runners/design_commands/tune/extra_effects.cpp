@@ -17,7 +17,7 @@ constexpr std::int64_t points_of_delay = 13;
 constexpr double max_more_delay = 5.0;  // samples
 
 tuning::ExtraCost cost_of_delay(const tuning::TunedAxis& axis) {
-  if (!axis.answer.is_met()) return {.trials = axis.units().trials()};
+  if (!axis.is_met) return {.trials = axis.units().trials()};
   return {.points = points_of_delay, .trials = points_of_delay * axis.trials_of_point()};
 }
 
@@ -64,11 +64,11 @@ std::optional<double> rate_in_wider_band(const tuning::TunedAxis& axis, std::siz
 
 std::any find_delay(tuning::TunedAxis& axis) {
   MoreDelay found;
-  if (axis.answer.is_met()) {
+  if (axis.is_met) {
     found.delays = delays_of(axis.tuned);
     find_lost_delay(axis, found);
   } else {
-    found.wider_band_rate = rate_in_wider_band(axis, axis.answer.proof->verdict.goal);
+    found.wider_band_rate = rate_in_wider_band(axis, axis.proof.verdict.goal);
   }
   return found;
 }
@@ -107,14 +107,14 @@ void describe_delay(Items& items) {
              [](Of t) -> std::optional<std::string> {
                const MoreDelay& delay = found_by_extra<MoreDelay>(t);
                if (!delay.lost) return {};
-               return tuning::condition_name(t.study, {0, delayed_condition(delay, t)});
+               return tuning::names_of(t.study, {0, delayed_condition(delay, t)}).condition;
              });
 }
 
 constexpr std::int64_t points_of_robustness = 14;
 
 tuning::ExtraCost cost_of_robustness(const tuning::TunedAxis& axis) {
-  return {.applies = axis.answer.is_met(),
+  return {.applies = axis.is_met,
           .points = points_of_robustness,
           .trials = points_of_robustness * axis.units().trials()};
 }

@@ -45,7 +45,7 @@ using Maps = std::vector<TuningMap>;
 
 tuning::ExtraCost cost_of_maps(const TunedAxis& axis) {
   const trials::Replicates& units = axis.search.units();
-  const auto free = std::ssize(axis.answer.free);
+  const auto free = std::ssize(axis.free());
   const std::int64_t trials = free * (free - 1) / 2 * cells_of_side * cells_of_side *
                               std::min(units_of_cell, units.count) * units.trials_each;
   return {.maps = trials, .trials = trials};
@@ -53,29 +53,27 @@ tuning::ExtraCost cost_of_maps(const TunedAxis& axis) {
 
 /// The margins are those of the machines that the search examines.
 void simulate_cell(const TunedAxis& axis, const Values& values, MapCell& cell) {
-  const std::optional<study::Study> study = tuning::at_values(axis.tuned, axis.answer.free, values);
+  const std::optional<study::Study> study = tuning::at_values(axis.tuned, axis.free(), values);
   if (!study) return;
-  const tuning::Candidate candidate{
-      {}, values, tuning::results_of(*study, axis.search.units(), units_of_cell, nullptr, axis.effort)};
-  cell.keeps_margins = axis.search.may_keep(values, tuning::has_slid(candidate.units));
+  const auto units = tuning::results_of(*study, axis.search.units(), units_of_cell, nullptr, axis.effort);
+  cell.keeps_margins = axis.search.may_keep(values, tuning::has_slid(units));
   const tuning::Aim aim = tuning::aim_of(*study);
-  const tuning::Estimate estimate = estimate_of(aim, candidate, units_of_cell);
+  const tuning::Estimate estimate = estimate_of(aim, units, units_of_cell);
   cell.rate = estimate.rate;
   cell.seems_met = reaches(aim, estimate);
   cell.criterion = estimate.criterion;
 }
 
 TuningMap map_of(const TunedAxis& axis, std::size_t x, std::size_t y) {
-  const TuneAnswer& answer = axis.answer;
   TuningMap map{x, y};
-  const tuning::UnitCubePoint place = tuning::place_of(answer.free, answer.gains);
+  const tuning::UnitCubePoint place = tuning::place_of(axis.free(), axis.values);
   // The tuned values with two of them at other places of their ranges, in cells.
   const auto values_in = [&](double column, double row) {
     tuning::UnitCubePoint at = place;
     at[x] = column / cells_of_side;
     at[y] = row / cells_of_side;
-    const Values moved = tuning::values_at(answer.free, at);
-    Values values = answer.gains;
+    const Values moved = tuning::values_at(axis.free(), at);
+    Values values = axis.values;
     values[x] = moved[x];
     values[y] = moved[y];
     return values;
@@ -86,7 +84,7 @@ TuningMap map_of(const TunedAxis& axis, std::size_t x, std::size_t y) {
   for (int row = 0; row < cells_of_side; ++row) {
     for (int column = 0; column < cells_of_side; ++column) {
       const bool is_tuned = column == cell_at(place[x]) && row == cell_at(place[y]);
-      const Values examined = is_tuned ? answer.gains : values_in(column + 0.5, row + 0.5);
+      const Values examined = is_tuned ? axis.values : values_in(column + 0.5, row + 0.5);
       const Values from = values_in(column, row);
       const Values to = values_in(column + 1.0, row + 1.0);
       MapCell& cell =
@@ -99,7 +97,7 @@ TuningMap map_of(const TunedAxis& axis, std::size_t x, std::size_t y) {
 
 std::any find_maps(TunedAxis& axis) {
   Maps maps;
-  for (std::size_t y = 1; y < axis.answer.free.size(); ++y) {
+  for (std::size_t y = 1; y < axis.free().size(); ++y) {
     for (std::size_t x = 0; x < y; ++x) maps.push_back(map_of(axis, x, y));
   }
   return maps;
@@ -149,7 +147,7 @@ Figure map_figure(const TuneAnswer& answer, const TuningMap& map) {
        boundaries_of(map),
        {"tuned",
         {{"x", "", ""}, {"y", "", ""}},
-        {ordered_json::array({datum(answer.gains[map.x]), datum(answer.gains[map.y])})}}});
+        {ordered_json::array({datum(answer.tuned.values[map.x]), datum(answer.tuned.values[map.y])})}}});
   ordered_json& encoding = figure.specification["layer"][0]["encoding"];
   for (const auto& [axis, parameter] : {std::pair{"x", &x}, std::pair{"y", &y}}) {
     encoding[axis]["title"] =

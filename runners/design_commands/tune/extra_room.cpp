@@ -14,26 +14,23 @@ using Rooms = std::vector<Room>;
 constexpr std::int64_t points_of_parameter = 24;  // at most; usually half of them
 
 tuning::ExtraCost cost_of_room(const tuning::TunedAxis& axis) {
-  const std::int64_t points = points_of_parameter * std::ssize(axis.answer.free);
-  return {.applies = axis.answer.is_met(),
-          .points = points,
-          .trials = points * axis.trials_of_point(),
-          .usual_part = 0.5};
+  const std::int64_t points = points_of_parameter * std::ssize(axis.free());
+  return {
+      .applies = axis.is_met, .points = points, .trials = points * axis.trials_of_point(), .usual_part = 0.5};
 }
 
 Room room_of(std::size_t parameter, const tuning::TunedAxis& axis) {
-  const tuning::TuneAnswer& answer = axis.answer;
-  const tuning::UnitCubePoint place = tuning::place_of(answer.free, answer.gains);
+  const tuning::UnitCubePoint place = tuning::place_of(axis.free(), axis.values);
   const auto values = [&](double share) {
     tuning::UnitCubePoint moved = place;
     moved[parameter] = share;
-    Values at = answer.gains;
-    at[parameter] = tuning::values_at(answer.free, moved)[parameter];
+    Values at = axis.values;
+    at[parameter] = tuning::values_at(axis.free(), moved)[parameter];
     return at;
   };
   std::optional<std::size_t> lost;
   const auto holds = [&](double share) {
-    const std::optional<study::Study> study = tuning::at_values(axis.tuned, answer.free, values(share));
+    const std::optional<study::Study> study = tuning::at_values(axis.tuned, axis.free(), values(share));
     if (!study) return false;
     const std::optional<std::size_t> claim = axis.lost_claim(*study, nullptr);
     if (claim) lost = claim;
@@ -55,7 +52,7 @@ Room room_of(std::size_t parameter, const tuning::TunedAxis& axis) {
     }
     return to;
   };
-  Room room{.name = answer.free[parameter].name};
+  Room room{.name = axis.free()[parameter].name};
   room.low = values(end(0.0, room.lost_below))[parameter];
   room.high = values(end(1.0, room.lost_above))[parameter];
   return room;
@@ -63,7 +60,7 @@ Room room_of(std::size_t parameter, const tuning::TunedAxis& axis) {
 
 std::any find_room(tuning::TunedAxis& axis) {
   Rooms rooms;
-  for (std::size_t i = 0; i < axis.answer.free.size(); ++i) rooms.push_back(room_of(i, axis));
+  for (std::size_t i = 0; i < axis.free().size(); ++i) rooms.push_back(room_of(i, axis));
   return rooms;
 }
 
@@ -106,7 +103,7 @@ std::vector<document::Figure> room_figures(Of tuning) {
     low.push_back(one.low);
     high.push_back(one.high);
   }
-  const tuning::UnitCubePoint tuned = tuning::place_of(answer.free, answer.gains);
+  const tuning::UnitCubePoint tuned = tuning::place_of(answer.free, answer.tuned.values);
   const tuning::UnitCubePoint low_place = tuning::place_of(answer.free, low);
   const tuning::UnitCubePoint high_place = tuning::place_of(answer.free, high);
   document::FigureData data{"room",
@@ -120,7 +117,7 @@ std::vector<document::Figure> room_figures(Of tuning) {
                              {"high_place", "", ""}}};
   using report::datum;
   for (std::size_t i = 0; i < rooms.size(); ++i) {
-    data.rows.push_back({rooms[i].name, datum(answer.gains[i]), datum(low[i]), datum(high[i]),
+    data.rows.push_back({rooms[i].name, datum(answer.tuned.values[i]), datum(low[i]), datum(high[i]),
                          text::range_text(low[i], high[i], answer.free[i].unit), datum(tuned[i]),
                          datum(low_place[i]), datum(high_place[i])});
   }

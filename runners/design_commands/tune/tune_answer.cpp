@@ -1,5 +1,6 @@
 #include "runners/design_commands/tune/tune_answer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -21,6 +22,7 @@ namespace zerocount::design_commands {
 namespace {
 
 using document::Description;
+using document::everywhere;
 using document::in_data;
 using document::Shown;
 using document::with_words;
@@ -32,27 +34,16 @@ std::string_view tune_status(goal::Status status) {
   return status == goal::Status::missed ? "unreachable" : goal::text_of(status);
 }
 
-struct GainRow {
-  const study::FreeParameter& free;
-  double value;
-};
-
-std::vector<GainRow> gain_rows(Of tuning) {
-  std::vector<GainRow> rows;
-  for (std::size_t i = 0; i < tuning.answer.gains.size(); ++i)
-    rows.push_back({tuning.answer.free[i], tuning.answer.gains[i]});
-  return rows;
-}
-
-Description<GainRow> gain_columns() {
-  using Row = const GainRow&;
-  return Description<GainRow>()
-      .value({.heading = "parameter"}, [](Row row) { return row.free.name; })
-      .value({.heading = "tuned"}, &GainRow::value)
-      .value({.heading = "unit"}, [](Row row) { return row.free.unit; })
-      .value({.heading = "range"}, [](Row row) {
-        return fmt::format("{} … {}", short_number(row.free.low), short_number(row.free.high));
-      });
+/// "controller.ki = 5000 N m/(rad s) in 3000 … 300000, …".
+std::optional<std::string> gains_text(Of tuning) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < tuning.answer.tuned.values.size(); ++i) {
+    const study::FreeParameter& one = tuning.answer.free[i];
+    texts.push_back(fmt::format("{} = {} {} in {} … {}", one.name,
+                                short_number(tuning.answer.tuned.values[i]), one.unit, short_number(one.low),
+                                short_number(one.high)));
+  }
+  return texts.empty() ? std::nullopt : std::optional(fmt::format("{}", fmt::join(texts, ", ")));
 }
 
 /// kp, ki and kd in the other system of units, of a PID.
@@ -85,9 +76,9 @@ void add_proven(Description<Tuning>& items) {
       .value(with_words(in_data("status", "whether the goal is met; unreachable: not in the ranges"),
                         {"met", "unreachable", "undecided"}),
              [](Of t) { return tune_status(t.answer.status); })
-      .value(in_data("gains", "tuned values by parameter; none where no values keep the margins"),
-             [](Of t) { return named(t.answer.free, t.answer.gains); })
-      .table({.shown = Shown::to_people}, gain_columns(), gain_rows)
+      .value(everywhere("gains", "tuned", "tuned values by parameter; none where no values keep the margins"),
+             [](Of t) { return named(t.answer.free, t.answer.tuned.values); })
+      .shown_as(gains_text)
       .sentence(other_units_sentence);
   add_refusals(items);
   add_nearest(items);
@@ -97,52 +88,45 @@ void add_proven(Description<Tuning>& items) {
   items.sentence(file_sentence);
 }
 
-/// "19986 of 20000 trials in 21 s", "14688 trials in 4 of 4 s".
-std::string spent_text(const TuneAnswer& answer) {
-  const tuning::TuneBudget& budget = answer.budget;
-  return fmt::format("{}{} trials in {:.3g}{} s", answer.spent_trials,
-                     budget.trials ? fmt::format(" of {}", *budget.trials) : "", answer.seconds,
-                     budget.seconds ? fmt::format(" of {:g}", *budget.seconds) : "") +
-         (answer.default_seconds ? fmt::format("; no --budget: the search may take {:.3g} s on this machine",
-                                               *answer.default_seconds)
-                                 : std::string());
+std::vector<std::string> parts_left_out(Of tuning) {
+  std::vector<std::string> parts;
+  for (const tuning::LeftOut& one : tuning.answer.extras.left_out) parts.push_back(one.part);
+  return parts;
 }
 
 /// Names the extras that were left out, and the command that makes them.
 std::string left_out_sentence(Of tuning) {
   const TuneAnswer& answer = tuning.answer;
-  if (answer.left_out.empty()) return "";
+  const std::vector<tuning::LeftOut>& left_out = answer.extras.left_out;
+  if (left_out.empty()) return "";
+  std::vector<std::string_view> extras;
+  for (const tuning::LeftOut& one : left_out) {
+    if (!one.extra.empty() && std::ranges::find(extras, one.extra) == extras.end())
+      extras.push_back(one.extra);
+  }
   std::string line =
       fmt::format("left out{}: {}", answer.interrupted ? "" : ", because the budget is not enough",
-                  fmt::join(answer.left_out, ", "));
-  if (answer.left_extras.empty() || !answer.proof) return line;
+                  fmt::join(parts_left_out(tuning), ", "));
+  if (extras.empty() || !answer.proof) return line;
   if (answer.interrupted && !tuning.is_of_file) return line + "; the same command goes on with them";
   return line + fmt::format("; zerocount tune {} --extras {} makes them", text::shell_path(tuning.output),
-                            fmt::join(answer.left_extras, ","));
-}
-
-std::string effort_sentence(Of tuning) {
-  const TuneAnswer& answer = tuning.answer;
-  const bool may_improve = !answer.search.converged && answer.search.points > 0 && !tuning.is_of_file;
-  return fmt::format(
-      "searched: {} points, {} trials{}\nspent: {}", answer.search.points, answer.search.trials,
-      may_improve ? "; the last generation still improved, a larger --budget may find better values" : "",
-      spent_text(answer));
+                            fmt::join(extras, ","));
 }
 
 Description<Tuning> search_description() {
   return Description<Tuning>()
-      .value(in_data("points", "points that were simulated"), [](Of t) { return t.answer.search.points; })
+      .value(everywhere("points", "points", "points that were simulated"),
+             [](Of t) { return t.answer.searched.result.points; })
       .value(
           in_data("telling_points",
                   "points at which some moves meet the worst goal, more than 1 %, and too few; where hardly "
                   "any point is one, the goal is not shown to be out of reach"),
-          [](Of t) { return t.answer.missed.landscape.telling; })
-      .value(in_data("trials", "trials of the search, and of those for other controls"),
-             [](Of t) { return t.answer.search.trials; })
+          [](Of t) { return t.answer.searched.landscape.telling; })
+      .value(everywhere("trials", "trials", "trials of the search, and of those for other controls"),
+             [](Of t) { return t.answer.searched.result.trials; })
       .value(in_data("seconds", "time", "s"), [](Of t) { return t.answer.seconds; })
-      .value(in_data("converged", "whether the last generation improved no more"),
-             [](Of t) { return t.answer.search.converged; });
+      .value(everywhere("converged", "converged", "whether the last generation improved no more"),
+             [](Of t) { return t.answer.searched.result.converged; });
 }
 
 struct FrontierRow {
@@ -152,7 +136,7 @@ struct FrontierRow {
 
 std::vector<FrontierRow> frontier_rows(Of tuning) {
   std::vector<FrontierRow> rows;
-  for (const TriedPoint& one : tuning.answer.frontier) rows.push_back({one, tuning.answer.free});
+  for (const TriedPoint& one : tuning.answer.searched.frontier) rows.push_back({one, tuning.answer.free});
   return rows;
 }
 
@@ -194,25 +178,23 @@ document::FigureData points_data(std::string name, const TuneAnswer& answer,
 
 std::vector<document::Figure> frontier_figures(Of tuning) {
   const TuneAnswer& answer = tuning.answer;
-  if (!is_drawn(tuning) || answer.search.tried.empty()) return {};
-  std::vector<TriedPoint> tried = answer.search.tried;
+  if (!is_drawn(tuning) || answer.searched.result.tried.empty()) return {};
+  std::vector<TriedPoint> tried = answer.searched.result.tried;
   std::erase_if(tried, [](const TriedPoint& one) { return !std::isfinite(one.estimate.criterion); });
   const goal::Verdict& verdict = answer.proof->verdict;
   const study::Goal& goal = worst_goal(tuning);
-  TriedPoint tuned{answer.gains, {}};
-  tuned.estimate.criterion = answer.criterion;
-  tuned.estimate.rate = goal.machines ? verdict.machines.value : verdict.moves.value;
+  TriedPoint tuned{answer.tuned.values, {}};
+  tuned.estimate.criterion = answer.proof->criterion;
+  tuned.estimate.rate = tuning::judged_rate(goal, verdict).value;
   document::Figure figure = report::figure_of(
       "tuning-frontier", "tuning-frontier", "What does more speed cost?",
       "The points that the search tried, with a finite criterion; what the goal asks for is dashed. The line "
       "joins those that no other point with as many machines beats in both; their rates are those of the "
       "search, and so a little too good. The star is the tuned point by its proof.",
-      {points_data("frontier", answer, answer.frontier),
+      {points_data("frontier", answer, answer.searched.frontier),
        points_data("tried", answer, tried),
        points_data("tuned", answer, {tuned}),
-       {"asked",
-        {{"rate", "asked for", "1"}},
-        {nlohmann::ordered_json::array({goal.machines.value_or(goal.moves)})}}});
+       {"asked", {{"rate", "asked for", "1"}}, {nlohmann::ordered_json::array({tuning::asked_rate(goal)})}}});
   figure.specification["layer"][0]["encoding"]["x"]["title"] = criterion_title(tuning.study);
   return {std::move(figure)};
 }
@@ -224,13 +206,17 @@ void add_closing(Description<Tuning>& items) {
       .table({.heading = "success and speed, by the search (its rates are a little too good)",
               .shown = Shown::to_people},
              frontier_columns(), some_frontier_rows)
-      .object(in_data("searched", "size of the search"), search_description(), std::identity())
-      .value(in_data("spent_trials", "trials of all"), [](Of t) { return t.answer.spent_trials; })
-      .value(in_data("left_out", "parts of the answer for which the budget was not enough"),
-             [](Of t) { return t.answer.left_out; })
+      .object(everywhere("searched", "searched", "size of the search"), search_description(), std::identity())
+      .value(everywhere("spent_trials", "spent", "trials of all"), [](Of t) { return t.answer.spent_trials; })
+      .shown_as([](Of t) {
+        const auto& [trials, seconds] = t.answer.budget;
+        return fmt::format("{}{} trials in {:.3g}{} s", t.answer.spent_trials,
+                           trials ? fmt::format(" of {}", *trials) : "", t.answer.seconds,
+                           seconds ? fmt::format(" of {:g}", *seconds) : "");
+      })
+      .value(in_data("left_out", "parts of the answer for which the budget was not enough"), parts_left_out)
       .value(in_data("interrupted", "whether Ctrl-C ended it after the proof"),
              [](Of t) { return t.answer.interrupted; })
-      .sentence(effort_sentence)
       .sentence(left_out_sentence)
       .figures(frontier_figures);
 }
@@ -298,7 +284,7 @@ document::AnswerDescription<Tuning> margins_answer() {
 document::AnswerDescription<Tuning> proof_answer() {
   return described([](Description<Tuning>& items) {
     add_refusals(items);
-    add_proof_sentences(items);
+    add_proof_facts(items);
   });
 }
 

@@ -68,7 +68,7 @@ struct Alternative {
   std::vector<std::pair<std::string, double>> gains;  ///< empty if none keeps the margins
   std::optional<goal::Verdict> verdict{};             ///< on machines that the search for it never saw
   double criterion{0.0};                              ///< on these machines
-  std::optional<std::string> worst_goal{}, worst_condition{};  ///< of several goals, and with conditions
+  tuning::ClaimNames worst{};
 };
 
 using Of = const Tuning&;
@@ -104,8 +104,8 @@ std::string page_headline(Of tuning);
 
 void add_refusals(Items& items);
 void add_proof(Items& items);
-/// Adds the sentences that stand beside the table of add_proof().
-void add_proof_sentences(Items& items);
+/// Adds what stands beside the table of add_proof().
+void add_proof_facts(Items& items);
 void add_behaviour(Items& items);
 void add_margins(Items& items);
 /// The margins as a table for people, each with the loop that has the worst.

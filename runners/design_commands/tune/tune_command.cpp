@@ -87,7 +87,7 @@ std::optional<std::filesystem::path> manifest_option(const command_line::Argumen
 /// take a value, its content.
 std::string tuned_manifest(const study::Study& study, const tuning::TuneAnswer& answer) {
   const study::Study tuned =
-      tuning::with_values_in_text(study, tuning::overrides_of(answer.free, answer.gains));
+      tuning::with_values_in_text(study, tuning::overrides_of(answer.free, answer.tuned.values));
   if (tuned.manifest.overrides.empty()) return tuned.manifest.text;
   return manifest_text::manifest_of_point(tuned, 0, {.folder = "."});
 }
@@ -183,11 +183,11 @@ class TunePrinter {
 struct TuneTask {
   const study::Study& study;
   tuning::TuneSettings settings;
-  std::optional<std::filesystem::path> page;      ///< for the answer
-  std::optional<std::filesystem::path> watched;   ///< for the answer, and what is found before
-  std::optional<std::filesystem::path> manifest;  ///< for the tuned values
-  std::optional<std::filesystem::path> timeline;  ///< of what the threads do
-  bool is_of_file;
+  std::optional<std::filesystem::path> page{};      ///< for the answer
+  std::optional<std::filesystem::path> watched{};   ///< for the answer, and what is found before
+  std::optional<std::filesystem::path> manifest{};  ///< for the tuned values
+  std::optional<std::filesystem::path> timeline{};  ///< of what the threads do
+  bool is_of_file{false};
 };
 
 /// "14688 of 60000 trials", "21 of 60 s", "14688 trials": what a search has spent.
@@ -196,13 +196,6 @@ std::string spent_of(const tuning::TuneBudget& budget, const tuning::SearchProgr
   if (budget.seconds) return fmt::format("{:.3g} of {:g} s", seconds, *budget.seconds);
   return budget.trials ? fmt::format("{} of {} trials", progress.trials, *budget.trials)
                        : fmt::format("{} trials", progress.trials);
-}
-
-/// `--report`, `--watch` and `--timeline`, once they can be written.
-void take_pages(const command_line::Arguments& arguments, TuneTask& task) {
-  task.page = commands::page_option(arguments, "report");
-  task.watched = commands::watched_page(arguments);
-  task.timeline = commands::timeline_place(arguments);
 }
 
 ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
@@ -244,7 +237,7 @@ ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
   const auto tune = [&] {
     const tuning::TuneAnswer found = (task.is_of_file ? tuning::describe_tuned : tuning::tune)(
         task.study, task.settings, interruption.token());
-    if (task.manifest && found.gains.empty())
+    if (task.manifest && found.tuned.values.empty())
       status::tell("no values to write into {}\n", task.manifest->string());
     if (task.page || task.watched) {
       const std::string page = report::html_page(tuning_page(tuning_of(found)));
@@ -256,37 +249,35 @@ ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
   return live.during([&] { return commands::recorded(task.timeline, "tune", tune); });
 }
 
-ExitCode tune_manifest(const command_line::Arguments& arguments) {
-  tuning::TuneSettings settings = tune_settings(arguments);
-  settings.output = command_line::output_place(arguments);
-  const study::Study study = commands::load_study(arguments.operands()[0], arguments);
-  const std::filesystem::path output = settings.output;
-  TuneTask task{study, std::move(settings), {}, {}, {}, {}, false};
-  take_pages(arguments, task);
-  task.manifest = manifest_option(arguments, study);
-  const storage::OutputLock lock(output);
-  storage::require_replaceable(output);
-  commands::print_fallback_lock(lock, output);
-  return run_task(arguments, std::move(task));
-}
-
-/// The extras of a proof that was made before.
-ExitCode tune_file(const command_line::Arguments& arguments) {
+/// A results file has the proof, and nothing is written but a page.
+void refuse_options_of_manifests(const command_line::Arguments& arguments) {
   const bool replaces_page = arguments.has("report") || arguments.has("watch");
   for (const char* const option : {"output", "manifest", "force"}) {
     if (arguments.has(option) && !(replaces_page && std::string_view(option) == "force"))
       arguments.refuse(fmt::format("option '--{}': is of a manifest, not of a results file", option));
   }
-  tuning::TuneSettings settings = tune_settings(arguments);
-  settings.output = arguments.operands()[0];
-  const study::Study study = commands::load_study(arguments.operands()[0], arguments);
-  TuneTask task{study, std::move(settings), {}, {}, {}, {}, true};
-  take_pages(arguments, task);
-  return run_task(arguments, std::move(task));
 }
 
 ExitCode tune(const command_line::Arguments& arguments) {
-  return commands::is_results_file(arguments.operands()[0]) ? tune_file(arguments) : tune_manifest(arguments);
+  const std::string& operand = arguments.operands()[0];
+  const bool is_of_file = commands::is_results_file(operand);
+  if (is_of_file) refuse_options_of_manifests(arguments);
+  tuning::TuneSettings settings = tune_settings(arguments);
+  settings.output = is_of_file ? std::filesystem::path(operand) : command_line::output_place(arguments);
+  const study::Study study = commands::load_study(operand, arguments);
+  TuneTask task{.study = study,
+                .settings = std::move(settings),
+                .page = commands::page_option(arguments, "report"),
+                .watched = commands::watched_page(arguments),
+                .timeline = commands::timeline_place(arguments),
+                .is_of_file = is_of_file};
+  if (is_of_file) return run_task(arguments, std::move(task));
+  task.manifest = manifest_option(arguments, study);
+  const std::filesystem::path output = task.settings.output;
+  const storage::OutputLock lock(output);
+  storage::require_replaceable(output);
+  commands::print_fallback_lock(lock, output);
+  return run_task(arguments, std::move(task));
 }
 
 }  // namespace

@@ -29,19 +29,22 @@ struct Margin {
   std::string_view title;
   std::string_view unit;
   std::string_view loop_key;  ///< in JSON
+  std::string_view meaning;
   tuning::Smallest SmallestMargins::*found;
   std::optional<double> study::LoopMargins::*wanted;
   bool is_upper{false};  ///< what is wanted is the largest value
 };
 
 constexpr Margin all_margins[] = {
-    {"gain", "gain margin", " dB", "gain_margin_loop", &SmallestMargins::gain, &study::LoopMargins::gain},
-    {"phase", "phase margin", " degrees", "phase_margin_loop", &SmallestMargins::phase,
-     &study::LoopMargins::phase},
-    {"delay", "delay margin", " samples", "delay_margin_loop", &SmallestMargins::delay,
+    {"gain", "gain margin", " dB", "gain_margin_loop", "gain margin; unknown where no loop has a limit",
+     &SmallestMargins::gain, &study::LoopMargins::gain},
+    {"phase", "phase margin", " degrees", "phase_margin_loop",
+     "phase margin; unknown where no loop has a limit", &SmallestMargins::phase, &study::LoopMargins::phase},
+    {"delay", "delay margin", " samples", "delay_margin_loop",
+     "samples of delay until a loop is unstable; 10 means 10 or more", &SmallestMargins::delay,
      &study::LoopMargins::delay},
-    {"sensitivity", "sensitivity", "", "sensitivity_loop", &SmallestMargins::sensitivity,
-     &study::LoopMargins::sensitivity, true}};
+    {"sensitivity", "sensitivity", "", "sensitivity_loop", "largest |S|, S = 1/(1 + L)",
+     &SmallestMargins::sensitivity, &study::LoopMargins::sensitivity, true}};
 
 /// "7.2 dB (at least 6 wanted)", "10 samples or more (none wanted)", "∞ dB".
 std::string found_text(const Margin& margin, double found, const std::optional<double>& wanted) {
@@ -70,8 +73,8 @@ struct MarginRow {
 
 std::vector<MarginRow> margin_rows(Of tuning) {
   std::vector<MarginRow> rows;
-  if (!tuning.answer.margins) return rows;
-  for (const Margin& one : all_margins) rows.push_back({one, *tuning.answer.margins, tuning.study});
+  if (!tuning.answer.tuned.margins) return rows;
+  for (const Margin& one : all_margins) rows.push_back({one, *tuning.answer.tuned.margins, tuning.study});
   return rows;
 }
 
@@ -96,8 +99,8 @@ Description<MarginRow> margin_columns() {
 std::string examined_sentence(Of tuning) {
   if (tuning.answer.blind)
     return "margins: none, because the controller is a plugin, whose transfer function is not known";
-  if (!tuning.answer.margins) return "";
-  const SmallestMargins& margins = *tuning.answer.margins;
+  if (!tuning.answer.tuned.margins) return "";
+  const SmallestMargins& margins = *tuning.answer.tuned.margins;
   std::vector<std::string> phases;
   if (margins.before_sliding) phases.emplace_back("before they slide");
   if (margins.sliding) phases.emplace_back("while they slide");
@@ -114,14 +117,15 @@ std::string examined_sentence(Of tuning) {
 /// A warning where the loops reach for a mode that the study lacks.
 std::string mode_sentence(Of tuning) {
   const tuning::TuneAnswer& answer = tuning.answer;
-  if (!answer.lowest_mode || !answer.margins || !(answer.margins->crossover > 0.0)) return "";
+  if (!answer.tuned.lowest_mode || !answer.tuned.margins || !(answer.tuned.margins->crossover > 0.0))
+    return "";
   constexpr double crossover_of_mode = 1.0 / 3.0;
-  const double crossover = answer.margins->crossover;
+  const double crossover = answer.tuned.margins->crossover;
   return fmt::format(
       "a mode of half of the inertia, which the study lacks, is borne from {} Hz on; the loops cross over at "
       "{} Hz{}",
-      short_number(*answer.lowest_mode), short_number(crossover),
-      crossover > crossover_of_mode * *answer.lowest_mode
+      short_number(*answer.tuned.lowest_mode), short_number(crossover),
+      crossover > crossover_of_mode * *answer.tuned.lowest_mode
           ? ", more than a third of it: make sure that the axis has no mode that low"
           : "");
 }
@@ -142,23 +146,16 @@ Description<LoopReading> loop_description() {
       .value(in_data("machine", "number of the machine; unknown where the stiffness says all of it"),
              [](Reading r) { return r.loop.machine; })
       .value(optional(in_data("condition", "the condition that it bears, with conditions")), [](Reading r) {
-        return tuning::condition_name(r.study, {0, static_cast<std::size_t>(r.loop.condition)});
+        return tuning::names_of(r.study, {0, static_cast<std::size_t>(r.loop.condition)}).condition;
       });
 }
 
 Description<SmallestMargins> margins_description() {
   Description<SmallestMargins> margins;
-  const auto add = [&](const std::string& key, const std::string& heading, const std::string& meaning,
-                       const std::string& unit, tuning::Smallest SmallestMargins::*found) {
-    margins.value(everywhere(key, heading, meaning, unit),
-                  [found](const SmallestMargins& of) { return (of.*found).value; });
-  };
-  add("gain", "gain (dB)", "gain margin; unknown where no loop has a limit", "dB", &SmallestMargins::gain);
-  add("phase", "phase (degrees)", "phase margin; unknown where no loop has a limit", "degrees",
-      &SmallestMargins::phase);
-  add("delay", "delay (samples)", "samples of delay until a loop is unstable; 10 means 10 or more", "samples",
-      &SmallestMargins::delay);
-  add("sensitivity", "sensitivity", "largest |S|, S = 1/(1 + L)", "1", &SmallestMargins::sensitivity);
+  for (const Margin& one : all_margins)
+    margins.value(everywhere(std::string(one.name), std::string(one.title), std::string(one.meaning),
+                             one.unit.empty() ? "1" : std::string(one.unit.substr(1))),
+                  [found = one.found](const SmallestMargins& of) { return (of.*found).value; });
   return margins
       .value(in_data("crossover", "highest frequency at which |L| = 1; 0 without one", "Hz"),
              &SmallestMargins::crossover)
@@ -173,9 +170,9 @@ struct ConditionMargins {
 
 std::vector<ConditionMargins> margins_of_conditions(Of tuning) {
   std::vector<ConditionMargins> rows;
-  if (!tuning.answer.margins) return rows;
-  for (std::size_t i = 0; i < tuning.answer.margins->conditions.size(); ++i)
-    rows.push_back({tuning.study.conditions[i], tuning.answer.margins->conditions[i]});
+  if (!tuning.answer.tuned.margins) return rows;
+  for (std::size_t i = 0; i < tuning.answer.tuned.margins->conditions.size(); ++i)
+    rows.push_back({tuning.study.conditions[i], tuning.answer.tuned.margins->conditions[i]});
   return rows;
 }
 
@@ -193,38 +190,24 @@ NamedValues lacking_of(const NearestPoint& nearest, const study::LoopMargins& wa
 }
 
 std::string nearest_sentence(Of tuning) {
-  if (!tuning.answer.nearest) return "";
-  const NearestPoint& nearest = *tuning.answer.nearest;
-  const std::string at = values_text(named(tuning.answer.free, nearest.values));
-  if (!nearest.margins.stable)
-    return fmt::format("the loop of a machine is unstable at all of them; nearest, at {}, by {} of gain", at,
-                       std::isfinite(nearest.margins.gain.value)
-                           ? short_number(nearest.margins.gain.value) + " dB"
-                           : "any factor");
-  const NamedValues lacking = lacking_of(nearest, tuning.study.tuning->margins);
-  std::string lines = fmt::format("nearest: {}\n", at);
-  for (const Margin& one : all_margins) {
-    const auto lack = std::ranges::find(lacking, one.name, &NamedValues::value_type::first);
-    lines += fmt::format(
-        "  its {} is {}{}\n", one.title,
-        found_text(one, (nearest.margins.*one.found).value, tuning.study.tuning->margins.*one.wanted),
-        lack == lacking.end() ? ""
-                              : fmt::format(", {}{} too {}", short_number(lack->second), one.unit,
-                                            one.is_upper ? "large" : "small"));
-  }
-  return lines;
+  const std::optional<NearestPoint>& nearest = tuning.answer.unfound.nearest;
+  if (!nearest || nearest->margins.stable) return "";
+  return fmt::format("the loop of a machine is unstable at all of them; at the nearest by {} of gain",
+                     std::isfinite(nearest->margins.gain.value)
+                         ? short_number(nearest->margins.gain.value) + " dB"
+                         : "any factor");
 }
 
 Description<Tuning> nearest_description() {
   return Description<Tuning>()
-      .value(in_data("gains", "its values, by parameter"),
-             [](Of t) { return named(t.answer.free, t.answer.nearest->values); })
-      .object(in_data("margins", "its smallest margins"), margins_description(),
-              [](Of t) { return t.answer.nearest->margins; })
-      .value(
-          in_data("lacking",
-                  "by how much margins are too small, or the sensitivity too large: dB, degrees, samples, 1"),
-          [](Of t) { return lacking_of(*t.answer.nearest, t.study.tuning->margins); });
+      .value(everywhere("gains", "values", "its values, by parameter"),
+             [](Of t) { return named(t.answer.free, t.answer.unfound.nearest->values); })
+      .object({.key = "margins", .meaning = "its smallest margins"}, margins_description(),
+              [](Of t) { return t.answer.unfound.nearest->margins; })
+      .value(everywhere(
+                 "lacking", "lacking",
+                 "by how much margins are too small, or the sensitivity too large: dB, degrees, samples, 1"),
+             [](Of t) { return lacking_of(*t.answer.unfound.nearest, t.study.tuning->margins); });
 }
 
 }  // namespace
@@ -238,17 +221,17 @@ void add_margin_table(Items& items) {
 void add_margins(Items& items) {
   add_margin_table(items);
   items.object(in_data("margins", "smallest margins of the tuned loops"), margins_description(),
-               [](Of t) { return t.answer.margins; });
+               [](Of t) { return t.answer.tuned.margins; });
   items.value(
       in_data("lowest_mode",
               "frequency from which on the loops bear a mode of half of the inertia, which the study lacks",
               "Hz"),
-      [](Of t) { return t.answer.lowest_mode; });
+      [](Of t) { return t.answer.tuned.lowest_mode; });
   for (const Margin& one : all_margins) {
     items.object(in_data(std::string(one.loop_key), fmt::format("the loop that has the worst {}", one.title)),
                  loop_description(), [found = one.found](Of t) -> std::optional<LoopReading> {
-                   if (!t.answer.margins || !((*t.answer.margins).*found).loop) return {};
-                   return LoopReading{*((*t.answer.margins).*found).loop, t.study};
+                   if (!t.answer.tuned.margins || !((*t.answer.tuned.margins).*found).loop) return {};
+                   return LoopReading{*((*t.answer.tuned.margins).*found).loop, t.study};
                  });
   }
   items.table(optional(everywhere("margins_by_condition", "smallest margins under each condition",
@@ -262,8 +245,9 @@ void add_margins(Items& items) {
 
 void add_nearest(Items& items) {
   items.sentence(nearest_sentence)
-      .object(in_data("nearest", "the point that comes nearest to the margins, where none keeps them"),
-              nearest_description(), [](Of t) { return t.answer.nearest ? &t : nullptr; });
+      .object(everywhere("nearest", "nearest",
+                         "the point that comes nearest to the margins, where none keeps them"),
+              nearest_description(), [](Of t) { return t.answer.unfound.nearest ? &t : nullptr; });
 }
 
 }  // namespace zerocount::design_commands

@@ -92,7 +92,7 @@ std::string tuned_margins(const reading::AllTrialsFile& file) {
   const study::Study& study = file.study();
   if (!study.tuning || study::point_count(study) > 1) return "";
   const tuning::TuneAnswer answer = tuning::margins_in(file);
-  return answer.margins ? margins_html({answer, study, file.path(), false, true}) : "";
+  return answer.tuned.margins ? margins_html({answer, study, file.path(), false, true}) : "";
 }
 
 report::ReportPage tuning_page(Tuning tuning) {

@@ -20,10 +20,11 @@ namespace zerocount::design_commands {
 namespace {
 
 using document::Description;
+using document::everywhere;
 using document::in_data;
-using document::Shown;
 using text::short_number;
 using tuning::Proof;
+using tuning::Refusal;
 using tuning::TuneAnswer;
 
 std::string unproven_headline(const TuneAnswer& answer) {
@@ -31,17 +32,17 @@ std::string unproven_headline(const TuneAnswer& answer) {
              ? fmt::format(
                    "undecided: of {} points that were tried some keep the margins, but the search lost them "
                    "to faster ones that do not; a larger --budget may find them",
-                   answer.examined)
-         : !answer.refusal.empty()
+                   answer.searched.examined)
+         : !answer.unfound.refusal.empty()
              ? fmt::format("unreachable in these ranges: none of {} points that were tried is allowed: {}",
-                           answer.examined, answer.refusal)
+                           answer.searched.examined, answer.unfound.refusal)
              : fmt::format("unreachable in these ranges: none of {} points that were tried keeps the margins",
-                           answer.examined);
+                           answer.searched.examined);
 }
 
 /// The tuned values: "controller.ki = 5000, controller.kp = 0".
 std::string tuned_text(Of tuning) {
-  return values_text(named(tuning.answer.free, tuning.answer.gains));
+  return values_text(named(tuning.answer.free, tuning.answer.tuned.values));
 }
 
 /// The worst goal of a verdict, and its worst condition.
@@ -60,81 +61,61 @@ std::string met_headline(Of tuning) {
 /// "at the best values found, controller.ki = 5000, 28.2 % of the moves meet the goal, and at least 47.4 %
 /// are wanted".
 std::string missed_by(Of tuning) {
-  const std::optional<double> machines = worst_goal(tuning).machines;
+  const study::Goal& goal = worst_goal(tuning);
   const goal::Verdict& verdict = tuning.answer.proof->verdict;
   return fmt::format("at the best values found, {}, {:.4g} % of the {}, and at least {:g} % are wanted",
-                     tuned_text(tuning), 100.0 * (machines ? verdict.machines.value : verdict.moves.value),
+                     tuned_text(tuning), 100.0 * tuning::judged_rate(goal, verdict).value,
                      rated_words(tuning.study, tuning::claim_at(tuning.study, worst_claim(verdict))),
-                     100.0 * machines.value_or(worst_goal(tuning).moves));
+                     100.0 * tuning::asked_rate(goal));
 }
 
 /// Why a search whose best values miss the goal does not show that it is out of reach.
-std::string why_undecided(const tuning::MissedSearch& missed) {
-  const tuning::Landscape& landscape = missed.landscape;
+std::string why_undecided(const tuning::Searched& searched) {
+  const tuning::Landscape& landscape = searched.landscape;
   if (landscape.points == 0) return "the file does not hold the search that found the values";
   if (!landscape.leads())
     return fmt::format(
         "at {} of {} points that were tried hardly any move meets the goal, so that good values in a narrow "
         "range between them would not be seen",
         landscape.points - landscape.telling, landscape.points);
-  return missed.approaching ? "the effort ended while the search still came nearer to the goal"
-                            : "not all values that may meet the goal were tried on fresh machines";
+  return searched.result.approaching ? "the effort ended while the search still came nearer to the goal"
+                                     : "not all values that may meet the goal were tried on fresh machines";
 }
 
-/// What theory says of a goal that is not met, such as a torque range that is too small for the move.
-std::string obstacles_sentence(Of tuning) {
-  std::string lines;
-  for (const std::string& obstacle : tuning.answer.obstacles) lines += "in the way: " + obstacle + "\n";
-  return lines;
+std::vector<std::string> edges_in(Of tuning) {
+  return tuning::edges_of(tuning.answer.free, tuning.answer.tuned.values);
 }
 
-std::string proof_sentence(Of tuning) {
+std::vector<Refusal> refusals_of(Of tuning) {
+  return tuning::refusals_of(tuning.answer.moves(), tuning.answer.tuned.margins, tuning.study);
+}
+
+/// The proof; an empty one where nothing was proven.
+const Proof& proof_in(Of tuning) {
+  static const Proof none{};
+  return tuning.answer.proof ? *tuning.answer.proof : none;
+}
+
+/// What the moves of one machine cannot show, and the study that would decide the goal.
+std::string lacking_sentence(Of tuning) {
   if (!tuning.answer.proof) return "";
   const Proof& proof = *tuning.answer.proof;
   const study::Study& study = proof.study;
-  std::string lines =
-      fmt::format("proof: {} moves{}{} that the search never saw{}\n", study.trials * study.moves,
-                  study.rigs > 0 ? fmt::format(" on {} machines", study.rigs) : "",
-                  study.worlds > 0 ? fmt::format(" in {} worlds", study.worlds) : "",
-                  proof.attempts > 1 ? fmt::format("; attempt {}", proof.attempts) : "");
   const study::Goal& goal = worst_goal(tuning);
+  std::string lines;
   if (goal.machines) {
-    lines += fmt::format("at least {:.5g} % of machines meet it in {:g} % of their moves\n",
-                         100.0 * proof.verdict.machines.low, 100.0 * goal.moves);
     const std::int64_t trials = study::draw_count(study) / study.rigs;
     const measures::CountedGoal asked = measures::asked_of_moves(tuning.study)[proof.verdict.goal];
-    lines += goal::one_machine_text(
+    lines = goal::one_machine_text(
         goal, {study.rigs, trials, trials * measures::asked_moves(asked, study.moves)}, proof.verdict);
   }
-  if (!proof.verdict.worlds.empty())
-    lines += fmt::format("by world: met in {}, missed in {} of {}\n",
-                         goal::worlds_that(goal::Status::met, proof.verdict).size(),
-                         goal::worlds_that(goal::Status::missed, proof.verdict).size(),
-                         proof.verdict.worlds.size());
-  if (proof.needs) lines += goal::needs_sentence(goal, *proof.needs, study.rigs > 0) + '\n';
-  return lines;
-}
-
-/// Under each goal and condition.
-const std::vector<summary::CellOfPoint>& proven_claims(Of tuning) {
-  static const std::vector<summary::CellOfPoint> none;
-  return tuning.answer.proof ? tuning.answer.proof->claims : none;
-}
-
-/// "band_settling_time.p95 (s) by the proof: 0.0385".
-std::string criterion_sentence(Of tuning) {
-  if (!tuning.answer.proof) return "";
-  const double value = tuning.answer.criterion;
-  return fmt::format(
-      "{} by the proof{}: {}", criterion_title(tuning.study),
-      tuning::has_named_claims(tuning.study) ? ", the largest of all goals and conditions" : "",
-      std::isfinite(value) ? short_number(value) : "not within the hold");
+  return proof.needs ? lines + goal::needs_sentence(goal, *proof.needs, study.rigs > 0) : lines;
 }
 
 /// The time after which the wanted proportion of moves are within the band for good, where it is too late.
 std::string late_sentence(Of tuning) {
   if (!tuning.answer.proof || tuning.answer.is_met() || !tuning::is_of_settling(tuning.study)) return "";
-  const double limit = tuning.answer.late_limit;
+  const double limit = tuning.answer.proof->late_limit;
   return fmt::format("time until {:g} % of the moves stay within the {}: {}",
                      100.0 * worst_goal(tuning).moves, worst_goal(tuning).tolerance ? "tolerance" : "band",
                      std::isfinite(limit) ? short_number(limit) + " s" : "not within the hold");
@@ -145,51 +126,50 @@ Description<goal::Verdict> worlds_of_proof() {
   for (const goal::Status status : {goal::Status::met, goal::Status::missed, goal::Status::undecided}) {
     const std::string word(goal::text_of(status));
     worlds.value(
-        {.key = word, .meaning = "worlds in which the goal is " + word},
+        everywhere(word, word, "worlds in which the goal is " + word),
         [status](const goal::Verdict& verdict) { return goal::worlds_that(status, verdict).size(); });
   }
   return worlds;
 }
 
 Description<Tuning> proof_description() {
-  Description<Tuning> proof;
-  const auto worst = [](Of t) { return worst_claim(t.answer.proof->verdict); };
-  return proof
-      .value(optional(in_data("goal", "name of the worst goal, of several")),
-             [worst](Of t) {
-               return tuning::has_named_claims(t.study) ? tuning::goal_name(t.study, worst(t)) : std::nullopt;
-             })
-      .value(optional(in_data("condition", "name of the worst condition, with conditions")),
-             [worst](Of t) { return tuning::condition_name(t.study, worst(t)); })
-      .value(in_data("rate", "proportion of moves that meet the goal, with one-sided bounds", "1"),
-             [](Of t) { return goal::bounded(t.answer.proof->verdict.moves); })
-      .value(in_data("machines_low",
-                     "lower bound of the proportion of machines that meet the goal, if it is about machines",
-                     "1"),
-             [](Of t) -> std::optional<double> {
-               if (!worst_goal(t).machines) return {};
-               return t.answer.proof->verdict.machines.low;
-             })
-      .value(in_data("rigs", "machines; 0 without machines"), [](Of t) { return t.answer.proof->study.rigs; })
-      .value(in_data("trials", "trials"), [](Of t) { return t.answer.proof->study.trials; })
-      .value(in_data("seed", "seed of the proof"), [](Of t) { return t.answer.proof->study.seed; })
-      .value(in_data("attempts", "candidates or sizes that were proven"),
-             [](Of t) { return t.answer.proof->attempts; })
-      .value(in_data("criterion", "quantity that is minimised; unknown for never"),
-             [](Of t) { return t.answer.criterion; })
-      .object(optional(in_data("worlds", "verdicts by world")), worlds_of_proof(),
-              [](Of t) -> const goal::Verdict* {
-                const goal::Verdict& verdict = t.answer.proof->verdict;
+  return Description<Tuning>()
+      .include(named_claim_columns("worst goal", "under"),
+               [](Of t) { return tuning::names_of(t.study, worst_claim(proof_in(t).verdict)); })
+      .value(proportion("rate", "moves that meet it",
+                        "proportion of moves that meet the goal, with one-sided bounds"),
+             [](Of t) { return goal::bounded(proof_in(t).verdict.moves); })
+      .value(
+          proportion("machines_low", "machines that meet it, at least",
+                     "lower bound of the proportion of machines that meet the goal, if it is about machines"),
+          [](Of t) {
+            return worst_goal(t).machines ? std::optional(proof_in(t).verdict.machines.low) : std::nullopt;
+          })
+      .value(everywhere("rigs", "machines", "machines; 0 without machines"),
+             [](Of t) { return proof_in(t).study.rigs; })
+      .value(everywhere("trials", "trials", "trials"), [](Of t) { return proof_in(t).study.trials; })
+      .value(in_data("seed", "seed of the proof"), [](Of t) { return proof_in(t).study.seed; })
+      .value(everywhere("attempts", "attempts", "candidates or sizes that were proven"),
+             [](Of t) { return proof_in(t).attempts; })
+      .value(everywhere("criterion", "minimised", "quantity that is minimised; unknown for never"),
+             [](Of t) { return proof_in(t).criterion; })
+      .shown_as([](Of t) {
+        const double value = proof_in(t).criterion;
+        return fmt::format(
+            "{}{}: {}", criterion_title(t.study),
+            tuning::has_named_claims(t.study) ? ", the largest of all goals and conditions" : "",
+            std::isfinite(value) ? short_number(value) : "not within the hold");
+      })
+      .object(optional(everywhere("worlds", "worlds of the worst goal", "verdicts by world")),
+              worlds_of_proof(), [](Of t) {
+                const goal::Verdict& verdict = proof_in(t).verdict;
                 return verdict.worlds.empty() ? nullptr : &verdict;
               });
 }
 
-using document::Description;
-using document::in_data;
 using document::Notation;
 using summary::MoveBehaviour;
 using summary::UpperValues;
-using tuning::Refusal;
 
 using Moves = const MoveBehaviour&;
 
@@ -216,7 +196,6 @@ std::optional<double> of_rest(Moves row, double summary::RestTorque::*value) {
 }
 
 Description<MoveBehaviour> behaviour_columns() {
-  using document::everywhere;
   Description<MoveBehaviour> columns;
   columns
       .value(optional(everywhere("goal", "goal", "name of the goal that asks the moves")),
@@ -273,7 +252,7 @@ std::string tune_headline(Of tuning) {
   }
   if (tuning.answer.proof->verdict.status == goal::Status::missed)
     return fmt::format("undecided: {}; {}; a larger --budget may find better ones",
-                       why_undecided(tuning.answer.missed), missed_by(tuning));
+                       why_undecided(tuning.answer.searched), missed_by(tuning));
   return fmt::format(
       "undecided: the trials of the proof do not decide whether the best values found, {}, meet the goal",
       tuned_text(tuning));
@@ -287,45 +266,46 @@ std::string page_headline(Of tuning) {
       proof.rigs > 0 ? fmt::format("{} machines", proof.rigs) : fmt::format("{} trials", proof.trials));
 }
 
-void add_proof_sentences(Items& items) {
-  items.sentence(obstacles_sentence)
-      .sentence(proof_sentence)
-      .sentence(criterion_sentence)
+void add_proof_facts(Items& items) {
+  items
+      .value(everywhere("obstacles", "in the way", "what theory says of a goal that is not met"),
+             [](Of t) { return proof_in(t).obstacles; })
+      .shown_where([](Of t) { return !proof_in(t).obstacles.empty(); })
+      .object(everywhere("proof", "proof, on machines that the search never saw",
+                         "trials of the tuned values on machines that the search never saw"),
+              proof_description(), [](Of t) { return t.answer.proof ? &t : nullptr; })
+      .object(in_data("needed", "study that would decide the goal"), goal::needs_description(),
+              [](Of t) { return goal::practicable(proof_in(t).needs); })
+      .sentence(lacking_sentence)
       .sentence(late_sentence)
-      .sentence([](Of t) { return fmt::format("{}", fmt::join(t.answer.at_edges, "\n")); })
+      .value(in_data("at_edges", "free parameters at an end of their range"), edges_in)
+      .sentence([](Of t) { return fmt::format("{}", fmt::join(edges_in(t), "\n")); })
+      .object(in_data("worst", "the worst machine of the proof"), worst_description(),
+              [](Of t) { return proof_in(t).worst; })
       .sentence([](Of t) {
-        return t.answer.worst ? "worst machine: " + worst_machine_text(*t.answer.worst, t.study)
-                              : std::string();
+        const std::optional<tuning::WorstMachine>& worst = proof_in(t).worst;
+        return worst ? "worst machine: " + worst_machine_text(*worst, t.study) : std::string();
       });
 }
 
 void add_proof(Items& items) {
-  add_proof_sentences(items);
-  items
-      .table({.key = "claims",
-              .heading = "each goal under each condition and at each age, by the proof",
-              .meaning = "each goal under each condition, by the proof; the bounds allow for its attempts"},
-             summary::cell_description({}, summary::CellsBy::claim), proven_claims)
-      .value(in_data("obstacles", "what theory says of a goal that is not met"),
-             [](Of t) { return t.answer.obstacles; })
-      .object(in_data("proof", "trials of the tuned values on machines that the search never saw"),
-              proof_description(), [](Of t) { return t.answer.proof ? &t : nullptr; })
-      .object(in_data("needed", "study that would decide the goal"), goal::needs_description(),
-              [](Of t) { return t.answer.proof ? goal::practicable(t.answer.proof->needs) : nullptr; })
-      .value(in_data("at_edges", "free parameters at an end of their range"),
-             [](Of t) { return t.answer.at_edges; })
-      .object(in_data("worst", "the worst machine of the proof"), worst_description(),
-              [](Of t) { return t.answer.worst; });
+  items.table({.key = "claims",
+               .heading = "each goal under each condition and at each age, by the proof",
+               .meaning = "each goal under each condition, by the proof; the bounds allow for its attempts"},
+              summary::cell_description({}, summary::CellsBy::claim),
+              [](Of t) { return proof_in(t).claims; });
+  add_proof_facts(items);
 }
 
 std::string sanity_line(Of tuning) {
   const tuning::TuneAnswer& answer = tuning.answer;
-  if (answer.behaviour.empty() && answer.refusals.empty()) return "";
+  const std::vector<Refusal> refusals = refusals_of(tuning);
+  if (answer.moves().empty() && refusals.empty()) return "";
   std::vector<std::string> texts;
-  for (const Refusal& one : answer.refusals)
+  for (const Refusal& one : refusals)
     texts.push_back(fmt::format("{}; to exclude it add {}", one.text, one.remedy));
   return fmt::format("before the proof: a drive engineer would refuse {} of {}{}{}",
-                     texts.empty() ? "nothing" : "this", values_text(named(answer.free, answer.gains)),
+                     texts.empty() ? "nothing" : "this", values_text(named(answer.free, answer.tuned.values)),
                      texts.empty() ? "" : ": ", fmt::join(texts, "; "));
 }
 
@@ -348,7 +328,7 @@ void add_refusals(Items& items) {
           .value(in_data("passes", "the value that passes"), &Refusal::largest)
           .value(everywhere("remedy", "to exclude it add", "what excludes it, as it stands in a manifest"),
                  &Refusal::remedy),
-      [](Of t) -> const std::vector<Refusal>& { return t.answer.refusals; });
+      refusals_of);
 }
 
 void add_behaviour(Description<Tuning>& items) {
@@ -357,7 +337,7 @@ void add_behaviour(Description<Tuning>& items) {
        .heading = "what the moves of the proof do",
        .meaning = "what the moves of the proof do, by goal and condition; the torque at rest is of machines "
                   "of the search where the study does not measure it"},
-      behaviour_columns(), [](Of t) -> const std::vector<MoveBehaviour>& { return t.answer.behaviour; });
+      behaviour_columns(), [](Of t) -> const std::vector<MoveBehaviour>& { return t.answer.moves(); });
 }
 
 }  // namespace zerocount::design_commands

@@ -1349,9 +1349,9 @@ class Proof(Record):
     Attributes
     ----------
     goal : str or None
-        Name of the worst goal, of several.
+        Its goal, of several.
     condition : str or None
-        Name of the worst condition, with conditions.
+        Its condition, with conditions.
     rate : float or None
         Proportion of moves that meet the goal, with one-sided bounds.
     rate_low : float or None
@@ -1396,9 +1396,9 @@ class Worst(Record):
     Attributes
     ----------
     goal : str or None
-        The goal that it meets in the fewest moves, of several.
+        Its goal, of several.
     condition : str or None
-        The condition under which it does worst, with conditions.
+        Its condition, with conditions.
     rig : int
         Number of the machine in the study, or of its trial where no trials share a machine.
     trial : int
@@ -1637,8 +1637,8 @@ class TuneAnswer(Answer):
     lost_ages : pandas.DataFrame
         Age at which each goal is lost under each condition, of a study with ages.
 
-        - ``goal``: name of the goal, of several
-        - ``condition``: name of the condition, with conditions
+        - ``goal``: its goal, of several
+        - ``condition``: its condition, with conditions
         - ``lost``: youngest age that was tried at which less than asked for meets the goal, to 10 %; null: none; in the
           unit of ages
         - ``met_until``: age up to and including which the goal is shown to be met, at its confidence; null: not at the
@@ -1666,8 +1666,8 @@ class TuneAnswer(Answer):
         - ``rate``: proportion of moves that meet the goal, with one-sided bounds
         - ``rate_low``: lower bound
         - ``rate_high``: upper bound
-        - ``goal_name``: name of the worst goal, of several
-        - ``condition``: name of the worst condition, with conditions
+        - ``goal_name``: its goal, of several
+        - ``condition``: its condition, with conditions
         - ``criterion``: quantity that is minimised; unknown for never
 
     limits : pandas.DataFrame
@@ -1675,8 +1675,8 @@ class TuneAnswer(Answer):
 
         - ``cause``: cause of failures that is switched off
         - ``rate``: proportion of moves, or of machines, that meet the question; unknown if it is not simulated
-        - ``goal``: the worst of several goals, which the rate is of
-        - ``condition``: the worst condition, which the rate is of
+        - ``goal``: its goal, of several
+        - ``condition``: its condition, with conditions
         - ``rates``: the rates of all goals under all conditions, where there are several
         - ``gained``: machines, or trials, that meet the worst goal more often without the cause
         - ``lost``: machines, or trials, that meet it less often
@@ -1748,8 +1748,8 @@ class LimitsAnswer(Answer):
 
         - ``cause``: cause of failures that is switched off
         - ``rate``: proportion of moves, or of machines, that meet the question; unknown if it is not simulated
-        - ``goal``: the worst of several goals, which the rate is of
-        - ``condition``: the worst condition, which the rate is of
+        - ``goal``: its goal, of several
+        - ``condition``: its condition, with conditions
         - ``rates``: the rates of all goals under all conditions, where there are several
         - ``gained``: machines, or trials, that meet the worst goal more often without the cause
         - ``lost``: machines, or trials, that meet it less often
@@ -1762,8 +1762,8 @@ class LimitsAnswer(Answer):
 
         - ``effect``: effect that is added
         - ``rate``: proportion of moves, or of machines, that meet the question; unknown if it is not simulated
-        - ``goal``: the worst of several goals, which the rate is of
-        - ``condition``: the worst condition, which the rate is of
+        - ``goal``: its goal, of several
+        - ``condition``: its condition, with conditions
         - ``rates``: the rates of all goals under all conditions, where there are several
         - ``gained``: machines, or trials, that meet the worst goal more often without the cause
         - ``lost``: machines, or trials, that meet it less often
@@ -1876,9 +1876,9 @@ class WorstAnswer(Answer):
     Attributes
     ----------
     goal : str or None
-        The goal that it meets in the fewest moves, of several.
+        Its goal, of several.
     condition : str or None
-        The condition under which it does worst, with conditions.
+        Its condition, with conditions.
     rig : int
         Number of the machine in the study, or of its trial where no trials share a machine.
     trial : int

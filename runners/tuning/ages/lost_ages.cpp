@@ -26,42 +26,61 @@ double age_between(double younger, double older) {
   return to_three_digits(younger == 0.0 ? older / decade : numerics::geometric_mean(younger, older));
 }
 
-double asked_of(const study::Goal& goal) {
-  return goal.machines.value_or(goal.moves);
-}
-
 /// Whether a claim still holds at an age, in one of the senses of LostClaim.
 using Holds = std::function<bool(const AgeVerdict&)>;
 
 class LifeOfClaims {
  public:
-  LifeOfClaims(const AgeRuns& runs, const std::vector<study::FreeParameter>& free, const Values& values)
-      : runs_(runs), free_(free), values_(values), claims_(claims_of_life(runs.study())) {}
+  LifeOfClaims(const study::Study& study, const trials::Replicates& units, trials::Effort effort)
+      : study_(study),
+        units_(units),
+        seed_(trials::fresh_seed(study.seed, "tuning, ages")),
+        effort_(std::move(effort)) {}
 
   LostAges found() {
     run_study_ages();
     run_decades();
-    for (std::size_t claim = 0; claim < claims_.size(); ++claim) {
+    const std::size_t claims = tried_.front().claims.size();
+    for (std::size_t claim = 0; claim < claims; ++claim) {
       for (const Holds& holds : senses_of(claim)) refine(holds);
     }
     LostAges all;
-    for (std::size_t claim = 0; claim < claims_.size(); ++claim) all.claims.push_back(lost_claim(claim));
+    for (std::size_t claim = 0; claim < claims; ++claim) all.claims.push_back(lost_claim(claim));
     all.tried = std::move(tried_);
     all.refusal = std::move(refusal_);
-    all.units = runs_.units();
+    all.units = units_.count;
     return all;
   }
 
  private:
+  study::Study at_age(double age) const {
+    std::vector<std::string> overrides{fmt::format("ages.at=[{}]", age), fmt::format("seed={}", seed_)};
+    for (std::string& one : trials::overrides_for(study_, units_)) overrides.push_back(std::move(one));
+    return trials::variant_of(study_, overrides);
+  }
+
+  /// Why the study cannot be simulated at this age; empty if it can.
+  std::string refusal_at(double age) const {
+    try {
+      at_age(age);
+      return "";
+    } catch (const Failure& failure) {
+      if (failure.code() != ExitCode::bad_input) throw;
+      const std::string message = failure.what();
+      return message.substr(0, message.find('\n'));
+    }
+  }
+
   void run(double age) {
     const auto place = std::ranges::lower_bound(tried_, age, {}, &AgeVerdict::age);
     if (place != tried_.end() && place->age == age) return;
-    AgeVerdict verdict = runs_.at(age, free_, values_);
-    tried_.insert(std::ranges::lower_bound(tried_, age, {}, &AgeVerdict::age), std::move(verdict));
+    const study::Study study = at_age(age);
+    const auto results = results_of(study, units_, units_.count, nullptr, effort_);
+    tried_.insert(place, {age, judged(study, units_, results, 1).verdict.claims});
   }
 
   void run_study_ages() {
-    const std::vector<double>& ages = runs_.study().ages.at;
+    const std::vector<double>& ages = study_.ages.at;
     for (std::size_t i = 0; i < ages.size(); ++i) {
       run(ages[i]);
       if (i + 1 < ages.size()) {
@@ -72,17 +91,18 @@ class LifeOfClaims {
   }
 
   bool all_are_missed() const {
-    return std::ranges::all_of(tried_.back().statuses,
-                               [](goal::Status status) { return status == goal::Status::missed; });
+    return std::ranges::all_of(tried_.back().claims, [](const goal::ClaimVerdict& claim) {
+      return claim.status == goal::Status::missed;
+    });
   }
 
   void run_decades() {
-    const double last = runs_.study().ages.at.back();
+    const double last = study_.ages.at.back();
     double age = last > 0.0 ? last : 1.0;
     for (int i = 0; i < max_decades && !all_are_missed(); ++i) {
       const double younger = age;
       age = to_three_digits(decade * age);
-      refusal_ = runs_.refusal_at(age);
+      refusal_ = refusal_at(age);
       if (!refusal_.empty()) {
         run(oldest_allowed(younger, age));
         return;
@@ -94,7 +114,7 @@ class LifeOfClaims {
   /// To three digits.
   double oldest_allowed(double allowed, double refused) const {
     constexpr double narrow = 1.02;
-    const auto is_allowed = [this](double age) { return runs_.refusal_at(age).empty(); };
+    const auto is_allowed = [this](double age) { return refusal_at(age).empty(); };
     return numerics::bisect(
                {allowed, refused}, is_allowed,
                [](const numerics::Bracket& ages) { return ages.fails <= narrow * ages.holds; },
@@ -103,10 +123,12 @@ class LifeOfClaims {
   }
 
   std::array<Holds, 3> senses_of(std::size_t claim) const {
-    const double asked = asked_of(runs_.study().goals[claims_[claim].goal]);
-    return {[=](const AgeVerdict& at) { return at.rates[claim].value >= asked; },
-            [=](const AgeVerdict& at) { return at.statuses[claim] == goal::Status::met; },
-            [=](const AgeVerdict& at) { return at.statuses[claim] != goal::Status::missed; }};
+    const study::Goal& goal = study_.goals[tried_.front().claims[claim].goal];
+    return {[=, &goal](const AgeVerdict& at) {
+              return judged_rate(goal, at.claims[claim]).value >= asked_rate(goal);
+            },
+            [=](const AgeVerdict& at) { return at.claims[claim].status == goal::Status::met; },
+            [=](const AgeVerdict& at) { return at.claims[claim].status != goal::Status::missed; }};
   }
 
   /// Simulates ages between the last at which it holds and the next one.
@@ -125,7 +147,8 @@ class LifeOfClaims {
 
   LostClaim lost_claim(std::size_t claim) const {
     const auto [seems_met, is_met, may_be_met] = senses_of(claim);
-    LostClaim life{claims_[claim]};
+    const goal::ClaimVerdict& first = tried_.front().claims[claim];
+    LostClaim life{{first.goal, first.condition}};
     if (const auto lost = std::ranges::find_if_not(tried_, seems_met); lost != tried_.end())
       life.lost = lost->age;
     if (const auto unsure = std::ranges::find_if_not(tried_, is_met); unsure != tried_.begin())
@@ -135,24 +158,15 @@ class LifeOfClaims {
     return life;
   }
 
-  const AgeRuns& runs_;
-  const std::vector<study::FreeParameter>& free_;
-  const Values& values_;
-  std::vector<ClaimPlace> claims_;
-  std::vector<AgeVerdict> tried_;
+  const study::Study& study_;
+  trials::Replicates units_;
+  std::uint64_t seed_;
+  trials::Effort effort_;
+  std::vector<AgeVerdict> tried_;  ///< rising ages
   std::string refusal_;
 };
 
 }  // namespace
-
-std::vector<ClaimPlace> claims_of_life(const study::Study& study) {
-  const auto conditions = static_cast<std::size_t>(study::conditions_of_age(study));
-  std::vector<ClaimPlace> claims;
-  for (std::size_t goal = 0; goal < study.goals.size(); ++goal) {
-    for (std::size_t condition = 0; condition < conditions; ++condition) claims.push_back({goal, condition});
-  }
-  return claims;
-}
 
 std::string text_of(const study::Study& study, const ClaimPlace& claim) {
   std::string text;
@@ -161,57 +175,18 @@ std::string text_of(const study::Study& study, const ClaimPlace& claim) {
   return text;
 }
 
-AgeRuns::AgeRuns(const study::Study& study, const trials::Replicates& units, std::string_view purpose,
-                 trials::Effort effort)
-    : study_(study),
-      units_(units),
-      seed_(trials::fresh_seed(study.seed, purpose)),
-      effort_(std::move(effort)) {}
-
-study::Study AgeRuns::at_age(double age) const {
-  std::vector<std::string> overrides{fmt::format("ages.at=[{}]", age), fmt::format("seed={}", seed_)};
-  for (std::string& one : trials::overrides_for(study_, units_)) overrides.push_back(std::move(one));
-  return trials::variant_of(study_, overrides);
-}
-
-std::string AgeRuns::refusal_at(double age) const {
-  try {
-    at_age(age);
-    return "";
-  } catch (const Failure& failure) {
-    if (failure.code() != ExitCode::bad_input) throw;
-    const std::string message = failure.what();
-    return message.substr(0, message.find('\n'));
-  }
-}
-
-AgeVerdict AgeRuns::at(double age, const std::vector<study::FreeParameter>& free,
-                       const Values& values) const {
-  const study::Study study = at_values(at_age(age), free, values).value();
-  const Candidate candidate{{}, values, results_of(study, units_, units_.count, nullptr, effort_)};
-  const goal::Verdict verdict = goal::judge_goals(study.goals, counts_of(study, units_, candidate.units), 1);
-  AgeVerdict found;
-  found.age = age;
-  for (const goal::ClaimVerdict& claim : verdict.claims) {
-    const bool of_machines = study.goals[claim.goal].machines.has_value();
-    found.rates.push_back(of_machines ? claim.machines : claim.moves);
-    found.statuses.push_back(claim.status);
-  }
-  found.criterion = estimate_of(aim_of(study), candidate, units_.count).criterion;
-  return found;
-}
-
 std::int64_t trials_at_one_age(const study::Study& study, std::int64_t trials_each) {
   return trials_each / std::ssize(study.ages.at);
 }
 
-LostAges lost_ages(const AgeRuns& runs, const std::vector<study::FreeParameter>& free, const Values& values) {
-  return LifeOfClaims(runs, free, values).found();
+LostAges lost_ages(const study::Study& study, const trials::Replicates& units, trials::Effort effort) {
+  return LifeOfClaims(study, units, std::move(effort)).found();
 }
 
 std::int64_t points_of_lost_ages(const study::Study& study) {
   constexpr std::int64_t of_claim = 14;
-  return 2 * std::ssize(study.ages.at) + max_decades + of_claim * std::ssize(claims_of_life(study));
+  return 2 * std::ssize(study.ages.at) + max_decades +
+         of_claim * std::ssize(study.goals) * study::conditions_of_age(study);
 }
 
 }  // namespace zerocount::tuning

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "analysis/goal/goal_verdict.hpp"
@@ -16,54 +15,22 @@
 /// which the values lose each of their claims.
 namespace zerocount::tuning {
 
-/// The claims of a study with ages, whatever the age: goal by goal, each under every condition of the
-/// manifest (Study::condition_names).
-std::vector<ClaimPlace> claims_of_life(const study::Study& study);
-/// " of goal 'small' under condition cold", as far as the study has several goals, and conditions.
-std::string text_of(const study::Study& study, const ClaimPlace& claim);
-
-/// What machines of one age do.
+/// What machines of one age do: the claims of a verdict on the age alone.
 struct AgeVerdict {
   double age{0.0};
-  std::vector<goal::BoundedProportion> rates;  ///< [claim] of what the goal is about: machines, or moves
-  std::vector<goal::Status> statuses;          ///< [claim]
-  double criterion{0.0};                       ///< the largest of all claims; infinite for never
-};
-
-/// Simulates a study at single ages on the same fresh machines, which have the same draws at every age.
-class AgeRuns {
- public:
-  /// @param study with ages @param units of one age, under all conditions together @param purpose another one
-  /// gives other machines
-  AgeRuns(const study::Study& study, const trials::Replicates& units, std::string_view purpose,
-          trials::Effort effort);
-
-  /// Why the study cannot be simulated at this age; empty if it can.
-  std::string refusal_at(double age) const;
-
-  /// @param values of the free parameters. The bounds are those of a verdict on the age alone
-  /// @throws trial::Interrupted, trials::Spent; Failure (bad_input) where refusal_at() says why
-  AgeVerdict at(double age, const std::vector<study::FreeParameter>& free, const Values& values) const;
-
-  const study::Study& study() const { return study_; }
-  std::int64_t units() const { return units_.count; }
-
- private:
-  study::Study at_age(double age) const;
-
-  const study::Study& study_;
-  trials::Replicates units_;
-  std::uint64_t seed_;
-  trials::Effort effort_;
+  std::vector<goal::ClaimVerdict> claims;  ///< goal by goal, each under every condition of the manifest
 };
 
 /// Trials of a unit at one age, of those that it has at all ages together.
 std::int64_t trials_at_one_age(const study::Study& study, std::int64_t trials_each);
 
+/// " of goal 'small' under condition cold", as far as the study has several goals, and conditions.
+std::string text_of(const study::Study& study, const ClaimPlace& claim);
+
 /// A claim over age. The ages assume that a machine which misses a claim goes on missing it: they are the
 /// first of those that were tried, to 10 %, and which ones are tried depends on what the machines did.
 struct LostClaim {
-  ClaimPlace claim;
+  ClaimPlace claim;  ///< whatever the age: the condition is one of Study::condition_names
   /// The youngest age at which fewer machines, or moves, than asked for meet the goal; nothing up to the
   /// oldest age that was tried.
   std::optional<double> lost{};
@@ -75,22 +42,24 @@ struct LostClaim {
 };
 
 struct LostAges {
-  std::vector<LostClaim> claims;  ///< as claims_of_life()
+  std::vector<LostClaim> claims;  ///< as AgeVerdict::claims
   std::vector<AgeVerdict> tried;  ///< rising ages
   std::string refusal{};          ///< why no older age than the oldest was tried; empty if none was needed
   std::int64_t units{0};          ///< machines, the same at all ages
 };
 
-/// The ages of the study, one between each two of them, then decades beyond the last one:
+/// Simulates the ages of the study, one between each two of them, then decades beyond the last one, on the
+/// same fresh machines with the same draws at every age:
 ///
 ///     simulate them in their order, until every claim is shown to be missed, 10⁶ times the last age of the
 ///       study, or the oldest age at which the values stay in their ranges
 ///     for each claim, where it is no longer met by its rate, by its lower, and by its upper bound:
 ///       between the last age before and the first age after it, by geometric means to 10 %
 ///
-/// @param runs on machines that the search did not use
+/// @param study with ages, of which the values are those of its manifest @param units of one age, under all
+/// conditions together
 /// @throws trial::Interrupted, trials::Spent
-LostAges lost_ages(const AgeRuns& runs, const std::vector<study::FreeParameter>& free, const Values& values);
+LostAges lost_ages(const study::Study& study, const trials::Replicates& units, trials::Effort effort);
 
 /// Ages that lost_ages() simulates, about.
 std::int64_t points_of_lost_ages(const study::Study& study);

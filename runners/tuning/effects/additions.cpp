@@ -145,14 +145,13 @@ class ModeSearch {
   /// Whether no goal is missed under any condition by more of the first units than is allowed; units that
   /// have not run are taken to meet all.
   bool is_borne(const ChangedPoint& point, std::int64_t units) const {
-    Candidate best = point.run;
-    for (std::int64_t unit = std::ssize(best.units); unit < units; ++unit) {
-      UnitResult all_met = runs_.base().run.units[static_cast<std::size_t>(unit)];
-      for (ClaimResult& claim : all_met.claims) claim.met = claim.moves;
-      best.units.push_back(std::move(all_met));
+    std::vector<UnitResult> best = point.units;
+    for (std::size_t unit = best.size(); unit < static_cast<std::size_t>(units); ++unit) {
+      best.push_back(runs_.base().units[unit]);
+      for (ClaimResult& claim : best.back().claims) claim.met = claim.moves;
     }
     const Estimate with = estimate_of(runs_.aim(), best, units);
-    const Estimate without = estimate_of(runs_.aim(), runs_.base().run, units);
+    const Estimate without = estimate_of(runs_.aim(), runs_.base().units, units);
     constexpr double rounding = 1e-9;
     const double allowed =
         allowed_loss + rounding + (units < units_ ? 1.0 / static_cast<double>(with.units) : 0.0);
@@ -168,7 +167,7 @@ class ModeSearch {
     if (units_ < runs_.units())
       limit.note += fmt::format("; first {} of {} {}: {:.4g} % without it", units_, runs_.units(),
                                 runs_.study().rigs > 0 ? "machines" : "draws",
-                                100.0 * estimate_of(runs_.aim(), runs_.base().run, units_).rate);
+                                100.0 * estimate_of(runs_.aim(), runs_.base().units, units_).rate);
     return limit;
   }
 
@@ -187,8 +186,8 @@ bool can_have_load(const EffectRuns& runs) {
 /// Whether a goal is met so often that an effect could cost more than is allowed. Where it is not, every
 /// effect would seem to cost nothing.
 bool can_lose(const EffectRuns& runs) {
-  const Estimate as_it_is = estimate_of(runs.aim(), runs.base().run, runs.units());
-  return std::ranges::any_of(as_it_is.rates, [](double rate) { return rate > allowed_loss; });
+  return std::ranges::any_of(runs.estimate(runs.base()).rates,
+                             [](double rate) { return rate > allowed_loss; });
 }
 
 std::vector<Limit> nothing_to_lose(const EffectRuns& runs, std::span<const ChangedPoint> points) {

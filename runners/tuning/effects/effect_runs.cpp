@@ -82,7 +82,7 @@ void EffectRuns::run_all(std::span<ChangedPoint> points, std::int64_t count) con
   std::vector<UnitsToRun> entries;
   for (std::size_t p = 0; p < points.size(); ++p) {
     const ChangedPoint& point = points[p];
-    const std::int64_t from = std::ssize(point.run.units);
+    const std::int64_t from = std::ssize(point.units);
     if (!point.refusal.empty() || from >= count) continue;
     for (std::size_t c = 0; c < conditions; ++c)
       entries.push_back({&point.studies[c], from, count, &results[p * conditions + c], &point.changes[c]});
@@ -90,7 +90,7 @@ void EffectRuns::run_all(std::span<ChangedPoint> points, std::int64_t count) con
   if (entries.empty()) return;
   run_units(entries, units_, effort_);
   for (std::size_t p = 0; p < points.size(); ++p) {
-    std::vector<UnitResult>& units = points[p].run.units;
+    std::vector<UnitResult>& units = points[p].units;
     const std::size_t from = units.size();
     for (std::size_t c = 0; c < conditions; ++c) {
       std::vector<UnitResult>& of_condition = results[p * conditions + c];

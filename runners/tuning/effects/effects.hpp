@@ -34,7 +34,7 @@ struct ChangedPoint {
   std::string refusal{};                   ///< why it cannot be simulated; empty if it can
   std::vector<study::Study> studies{};     ///< [condition]
   std::vector<Change> changes{};           ///< [condition], after the trials of these studies are drawn
-  Candidate run{};                         ///< its units so far, with all goals under all conditions
+  std::vector<UnitResult> units{};         ///< so far, with all goals under all conditions
 };
 
 /// Runs a point with effects switched off or added on the random numbers of the study, each condition as a
@@ -55,6 +55,8 @@ class EffectRuns {
   const trials::Effort& effort() const { return effort_; }
   /// The point as it is, with the results of all units.
   const ChangedPoint& base() const { return base_; }
+  /// By the units that have run.
+  Estimate estimate(const ChangedPoint& point) const { return estimate_of(aim_, point.units, units_.count); }
 
   /// The point with each of these effects changed alone, under all conditions that have an effect of the
   /// name. Nothing has run. Where the manifest could not describe one, its refusal says why.
@@ -115,7 +117,7 @@ struct Limit {
   /// condition, and units.
   std::optional<double> avoided{};
   /// Of several goals and conditions: the worst ones, which the rate is of, and each with its rate.
-  std::optional<std::string> goal{}, condition{};
+  ClaimNames worst{};
   std::optional<std::vector<std::pair<std::string, double>>> rates{};
   /// Of a cause that is switched off: units that gain by it, of the goal that is the worst with nothing
   /// switched off. It is shown only where the rate rises too.

@@ -45,14 +45,10 @@ namespace {
 
 void name_claims(const EffectRuns& runs, Limit& limit) {
   const study::Study& study = runs.study();
-  const ClaimPlace worst = place_of_claim(study, limit.estimate.worst);
-  limit.goal = goal_name(study, worst);
-  limit.condition = condition_name(study, worst);
+  limit.worst = names_of(study, place_of_claim(study, limit.estimate.worst));
   limit.rates.emplace();
   for (std::size_t claim = 0; claim < limit.estimate.rates.size(); ++claim) {
-    const ClaimPlace place = place_of_claim(study, claim);
-    const std::optional<std::string> goal = goal_name(study, place);
-    const std::optional<std::string> condition = condition_name(study, place);
+    const auto [goal, condition] = names_of(study, place_of_claim(study, claim));
     limit.rates->emplace_back(
         fmt::format("{}{}{}", goal.value_or(""), goal && condition ? ", " : "", condition.value_or("")),
         limit.estimate.rates[claim]);
@@ -63,7 +59,7 @@ void name_claims(const EffectRuns& runs, Limit& limit) {
 /// cannot be simulated.
 double margin_on(const EffectRuns& runs, const ChangedPoint& point, std::int64_t count) {
   if (!point.refusal.empty()) return -std::numeric_limits<double>::infinity();
-  return estimate_of(runs.aim(), point.run, count).margin;
+  return estimate_of(runs.aim(), point.units, count).margin;
 }
 
 std::vector<ChangedPoint> pairs_of(const EffectRuns& runs, std::span<const ChangedPoint> alone) {
@@ -112,8 +108,8 @@ const ChangedPoint* best_pair(const EffectRuns& runs, std::span<const ChangedPoi
 /// Units that gain from one point to another, in the claim that is the worst as it is.
 PairedGain gain_between(const EffectRuns& runs, const ChangedPoint& before, const ChangedPoint& after,
                         std::int64_t alternatives) {
-  const std::size_t worst = estimate_of(runs.aim(), runs.base().run, runs.units()).worst;
-  return paired_gain(runs.aim().claims[worst], worst, before.run.units, after.run.units, alternatives);
+  const std::size_t worst = runs.estimate(runs.base()).worst;
+  return paired_gain(runs.aim().claims[worst], worst, before.units, after.units, alternatives);
 }
 
 /// The row of a cause, or of a pair of causes, that is switched off.
@@ -173,10 +169,10 @@ bool misses_nothing(const Limit& limit) {
 
 Limit limit_of(const EffectRuns& runs, const ChangedPoint& point) {
   if (!point.refusal.empty()) return {point.name, std::nullopt, point.refusal};
-  Limit limit{point.name, std::nullopt, point.note, estimate_of(runs.aim(), point.run, runs.units())};
+  Limit limit{point.name, std::nullopt, point.note, runs.estimate(point)};
   limit.rate = limit.estimate.rate;
   limit.asked = wanted_rate(runs.aim().claims[limit.estimate.worst]);
-  const Estimate base = estimate_of(runs.aim(), runs.base().run, runs.units());
+  const Estimate base = runs.estimate(runs.base());
   if (&point != &runs.base() && base.rate < 1.0 && limit.estimate.worst == base.worst &&
       limit.estimate.units == base.units)
     limit.avoided = (limit.estimate.rate - base.rate) / (1.0 - base.rate);
@@ -187,8 +183,7 @@ Limit limit_of(const EffectRuns& runs, const ChangedPoint& point) {
 
 Estimate estimate_on(const study::Study& study, const trials::Replicates& units, std::int64_t count,
                      const Change* change, const trials::Effort& effort) {
-  const Candidate candidate{{}, {}, results_of(study, units, count, change, effort)};
-  return estimate_of(aim_of(study), candidate, units.count);
+  return estimate_of(aim_of(study), results_of(study, units, count, change, effort), count);
 }
 
 std::vector<Limit> limits_of(const EffectRuns& runs, const TellStage& tell) {

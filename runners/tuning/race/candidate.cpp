@@ -45,13 +45,11 @@ struct ClaimEstimate {
   bool has_moves{false};
 };
 
-ClaimEstimate estimate_of_claim(const Aim& aim, std::size_t claim, const Candidate& candidate,
-                                std::int64_t units) {
+ClaimEstimate estimate_of_claim(const Aim& aim, std::size_t claim, std::span<const UnitResult> units) {
   const Claim& wanted = aim.claims[claim];
   std::vector<WorldCounts> counts(worlds_of(aim));
-  for (std::int64_t i = 0; i < units; ++i) {
-    const auto unit = static_cast<std::size_t>(i);
-    const ClaimResult& result = candidate.units[unit].claims[claim];
+  for (std::size_t unit = 0; unit < units.size(); ++unit) {
+    const ClaimResult& result = units[unit].claims[claim];
     WorldCounts& world = counts[unit % counts.size()];
     world.moves += result.moves;
     world.met += result.met;
@@ -96,10 +94,10 @@ struct Latest {
   double value{0.0};
 };
 
-Latest latest_of(const Aim& aim, const Candidate& candidate, std::int64_t units) {
-  Latest latest{0, late_value(candidate, 0, units, aim.quantile)};
+Latest latest_of(const Aim& aim, std::span<const UnitResult> units) {
+  Latest latest{0, late_value(units, 0, aim.quantile)};
   for (std::size_t claim = 1; claim < aim.claims.size(); ++claim) {
-    const double value = late_value(candidate, claim, units, aim.quantile);
+    const double value = late_value(units, claim, aim.quantile);
     if (value > latest.value) latest = {claim, value};
   }
   return latest;
@@ -124,17 +122,18 @@ bool is_telling(const Aim& aim, const Estimate& estimate) {
 
 }  // namespace
 
-Estimate estimate_of(const Aim& aim, const Candidate& candidate, std::int64_t units) {
-  units = std::min<std::int64_t>(units, std::ssize(candidate.units));
+Estimate estimate_of(const Aim& aim, std::span<const UnitResult> units, std::int64_t count) {
+  count = std::min<std::int64_t>(count, std::ssize(units));
+  units = units.first(static_cast<std::size_t>(count));
   const auto worlds = static_cast<std::int64_t>(worlds_of(aim));
   Estimate estimate;
   std::vector<ClaimEstimate> claims;
   bool has_moves = false;
   for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
-    claims.push_back(estimate_of_claim(aim, claim, candidate, units));
+    claims.push_back(estimate_of_claim(aim, claim, units));
     has_moves = has_moves || claims.back().has_moves;
   }
-  estimate.units = worlds == 1 ? units : std::max<std::int64_t>(units / worlds, has_moves ? 1 : 0);
+  estimate.units = worlds == 1 ? count : std::max<std::int64_t>(count / worlds, has_moves ? 1 : 0);
   std::vector<char> goal_is_missing((aim.claims.size() + aim.conditions - 1) / aim.conditions, 0);
   for (std::size_t claim = 0; claim < claims.size(); ++claim) {
     const ClaimEstimate& one = claims[claim];
@@ -151,7 +150,7 @@ Estimate estimate_of(const Aim& aim, const Candidate& candidate, std::int64_t un
       goal_is_missing[claim / aim.conditions] = 1;
   }
   estimate.missing = std::ranges::count(goal_is_missing, 1);
-  if (has_moves) estimate.criterion = latest_of(aim, candidate, units).value;
+  if (has_moves) estimate.criterion = latest_of(aim, units).value;
   return estimate;
 }
 
@@ -159,7 +158,7 @@ std::vector<Estimate> estimates_of(const Aim& aim, std::span<const Candidate> ca
                                    std::int64_t units) {
   std::vector<Estimate> estimates(candidates.size());
   parallel::for_each_index(
-      candidates.size(), [&](std::size_t i) { estimates[i] = estimate_of(aim, candidates[i], units); },
+      candidates.size(), [&](std::size_t i) { estimates[i] = estimate_of(aim, candidates[i].units, units); },
       "estimate");
   return estimates;
 }
@@ -194,12 +193,10 @@ double goal_loss(const Claim& claim, const ClaimResult& result) {
   return result.moves == 0 ? 0.0 : 1.0 - met_proportion(result);
 }
 
-double late_value(const Candidate& candidate, std::size_t claim, std::int64_t units, double quantile) {
+double late_value(std::span<const UnitResult> units, std::size_t claim, double quantile) {
   std::vector<double> values;
-  for (std::int64_t i = 0; i < units; ++i) {
-    const ClaimResult& result = candidate.units[static_cast<std::size_t>(i)].claims[claim];
-    values.insert(values.end(), result.values.begin(), result.values.end());
-  }
+  for (const UnitResult& unit : units)
+    values.insert(values.end(), unit.claims[claim].values.begin(), unit.claims[claim].values.end());
   return values.empty() ? std::numeric_limits<double>::infinity()
                         : statistics::sample_quantile(std::move(values), quantile);
 }
@@ -271,7 +268,7 @@ bool surely_misses(const Aim& aim, const Candidate& candidate, const Candidate& 
 
 bool is_significantly_later(const Aim& aim, const Candidate& candidate, const Candidate& best, double alpha) {
   const std::size_t units = common_units(candidate, best);
-  const Latest latest = latest_of(aim, best, static_cast<std::int64_t>(units));
+  const Latest latest = latest_of(aim, std::span(best.units).first(units));
   const double wanted_evidence = static_cast<double>(aim.claims.size()) / alpha;
   for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
     std::vector<double> differences;

@@ -72,8 +72,8 @@ struct Estimate {
   std::int64_t missing{0};      ///< goals that the candidate does not seem to meet, under some condition
 };
 
-/// @param units how many; all if there are fewer
-Estimate estimate_of(const Aim& aim, const Candidate& candidate, std::int64_t units);
+/// @param count of these units; all if there are fewer
+Estimate estimate_of(const Aim& aim, std::span<const UnitResult> units, std::int64_t count);
 
 /// Those of several candidates, [candidate].
 std::vector<Estimate> estimates_of(const Aim& aim, std::span<const Candidate> candidates, std::int64_t units);
@@ -102,8 +102,8 @@ bool is_better(const Aim& aim, const Estimate& a, const Estimate& b);
 /// Loss of a unit, 0 to 1: the proportion of its moves that miss the goal, or 1 for a machine that does.
 double goal_loss(const Claim& claim, const ClaimResult& result);
 
-/// Quantile of a claim's values on the first units; infinite without values.
-double late_value(const Candidate& candidate, std::size_t claim, std::int64_t units, double quantile);
+/// Quantile of a claim's values on these units; infinite without values.
+double late_value(std::span<const UnitResult> units, std::size_t claim, double quantile);
 
 /// Proportion of the values above `limit`.
 double late_part(const ClaimResult& result, double limit);
@@ -151,16 +151,5 @@ struct Landscape {
 };
 
 Landscape landscape_of(const Aim& aim, std::span<const TriedPoint> tried);
-
-/// What a search shows whose best values miss the goal in their proof.
-struct MissedSearch {
-  bool approaching{false};  ///< SearchResult::approaching
-  bool all_tried{true};     ///< ProvenFinalist::all_tried
-  Landscape landscape{};
-
-  /// Whether the goal is out of reach in the ranges, as far as simulation can tell: the search followed rates
-  /// that rise, it came no nearer at the end, and nothing that it found may meet the goal.
-  bool shows_unreachable() const { return landscape.leads() && !approaching && all_tried; }
-};
 
 }  // namespace zerocount::tuning

@@ -27,6 +27,15 @@ inline constexpr int max_attempts = 3;
 /// The number of points for which judge_goals() corrects at this attempt: the reciprocal of its part of α.
 std::size_t correction_of(int attempt);
 
+/// What a goal is about, machines or moves: the proportion that meets it, and the one that it asks for.
+inline const goal::BoundedProportion& judged_rate(const study::Goal& goal,
+                                                  const goal::WorldVerdict& verdict) {
+  return goal.machines ? verdict.machines : verdict.moves;
+}
+inline double asked_rate(const study::Goal& goal) {
+  return goal.machines.value_or(goal.moves);
+}
+
 /// The moves that meet each goal, [goal].
 using GoalCounts = std::vector<measures::CellCounts>;
 
@@ -34,10 +43,10 @@ struct ProofProblem {
   std::vector<study::Goal> goals;  ///< all of which must be met
   std::vector<bool> may_meet;      ///< [finalist] whether it may meet them, by the search; the best first
   std::vector<double> margins;     ///< [finalist] Estimate::margin: the larger, the surer it meets them
-  /// trials::Replicates that are expected to decide the goals with this correction, by the results of the
+  /// Units that are expected to decide the goals with this correction, by the results of the
   /// search.
   std::function<std::int64_t(std::size_t finalist, std::size_t correction)> first_units;
-  /// trials::Replicates that are expected to decide them, by the results of an attempt.
+  /// Units that are expected to decide them, by the results of an attempt.
   std::function<std::int64_t(const GoalCounts&, std::size_t correction)> more_units;
   /// Nothing if the effort ended before the attempt.
   std::function<std::optional<GoalCounts>(const Attempt&)> run;

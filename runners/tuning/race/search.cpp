@@ -289,7 +289,7 @@ class Search {
         verify_leaders(candidates);
         if (candidates.empty()) return;
         candidates = dropped(problem_.aim, problem_.size, std::move(candidates), units);
-        const bool tells_them_apart = estimate_of(problem_.aim, candidates.front(), units).rate > 0.0;
+        const bool tells_them_apart = estimate_of(problem_.aim, candidates.front().units, units).rate > 0.0;
         if (!tells_them_apart || (units == most_units_ && !takes_more_units(candidates.front()))) return;
         units = std::min(2 * units, most_units_);
       }
@@ -321,7 +321,7 @@ class Search {
   /// few with many; what meets it needs more units to tell.
   bool takes_more_units(const Candidate& best) {
     const std::int64_t max_units = problem_.size.max_units;
-    if (most_units_ == max_units || !seems_to_meet(estimate_of(problem_.aim, best, most_units_)))
+    if (most_units_ == max_units || !seems_to_meet(estimate_of(problem_.aim, best.units, most_units_)))
       return false;
     most_units_ = std::min(2 * most_units_, max_units);
     if (most_units_ == max_units) effort_ = settings_.effort;
@@ -388,7 +388,7 @@ class Search {
     }
   }
 
-  Estimate best_estimate() const { return estimate_of(problem_.aim, population_.front(), most_units_); }
+  Estimate best_estimate() const { return estimate_of(problem_.aim, population_.front().units, most_units_); }
 
   bool improves(const Estimate& before, const Estimate& now) const {
     if (before.missing != now.missing) return now.missing < before.missing;
@@ -411,8 +411,8 @@ class Search {
     if (before.empty()) return false;
     const std::int64_t units =
         std::min(std::ssize(before.front().units), std::ssize(population_.front().units));
-    const double now = estimate_of(problem_.aim, population_.front(), units).margin;
-    return now - estimate_of(problem_.aim, before.front(), units).margin > min_approach * std::abs(now);
+    const double now = estimate_of(problem_.aim, population_.front().units, units).margin;
+    return now - estimate_of(problem_.aim, before.front().units, units).margin > min_approach * std::abs(now);
   }
 
   void tell() const {
@@ -445,7 +445,7 @@ class Search {
       if (problem_.verified(one)) result_.finalists.push_back(std::move(one));
     }
     for (const Candidate& one : result_.finalists)
-      result_.estimates.push_back(estimate_of(problem_.aim, one, most_units_));
+      result_.estimates.push_back(estimate_of(problem_.aim, one.units, most_units_));
     result_.tried.reserve(estimates_.size());
     for (const auto& [values, estimate] : estimates_) result_.tried.push_back({values, estimate});
     return std::move(result_);

@@ -31,7 +31,7 @@ struct SearchSize {
 /// Candidates at most that stay in a race after `units` units.
 std::int64_t max_after(const SearchSize& size, std::int64_t units);
 
-/// trials::Replicates that a race of the first generation runs at most, over all candidates.
+/// Units that a race of the first generation runs at most, over all candidates.
 std::int64_t first_race_units(const SearchSize& size, std::size_t faces);
 
 /// What the size of a search depends on, beside the effort.

@@ -146,6 +146,14 @@ GoalCounts counts_of(const study::Study& study, const trials::Replicates& units,
   return goals;
 }
 
+Judged judged(const study::Study& study, const trials::Replicates& units, std::span<const UnitResult> results,
+              std::size_t correction) {
+  Judged judged{counts_of(study, units, results), {}};
+  judged.verdict = goal::judge_goals(study.goals, judged.counts, correction);
+  judged.criterion = estimate_of(aim_of(study), results, units.count).criterion;
+  return judged;
+}
+
 GoalCounts with_trials_each(GoalCounts counts, std::int64_t each) {
   if (counts.front().shape().rigs == 0) return counts;
   for (measures::CellCounts& goal : counts) goal = at_trials_each(goal, each);

@@ -15,6 +15,18 @@ namespace zerocount::tuning {
 GoalCounts counts_of(const study::Study& study, const trials::Replicates& units,
                      std::span<const UnitResult> results);
 
+/// A point on some units: what they count, the verdict on the goals, and the criterion.
+struct Judged {
+  GoalCounts counts;
+  goal::Verdict verdict;
+  double criterion{0.0};  ///< infinite for never
+};
+
+/// All that judges a point on fresh units asks this. @param results of all units of the study
+/// @param correction points from which the bounds allow for a choice
+Judged judged(const study::Study& study, const trials::Replicates& units, std::span<const UnitResult> results,
+              std::size_t correction);
+
 /// The counts as they would be with `each` trials of every machine, at the same rates.
 GoalCounts with_trials_each(GoalCounts counts, std::int64_t each);
 

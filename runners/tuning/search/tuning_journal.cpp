@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "core/failure/failure.hpp"
@@ -20,22 +17,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Appends a unit as [slid, claim, …], a claim as [moves, met, value, …]; null is infinite.
-void append_unit(const UnitResult& unit, std::string& text) {
-  const auto out = std::back_inserter(text);
-  fmt::format_to(out, "[{}", unit.slid);
+/// A unit as [slid, claim, …], a claim as [moves, met, value, …], of which a value that is infinite is null.
+Json json_of(const UnitResult& unit) {
+  Json json = Json::array({unit.slid});
   for (const ClaimResult& claim : unit.claims) {
-    fmt::format_to(out, ",[{},{}", claim.moves, claim.met);
-    for (const double value : claim.values) {
-      if (std::isfinite(value)) {
-        fmt::format_to(out, ",{}", value);
-      } else {
-        text += ",null";
-      }
-    }
-    text += ']';
+    Json& one = json.emplace_back(Json::array({claim.moves, claim.met}));
+    for (const double value : claim.values) one.push_back(value);
   }
-  text += ']';
+  return json;
 }
 
 ClaimResult claim_of(const Json& json) {
@@ -153,13 +142,10 @@ void TuningJournal::remove() {
 
 std::string evaluation_line(const std::string& search, const Values& values, std::int64_t from,
                             std::span<const UnitResult> units, double seconds) {
-  std::string text = fmt::format(R"({{"search":"{}","values":[{}],"from":{},"units":[)", search,
-                                 fmt::join(values, ","), from);
-  for (const UnitResult& unit : units) {
-    if (text.back() != '[') text += ',';
-    append_unit(unit, text);
-  }
-  return text + fmt::format(R"(],"seconds":{}}})", seconds);
+  Json json{{"search", search}, {"values", values}, {"from", from}, {"units", Json::array()}};
+  for (const UnitResult& unit : units) json["units"].push_back(json_of(unit));
+  json["seconds"] = seconds;
+  return json.dump();
 }
 
 }  // namespace zerocount::tuning

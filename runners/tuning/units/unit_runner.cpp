@@ -259,18 +259,16 @@ std::size_t claim_at(const study::Study& study, const ClaimPlace& place) {
   return place.goal * static_cast<std::size_t>(study::condition_count(study)) + place.condition;
 }
 
-std::optional<std::string> goal_name(const study::Study& study, const ClaimPlace& place) {
-  if (study.goals.empty() || study.goals[place.goal].name.empty()) return std::nullopt;
-  return study.goals[place.goal].name;
-}
-
-std::optional<std::string> condition_name(const study::Study& study, const ClaimPlace& place) {
-  if (study.conditions.empty()) return std::nullopt;
-  return study.conditions[place.condition];
-}
-
 bool has_named_claims(const study::Study& study) {
   return study.goals.size() > 1 || !study.conditions.empty();
+}
+
+ClaimNames names_of(const study::Study& study, const ClaimPlace& place) {
+  ClaimNames names;
+  if (has_named_claims(study) && !study.goals.empty() && !study.goals[place.goal].name.empty())
+    names.goal = study.goals[place.goal].name;
+  if (!study.conditions.empty()) names.condition = study.conditions[place.condition];
+  return names;
 }
 
 std::string claim_text(const study::Study& study, const ClaimPlace& place) {

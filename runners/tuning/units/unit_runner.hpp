@@ -62,16 +62,20 @@ ClaimPlace place_of_claim(const study::Study& study, std::size_t claim);
 std::size_t claim_at(const study::Study& study, const ClaimPlace& place);
 /// " 'small' under condition loaded", as far as the study has several goals, and conditions.
 std::string claim_text(const study::Study& study, const ClaimPlace& place);
-/// The name of the goal where goals have names, and of the condition where there are any.
-std::optional<std::string> goal_name(const study::Study& study, const ClaimPlace& place);
-std::optional<std::string> condition_name(const study::Study& study, const ClaimPlace& place);
 /// Whether there is more than one goal, or any condition.
 bool has_named_claims(const study::Study& study);
+/// How data name a claim.
+struct ClaimNames {
+  std::optional<std::string>
+      goal{};  ///< nothing of a study that has no other claim, or of a goal without a name
+  std::optional<std::string> condition{};  ///< nothing without conditions
+};
+ClaimNames names_of(const study::Study& study, const ClaimPlace& place);
 
 /// Changes the parameters of a trial after they are drawn.
 using Change = std::function<void(trial::TrialParameters&)>;
 
-/// trials::Replicates [from, to) of a study.
+/// Units [from, to) of a study.
 struct UnitsToRun {
   const study::Study* study{nullptr};
   std::int64_t from{0};

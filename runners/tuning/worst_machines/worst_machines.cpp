@@ -158,12 +158,6 @@ constexpr std::size_t filling_points = 128;
 constexpr int generations = 8;
 constexpr std::size_t children = 32;
 
-/// Names the goal and the condition of the machine's claim.
-void name_claim(const study::Study& study, WorstMachine& machine) {
-  if (has_named_claims(study)) machine.goal = goal_name(study, machine.claim);
-  machine.condition = condition_name(study, machine.claim);
-}
-
 /// Values of what differs between the machines of the study, by their names.
 NamedValues inputs_of_machine(const study::Study& study, std::int64_t point, const WorstMachine& machine) {
   NamedValues named;
@@ -208,7 +202,7 @@ std::optional<std::string> worst_goal(const study::Study& study,
   if (study.goals.size() < 2) return std::nullopt;
   const UnitResult all = result_of(study, outcomes);
   const auto worst = std::ranges::min_element(all.claims, {}, met_proportion);
-  return goal_name(study, {static_cast<std::size_t>(worst - all.claims.begin()), 0});
+  return names_of(study, {static_cast<std::size_t>(worst - all.claims.begin()), 0}).goal;
 }
 
 /// Judges a machine by the trials of its manifest.
@@ -385,7 +379,7 @@ WorstMachine worst_machine(const study::Study& study, std::int64_t point,
                                              trial_under_condition * study::condition_count(study) +
                                                  static_cast<std::int64_t>(machine.claim.condition));
   machine.inputs = inputs_of_machine(study, point, machine);
-  name_claim(study, machine);
+  machine.names = names_of(study, machine.claim);
   return machine;
 }
 
@@ -416,11 +410,11 @@ WorstMachines worst_machines(const study::Study& study, const trials::Replicates
     likely_met = std::min(likely_met, found.likely.met);
     found.of_study.claim.condition = static_cast<std::size_t>(condition);
     found.of_study.trial = study::turns_of(study).trial_of(found.of_study.trial, condition);
+    found.of_study.names = names_of(study, found.of_study.claim);
     for (JudgedMachine* one : {&found.again, &found.in_box, &found.likely}) {
       one->condition = condition;
-      one->condition_name = condition_name(study, found.of_study.claim);
+      one->condition_name = found.of_study.names.condition;
     }
-    name_claim(study, found.of_study);
   }
   const auto worst_by = [&](const auto& met) { return *std::ranges::min_element(under, {}, met); };
   const auto is_same = [](const JudgedMachine& a, const JudgedMachine& b) {

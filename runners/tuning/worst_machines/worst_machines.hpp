@@ -103,7 +103,7 @@ struct WorstMachine {
   NamedValues inputs;
   /// The goal that it meets in the fewest of its moves, and the condition: of these trial and met are.
   ClaimPlace claim{};
-  std::optional<std::string> goal{}, condition{};  ///< their names; of one goal, and without conditions none
+  ClaimNames names{};
 };
 
 /// The machine with the fewest moves that meet a goal under a condition; of equal ones the one with the

@@ -25,7 +25,6 @@ goal: {band: 1, within: 0.06, moves: 0.8}
 tune: {free: {controller.ki: [1.0e-5, 1.0e-4]}}
 )";
 
-constexpr double tuned_gain = 3.0e-5;
 constexpr double rate_of_k1 = 0.4;
 
 study::Study life_study(const std::vector<std::string>& overrides = {}) {
@@ -34,9 +33,7 @@ study::Study life_study(const std::vector<std::string>& overrides = {}) {
 
 LostAges lost_of(const std::vector<std::string>& overrides = {}) {
   const study::Study study = life_study(overrides);
-  const tuning::AgeRuns runs(study, {study.rigs, std::max<std::int64_t>(study.condition_names.size(), 1)},
-                             "test", {});
-  return lost_ages(runs, study.tuning->free, {tuned_gain});
+  return tuning::lost_ages(study, {study.rigs, std::max<std::int64_t>(study.condition_names.size(), 1)}, {});
 }
 
 /// The largest k1 with which a move meets the goal.

@@ -29,8 +29,8 @@ void expect_same(const Limit& found, const Limit& wanted) {
   ASSERT_TRUE(found.rate.has_value()) << found.note;
   EXPECT_EQ(found.estimate.rates, wanted.estimate.rates) << found.effect;
   EXPECT_EQ(found.rate, wanted.rate) << found.effect;
-  EXPECT_EQ(found.goal, wanted.goal) << found.effect;
-  EXPECT_EQ(found.condition, wanted.condition) << found.effect;
+  EXPECT_EQ(found.worst.goal, wanted.worst.goal) << found.effect;
+  EXPECT_EQ(found.worst.condition, wanted.worst.condition) << found.effect;
   EXPECT_EQ(found.rates, wanted.rates) << found.effect;
 }
 

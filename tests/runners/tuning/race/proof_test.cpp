@@ -163,9 +163,9 @@ Aim aim_with(const Claim& claim, double quantile = 0.95) {
 
 TEST(Candidate, RateIsOfMovesOrOfMachines) {
   const Candidate candidate = candidate_of({{10, 10, {}}, {10, 9, {}}, {10, 5, {}}, {10, 10, {}}});
-  EXPECT_DOUBLE_EQ(estimate_of(aim_with({.moves = 0.9}), candidate, 4).rate, 34.0 / 40.0);
-  EXPECT_DOUBLE_EQ(estimate_of(aim_with({.moves = 0.9, .machines = 0.7}), candidate, 4).rate, 0.75);
-  EXPECT_DOUBLE_EQ(estimate_of(aim_with({.moves = 0.9}), candidate, 2).rate, 19.0 / 20.0);
+  EXPECT_DOUBLE_EQ(estimate_of(aim_with({.moves = 0.9}), candidate.units, 4).rate, 34.0 / 40.0);
+  EXPECT_DOUBLE_EQ(estimate_of(aim_with({.moves = 0.9, .machines = 0.7}), candidate.units, 4).rate, 0.75);
+  EXPECT_DOUBLE_EQ(estimate_of(aim_with({.moves = 0.9}), candidate.units, 2).rate, 19.0 / 20.0);
 }
 
 // The product over the moves in their order, whatever is computed once for those that are alike.
@@ -189,9 +189,9 @@ TEST(Candidate, CriterionCountsMovesThatNeverSettleAsLate) {
   std::vector<ClaimResult> units;
   for (int i = 1; i <= 100; ++i) units.push_back({1, 1, {i > 96 ? never : static_cast<double>(i)}});
   const Candidate candidate = candidate_of(units);
-  EXPECT_EQ(estimate_of(aim_with({}, 0.95), candidate, 100).criterion, 95.0);
-  EXPECT_EQ(estimate_of(aim_with({}, 0.5), candidate, 100).criterion, 50.0);
-  EXPECT_EQ(estimate_of(aim_with({}, 0.97), candidate, 100).criterion, never);
+  EXPECT_EQ(estimate_of(aim_with({}, 0.95), candidate.units, 100).criterion, 95.0);
+  EXPECT_EQ(estimate_of(aim_with({}, 0.5), candidate.units, 100).criterion, 50.0);
+  EXPECT_EQ(estimate_of(aim_with({}, 0.97), candidate.units, 100).criterion, never);
 }
 
 TEST(Candidate, OneThatMeetsTheGoalIsBetterThanAFasterOne) {
@@ -200,7 +200,7 @@ TEST(Candidate, OneThatMeetsTheGoalIsBetterThanAFasterOne) {
   const auto estimate = [&](int met, double time) {
     std::vector<ClaimResult> units;
     for (int i = 0; i < 1000; ++i) units.push_back({1, i < met ? 1 : 0, {time}});
-    return estimate_of(aim, candidate_of(units), 1000);
+    return estimate_of(aim, candidate_of(units).units, 1000);
   };
   const Estimate fast = estimate(850, 0.01);
   const Estimate good = estimate(950, 0.05);
@@ -229,7 +229,7 @@ const Aim two_goals{.claims = {{.moves = 0.9}, {.moves = 0.9}, {.moves = 0.6}, {
 
 TEST(Candidate, OfSeveralClaimsTheWorstDecides) {
   const Candidate lacking = candidate_with({{0.99, 0.1}, {0.95, 0.2}, {0.99, 0.3}, {0.62, 0.4}});
-  const Estimate estimate = estimate_of(two_goals, lacking, 400);
+  const Estimate estimate = estimate_of(two_goals, lacking.units, 400);
   EXPECT_EQ(estimate.worst, 3U) << "62 % of 60 % is nearer to the goal than 95 % of 90 %";
   EXPECT_DOUBLE_EQ(estimate.rate, 0.62);
   EXPECT_DOUBLE_EQ(estimate.criterion, 0.4) << "the largest of all claims";
@@ -240,7 +240,7 @@ TEST(Candidate, OfSeveralClaimsTheWorstDecides) {
 
 TEST(Candidate, OneThatMeetsMoreGoalsIsBetterThenTheOneWithTheBetterWorstClaim) {
   const auto estimate = [](const std::vector<MadeUpClaim>& claims) {
-    return estimate_of(two_goals, candidate_with(claims), 400);
+    return estimate_of(two_goals, candidate_with(claims).units, 400);
   };
   const Estimate none = estimate({{0.89, 0.1}, {0.89, 0.1}, {0.59, 0.1}, {0.59, 0.1}});
   const Estimate one = estimate({{0.99, 0.1}, {0.99, 0.1}, {0.3, 0.1}, {0.9, 0.1}});
@@ -339,21 +339,6 @@ TEST(SearchSize, FirstGenerationTakesHalfOfTheEffortAtMost) {
   }
 }
 
-TEST(SearchSize, GrowsWithTheEffort) {
-  const SearchScope scope{3, 3, 2048, 0};
-  SearchSize last = smallest_search(scope);
-  int sizes = 1;
-  for (std::int64_t units = 500; units < 500'000; units = units * 6 / 5) {
-    const SearchSize size = search_size(scope, units);
-    EXPECT_GE(size.first_candidates, last.first_candidates);
-    EXPECT_GE(size.max_units, last.max_units);
-    sizes += size.first_candidates > last.first_candidates ? 1 : 0;
-    last = size;
-  }
-  EXPECT_GT(sizes, 8) << "small efforts differ too";
-  EXPECT_EQ(last.max_units, 2048);
-}
-
 // The frontier between success and speed. Rates that led a search show that a goal is out of reach; a rate of
 // 0 nearly everywhere does not.
 
@@ -398,15 +383,6 @@ TEST(Landscape, FollowsTheMovesOfAGoalForMachines) {
   for (int i = 0; i < 100; ++i) tried.push_back(point(0.009 * i));
   for (TriedPoint& one : tried) one.estimate.rate = 0.0;
   EXPECT_TRUE(landscape_of(of_machines, tried).leads());
-}
-
-TEST(Landscape, DecidesAMissedGoalOnlyTogetherWithTheSearch) {
-  const Landscape leads{.points = 100, .telling = 50, .varies = true};
-  EXPECT_TRUE((MissedSearch{.landscape = leads}.shows_unreachable()));
-  EXPECT_FALSE((MissedSearch{.approaching = true, .landscape = leads}.shows_unreachable()));
-  EXPECT_FALSE((MissedSearch{.all_tried = false, .landscape = leads}.shows_unreachable()));
-  EXPECT_FALSE(
-      (MissedSearch{.landscape = {.points = 100, .telling = 0, .varies = true}}.shows_unreachable()));
 }
 
 TEST(Frontier, HasThePointsThatNoOtherBeatsInBoth) {

@@ -1,0 +1,129 @@
+// Each stage of a tuning by itself, from values to values.
+#include "runners/tuning/stages.hpp"
+
+#include "experiments/manifest/load_study.hpp"
+#include "runners/tuning/extras.hpp"
+#include "tests/runners/design_commands/tune_fixture.hpp"
+
+namespace zerocount::tuning {
+namespace {
+
+using testing::TemporaryFolder;
+
+study::Study axis_study(const std::vector<std::string>& overrides = {}) {
+  return manifest::parse_study(std::string(testing::axis) + "goal: {band: 1, within: 0.05, moves: 0.95}\n" +
+                                   std::string(testing::two_gains),
+                               "axis.yaml", overrides);
+}
+
+/// The space of the study, and a search in it.
+struct Searching {
+  explicit Searching(std::int64_t trials)
+      : space(space_of(study, {.trials = trials}, trials::Effort().share(trials, {}), {})),
+        plan(plan_search(study, space.budget, space.effort, space.speed)),
+        search(study, space.free(), plan.size, journal, space.effort) {}
+
+  study::Study study{axis_study()};
+  TuningJournal journal{{}, {}, false};
+  Space space;
+  SearchPlan plan;
+  StudySearch search;
+};
+
+TEST(TuningStages, TheSearchTakesItsPartAndRanksItsFinalists) {
+  Searching of(4000);
+  int generations = 0;
+  const Searched found =
+      search_values(of.space, of.search, of.plan, [&](const SearchProgress&) { ++generations; });
+  ASSERT_FALSE(found.result.finalists.empty());
+  EXPECT_EQ(found.result.generations, generations);
+  EXPECT_LE(found.result.trials, 2000);
+  EXPECT_EQ(of.space.effort.spent_trials(), found.result.trials);
+  EXPECT_EQ(of.space.measured_speed > 0.0, of.search.simulated() >= 1000);
+  EXPECT_GE(found.examined, std::ssize(found.result.tried));
+  const Aim aim = aim_of(of.study);
+  for (std::size_t i = 1; i < found.result.estimates.size(); ++i)
+    EXPECT_FALSE(is_better(aim, found.result.estimates[i], found.result.estimates[i - 1])) << i;
+}
+
+// The verdict is that of the file by itself, with the error probability of a first attempt.
+TEST(TuningStages, TheProofIsTheVerdictOfItsFile) {
+  Searching of(20000);
+  const Values values{3.85e-5, 0.0};
+  SearchResult found;
+  found.finalists.push_back(
+      {{}, values, results_of(of.search.candidate(values), of.search.units(), 200, nullptr, {})});
+  found.estimates.push_back(estimate_of(aim_of(of.study), found.finalists[0].units, 200));
+  const TemporaryFolder folder;
+  status::StatusLine line(true);
+  const std::optional<Proven> proven =
+      prove_values(of.space, of.search, found, {folder.path() / "proof.h5", 1}, line);
+  ASSERT_TRUE(proven);
+  const reading::AllTrialsFile file(folder.path() / "proof.h5");
+  const trials::Replicates units = trials::replicates_of(file.study(), 0);
+  const Judged alone = judged(file.study(), units, results_in(file, file.study(), units),
+                              correction_of(proven->proof.attempts));
+  EXPECT_EQ(proven->proof.verdict.status, alone.verdict.status);
+  EXPECT_EQ(proven->proof.verdict.moves.low, alone.verdict.moves.low);
+  EXPECT_EQ(proven->proof.criterion, alone.criterion);
+  EXPECT_EQ(values_in_manifest(file.study(), of.space.free()), values);
+  EXPECT_NE(file.study().seed, of.study.seed);
+}
+
+TEST(TuningStages, AMissedGoalIsUnreachableOnlyTogetherWithTheSearch) {
+  const auto status_of = [](const Landscape& landscape, bool approaching, bool all_tried) {
+    Proof proof{axis_study(), {}};
+    proof.verdict.status = goal::Status::missed;
+    proof.all_tried = all_tried;
+    Searched searched{.landscape = landscape};
+    searched.result.approaching = approaching;
+    return tuning::status_of(proof, searched);
+  };
+  const Landscape leads{.points = 100, .telling = 50, .varies = true};
+  const Landscape flat{.points = 100, .telling = 0, .varies = true};
+  EXPECT_EQ(status_of(leads, false, true), goal::Status::missed);
+  EXPECT_EQ(status_of(leads, true, true), goal::Status::undecided);
+  EXPECT_EQ(status_of(leads, false, false), goal::Status::undecided);
+  EXPECT_EQ(status_of(flat, false, true), goal::Status::undecided);
+}
+
+/// An extra that takes so many trials; beyond 4000 it may take fewer.
+template <std::int64_t trials, bool applies = true>
+Extra made_up(std::string_view name) {
+  return {.name = name,
+          .cost =
+              [](const TunedAxis&) {
+                return ExtraCost{
+                    .applies = applies, .trials = trials, .usual_part = trials > 4000 ? 0.1 : 1.0};
+              },
+          .run =
+              [](TunedAxis& axis) {
+                axis.effort.spend(trials);
+                return std::any(trials);
+              }};
+}
+
+// One that takes too much leaves room for later ones; one that runs out of trials is left out too.
+TEST(TuningStages, ExtrasAreMadeInTheirOrderOrNamed) {
+  Searching of(3000);
+  const Values values{3.85e-5, 0.0};
+  const Proof proof{of.study, {}};
+  Extras made;
+  SearchResult searched;
+  TunedAxis axis{of.space, of.search, of.journal, values, proof, true, made, searched};
+  const std::vector<Extra> all{made_up<3001>("dear"), made_up<1000>("first"), made_up<1, false>("other"),
+                               made_up<5000>("runs out"), made_up<2000>("last")};
+  std::vector<const Extra*> wanted;
+  for (const Extra& one : all) wanted.push_back(&one);
+  status::StatusLine line(true);
+  std::string ready;
+  make_extras(wanted, axis, true, line, [&](const Extra& one) { ready += fmt::format("{}, ", one.name); });
+  EXPECT_EQ(ready, "dear, first, runs out, last, ");
+  EXPECT_EQ(made.left_out, (std::vector<LeftOut>{{"dear", "dear"}, {"runs out", "runs out"}}));
+  ASSERT_EQ(made.found.size(), 2U);
+  EXPECT_EQ(std::any_cast<std::int64_t>(made.found[1]), 2000);
+  EXPECT_EQ(of.space.effort.spent_trials(), 3000);
+}
+
+}  // namespace
+}  // namespace zerocount::tuning

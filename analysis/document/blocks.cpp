@@ -371,6 +371,12 @@ std::string shown_value(const Item& item, const Content& content) {
   return std::visit(ValueText{item}, content.value);
 }
 
+std::optional<std::string> range_text(const Range& range, const std::string& unit) {
+  if (range.empty()) return {};
+  const std::string high = range.low == range.high ? "" : fmt::format(" … {:.3g}", range.high);
+  return fmt::format("{:.3g}{}{}{}", range.low, high, unit.empty() ? "" : " ", unit);
+}
+
 std::vector<Block> blocks(const Answer& answer) {
   BlockList list;
   list.add(answer.type.items, answer.contents);

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -23,6 +26,21 @@ struct Bounded {
 Bounded bounded(double value, const auto& bounds) {
   return {value, bounds.low, bounds.high};
 }
+
+/// Range of a quantity over trials, in the unit of the item. NaN does not change it.
+struct Range {
+  double low{std::numeric_limits<double>::infinity()};
+  double high{-std::numeric_limits<double>::infinity()};
+
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  bool empty() const { return low > high; }
+};
+
+/// "0.5 … 2 Hz"; one number where the ends are equal, nothing of an empty range.
+std::optional<std::string> range_text(const Range& range, const std::string& unit = {});
 
 struct Content;
 

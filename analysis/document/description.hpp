@@ -20,8 +20,8 @@
 namespace zerocount::document {
 
 /// The items of values of the type `T`: their kind follows from the type. A whole number, a floating-point
-/// number, Bounded, bool, text, and a number or text are values; a vector is a list, a map or a vector of
-/// pairs is a map; an optional value is null where there is none.
+/// number, an estimate with bounds, a Range, bool, text, and a number or text are values; a vector is a list,
+/// a map or a vector of pairs is a map; an optional value is null where there is none.
 template <class T>
 struct ValueType;
 
@@ -46,13 +46,33 @@ struct ValueType<T> {
   static Content content(T value) { return {static_cast<double>(value)}; }
 };
 
-template <>
-struct ValueType<Bounded> {
+/// An estimate with its bounds.
+template <class T>
+requires requires(const T& of) {
+  Bounded{of.value, of.low, of.high};
+}
+struct ValueType<T> {
   static void describe(Item& item) {
     item.kind = Kind::number;
     item.bounded = true;
   }
-  static Content content(const Bounded& value) { return {value}; }
+  static Content content(const T& of) { return {Bounded{of.value, of.low, of.high}}; }
+};
+
+/// In data an object; people see a text with the unit.
+template <>
+struct ValueType<Range> {
+  static void describe(Item& item) {
+    item.kind = Kind::object;
+    item.nullable = true;
+    if (item.heading.empty()) item.shown = Shown::in_data;
+    item.members = {in_data("low", "smallest over the trials", item.unit),
+                    in_data("high", "largest over the trials", item.unit)};
+    for (Item& end : item.members) end.kind = Kind::number;
+  }
+  static Content content(const Range& range) {
+    return range.empty() ? Content{} : Content{Members{{Content{range.low}, Content{range.high}}}};
+  }
 };
 
 template <class T>
@@ -142,11 +162,14 @@ class Description {
   /// A value. Its kind is that of what `get` returns (ValueType).
   template <class Get>
   Description& value(Item item, Get get) {
-    using Value = ValueType<std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>>;
-    Value::describe(item);
-    return add(std::move(item), [get = std::move(get)](const Row& row, Audience) {
-      return Value::content(std::invoke(get, row));
-    });
+    using Type = std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>;
+    ValueType<Type>::describe(item);
+    const std::string unit = item.unit;
+    add(std::move(item),
+        [get](const Row& row, Audience) { return ValueType<Type>::content(std::invoke(get, row)); });
+    if constexpr (std::is_same_v<Type, Range>)
+      shown_as([get, unit](const Row& row) { return range_text(std::invoke(get, row), unit); });
+    return *this;
   }
 
   /// How people see the item that was added last: as the value that `get` returns. A text stands without the
@@ -161,8 +184,8 @@ class Description {
                                                                                   Audience audience) {
       if (audience == Audience::people) return Value::content(std::invoke(get, row));
       if (audience != Audience::all) return data(row, audience);
-      return Content{
-          std::make_shared<const Twofold>(data(row, audience), Value::content(std::invoke(get, row)))};
+      return Content{std::make_shared<const Twofold>(data_in(data(row, audience)),
+                                                     Value::content(std::invoke(get, row)))};
     };
     return *this;
   }

@@ -21,7 +21,7 @@
 namespace zerocount::theory {
 namespace {
 
-constexpr std::int64_t max_draws_examined = 3;   // by the tests of whole trials
+constexpr std::int64_t max_whole_trials = 3;     // examined by the tests of whole trials
 constexpr std::int64_t max_draws_of_moves = 50;  // by those of moves
 
 /// Upper tail probability of both sides of the normal distribution.
@@ -169,98 +169,93 @@ constexpr std::array<GoalTest, 9> goal_tests{{{zero_counts_are_wider},
                                               {nullptr, torque_is_too_small_at_the_target, false},
                                               {nullptr, encoder_misplaces_the_target, true, true}}};
 
-/// What a test says of the trials of a point under a condition.
-class DoubtOfTrials {
- public:
-  DoubtOfTrials(const GoalTest& test, const study::Study& study, const study::Goal& goal)
-      : test_(test), study_(study), goal_(goal) {}
-
-  void add(const trial::TrialParameters& trial, std::int64_t draw) {
-    const GoalOfTrial of{study_, goal_, trial};
-    if (test_.of_trial != nullptr) {
-      const bool may_fail = !smallest_ || smallest_->ratio > 1.0;
-      if (draw < max_draws_examined && may_fail) add_trial(test_.of_trial(of));
-      return;
-    }
-    const std::vector<MoveOfTrial> moves = moves_of(of);
-    moves_of_trial_ = std::max(moves_of_trial_, static_cast<double>(moves.size()));
-    for (const MoveOfTrial& move : moves) add_move(test_.of_move(move));
+/// Out of reach of whole trials: in each of those examined.
+std::optional<Doubt> doubt_of_trials(const GoalTest& test, const study::Study& study, const study::Goal& goal,
+                                     std::span<const trial::TrialParameters> trials) {
+  std::optional<Doubt> smallest;
+  for (const trial::TrialParameters& trial :
+       trials.first(std::min<std::size_t>(trials.size(), max_whole_trials))) {
+    Doubt doubt = test.of_trial({study, goal, trial});
+    if (!(doubt.ratio > 1.0)) return {};
+    if (!smallest || doubt.ratio < smallest->ratio) smallest = std::move(doubt);
   }
+  return smallest;
+}
 
-  /// The goal is out of reach if a whole trial is in each of those examined, or more moves than it permits.
-  std::optional<Doubt> doubt() const {
-    if (test_.of_trial != nullptr) return smallest_ && smallest_->ratio > 1.0 ? smallest_ : std::nullopt;
-    if (failing_ == 0) return {};
-    const auto moves = static_cast<double>(moves_);
-    const double permitted = moves * permitted_proportion();
-    constexpr double chance = 1.645;  // standard deviations: 5 % of them are larger
-    // All moves of a trial may fail together: trials count, each of so many moves.
-    const double by_chance =
-        permitted > 0.0 ? chance * std::sqrt(permitted * moves_of_trial_) + moves_of_trial_ : 0.0;
-    if (failing_ < moves_ && static_cast<double>(failing_) <= permitted + by_chance) return {};
-    Doubt doubt = worst_;
-    if (failing_ < moves_) doubt.text += fmt::format(" (so in {} of {} moves examined)", failing_, moves_);
-    return doubt;
-  }
-
- private:
-  double permitted_proportion() const {
-    return study_.goals.empty() ? 0.0 : 1.0 - goal_.moves * goal_.machines.value_or(1.0);
-  }
-  void add_trial(Doubt doubt) {
-    if (!smallest_ || doubt.ratio < smallest_->ratio) smallest_ = std::move(doubt);
-  }
-  void add_move(Doubt doubt) {
-    ++moves_;
-    if (!(doubt.ratio > 1.0)) return;
-    ++failing_;
-    if (doubt.ratio > worst_.ratio) worst_ = std::move(doubt);
-  }
-
-  const GoalTest& test_;
-  const study::Study& study_;
-  const study::Goal& goal_;
-  std::optional<Doubt> smallest_;
-  Doubt worst_;
-  double moves_of_trial_{1.0};
-  std::int64_t moves_{0};
-  std::int64_t failing_{0};
-};
-
-/// The worst doubt of each test so far, with its place.
-using WorstLines = std::array<Doubt, goal_tests.size()>;
-
-void examine_goals(const study::Study& study, std::span<const study::Goal> goals, std::int64_t point,
-                   std::int64_t condition, std::int64_t draws, WorstLines& worst) {
-  std::vector<std::pair<std::size_t, DoubtOfTrials>> all;
-  for (const study::Goal& goal : goals) {
-    for (std::size_t i = 0; i < goal_tests.size(); ++i) {
-      if (!study.goals.empty() || !goal_tests[i].needs_goal)
-        all.emplace_back(i, DoubtOfTrials(goal_tests[i], study, goal));
+/// Out of reach of more moves than the goal permits, by more than chance.
+std::optional<Doubt> doubt_of_moves(const GoalTest& test, const study::Study& study, const study::Goal& goal,
+                                    std::span<const trial::TrialParameters> trials) {
+  Doubt worst;
+  double moves = 0.0;
+  double failing = 0.0;
+  double moves_of_trial = 1.0;
+  for (const trial::TrialParameters& trial : trials) {
+    const GoalOfTrial of{study, goal, trial};
+    const std::vector<MoveOfTrial> all = moves_of(of);
+    moves_of_trial = std::max(moves_of_trial, static_cast<double>(all.size()));
+    moves += static_cast<double>(all.size());
+    for (const MoveOfTrial& move : all) {
+      Doubt doubt = test.of_move(move);
+      if (!(doubt.ratio > 1.0)) continue;
+      ++failing;
+      if (doubt.ratio > worst.ratio) worst = std::move(doubt);
     }
   }
-  for (std::int64_t draw = 0; draw < draws; ++draw) {
-    const trial::TrialParameters p =
-        study::study_trial(study, point, study::turns_of(study).trial_of(draw, condition)).parameters;
-    for (auto& [test, doubts] : all) doubts.add(p, draw);
+  if (failing == 0.0) return {};
+  const double permitted =
+      study.goals.empty() ? 0.0 : moves * (1.0 - goal.moves * goal.machines.value_or(1.0));
+  constexpr double chance = 1.645;  // standard deviations: 5 % of them are larger
+  // All moves of a trial may fail together: trials count, each of so many moves.
+  const double by_chance =
+      permitted > 0.0 ? chance * std::sqrt(permitted * moves_of_trial) + moves_of_trial : 0.0;
+  if (failing < moves && failing <= permitted + by_chance) return {};
+  if (failing < moves) worst.text += fmt::format(" (so in {:.0f} of {:.0f} moves examined)", failing, moves);
+  return worst;
+}
+
+/// The worst line of each test, [test]; empty where it does not fail.
+/// @param tests only those that hold for any controller
+std::vector<std::string> worst_lines(const study::Study& study, bool for_any_controller) {
+  if (study.open_loop) return {};
+  std::array<Doubt, goal_tests.size()> worst;
+  const study::Goal none{.within = std::numeric_limits<double>::infinity()};
+  const std::span<const study::Goal> goals =
+      study.goals.empty() ? std::span(&none, 1) : std::span<const study::Goal>(study.goals);
+  const study::TrialTurns turns = study::turns_of(study);
+  const std::vector<std::int64_t> points = statistics::spread_over(
+      study::point_count(study),
+      std::max<std::int64_t>(max_trials_doubted / (turns.conditions * std::ssize(goals)), 1));
+  const std::int64_t draws =
+      std::min(study::draw_count(study),
+               std::clamp<std::int64_t>(max_trials_doubted / (turns.conditions * std::ssize(points)),
+                                        max_whole_trials, max_draws_of_moves));
+  for (const std::int64_t point : points) {
+    for (std::int64_t condition = 0; condition < turns.conditions; ++condition) {
+      std::vector<trial::TrialParameters> trials;
+      for (std::int64_t draw = 0; draw < draws; ++draw)
+        trials.push_back(study::study_trial(study, point, turns.trial_of(draw, condition)).parameters);
+      for (std::size_t i = 0; i < goal_tests.size(); ++i) {
+        const GoalTest& test = goal_tests[i];
+        if ((study.goals.empty() && test.needs_goal) ||
+            (for_any_controller && !test.holds_for_any_controller))
+          continue;
+        for (const study::Goal& goal : goals) {
+          const auto examine = test.of_trial != nullptr ? doubt_of_trials : doubt_of_moves;
+          const std::optional<Doubt> doubt = examine(test, study, goal, trials);
+          if (!doubt || !(doubt->ratio > worst[i].ratio)) continue;
+          worst[i] = {doubt->ratio, place_text(study, point, condition) +
+                                        (goal.name.empty() ? "" : "goal " + goal.name + ": ") + doubt->text};
+        }
+      }
+    }
   }
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::optional<Doubt> doubt = all[i].second.doubt();
-    Doubt& line = worst[all[i].first];
-    if (!doubt || !(doubt->ratio > line.ratio)) continue;
-    const std::string& name = goals[i / (all.size() / goals.size())].name;
-    line = {doubt->ratio,
-            fmt::format("point {} ({}){}: {}{}", point, study.points.labels[static_cast<std::size_t>(point)],
-                        study::condition_text(study, condition), name.empty() ? "" : "goal " + name + ": ",
-                        doubt->text)};
-  }
+  std::vector<std::string> lines;
+  for (Doubt& line : worst)
+    if (!line.text.empty()) lines.push_back(std::move(line.text));
+  return lines;
 }
 
 }  // namespace
-
-double highest_rate_within_band(double band, double noise, double samples) {
-  return std::exp(samples * std::log1p(-outside(band + 0.5, noise)));
-}
 
 NoiseResponse response_to_noise(const FrozenLoop& loop, NoiseAt at, double bandwidth) {
   constexpr int angles = 4000;
@@ -291,45 +286,17 @@ NoiseResponse response_to_noise(const FrozenLoop& loop, NoiseAt at, double bandw
   return {std::sqrt(mean_square), static_cast<double>(lag)};
 }
 
-namespace {
-
-/// The worst line of each test, [test]; empty where it does not fail.
-WorstLines worst_lines(const study::Study& study) {
-  WorstLines worst;
-  if (study.open_loop) return worst;
-  const study::Goal none{.within = std::numeric_limits<double>::infinity()};
-  const std::span<const study::Goal> goals =
-      study.goals.empty() ? std::span(&none, 1) : std::span<const study::Goal>(study.goals);
-  const std::int64_t conditions = study::condition_count(study);
-  const std::vector<std::int64_t> points = statistics::spread_over(
-      study::point_count(study),
-      std::max<std::int64_t>(max_trials_doubted / (conditions * std::ssize(goals)), 1));
-  const std::int64_t draws =
-      std::min(study::draw_count(study),
-               std::clamp<std::int64_t>(max_trials_doubted / (conditions * std::ssize(points)),
-                                        max_draws_examined, max_draws_of_moves));
-  for (const std::int64_t point : points) {
-    for (std::int64_t condition = 0; condition < conditions; ++condition)
-      examine_goals(study, goals, point, condition, draws, worst);
-  }
-  return worst;
+std::string place_text(const study::Study& study, std::int64_t point, std::int64_t condition) {
+  return fmt::format("point {} ({}){}: ", point, study.points.labels[static_cast<std::size_t>(point)],
+                     study::condition_text(study, condition));
 }
 
-}  // namespace
-
 std::vector<std::string> doubtful_goals(const study::Study& study) {
-  std::vector<std::string> lines;
-  for (Doubt& line : worst_lines(study))
-    if (!line.text.empty()) lines.push_back(std::move(line.text));
-  return lines;
+  return worst_lines(study, false);
 }
 
 std::vector<std::string> goals_out_of_reach(const study::Study& study) {
-  std::vector<std::string> lines;
-  const WorstLines worst = worst_lines(study);
-  for (std::size_t i = 0; i < worst.size(); ++i)
-    if (goal_tests[i].holds_for_any_controller && !worst[i].text.empty()) lines.push_back(worst[i].text);
-  return lines;
+  return worst_lines(study, true);
 }
 
 }  // namespace zerocount::theory

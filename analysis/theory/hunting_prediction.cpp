@@ -1,13 +1,12 @@
-#include "analysis/theory/hunting_prediction.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "analysis/theory/point_theory.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "core/friction/law.hpp"
 #include "core/loop/reference.hpp"
 #include "core/trial/trial.hpp"
@@ -22,25 +21,8 @@ constexpr double min_amplitude = 1.0;  // counts: the encoder does not see less
 constexpr double min_periods = 2.0;    // in the last half of the hold
 constexpr double alike = 0.05;         // amplitudes of a cycle, measured in whole counts
 
-/// The longest move of a trial.
-struct LongestMove {
-  std::int64_t from{0};
-  std::int64_t to{0};
-  std::int64_t length() const { return std::abs(to - from); }
-};
-
-LongestMove longest_move(const trial::TrialParameters& trial) {
-  LongestMove longest;
-  std::int64_t before = 0;
-  for (const std::int64_t target : trial.command.targets) {
-    if (std::abs(target - before) > longest.length()) longest = {before, target};
-    before = target;
-  }
-  return longest;
-}
-
 /// The trial with this move from its start alone, and nothing that moves the axis by itself.
-trial::TrialParameters trial_of_move(trial::TrialParameters trial, const LongestMove& move) {
+trial::TrialParameters trial_of_move(trial::TrialParameters trial, const TargetStep& move) {
   trial.command.targets = {move.to - move.from};
   trial.command.exact_targets.clear();
   trial.verdict = {};
@@ -87,7 +69,7 @@ std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& t
   if (!trial.command.torque.levels.empty() || !friction::has_friction(trial.friction.model) ||
       trial.command.profile.shape == loop::ReferenceShape::sine)
     return std::nullopt;
-  const LongestMove move = longest_move(trial);
+  const TargetStep move = std::ranges::max(target_steps(trial.command), {}, &TargetStep::length);
   trial::TrialParameters p = trial_of_move(trial, move);
   HuntingPrediction prediction{.step = move.length()};
   trial::MoveOutcome before;

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 
@@ -35,11 +34,8 @@ struct Travel {
 Travel travel_of(const trial::TrialParameters& p) {
   Travel travel;
   if (p.command.profile.shape == loop::ReferenceShape::sine || is_outside_theory(p)) return travel;
-  std::int64_t before = 0;
-  for (const std::int64_t target : p.command.targets) {
-    travel.move = std::max(travel.move, static_cast<double>(std::abs(target - before)));
-    before = target;
-  }
+  for (const TargetStep& step : target_steps(p.command))
+    travel.move = std::max(travel.move, static_cast<double>(step.length()));
   const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
   travel.range = friction::presliding_range(contact) / loop::fine_resolution(p.encoder);
   return travel;
@@ -150,9 +146,7 @@ std::vector<std::string> doubtful_loops(const study::Study& study) {
           const double value = tests[test].measure(examined);
           if (!(value < tests[test].least) || !(value < worst[test])) continue;
           worst[test] = value;
-          lines[test] =
-              fmt::format("point {} ({}){}: {}", point, study.points.labels[static_cast<std::size_t>(point)],
-                          study::condition_text(study, condition), tests[test].text(examined, value));
+          lines[test] = place_text(study, point, condition) + tests[test].text(examined, value);
         }
       }
     }

@@ -44,6 +44,9 @@ struct MoveOfTrial {
   std::string name() const { return "move " + std::to_string(number); }
 };
 
+/// "point 2 (kp = 3), condition warm: ", the place of a warning.
+std::string place_text(const study::Study& study, std::int64_t point, std::int64_t condition);
+
 /// The moves that the goal asks, without those of no length; of very many the first ones. Empty without
 /// targets, and where the reference does not end.
 std::vector<MoveOfTrial> moves_of(const GoalOfTrial& of);
@@ -100,14 +103,6 @@ std::vector<std::string> doubtful_goals(const study::Study& study);
 /// Those of the tests that no value of the controller changes: the torque is too small for a move, its
 /// reference is still on its way at `within`, or the encoder misplaces its target.
 std::vector<std::string> goals_out_of_reach(const study::Study& study);
-
-/// Largest proportion of moves whose |count error| is within the band at all of `samples` sampling instants:
-/// the axis stands in the middle of its count, and the encoder has Gaussian noise.
-///
-///     proportion = (1 − 2·Q((band + ½)/noise))^samples,   Q the upper tail of the normal distribution
-///
-/// @param band counts @param noise rms, counts
-double highest_rate_within_band(double band, double noise, double samples);
 
 enum class NoiseAt {
   axis,  ///< L/(1 + L): how the noise moves the axis

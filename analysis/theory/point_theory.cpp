@@ -108,11 +108,7 @@ std::set<std::int64_t> steps_of(const trial::TrialParameters& p) {
   const auto largest = loop::has_coarse_phase(p.controller)
                            ? static_cast<std::int64_t>(p.controller.coarse.fine_within)
                            : std::numeric_limits<std::int64_t>::max();
-  std::int64_t before = 0;
-  for (const std::int64_t target : p.command.targets) {
-    steps.insert(std::min(std::abs(target - before), largest));
-    before = target;
-  }
+  for (const TargetStep& step : target_steps(p.command)) steps.insert(std::min(step.length(), largest));
   steps.erase(0);
   return steps;
 }

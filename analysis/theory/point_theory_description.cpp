@@ -13,60 +13,19 @@ namespace {
 using document::Description;
 using document::everywhere;
 using document::in_data;
+using document::range_text;
 using std::optional;
 using std::string;
 
-string range_text(const Range& range) {
-  if (range.low == range.high) return fmt::format("{:.3g}", range.low);
-  return fmt::format("{:.3g} … {:.3g}", range.low, range.high);
-}
-
-/// A range as data; nothing where it is empty. @param heading empty: people are not shown it
-template <class Row, class Get>
-Description<Row>& add_range_data(Description<Row>& description, const char* key, const string& heading,
-                                 const string& meaning, Get get, const string& unit = {}) {
-  return description.object(everywhere(key, heading, meaning + ", over the trials", unit),
-                            Description<Range>()
-                                .value(in_data("low", "smallest", unit), &Range::low)
-                                .value(in_data("high", "largest", unit), &Range::high),
-                            [get](const Row& row) -> const Range* {
-                              const Range& range = std::invoke(get, row);
-                              return range.empty() ? nullptr : &range;
-                            });
-}
-
-/// A range: in JSON an object, for people a text with its unit. @param unit of a row
-template <class Row, class Get, class Unit>
-void add_range_with(Description<Row>& description, const char* key, const string& heading,
-                    const string& meaning, Get get, Unit unit) {
-  add_range_data(description, key, heading, meaning, get)
-      .shown_as([get, unit](const Row& row) -> optional<string> {
-        const Range& range = std::invoke(get, row);
-        if (range.empty()) return {};
-        return range_text(range) + " " + unit(row);
-      });
-}
-
-/// A range with a unit that all rows share.
-template <class Row, class Get>
-void add_range(Description<Row>& description, const char* key, const string& heading, const string& meaning,
-               Get get, const string& unit) {
-  add_range_data(description, key, heading, meaning, get, unit)
-      .shown_as([get, unit](const Row& row) -> optional<string> {
-        const Range& range = std::invoke(get, row);
-        if (range.empty()) return {};
-        return range_text(range) + " " + unit;
-      });
-}
-
 /// A margin with its frequency. @param none what people see where no trial has a crossover
-void add_margin(Description<LoopRanges>& description, const char* key, const string& name, const char* unit,
+void add_margin(Description<LoopRanges>& description, const string& key, const string& name, const char* unit,
                 Range LoopRanges::*margin, Range LoopRanges::*frequency, const char* none) {
-  add_range_data(description, key, name, name, margin, unit).shown_as([=](const LoopRanges& loop) -> string {
-    if ((loop.*margin).empty()) return none;
-    return fmt::format("{} {} at {} Hz", range_text(loop.*margin), unit, range_text(loop.*frequency));
-  });
-  add_range_data(description, (string(key) + "_at").c_str(), "", "frequency of the " + name, frequency, "Hz");
+  description.value(everywhere(key, name, name, unit), margin)
+      .shown_as([=](const LoopRanges& loop) -> string {
+        const optional<string> found = range_text(loop.*margin, unit);
+        return found ? *found + " at " + range_text(loop.*frequency, "Hz").value_or("–") : none;
+      })
+      .value(in_data(key + "_at", "frequency of the " + name, "Hz"), frequency);
 }
 
 std::string_view to_string(LoopStability stability) {
@@ -95,7 +54,9 @@ Description<GainTheory> gain_description() {
       .value(in_data("gain_unit", "unit of the gain and its bounds"), &GainTheory::unit);
   const auto add_gain = [&](const char* key, const char* heading, const char* meaning,
                             Range GainTheory::*gain) {
-    add_range_with(description, key, heading, meaning, gain, [](Of of) { return of.unit; });
+    description.value(everywhere(key, heading, meaning), gain).shown_as([gain](Of of) {
+      return range_text(of.*gain, of.unit);
+    });
   };
   add_gain("gain", "integral gain", "integral gain", &GainTheory::value);
   description
@@ -140,31 +101,30 @@ string holds_text(std::int64_t holding, std::int64_t trials) {
 
 Description<DesignRules> rules_description() {
   using Of = const DesignRules&;
-  Description<DesignRules> description;
-  add_range_data(description, "dac_resolution", "DAC resolution", "torque of a code of the DAC",
-                 &DesignRules::dac_resolution)
+  return Description<DesignRules>()
+      .value(everywhere("dac_resolution", "DAC resolution", "torque of a code of the DAC"),
+             &DesignRules::dac_resolution)
       .shown_as([](Of rules) {
-        return fmt::format("{} {}, below k1·Δx = {} {}{} (paper, issue 4): {}",
-                           range_text(rules.dac_resolution), rules.torque_unit, range_text(rules.dac_bound),
-                           rules.torque_unit,
+        return fmt::format("{}, below k1·Δx = {}{} (paper, issue 4): {}",
+                           *range_text(rules.dac_resolution, rules.torque_unit),
+                           range_text(rules.dac_bound, rules.torque_unit).value_or("–"),
                            rules.coarse_feedback ? " with the Δx of the coarse encoder" : "",
                            holds_text(rules.fine_enough, rules.trials));
-      });
-  add_range_data(description, "dac_bound", "", "bound of the rule for the DAC", &DesignRules::dac_bound)
+      })
+      .value(in_data("dac_bound", "bound of the rule for the DAC"), &DesignRules::dac_bound)
       .value(in_data("torque_unit", "unit of both"), &DesignRules::torque_unit)
       .value(in_data("coarse_feedback", "whether the bound is of the coarse encoder"),
              &DesignRules::coarse_feedback)
       .value(in_data("rule_trials", "trials that the rules were tried in"), &DesignRules::trials)
       .value(in_data("fine_enough", "trials in which the DAC satisfies its rule"), &DesignRules::fine_enough)
       .value(in_data("fast_enough", "trials in which the sample rate satisfies its rule"),
-             &DesignRules::fast_enough);
-  add_range(description, "natural_frequency", "natural frequency", "natural frequency on k1 + k2",
-            &DesignRules::frequency, "Hz");
-  return add_range_data(description, "sample_rate", "sample rate", "sample rate", &DesignRules::sample_rate,
-                        "Hz")
+             &DesignRules::fast_enough)
+      .value(everywhere("natural_frequency", "natural frequency", "natural frequency on k1 + k2", "Hz"),
+             &DesignRules::frequency)
+      .value(everywhere("sample_rate", "sample rate", "sample rate", "Hz"), &DesignRules::sample_rate)
       .shown_as([](Of rules) {
-        return fmt::format("{} Hz, at least {:.3g} times the natural frequency (paper: 10): {}",
-                           range_text(rules.sample_rate), rules.sample_rate.low / rules.frequency.high,
+        return fmt::format("{}, at least {:.3g} times the natural frequency (paper: 10): {}",
+                           *range_text(rules.sample_rate, "Hz"), rules.sample_rate.low / rules.frequency.high,
                            holds_text(rules.fast_enough, rules.trials));
       });
 }
@@ -212,10 +172,9 @@ optional<string> arrival_text(const Approach& approach) {
 }
 
 Description<Approach> approach_description() {
-  Description<Approach> description;
-  add_range(description, "time_constant", "slowest time constant", "slowest time constant of the loop",
-            &Approach::time_constant, "s");
-  return description
+  return Description<Approach>()
+      .value(everywhere("time_constant", "slowest time constant", "slowest time constant of the loop", "s"),
+             &Approach::time_constant)
       .value(everywhere("hold", "hold", "time that the shortest move is held", "s"), &Approach::hold)
       .value(everywhere("longest_step", "slowest move", "length of the slowest move; 0: no step", "count"),
              &Approach::longest_step)
@@ -245,7 +204,7 @@ string stability_text(const LoopRanges& loop) {
   const std::set<LoopStability>& stability = loop.stability;
   if (stability == std::set{LoopStability::stable}) {
     if (loop.slow.empty()) return "stable";
-    return fmt::format("stable, with a time constant of {} s, longer than the hold", range_text(loop.slow));
+    return "stable, with a time constant of " + *range_text(loop.slow, "s") + ", longer than the hold";
   }
   if (stability == std::set{LoopStability::unstable}) return "unstable";
   if (stability.count(LoopStability::unstable) > 0) return "unstable in some trials";
@@ -260,11 +219,10 @@ Description<LoopRanges> loop_description() {
       .value(in_data("slides", "whether the rotor slides"), &LoopRanges::slides)
       .value(everywhere("stability", "verdict", "stable, marginal or unstable: all that occur in the trials"),
              stabilities)
-      .shown_as(stability_text);
-  add_range_data(description, "slow", "", "slowest time constants longer than the hold", &LoopRanges::slow,
-                 "s");
-  add_range(description, "bandwidth", "crosses gain 1 at", "bandwidth while it slides",
-            &LoopRanges::bandwidth, "Hz");
+      .shown_as(stability_text)
+      .value(in_data("slow", "slowest time constants longer than the hold", "s"), &LoopRanges::slow)
+      .value(everywhere("bandwidth", "crosses gain 1 at", "bandwidth while it slides", "Hz"),
+             &LoopRanges::bandwidth);
   add_margin(description, "gain_margin", "gain margin", "dB", &LoopRanges::gain, &LoopRanges::gain_at,
              "no phase crossover");
   add_margin(description, "phase_margin", "phase margin", "°", &LoopRanges::phase, &LoopRanges::phase_at,

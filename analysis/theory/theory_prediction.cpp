@@ -90,6 +90,13 @@ std::string verdict(const PointPrediction& prediction) {
                      text::percentage(prediction.unstable, prediction.trials));
 }
 
+std::vector<TargetStep> target_steps(const trial::CommandParameters& command) {
+  std::vector<TargetStep> steps;
+  for (const std::int64_t target : command.targets)
+    steps.push_back({steps.empty() ? 0 : steps.back().to, target});
+  return steps;
+}
+
 bool has_no_linear_loop(const trial::TrialParameters& parameters) {
   return parameters.controller.user.plugin || !parameters.command.torque.levels.empty();
 }

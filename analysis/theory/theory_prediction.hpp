@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdlib>
 #include <span>
 #include <string>
 #include <vector>
@@ -61,6 +62,17 @@ std::int64_t predicted_trials(const PointPrediction& prediction);
 /// trials, "not applicable" if the criteria apply to none of them, otherwise "undecided" with the
 /// proportions of trials, such as "undecided: (6) holds in 12 %, (7) exceeded in 0 %".
 std::string verdict(const PointPrediction& prediction);
+
+/// A step of the targets of a trial, counts.
+struct TargetStep {
+  std::int64_t from{0};
+  std::int64_t to{0};
+
+  std::int64_t length() const { return std::abs(to - from); }
+};
+
+/// Those of all moves, in their order.
+std::vector<TargetStep> target_steps(const trial::CommandParameters& command);
 
 // Linear loops that approximate a trial at rest and while its rotor slides.
 

@@ -12,7 +12,6 @@
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary/chosen_point.hpp"
-#include "analysis/theory/hunting_prediction.hpp"
 #include "analysis/theory/point_theory.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/text/counted.hpp"

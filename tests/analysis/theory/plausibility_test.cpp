@@ -103,7 +103,7 @@ TEST_F(GoalPlausibility, MovesMeetABandNoOftenerThanTold) {
       const trial::TrialOutcome outcome = trial::run_trial(study::study_trial(study, 0, i).parameters);
       met += outcome.moves[0].bands[0].settling_time <= 0.1 ? 1 : 0;
     }
-    const double bound = highest_rate_within_band(0.0, noise, 200.0);
+    const double bound = std::pow(std::erf(0.5 / noise / std::numbers::sqrt2), 200.0);
     EXPECT_LE(met, trials * bound + 4.0 * std::sqrt(trials * bound * (1.0 - bound))) << noise;
   }
 }

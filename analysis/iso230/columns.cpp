@@ -17,20 +17,20 @@ namespace {
 
 using Trial = const SequenceTrial&;
 using Point = const PointRepeatability&;
-using TrialColumns = RepeatabilityColumns<SequenceTrial>;
-using PointColumns = RepeatabilityColumns<PointRepeatability>;
+using TrialTable = RepeatabilityTable<SequenceTrial>;
+using PointTable = RepeatabilityTable<PointRepeatability>;
 
 /// A column for every value of `fields`, from every source. `values(repeatability, target)` has them.
 template <typename Values, typename ValuesOf>
-void add_values(TrialColumns& columns, std::span<const RepeatabilityField<Values>> fields, ValuesOf values) {
+void add_values(TrialTable& table, std::span<const RepeatabilityField<Values>> fields, ValuesOf values) {
   for (const DeviationSource& source : deviation_sources()) {
     for (const RepeatabilityField<Values>& field : fields) {
-      columns.push_back({source.name, std::string(field.name), source.unit,
-                         fmt::format("{}, {}", field.long_name, source.long_name),
-                         [&source, &field, values](Trial trial, std::size_t target) {
-                           if (!trial.values) return statistics::unknown;
-                           return values((*trial.values).*source.values, target).*field.value;
-                         }});
+      table.add({fmt::format("{}/{}", source.name, field.name), std::string(source.unit),
+                 fmt::format("{}, {}", field.long_name, source.long_name)},
+                [&source, &field, values](Trial trial, std::size_t target) {
+                  if (!trial.values) return statistics::unknown;
+                  return values((*trial.values).*source.values, target).*field.value;
+                });
     }
   }
 }
@@ -38,19 +38,19 @@ void add_values(TrialColumns& columns, std::span<const RepeatabilityField<Values
 /// A column for every statistic of every value of `fields`, from every source. `values(source, target)` has
 /// the statistics, [field].
 template <typename Values, typename ValuesOf>
-void add_statistics(PointColumns& columns, std::span<const RepeatabilityField<Values>> fields,
-                    bool of_targets, ValuesOf values) {
+void add_statistics(PointTable& table, std::span<const RepeatabilityField<Values>> fields, bool of_targets,
+                    ValuesOf values) {
   for (std::size_t i = 0; i < deviation_sources().size(); ++i) {
     const DeviationSource& source = deviation_sources()[i];
     for (std::size_t field = 0; field < fields.size(); ++field) {
       for (const ValueStatisticField& statistic : value_statistic_fields()) {
         if (of_targets && !statistic.of_targets) continue;
-        columns.push_back(
-            {source.name, fmt::format("{}_{}", fields[field].name, statistic.name), source.unit,
-             fmt::format("{} {}, {}", statistic.long_name, fields[field].long_name, source.long_name),
-             [i, field, &statistic, values](Point point, std::size_t target) {
-               return statistic.value(values(point.sources[i], target)[field]);
-             }});
+        table.add({fmt::format("{}/{}_{}", source.name, fields[field].name, statistic.name),
+                   std::string(source.unit),
+                   fmt::format("{} {}, {}", statistic.long_name, fields[field].long_name, source.long_name)},
+                  [i, field, &statistic, values](Point point, std::size_t target) {
+                    return statistic.value(values(point.sources[i], target)[field]);
+                  });
       }
     }
   }
@@ -68,18 +68,6 @@ layout::Column rows_of_points() {
 }
 layout::Column targets_of_list() {
   return scale("target", "index of the target in its list");
-}
-
-template <typename Row>
-layout::Table table_of(const char* group, layout::Column rows, std::optional<layout::Column> second,
-                       const RepeatabilityColumns<Row>& columns) {
-  layout::Table table{group, std::move(rows), std::move(second), {}};
-  for (const RepeatabilityColumn<Row>& column : columns) {
-    table.columns.push_back(
-        {column.source.empty() ? column.name : fmt::format("{}/{}", column.source, column.name),
-         std::string(column.unit), column.long_name});
-  }
-  return table;
 }
 
 }  // namespace
@@ -138,60 +126,47 @@ const std::vector<text::ReportField<PointRepeatability>>& point_repeatability_fi
   return fields;
 }
 
-TrialColumns trial_axis_columns() {
-  TrialColumns columns;
-  add_values(columns, axis_fields(), [](const Repeatability& r, std::size_t) { return r.axis; });
-  return columns;
-}
-
-TrialColumns trial_target_columns() {
-  TrialColumns columns{{"", "position", "count", "the target, from the start of the trial",
-                        [](Trial trial, std::size_t target) { return trial.positions[target]; }}};
-  add_values(columns, target_fields(),
-             [](const Repeatability& r, std::size_t target) { return r.targets[target]; });
-  return columns;
-}
-
-PointColumns point_axis_columns() {
-  PointColumns columns;
-  for (const text::ReportField<PointRepeatability>& field : point_repeatability_fields()) {
-    columns.push_back({"", field.name, field.unit, field.long_name,
-                       [&field](Point point, std::size_t) { return field.value(point); }});
-  }
-  add_statistics(columns, axis_fields(), false,
-                 [](const SourceRepeatability& source, std::size_t) { return std::span(source.axis); });
-  return columns;
-}
-
-PointColumns point_target_columns() {
-  PointColumns columns{{"", "position_min", "count", "smallest position of the target in a trial",
-                        [](Point point, std::size_t target) { return point.positions[target].min; }},
-                       {"", "position_max", "count", "largest position of the target in a trial",
-                        [](Point point, std::size_t target) { return point.positions[target].max; }}};
-  add_statistics(columns, target_fields(), true, [](const SourceRepeatability& source, std::size_t target) {
-    return std::span(source.targets[target]);
-  });
-  return columns;
-}
-
-layout::Table trial_table_of_axis() {
-  layout::Table table = table_of("repeatability/trial", rows_of_trials(), {}, trial_axis_columns());
-  const char* const meaning = "the trial has no nonfinite move, and so has values";
-  table.columns.insert(table.columns.begin(),
-                       {"evaluated", "1", meaning, hdf5::Element::flag, {{0, "no"}, {1, "yes"}}});
+TrialTable trial_axis_table() {
+  TrialTable table{{"repeatability/trial", rows_of_trials(), {}, {}}};
+  table.add({"evaluated",
+             "1",
+             "the trial has no nonfinite move, and so has values",
+             hdf5::Element::flag,
+             {{0, "no"}, {1, "yes"}}},
+            [](Trial trial, std::size_t) { return trial.values ? 1.0 : 0.0; });
+  add_values(table, axis_fields(), [](const Repeatability& r, std::size_t) { return r.axis; });
   return table;
 }
 
-layout::Table trial_table_of_targets() {
-  return table_of("repeatability/trial_target", rows_of_trials(), targets_of_list(), trial_target_columns());
+TrialTable trial_target_table() {
+  TrialTable table{{"repeatability/trial_target", rows_of_trials(), targets_of_list(), {}}};
+  table.add({"position", "count", "the target, from the start of the trial"},
+            [](Trial trial, std::size_t target) { return trial.positions[target]; });
+  add_values(table, target_fields(),
+             [](const Repeatability& r, std::size_t target) { return r.targets[target]; });
+  return table;
 }
 
-layout::Table point_table_of_axis() {
-  return table_of("repeatability/point", rows_of_points(), {}, point_axis_columns());
+PointTable point_axis_table() {
+  PointTable table{{"repeatability/point", rows_of_points(), {}, {}}};
+  for (const text::ReportField<PointRepeatability>& field : point_repeatability_fields())
+    table.add({field.name, field.unit, field.long_name},
+              [&field](Point point, std::size_t) { return field.value(point); });
+  add_statistics(table, axis_fields(), false,
+                 [](const SourceRepeatability& source, std::size_t) { return std::span(source.axis); });
+  return table;
 }
 
-layout::Table point_table_of_targets() {
-  return table_of("repeatability/point_target", rows_of_points(), targets_of_list(), point_target_columns());
+PointTable point_target_table() {
+  PointTable table{{"repeatability/point_target", rows_of_points(), targets_of_list(), {}}};
+  table.add({"position_min", "count", "smallest position of the target in a trial"},
+            [](Point point, std::size_t target) { return point.positions[target].min; });
+  table.add({"position_max", "count", "largest position of the target in a trial"},
+            [](Point point, std::size_t target) { return point.positions[target].max; });
+  add_statistics(table, target_fields(), true, [](const SourceRepeatability& source, std::size_t target) {
+    return std::span(source.targets[target]);
+  });
+  return table;
 }
 
 std::span<const DeviationSource> deviation_sources() {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "analysis/iso230/repeatability.hpp"
@@ -66,23 +67,21 @@ struct RepeatabilitySummary {
   parameters::AxisKind axis{parameters::AxisKind::rotary};  ///< whose units the deviations have
 };
 
-// The columns of the tables of the group /repeatability of a results file: of values for every source in the
-// order of deviation_sources() and axis_fields() or target_fields(), of points for every statistic of these
-// in the order of value_statistic_fields(). The tables, the CSV summary and the export have them from here.
-
-/// A column of numbers.
+/// A table of the group /repeatability of a results file. The columns of values are named "<source>/<value>",
+/// for every source in the order of deviation_sources() and axis_fields() or target_fields(); those of points
+/// "<source>/<value>_<statistic>", in the order of value_statistic_fields(). The file, the CSV summary and
+/// the export have them from here.
 template <typename Row>
-struct RepeatabilityColumn {
-  std::string_view source;  ///< name of the source; empty where the numbers are from none
-  std::string name;
-  std::string_view unit;
-  std::string long_name;
-  std::function<double(const Row&, std::size_t)>
-      value;  ///< of a row and target; target 0 where there is none
+struct RepeatabilityTable {
+  using ValueOf = std::function<double(const Row&, std::size_t)>;
+  layout::Table table;
+  std::vector<ValueOf> values{};  ///< [column] of a row and target; target 0 where there is none
+
+  void add(layout::Column column, ValueOf value) {
+    table.columns.push_back(std::move(column));
+    values.push_back(std::move(value));
+  }
 };
-
-template <typename Row>
-using RepeatabilityColumns = std::vector<RepeatabilityColumn<Row>>;
 
 /// A trial as a row of the tables of trials.
 struct SequenceTrial {
@@ -90,23 +89,15 @@ struct SequenceTrial {
   std::optional<TrialRepeatability> values;  ///< none where a move is nonfinite
 };
 
-/// The values of the axis, in a trial.
-RepeatabilityColumns<SequenceTrial> trial_axis_columns();
-/// `position`, then the values of the targets, in a trial.
-RepeatabilityColumns<SequenceTrial> trial_target_columns();
-/// point_repeatability_fields(), then the statistics of the axis, at a point.
-RepeatabilityColumns<PointRepeatability> point_axis_columns();
-/// `position_min`, `position_max`, then the statistics of the targets, at a point.
-RepeatabilityColumns<PointRepeatability> point_target_columns();
-
-/// /repeatability/trial: `evaluated`, then trial_axis_columns(), [trial].
-layout::Table trial_table_of_axis();
-/// /repeatability/trial_target: trial_target_columns(), [trial, target].
-layout::Table trial_table_of_targets();
-/// /repeatability/point: point_axis_columns(), [point].
-layout::Table point_table_of_axis();
-/// /repeatability/point_target: point_target_columns(), [point, target].
-layout::Table point_table_of_targets();
+/// /repeatability/trial: `evaluated`, then the values of the axis, [trial].
+RepeatabilityTable<SequenceTrial> trial_axis_table();
+/// /repeatability/trial_target: `position`, then the values of the targets, [trial, target].
+RepeatabilityTable<SequenceTrial> trial_target_table();
+/// /repeatability/point: point_repeatability_fields(), then the statistics of the axis, [point].
+RepeatabilityTable<PointRepeatability> point_axis_table();
+/// /repeatability/point_target: `position_min`, `position_max`, then the statistics of the targets, [point,
+/// target].
+RepeatabilityTable<PointRepeatability> point_target_table();
 
 /// The scale by which the deviations are measured.
 struct DeviationSource {

@@ -67,17 +67,22 @@ std::vector<SequenceTrial> evaluate(const study::Study& study, const hdf5::Group
   return trials;
 }
 
-/// Writes the columns to those of the table from `first_column` on, for `rows` from row `first` on.
+/// Writes the rows from row `first` on.
 template <typename Row>
-void write_columns(layout::TableIo& io, std::size_t first_column, const RepeatabilityColumns<Row>& columns,
-                   std::int64_t first, const std::vector<Row>& rows) {
-  for (std::size_t i = 0; i < columns.size(); ++i) {
+void write_rows(layout::TableIo& io, const RepeatabilityTable<Row>& table, std::int64_t first,
+                const std::vector<Row>& rows) {
+  for (std::size_t i = 0; i < table.values.size(); ++i) {
     std::vector<double> values;
     for (const Row& row : rows) {
       for (std::size_t target = 0; target < static_cast<std::size_t>(io.width()); ++target)
-        values.push_back(columns[i].value(row, target));
+        values.push_back(table.values[i](row, target));
     }
-    io.column(first_column + i).write(first, std::ssize(rows), values.data());
+    if (io.column(i).element() == hdf5::Element::float64) {
+      io.column(i).write(first, std::ssize(rows), values.data());
+    } else {
+      const std::vector<std::uint8_t> flags(values.begin(), values.end());
+      io.column(i).write(first, std::ssize(rows), flags.data());
+    }
   }
 }
 
@@ -92,28 +97,27 @@ void write_trials(hdf5::File& file, const study::Study& study) {
   const std::int64_t rows = study::trial_count(study);
   const layout::TableIo outcomes = open_outcomes(file);
   require_rows(outcomes, rows);
-  layout::TableIo axis = create_table(file, study, trial_table_of_axis(), rows, 1);
+  const RepeatabilityTable<SequenceTrial> of_axis = trial_axis_table();
+  const RepeatabilityTable<SequenceTrial> of_targets = trial_target_table();
+  layout::TableIo axis = create_table(file, study, of_axis.table, rows, 1);
   layout::TableIo targets =
-      create_table(file, study, trial_table_of_targets(), rows, shape_of(study.sequence).targets);
+      create_table(file, study, of_targets.table, rows, shape_of(study.sequence).targets);
   const std::int64_t at_once = layout::chunk_rows(outcomes.width());
   for (std::int64_t first = 0; first < rows; first += at_once) {
     const std::vector<SequenceTrial> trials =
         evaluate(study, file, outcomes, first, std::min(at_once, rows - first));
-    std::vector<std::uint8_t> evaluated;
-    evaluated.reserve(trials.size());
-    for (const SequenceTrial& trial : trials) evaluated.push_back(trial.values.has_value() ? 1 : 0);
-    axis.column(0).write(first, std::ssize(trials), evaluated.data());
-    write_columns(axis, 1, trial_axis_columns(), first, trials);
-    write_columns(targets, 0, trial_target_columns(), first, trials);
+    write_rows(axis, of_axis, first, trials);
+    write_rows(targets, of_targets, first, trials);
   }
 }
 
 void write_points(hdf5::File& file, const study::Study& study, const RepeatabilitySummary& summary) {
-  const std::int64_t rows = std::ssize(summary.points);
-  layout::TableIo axis = create_table(file, study, point_table_of_axis(), rows, 1);
-  write_columns(axis, 0, point_axis_columns(), 0, summary.points);
-  layout::TableIo targets = create_table(file, study, point_table_of_targets(), rows, summary.shape.targets);
-  write_columns(targets, 0, point_target_columns(), 0, summary.points);
+  const auto write = [&](const RepeatabilityTable<PointRepeatability>& table, std::int64_t width) {
+    layout::TableIo io = create_table(file, study, table.table, std::ssize(summary.points), width);
+    write_rows(io, table, 0, summary.points);
+  };
+  write(point_axis_table(), 1);
+  write(point_target_table(), summary.shape.targets);
 }
 
 /// Rows [first, first + rows) of a column of numbers or flags, [row][second] flattened.
@@ -160,53 +164,33 @@ reading::ExportedTable exported(const char* name, layout::Table table) {
           }};
 }
 
-/// The trials of one point, column by column.
-struct PointReader {
-  const layout::TableIo& axis_table;
-  const layout::TableIo& target_table;
+/// A table of trials, those of one point.
+struct TrialsOfPoint {
+  const layout::TableIo& table;
   std::int64_t first;  ///< row
   std::int64_t trials;
 
-  std::int64_t evaluated() const {
-    std::vector<std::uint8_t> flags(static_cast<std::size_t>(trials));
-    axis_table.column(0).read(first, trials, flags.data());
-    return std::count(flags.begin(), flags.end(), std::uint8_t{1});
+  /// [target][trial]; the table of the axis has one target.
+  std::vector<std::vector<double>> column(std::size_t index) const {
+    const auto width = static_cast<std::size_t>(table.width());
+    std::vector<std::vector<double>> targets(width);
+    const std::vector<double> values = read_values(table, index, first, trials);
+    for (std::size_t i = 0; i < values.size(); ++i) targets[i % width].push_back(values[i]);
+    return targets;
   }
 
-  /// [trial], of an axis value.
-  std::vector<double> axis(std::size_t source, std::size_t field) const {
-    std::vector<double> values(static_cast<std::size_t>(trials));
-    axis_table.column(1 + source * axis_fields().size() + field).read(first, trials, values.data());
-    return values;
-  }
-
-  /// [target][trial], of the column of the table of targets.
-  std::vector<std::vector<double>> target_column(std::size_t column) const {
-    const auto width = static_cast<std::size_t>(target_table.width());
-    std::vector<double> values(static_cast<std::size_t>(trials) * width);
-    target_table.column(column).read(first, trials, values.data());
-    std::vector<std::vector<double>> by_target(width);
-    for (std::size_t i = 0; i < values.size(); ++i) by_target[i % width].push_back(values[i]);
-    return by_target;
+  /// [target][field], of the `fields` values of a source. The first column of a table is none of them.
+  std::vector<std::vector<ValueStatistics>> statistics(std::size_t source, std::size_t fields,
+                                                       double confidence) const {
+    std::vector<std::vector<ValueStatistics>> targets(static_cast<std::size_t>(table.width()));
+    for (std::size_t field = 0; field < fields; ++field) {
+      std::vector<std::vector<double>> values = column(1 + source * fields + field);
+      for (std::size_t target = 0; target < targets.size(); ++target)
+        targets[target].push_back(statistics_of(std::move(values[target]), confidence));
+    }
+    return targets;
   }
 };
-
-SourceRepeatability source_statistics(const PointReader& reader, std::size_t source, std::size_t targets,
-                                      double confidence) {
-  SourceRepeatability result;
-  for (std::size_t field = 0; field < axis_fields().size(); ++field) {
-    result.axis.push_back(statistics_of(reader.axis(source, field), confidence));
-  }
-  result.targets.resize(targets);
-  for (std::size_t field = 0; field < target_fields().size(); ++field) {
-    std::vector<std::vector<double>> values =
-        reader.target_column(1 + source * target_fields().size() + field);
-    for (std::size_t target = 0; target < targets; ++target) {
-      result.targets[target].push_back(statistics_of(std::move(values[target]), confidence));
-    }
-  }
-  return result;
-}
 
 /// The axis value whose zeros are counted: R, or that of the only direction.
 std::size_t overall_repeatability(const SequenceShape& shape) {
@@ -219,33 +203,32 @@ std::size_t overall_repeatability(const SequenceShape& shape) {
   return static_cast<std::size_t>(found - fields.begin());
 }
 
-PointRepeatability point_statistics(const PointReader& reader, const SequenceShape& shape,
-                                    const study::Study& study, double confidence) {
-  const std::int64_t trials = study.trials;
-  const auto targets = static_cast<std::size_t>(shape.targets);
+PointRepeatability point_statistics(const TrialsOfPoint& axis, const TrialsOfPoint& targets,
+                                    const SequenceShape& shape, const study::Study& study,
+                                    double confidence) {
   constexpr std::size_t encoder = 1;  // of deviation_sources()
   PointRepeatability point;
-  point.trials = trials;
-  point.evaluated = reader.evaluated();
+  point.trials = study.trials;
+  point.evaluated = std::ranges::count(axis.column(0)[0], 1.0);
   if (shape.cycles >= 2) {
-    const std::vector<double> values = reader.axis(encoder, overall_repeatability(shape));
-    const std::int64_t zero = std::count(values.begin(), values.end(), 0.0);
+    std::vector<double> is_zero =
+        axis.column(1 + encoder * axis_fields().size() + overall_repeatability(shape))[0];
+    for (double& value : is_zero) value = value == 0.0 ? 1.0 : 0.0;
+    const std::int64_t zero = std::ranges::count(is_zero, 1.0);
     point.zero_repeatability = zero;
-    point.zero_rate = statistics::rate(zero, trials);
-    std::vector<double> is_zero(values.size());
-    std::ranges::transform(values, is_zero.begin(), [](double value) { return value == 0.0; });
-    point.zero_bounds = study.rigs == 0 ? statistics::clopper_pearson(zero, trials, confidence)
+    point.zero_rate = statistics::rate(zero, study.trials);
+    point.zero_bounds = study.rigs == 0 ? statistics::clopper_pearson(zero, study.trials, confidence)
                                         : statistics::clustered_proportion(
                                               statistics::sums_by_rig(is_zero, study.rigs), confidence)
                                               .korn_graubard;
   }
-  for (const std::vector<double>& positions : reader.target_column(0)) {
+  for (const std::vector<double>& positions : targets.column(0)) {
     statistics::Moments& moments = point.positions.emplace_back();
     for (const double position : positions) moments.add(position);
   }
-  for (std::size_t source = 0; source < deviation_sources().size(); ++source) {
-    point.sources.push_back(source_statistics(reader, source, targets, confidence));
-  }
+  for (std::size_t source = 0; source < deviation_sources().size(); ++source)
+    point.sources.push_back({axis.statistics(source, axis_fields().size(), confidence)[0],
+                             targets.statistics(source, target_fields().size(), confidence)});
   return point;
 }
 
@@ -259,24 +242,25 @@ void write_repeatability(hdf5::File& file, const study::Study& study) {
 std::vector<reading::ExportedTable> repeatability_exports(const reading::ResultsFile& file) {
   if (!file.root().contains("repeatability")) return {};
   const parameters::AxisKind axis = file.trials()->features().axis;
-  return {exported("repeatability_trials.csv", layout::on_axis(trial_table_of_axis(), axis)),
-          exported("repeatability_trial_targets.csv", layout::on_axis(trial_table_of_targets(), axis)),
-          exported("repeatability_points.csv", layout::on_axis(point_table_of_axis(), axis)),
-          exported("repeatability_point_targets.csv", layout::on_axis(point_table_of_targets(), axis))};
+  return {exported("repeatability_trials.csv", layout::on_axis(trial_axis_table().table, axis)),
+          exported("repeatability_trial_targets.csv", layout::on_axis(trial_target_table().table, axis)),
+          exported("repeatability_points.csv", layout::on_axis(point_axis_table().table, axis)),
+          exported("repeatability_point_targets.csv", layout::on_axis(point_target_table().table, axis))};
 }
 
 RepeatabilitySummary read_repeatability(const hdf5::Group& root, const study::Study& study,
                                         double confidence) {
-  const layout::TableIo axis = layout::TableIo::open(root, trial_table_of_axis());
-  const layout::TableIo targets = layout::TableIo::open(root, trial_table_of_targets());
+  const layout::TableIo axis = layout::TableIo::open(root, trial_axis_table().table);
+  const layout::TableIo targets = layout::TableIo::open(root, trial_target_table().table);
   RepeatabilitySummary summary{confidence, shape_of(study.sequence), {}, study.units.axis};
   require_rows(axis, study::trial_count(study));
   require_rows(targets, study::trial_count(study));
   if (targets.width() != summary.shape.targets)
     targets.row_scale().fail("it is of another number of targets");
   for (std::int64_t point = 0; point < study::point_count(study); ++point) {
-    const PointReader reader{axis, targets, point * study.trials, study.trials};
-    summary.points.push_back(point_statistics(reader, summary.shape, study, confidence));
+    const std::int64_t first = point * study.trials;
+    summary.points.push_back(point_statistics({axis, first, study.trials}, {targets, first, study.trials},
+                                              summary.shape, study, confidence));
   }
   return summary;
 }

@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <functional>
 #include <numbers>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "analysis/summary_answer/parts.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
+#include "core/text/counted.hpp"
 
 namespace zerocount::summary_answer {
 namespace {
@@ -46,9 +46,6 @@ struct SourceReading {
 using Source = const SourceReading&;
 using SourceDescription = document::Description<SourceReading>;
 
-const SourceReading& same_source(Source s) {
-  return s;
-}
 std::span<const ValueStatistics> of_axis(Source s) {
   return s.values().axis;
 }
@@ -69,7 +66,7 @@ void add_values(SourceDescription& description, std::span<const RepeatabilityFie
                   [i, number = statistic.value, statistics](Source s) { return number(statistics(s)[i]); });
     }
     description.object({.key = std::string(fields[i].name), .meaning = std::string(fields[i].long_name)},
-                       value, same_source);
+                       value, std::identity());
   }
 }
 
@@ -92,7 +89,7 @@ SourceDescription source_object(parameters::AxisKind axis) {
   return source
       .value(document::in_data("unit", "of all values"),
              [axis](Source s) { return parameters::unit_on(axis, s.from().unit); })
-      .object({.key = "axis", .meaning = "values of the axis"}, values, same_source)
+      .object({.key = "axis", .meaning = "values of the axis"}, values, std::identity())
       .table({.key = "targets", .meaning = "values of the targets"}, target, targets_of);
 }
 
@@ -110,23 +107,29 @@ PointDescription repeatability_object(parameters::AxisKind axis) {
 }
 
 void add_csv_columns(PointDescription& point, const iso230::RepeatabilitySummary& summary) {
-  const auto add = [&](const std::string& prefix, const auto& columns, std::string_view source,
+  const auto axis = iso230::point_axis_table();
+  const auto targets = iso230::point_target_table();
+  // @param source with a slash; empty for the columns that are of none
+  const auto add = [&](const std::string& prefix, const auto& table, const std::string& source,
                        std::size_t target) {
-    for (const iso230::RepeatabilityColumn<PointRepeatability>& column : columns) {
-      if (column.source != source) continue;
-      point.value({.key = prefix + column.name,
+    for (std::size_t i = 0; i < table.values.size(); ++i) {
+      const layout::Column& column = table.table.columns[i];
+      const std::size_t name = column.name.find('/') + 1;  // 0 without a slash
+      if (column.name.substr(0, name) != source) continue;
+      point.value({.key = prefix + column.name.substr(name),
                    .meaning = parameters::text_on(summary.axis, column.long_name),
                    .unit = parameters::unit_on(summary.axis, column.unit),
                    .shown = Shown::in_csv},
-                  [value = column.value, target](Point p) { return value(repeatability_of(p), target); });
+                  [value = table.values[i], target](Point p) { return value(repeatability_of(p), target); });
     }
   };
-  add("repeatability_", iso230::point_axis_columns(), "", 0);
+  add("repeatability_", axis, "", 0);
   for (const DeviationSource& source : iso230::deviation_sources()) {
+    const std::string path = fmt::format("{}/", source.name);
     const std::string prefix = fmt::format("repeatability_{}_", source.name);
-    add(prefix, iso230::point_axis_columns(), source.name, 0);
+    add(prefix, axis, path, 0);
     for (std::size_t target = 0; target < static_cast<std::size_t>(summary.shape.targets); ++target)
-      add(fmt::format("{}target_{}_", prefix, target), iso230::point_target_columns(), source.name, target);
+      add(fmt::format("{}target_{}_", prefix, target), targets, path, target);
   }
 }
 
@@ -250,9 +253,8 @@ std::string title_of_repeatability(const SequenceShape& shape) {
   const std::string_view from = shape.positive && shape.negative ? "both sides"
                                 : shape.positive                 ? "below"
                                                                  : "above";
-  return fmt::format("repeatability after ISO 230-2: {} {} approached from {} in {} {}", shape.targets,
-                     shape.targets == 1 ? "target" : "targets", from, shape.cycles,
-                     shape.cycles == 1 ? "cycle" : "cycles");
+  return fmt::format("repeatability after ISO 230-2: {} approached from {} in {}",
+                     text::counted(shape.targets, "target"), from, text::counted(shape.cycles, "cycle"));
 }
 
 /// A line for each point at which all trials repeat exactly: what 100 % is worth.
@@ -286,8 +288,7 @@ constexpr std::string_view repeatability_legend =
 void add_repeatability(PointDescription& point, const summary::StudySummary& summary) {
   if (!summary.repeatability) return;
   point.object(in_json("repeatability", "values of ISO 230-2"),
-               repeatability_object(summary.repeatability->axis),
-               [](Point p) -> const PointReading& { return p; });
+               repeatability_object(summary.repeatability->axis), std::identity());
   add_csv_columns(point, *summary.repeatability);
 }
 

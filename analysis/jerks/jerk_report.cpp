@@ -1,32 +1,28 @@
-#include "analysis/jerks/jerk_report.hpp"
-
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "analysis/jerks/creep_comparison.hpp"
+#include "analysis/jerks/jerk_statistics.hpp"
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 #include "core/text/counted.hpp"
-#include "experiments/study/condition_study.hpp"
 
 namespace zerocount::jerks {
 namespace {
 
-/// @param file of the trials under `condition`
-PointJerks jerks_at(const reading::AllTrialsFile& file, const std::string& condition, std::int64_t point,
+/// @param file of the trials under the condition
+PointJerks jerks_at(const reading::AllTrialsFile& file, const measures::PointUnderCondition& place,
                     double confidence, std::int64_t creep_trials) {
   const study::Study& study = file.study();
-  PointJerks jerks;
-  jerks.point = point;
-  jerks.label = study::label_under(study.points.labels[static_cast<std::size_t>(point)], condition);
-  if (!condition.empty()) jerks.condition = condition;
-  jerks.statistics = jerk_statistics(file, study, point, confidence);
-  jerks.creep = compare_with_creep(study, point, std::min(creep_trials, study.trials));
-  const double sample_time = 1.0 / study::study_trial(study, point, 0).parameters.controller.sample_rate;
-  jerks.creep_agreement = agreement_of(jerks.creep, sample_time);
+  PointJerks jerks{place,
+                   jerk_statistics(file, study, place.point, confidence),
+                   compare_with_creep(study, place.point, creep_trials),
+                   {}};
+  const double sample_rate = study::study_trial(study, place.point, 0).parameters.controller.sample_rate;
+  jerks.creep_agreement = agreement_of(jerks.creep, 1.0 / sample_rate);
   return jerks;
 }
 
@@ -75,11 +71,7 @@ Description<JerkIntervals> interval_description() {
                        .heading = fmt::format("{:.0f} % below", percent),
                        .meaning = fmt::format("quantile of {:.0f} % of the intervals", percent),
                        .unit = "s"},
-                      [i](Intervals intervals) -> std::optional<document::Bounded> {
-                        if (intervals.quantiles.empty()) return {};
-                        const statistics::Quantile& quantile = intervals.quantiles[i];
-                        return document::Bounded{quantile.value, quantile.low, quantile.high};
-                      });
+                      [i](Intervals intervals) { return intervals.quantiles[i]; });
   }
   return description;
 }
@@ -195,13 +187,8 @@ Description<JerkStatistics> statistics_description() {
 Description<PointJerks> point_description() {
   return Description<PointJerks>()
       .title([](const PointJerks& p) { return text::printable(p.label); })
-      .value(document::in_data("point", "number of the design point"), &PointJerks::point)
-      .value(document::in_data("label", "label of the design point, with the condition"), &PointJerks::label)
-      .value({.key = "condition",
-              .meaning = "condition that the trials are under",
-              .shown = document::Shown::in_json,
-              .optional = true},
-             &PointJerks::condition)
+      .include(measures::name_of_point(),
+               [](const PointJerks& p) -> const measures::PointUnderCondition& { return p; })
       .include(statistics_description(), &PointJerks::statistics)
       .object(everywhere("creep", "Creep at constant torque",
                          "comparison with the closed form of creep at constant torque"),
@@ -231,20 +218,10 @@ constexpr const char* legend =
 
 JerkReport jerk_report(const reading::AllTrialsFile& file, std::vector<std::int64_t> points,
                        double confidence, std::int64_t creep_trials) {
-  const study::Study& study = file.study();
-  if (points.empty()) {
-    points.resize(static_cast<std::size_t>(study::point_count(study)));
-    std::iota(points.begin(), points.end(), 0);
-  }
-  JerkReport report{.name = study.name, .confidence = confidence, .points = {}};
-  reading::for_each_condition(file, [&](const reading::AllTrialsFile& one, const std::string& condition) {
-    for (const std::int64_t point : points)
-      report.points.push_back(jerks_at(one, condition, point, confidence, creep_trials));
-  });
-  std::ranges::stable_sort(report.points, {}, [&](const PointJerks& jerks) {
-    return std::ranges::find(points, jerks.point) - points.begin();
-  });
-  return report;
+  const auto jerks = [&](const reading::AllTrialsFile& one, const measures::PointUnderCondition& place) {
+    return jerks_at(one, place, confidence, creep_trials);
+  };
+  return {file.study().name, confidence, measures::at_points<PointJerks>(file, std::move(points), jerks)};
 }
 
 bool any_arrival(const JerkReport& report) {

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/statistics/clusters/by_cluster.hpp"
 #include "analysis/statistics/clusters/trial_clusters.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/statistics/sums/histogram.hpp"
@@ -27,33 +28,12 @@ namespace {
   throw Failure(ExitCode::bad_data, fmt::format("{}: trial {}: {}", file.path().string(), row, what));
 }
 
-/// The timing parameters of the trials of a point. Drawn only once if they are the same in all trials.
-class Timings {
- public:
-  Timings(const study::Study& study, std::int64_t point) : study_(study), point_(point) {
-    const std::vector<study::InputColumn>& inputs = study.columns.inputs;
-    vary_ = std::any_of(inputs.begin(), inputs.end(), [](const study::InputColumn& input) {
-      return input.name == "controller.sample_rate" || input.name == "command.hold" ||
-             input.name == "verdict.dwell";
-    });
-    parameters_ = study::study_trial(study, point, 0).parameters;
-  }
-
-  const trial::TrialParameters& of(std::int64_t index) {
-    if (vary_) parameters_ = study::study_trial(study_, point_, index).parameters;
-    return parameters_;
-  }
-
- private:
-  const study::Study& study_;
-  std::int64_t point_;
-  bool vary_{false};
-  trial::TrialParameters parameters_;
-};
-
-SampledJerk sampled(const trial::Jerk& jerk, const trial::MoveOutcome& move, double sample_rate) {
-  return {std::llround(jerk.onset * sample_rate) - move.arrival, std::llround(jerk.duration * sample_rate),
-          jerk.magnitude, jerk.direction == numerics::sign_of(move.holding_torque)};
+/// Whether the timing parameters differ between trials. Where they do not, they are drawn once.
+bool have_own_timing(const study::Study& study) {
+  return std::ranges::any_of(study.columns.inputs, [](const study::InputColumn& input) {
+    return input.name == "controller.sample_rate" || input.name == "command.hold" ||
+           input.name == "verdict.dwell";
+  });
 }
 
 /// A move that was stopped early had diverged: it counts as a jerk that lasted to the end.
@@ -80,7 +60,10 @@ ObservedMove observe(const trial::TrialParameters& parameters, std::size_t index
   observed.lost = move.outcome == trial::Outcome::nonfinite;
   observed.sample_time = 1.0 / rate;
   observed.dwell = trial::samples_in(parameters.verdict.dwell, rate);
-  for (const layout::JerkRecord& jerk : jerks) observed.jerks.push_back(sampled(jerk, move, rate));
+  for (const layout::JerkRecord& jerk : jerks)
+    observed.jerks.push_back({std::llround(jerk.onset * rate) - move.arrival,
+                              std::llround(jerk.duration * rate), jerk.magnitude,
+                              jerk.direction == numerics::sign_of(move.holding_torque)});
   observed.end = observed_end(observed, move, trial::samples_of_move(parameters, index));
   return observed;
 }
@@ -99,10 +82,9 @@ std::int64_t first_sample(std::int64_t j, double sample_time) {
 
 constexpr std::size_t magnitude_classes = 3;  // one count, two, and more
 
-/// Time between onsets, s, rounded to 1 ps, so that equal numbers of samples give equal times.
-double interval_before(const ObservedMove& move, std::size_t jerk) {
-  const auto samples = static_cast<double>(move.jerks[jerk].onset - move.jerks[jerk - 1].onset);
-  return std::round(samples * move.sample_time * 1e12) / 1e12;
+/// Time of these samples, s, rounded to 1 ps, so that equal numbers of samples give equal times.
+double time_of(std::int64_t samples, const ObservedMove& move) {
+  return std::round(static_cast<double>(samples) * move.sample_time * 1e12) / 1e12;
 }
 
 /// Samples between the onsets of successive jerks.
@@ -113,44 +95,16 @@ std::vector<std::int64_t> intervals_of(const ObservedMove& move) {
   return intervals;
 }
 
-/// Hits and events of the clusters that may still receive events, and sums over the completed clusters.
-class EventSums {
- public:
-  /// @param clusters_return whether the events of one cluster may be interleaved with those of others: true
-  /// for rigs, false for trials
-  explicit EventSums(bool clusters_return = false) : clusters_return_(clusters_return) {}
-
-  void add(std::int64_t cluster, bool hit) {
-    if (!clusters_return_ && !open_.contains(cluster)) close();
-    Counts& counts = open_[cluster];
-    counts.hits += hit;
-    ++counts.events;
-  }
-  const statistics::ClusterSums& sums() {
-    close();
-    return sums_;
-  }
-
- private:
-  struct Counts {
-    std::int64_t hits{0}, events{0};
-  };
-  void close() {
-    for (const auto& [number, counts] : open_) sums_.add(counts.hits, counts.events);
-    open_.clear();
-  }
-  bool clusters_return_;
-  std::map<std::int64_t, Counts> open_;
-  statistics::ClusterSums sums_;
+/// The jerks of a cluster.
+struct JerkCounts {
+  std::int64_t jerks{0}, agreeing{0}, of_one_count{0};
 };
 
 JerkIntervals interval_statistics(const statistics::ClusteredSample& sample, double confidence) {
-  JerkIntervals intervals{sample.observed().size, statistics::mean(sample.observed()), {}, {}};
-  for (const double probability : jerk_interval_probabilities) {
-    intervals.quantiles.push_back(statistics::clustered_quantile(sample, probability, confidence));
-    intervals.independent.push_back(
-        statistics::effective_events(sample.at_most(intervals.quantiles.back().value)));
-  }
+  JerkIntervals intervals{sample.observed().size, statistics::mean(sample.observed())};
+  std::ranges::transform(jerk_interval_probabilities, intervals.quantiles.begin(), [&](double probability) {
+    return statistics::clustered_quantile(sample, probability, confidence);
+  });
   return intervals;
 }
 
@@ -158,12 +112,7 @@ JerkIntervals interval_statistics(const statistics::ClusteredSample& sample, dou
 class JerkCollector {
  public:
   JerkCollector(double confidence, std::int64_t rigs)
-      : confidence_(confidence),
-        rates_(rigs > 0),
-        trend_(confidence),
-        agreeing_(rigs > 0),
-        one_count_(rigs > 0),
-        intervals_(rigs) {}
+      : confidence_(confidence), rates_(rigs > 0), trend_(confidence), intervals_(rigs) {}
 
   void add(const ObservedMove& move) {
     if (move.cluster != cluster_) close_cluster();
@@ -176,11 +125,10 @@ class JerkCollector {
       return;
     }
     rates_.add(move);
-    trend_.add(intervals_of(move));
-    for (std::size_t i = 0; i < move.jerks.size(); ++i) {
-      if (i > 0) intervals_of_cluster_.push_back(interval_before(move, i));
-      add_jerk(move, move.jerks[i]);
-    }
+    const std::vector<std::int64_t> intervals = intervals_of(move);
+    trend_.add(intervals);
+    for (const std::int64_t interval : intervals) intervals_of_cluster_.push_back(time_of(interval, move));
+    for (const SampledJerk& jerk : move.jerks) add_jerk(move, jerk);
   }
 
   JerkStatistics statistics() {
@@ -189,10 +137,10 @@ class JerkCollector {
     result.confidence = confidence_;
     result.rates = rates_.rates(confidence_);
     result.slowing = trend_.summary();
-    result.agreement = statistics::clustered_proportion(agreeing_.sums(), confidence_);
+    result.agreement = proportion(&JerkCounts::agreeing);
     result.intervals = interval_statistics(intervals_.sample(), confidence_);
     JerkMagnitudes& magnitudes = result.magnitudes;
-    magnitudes.one_count = statistics::clustered_proportion(one_count_.sums(), confidence_);
+    magnitudes.one_count = proportion(&JerkCounts::of_one_count);
     magnitudes.counts.assign(magnitude_counts_.begin(), magnitude_counts_.end());
     magnitudes.mean = statistics::mean(magnitudes_);
     magnitudes.max = magnitudes_.size > 0 ? magnitudes_.counts.rbegin()->first : 0;
@@ -202,6 +150,12 @@ class JerkCollector {
   }
 
  private:
+  statistics::ClusteredProportion proportion(std::int64_t JerkCounts::*hits) const {
+    statistics::ClusterSums sums;
+    for (const JerkCounts& cluster : counts_.sums()) sums.add(cluster.*hits, cluster.jerks);
+    return statistics::clustered_proportion(sums, confidence_);
+  }
+
   void close_cluster() {
     intervals_.add_trial(cluster_, intervals_of_cluster_, std::ssize(intervals_of_cluster_));
     intervals_of_cluster_.clear();
@@ -211,10 +165,12 @@ class JerkCollector {
     ++found_.jerks;
     found_.with_jerks += move.trial != last_with_jerks_;
     last_with_jerks_ = move.trial;
-    agreeing_.add(move.cluster, jerk.agrees);
-    one_count_.add(move.cluster, jerk.magnitude == 1);
+    JerkCounts& counts = counts_.sum_of(move.cluster);
+    ++counts.jerks;
+    counts.agreeing += jerk.agrees;
+    counts.of_one_count += jerk.magnitude == 1;
     magnitudes_.add(jerk.magnitude);
-    durations_.add(std::round(static_cast<double>(jerk.length) * move.sample_time * 1e12) / 1e12);
+    durations_.add(time_of(jerk.length, move));
     const auto last = static_cast<std::int64_t>(magnitude_classes);
     ++magnitude_counts_[static_cast<std::size_t>(std::clamp<std::int64_t>(jerk.magnitude, 1, last) - 1)];
   }
@@ -223,7 +179,7 @@ class JerkCollector {
   JerkStatistics found_;
   JerkRates rates_;
   TrendSum trend_;
-  EventSums agreeing_, one_count_;
+  statistics::ByCluster<JerkCounts> counts_;
   statistics::TrialClusters intervals_;
   std::vector<double> intervals_of_cluster_;
   std::int64_t cluster_{0};
@@ -233,14 +189,10 @@ class JerkCollector {
   std::int64_t last_with_jerks_{-1};
 };
 
-void require_jerks(const reading::AllTrialsFile& file, const study::Study& study, std::int64_t point) {
+void require_jerks(const reading::AllTrialsFile& file, const study::Study& study) {
   if (study.open_loop) {
     throw Failure(ExitCode::bad_data, fmt::format("{}: an open-loop study has no targets, and so no jerks",
                                                   file.path().string()));
-  }
-  if (point < 0 || point >= study::point_count(study)) {
-    throw Failure(ExitCode::bad_input, fmt::format("point {}; the study has points 0 to {}", point,
-                                                   study::point_count(study) - 1));
   }
 }
 
@@ -262,7 +214,8 @@ void for_each_move(const reading::AllTrialsFile& file, const study::Study& study
   const std::int64_t trials = file.header().trials;
   const std::int64_t begin = point * trials;
   const std::int64_t end = begin + trials;
-  Timings timings(study, point);
+  const bool own_timing = have_own_timing(study);
+  trial::TrialParameters parameters = study::study_trial(study, point, 0).parameters;
   for (std::int64_t first = begin; first < end; first += layout::chunk_rows(moves)) {
     const layout::RowRange block{first, std::min(layout::chunk_rows(moves), end - first)};
     const std::vector<trial::MoveOutcome> outcomes = file.outcomes(block);
@@ -278,8 +231,8 @@ void for_each_move(const reading::AllTrialsFile& file, const study::Study& study
         fail(file, row,
              fmt::format("{} jerks recorded of a move that counted {}", own.size(), move.jerk_count));
       }
-      ObservedMove observed =
-          observe(timings.of(row - begin), static_cast<std::size_t>(i % moves), move, own);
+      if (own_timing && i % moves == 0) parameters = study::study_trial(study, point, row - begin).parameters;
+      ObservedMove observed = observe(parameters, static_cast<std::size_t>(i % moves), move, own);
       observed.trial = row;
       observed.cluster = study.rigs > 0 ? study::rig_of(study, row - begin) : row;
       if (observed.arrived && !observed.lost && !in_order(observed)) {
@@ -379,7 +332,7 @@ std::vector<JerkRate> JerkRates::rates(double confidence) const {
 
 JerkStatistics jerk_statistics(const reading::AllTrialsFile& file, const study::Study& study,
                                std::int64_t point, double confidence) {
-  require_jerks(file, study, point);
+  require_jerks(file, study);
   statistics::require_confidence(confidence);
   JerkCollector collector(confidence, study.rigs);
   for_each_move(file, study, point, [&](const ObservedMove& move) { collector.add(move); });

@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "analysis/document/answer.hpp"
 #include "analysis/jerks/creep_comparison.hpp"
 #include "analysis/jerks/laplace_trend.hpp"
+#include "analysis/measures/point_under_condition.hpp"
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/quantile.hpp"
@@ -70,17 +72,16 @@ struct JerkRate {
   statistics::ConfidenceInterval bounds{};
 };
 
+/// The probabilities of JerkIntervals::quantiles.
+inline constexpr std::array<double, 5> jerk_interval_probabilities{0.05, 0.25, 0.5, 0.75, 0.95};
+
 /// Time between the onsets of successive jerks of a move, s.
 struct JerkIntervals {
   std::int64_t n{0};
   double mean{statistics::unknown};
   /// At jerk_interval_probabilities, with order-statistic bounds for the effective number of intervals.
-  std::vector<statistics::Quantile> quantiles;
-  std::vector<double> independent;  ///< [quantile]: effective number of intervals
+  std::array<statistics::Quantile, jerk_interval_probabilities.size()> quantiles{};
 };
-
-/// The probabilities of JerkIntervals::quantiles.
-inline constexpr std::array<double, 5> jerk_interval_probabilities{0.05, 0.25, 0.5, 0.75, 0.95};
 
 /// The largest |error| of the jerks, counts.
 struct JerkMagnitudes {
@@ -113,16 +114,6 @@ struct JerkStatistics {
 /// open-loop study, which has no jerks, and for inconsistent data.
 JerkStatistics jerk_statistics(const reading::AllTrialsFile& file, const study::Study& study,
                                std::int64_t point, double confidence = statistics::summary_confidence);
-
-/// The data of one point that the verb `jerks` reports.
-struct PointJerks {
-  std::int64_t point{0};
-  std::string label;                       ///< with the condition, if there is one
-  std::optional<std::string> condition{};  ///< that its trials are under
-  JerkStatistics statistics{};
-  CreepComparison creep;  ///< from trials simulated again
-  CreepAgreement creep_agreement;
-};
 
 /// Counts jerks and exposure (the time in which jerks could begin) in ranges of the time since arrival. The
 /// ranges are bounded by 10^(j/5) s for integers j: five per decade.
@@ -164,5 +155,33 @@ class JerkRates {
   double earliest_{std::numeric_limits<double>::infinity()};  ///< s
   double latest_{0.0};                                        ///< s
 };
+
+// Output of the verb `jerks`.
+
+/// The data of one point that the verb `jerks` reports.
+struct PointJerks : measures::PointUnderCondition {
+  JerkStatistics statistics{};
+  CreepComparison creep;  ///< from trials simulated again
+  CreepAgreement creep_agreement;
+};
+
+/// The reported data of a study.
+struct JerkReport {
+  std::string name;  ///< of the study
+  double confidence{statistics::summary_confidence};
+  std::vector<PointJerks> points;
+};
+
+/// The jerks of `points` (all points if empty) of a complete results file, under each condition.
+/// `creep_trials` trials of each point are simulated again and compared with the closed form of creep.
+/// @throws Failure as jerk_statistics.
+JerkReport jerk_report(const reading::AllTrialsFile& file, std::vector<std::int64_t> points,
+                       double confidence, std::int64_t creep_trials);
+
+/// Whether any move arrived. Without an arrival there are no measurements.
+bool any_arrival(const JerkReport& report);
+
+/// The answer of `jerks`: for each point its numbers in words, the table of rates and the intervals.
+document::AnswerDescription<JerkReport> jerk_answer();
 
 }  // namespace zerocount::jerks

@@ -173,34 +173,26 @@ Eigen::VectorXd max_likelihood(const Eigen::MatrixXd& z, const Eigen::VectorXd& 
 
 }  // namespace
 
-Eigen::MatrixXd standardised(const Eigen::MatrixXd& x) {
+IndependentColumns independent_columns(const Eigen::MatrixXd& x) {
+  constexpr double min_variance = 1e-8;
   const Eigen::MatrixXd centred = x.rowwise() - x.colwise().mean();
   const Eigen::RowVectorXd sd = (centred.colwise().squaredNorm() / static_cast<double>(x.rows())).cwiseSqrt();
-  return centred.array().rowwise() / sd.array();
-}
-
-std::vector<bool> independent_columns(const Eigen::MatrixXd& x) {
-  constexpr double min_variance = 1e-8;
-  std::vector<bool> independent(static_cast<std::size_t>(x.cols()), false);
+  const Eigen::MatrixXd all = centred.array().rowwise() / sd.array();
+  IndependentColumns found{Eigen::MatrixXd(x.rows(), 0), {}};
   Eigen::MatrixXd directions(x.rows(), 0);
+  const auto append = [](Eigen::MatrixXd& columns, const Eigen::VectorXd& column) {
+    columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
+    columns.rightCols(1) = column;
+  };
   for (Eigen::Index j = 0; j < x.cols(); ++j) {
-    Eigen::VectorXd rest = x.col(j);
+    Eigen::VectorXd rest = all.col(j);
     for (int pass = 0; pass < 2; ++pass) rest -= directions * (directions.transpose() * rest);
-    if (rest.squaredNorm() < min_variance * x.col(j).squaredNorm()) continue;
-    independent[static_cast<std::size_t>(j)] = true;
-    directions.conservativeResize(Eigen::NoChange, directions.cols() + 1);
-    directions.rightCols(1) = rest.normalized();
+    if (rest.squaredNorm() < min_variance * all.col(j).squaredNorm()) continue;
+    append(directions, rest.normalized());
+    append(found.values, all.col(j));
+    found.places.push_back(static_cast<std::size_t>(j));
   }
-  return independent;
-}
-
-Eigen::MatrixXd marked_columns(const Eigen::MatrixXd& x, const std::vector<bool>& marks) {
-  Eigen::MatrixXd marked(x.rows(), std::count(marks.begin(), marks.end(), true));
-  Eigen::Index next = 0;
-  for (std::size_t j = 0; j < marks.size(); ++j) {
-    if (marks[j]) marked.col(next++) = x.col(static_cast<Eigen::Index>(j));
-  }
-  return marked;
+  return found;
 }
 
 bool is_constant(std::span<const double> values) {
@@ -247,9 +239,7 @@ std::vector<BoundedNumber> partial_rank_correlations(const Eigen::MatrixXd& x, s
   if (x.cols() == 0 || x.rows() < x.cols() + min_beyond_columns) return correlations;
   const Eigen::VectorXd ranks_y = ranks_of(y);
   if (ranks_y.squaredNorm() == 0.0) return correlations;
-  const Eigen::MatrixXd all = standardised(ranks_of_columns(x));
-  const std::vector<bool> independent = independent_columns(all);
-  const Eigen::MatrixXd ranks = marked_columns(all, independent);
+  const auto [ranks, places] = independent_columns(ranks_of_columns(x));
 
   // With Q the inverse of XᵀX, what is left of column j is X·Q_j/Q_jj, and of y when all columns but j are
   // taken from it, the remainder of the full regression plus its part along that.
@@ -258,13 +248,10 @@ std::vector<BoundedNumber> partial_rank_correlations(const Eigen::MatrixXd& x, s
   const Eigen::VectorXd slopes = inverse * (ranks.transpose() * ranks_y);
   const Eigen::VectorXd remainder = ranks_y - ranks * slopes;
   const auto freedom = static_cast<double>(ranks.rows() - ranks.cols() - 2);
-  Eigen::Index next = 0;
-  for (std::size_t j = 0; j < correlations.size(); ++j) {
-    if (!independent[j]) continue;
-    const Eigen::VectorXd of_column = ranks * inverse.col(next) / inverse(next, next);
-    correlations[j] =
-        correlation_of_remainders(of_column, remainder + slopes(next) * of_column, freedom, confidence);
-    ++next;
+  for (Eigen::Index j = 0; j < ranks.cols(); ++j) {
+    const Eigen::VectorXd of_column = ranks * inverse.col(j) / inverse(j, j);
+    correlations[places[static_cast<std::size_t>(j)]] =
+        correlation_of_remainders(of_column, remainder + slopes(j) * of_column, freedom, confidence);
   }
   return correlations;
 }
@@ -277,9 +264,7 @@ LogisticFit logistic_fit(const Eigen::MatrixXd& x, const Eigen::VectorXd& yes, d
       x.rows() < x.cols() + 1 + min_beyond_coefficients) {
     return fit;
   }
-  const Eigen::MatrixXd all = standardised(x);
-  const std::vector<bool> independent = independent_columns(all);
-  const Eigen::MatrixXd columns = marked_columns(all, independent);
+  const auto [columns, places] = independent_columns(x);
   Eigen::MatrixXd z(columns.rows(), columns.cols() + 1);
   z << Eigen::VectorXd::Ones(columns.rows()), columns;
 
@@ -294,10 +279,8 @@ LogisticFit logistic_fit(const Eigen::MatrixXd& x, const Eigen::VectorXd& yes, d
     return BoundedNumber{b(i), b(i) - half, b(i) + half};
   };
   fit.intercept = bounded(0);
-  Eigen::Index next = 1;
-  for (std::size_t j = 0; j < independent.size(); ++j) {
-    if (independent[j]) fit.slopes[j] = bounded(next++);
-  }
+  for (Eigen::Index j = 0; j < columns.cols(); ++j)
+    fit.slopes[places[static_cast<std::size_t>(j)]] = bounded(j + 1);
   return fit;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -9,17 +10,15 @@
 
 namespace zerocount::sensitivity {
 
-/// The columns of x less their means, over their standard deviations (divisor n).
-/// @param x none of its columns is constant.
-Eigen::MatrixXd standardised(const Eigen::MatrixXd& x);
+/// Columns that are not linear combinations of those before them.
+struct IndependentColumns {
+  Eigen::MatrixXd values;           ///< less their means, over their standard deviations (divisor n)
+  std::vector<std::size_t> places;  ///< [column] where it stands in x
+};
 
-/// Marks the columns that are not linear combinations of earlier columns, [column]. The residual of a
-/// regression on the earlier columns must have at least 10⁻⁸ of the column's variance.
-/// @param x standardised.
-std::vector<bool> independent_columns(const Eigen::MatrixXd& x);
-
-/// The columns of x that are marked.
-Eigen::MatrixXd marked_columns(const Eigen::MatrixXd& x, const std::vector<bool>& marks);
+/// Those of x. The residual of a regression on the columns before must have at least 10⁻⁸ of the column's
+/// variance. @param x none of its columns is constant.
+IndependentColumns independent_columns(const Eigen::MatrixXd& x);
 
 /// The empirical mid-distribution function at each value: (number below + ½ number equal, itself included)/n,
 /// which is (rank − ½)/n with the mean rank of values that are equal. The mean is exactly ½. The values are

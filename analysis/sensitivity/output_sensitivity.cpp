@@ -19,6 +19,62 @@ namespace {
 constexpr std::size_t min_rows = 10;
 constexpr std::int64_t min_of_a_kind = 10;
 
+/// The trials of a point from which the sensitivity of an output comes: those that have a value, of a
+/// saltelli design those whose whole row has.
+struct UsedTrials {
+  std::vector<std::size_t> row_starts;   ///< of the rows of a saltelli design
+  std::vector<std::size_t> independent;  ///< all, or those of A and B of a saltelli design
+  std::int64_t left_out{0};              ///< without a value, or in a row with one such
+  std::int64_t of_rigs{0};               ///< not looked at, because they share a rig with one that was
+};
+
+/// @param values [trial], NaN where there is none
+UsedTrials used_trials(const PointInputs& point, const std::vector<double>& values) {
+  UsedTrials used;
+  if (point.design != study::Design::saltelli) {
+    const std::size_t looked_at = point.rigs > 0 ? static_cast<std::size_t>(point.rigs) : values.size();
+    for (std::size_t i = 0; i < looked_at; ++i) {
+      if (std::isfinite(values[i])) used.independent.push_back(i);
+    }
+    used.of_rigs = point.rigs > 0 ? static_cast<std::int64_t>(values.size() - looked_at) : 0;
+    used.left_out = static_cast<std::int64_t>(looked_at - used.independent.size());
+    return used;
+  }
+  const std::size_t length = designs::saltelli_row_length(point.factors.size());
+  for (std::size_t start = 0; start + length <= values.size(); start += length) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(start);
+    if (!std::all_of(first, first + static_cast<std::ptrdiff_t>(length),
+                     [](double v) { return std::isfinite(v); })) {
+      used.left_out += static_cast<std::int64_t>(length);
+      continue;
+    }
+    used.row_starts.push_back(start);
+    used.independent.insert(used.independent.end(), {start, start + 1});
+  }
+  return used;
+}
+
+/// The values at these places.
+std::vector<double> picked(const std::vector<double>& values, const std::vector<std::size_t>& places) {
+  std::vector<double> result;
+  result.reserve(places.size());
+  for (const std::size_t place : places) result.push_back(values[place]);
+  return result;
+}
+
+/// The rows used.
+SaltelliSample saltelli_sample(const PointInputs& point, const std::vector<double>& values,
+                               const UsedTrials& used) {
+  SaltelliSample sample;
+  sample.c.resize(point.factors.size());
+  for (const std::size_t start : used.row_starts) {
+    sample.a.push_back(values[start]);
+    sample.b.push_back(values[start + 1]);
+    for (std::size_t j = 0; j < sample.c.size(); ++j) sample.c[j].push_back(values[start + 2 + j]);
+  }
+  return sample;
+}
+
 // The inputs that vary among the trials used, and the factors that none of them is.
 struct Varying {
   std::vector<std::string> names;
@@ -54,15 +110,6 @@ FactorSensitivity& row_of(OutputSensitivity& result, const std::string& name) {
   return result.factors.back();
 }
 
-// About how many values the variance comes from: of normal ones a third, of skewed ones the largest few.
-double values_of_variance(const std::vector<double>& y) {
-  statistics::Moments moments;
-  for (const double value : y) moments.add(value);
-  double fourths = 0.0;
-  for (const double value : y) fourths += std::pow(value - moments.mean, 4);
-  return moments.squares * moments.squares / fourths;
-}
-
 // Names the factors of which the bounds leave more than half of what is possible open. @returns whether there
 // are any
 bool note_open(OutputSensitivity& result, BoundedNumber FactorSensitivity::*index, std::string_view name) {
@@ -91,7 +138,7 @@ void note_uncertain_totals(OutputSensitivity& result) {
 void note_uncertain_first_orders(const std::vector<double>& y, OutputSensitivity& result) {
   constexpr double few = 30.0;
   if (!note_open(result, &FactorSensitivity::first_order, "first order")) return;
-  const double carrying = values_of_variance(y);
+  const double carrying = values_behind_variance(y);
   if (carrying < few)
     result.notes.push_back(fmt::format("most of the variance of {} comes from about {:.0f} of the {} trials",
                                        result.output, std::ceil(carrying), y.size()));
@@ -226,50 +273,6 @@ void describe_sample(const std::vector<double>& y, OutputSensitivity& result) {
 }
 
 }  // namespace
-
-UsedTrials used_trials(const PointInputs& point, const std::vector<double>& values) {
-  UsedTrials used;
-  if (point.design != study::Design::saltelli) {
-    const std::size_t looked_at = point.rigs > 0 ? static_cast<std::size_t>(point.rigs) : values.size();
-    for (std::size_t i = 0; i < looked_at; ++i) {
-      if (std::isfinite(values[i])) used.independent.push_back(i);
-    }
-    used.of_rigs = point.rigs > 0 ? static_cast<std::int64_t>(values.size() - looked_at) : 0;
-    used.left_out = static_cast<std::int64_t>(looked_at - used.independent.size());
-    return used;
-  }
-  const std::size_t length = designs::saltelli_row_length(point.factors.size());
-  for (std::size_t start = 0; start + length <= values.size(); start += length) {
-    const auto first = values.begin() + static_cast<std::ptrdiff_t>(start);
-    if (!std::all_of(first, first + static_cast<std::ptrdiff_t>(length),
-                     [](double v) { return std::isfinite(v); })) {
-      used.left_out += static_cast<std::int64_t>(length);
-      continue;
-    }
-    used.row_starts.push_back(start);
-    used.independent.insert(used.independent.end(), {start, start + 1});
-  }
-  return used;
-}
-
-std::vector<double> picked(const std::vector<double>& values, const std::vector<std::size_t>& places) {
-  std::vector<double> result;
-  result.reserve(places.size());
-  for (const std::size_t place : places) result.push_back(values[place]);
-  return result;
-}
-
-SaltelliSample saltelli_sample(const PointInputs& point, const std::vector<double>& values,
-                               const UsedTrials& used) {
-  SaltelliSample sample;
-  sample.c.resize(point.factors.size());
-  for (const std::size_t start : used.row_starts) {
-    sample.a.push_back(values[start]);
-    sample.b.push_back(values[start + 1]);
-    for (std::size_t j = 0; j < sample.c.size(); ++j) sample.c[j].push_back(values[start + 2 + j]);
-  }
-  return sample;
-}
 
 OutputSensitivity output_sensitivity(const PointInputs& inputs, const SensitivityOutput& output,
                                      const TrialOutputs& trials, double confidence,

@@ -32,6 +32,12 @@ bool is_whole(std::span<const trial::MoveOutcome> moves) {
   });
 }
 
+/// Duration of a move of this trial, a whole number of samples, s; of a closed loop.
+double move_duration(const trial::TrialParameters& trial) {
+  const double rate = trial.controller.sample_rate;
+  return std::round(trial.command.hold * rate) / rate;
+}
+
 SensitivityOutput output_of(const layout::Measure& measure) {
   return {.name = measure.output->name,
           .unit = measure.field.column.unit,
@@ -87,21 +93,6 @@ std::vector<SensitivityOutput> goal_outputs(const goal::Question& question) {
     std::ranges::move(own, std::back_inserter(outputs));
   }
   return outputs;
-}
-
-std::vector<std::int64_t> points_asked(const reading::AllTrialsFile& file,
-                                       const SensitivityQuestion& question) {
-  const std::int64_t count = file.header().points;
-  for (const std::int64_t point : question.points) {
-    if (point < 0 || point >= count) {
-      throw Failure(ExitCode::bad_input, fmt::format("{}: there is no design point {}; expected 0 to {}",
-                                                     file.path().string(), point, count - 1));
-    }
-  }
-  if (!question.points.empty()) return question.points;
-  std::vector<std::int64_t> all(static_cast<std::size_t>(count));
-  std::iota(all.begin(), all.end(), std::int64_t{0});
-  return all;
 }
 
 std::vector<SensitivityOutput> outputs_asked(const SensitivityQuestion& question,
@@ -203,11 +194,6 @@ WorldMeans means_of_worlds(const study::Study& study, const TrialOutputs& trials
   return result;
 }
 
-void put_on_axis(parameters::AxisKind axis, OutputSensitivity& result) {
-  result.unit = parameters::unit_on(axis, result.unit);
-  result.meaning = parameters::text_on(axis, result.meaning);
-}
-
 /// Sensitivity of the means of the worlds to what differs between them.
 OutputSensitivity between_worlds(const study::Study& study, const PointInputs& worlds,
                                  const SensitivityOutput& output, const TrialOutputs& trials,
@@ -224,49 +210,42 @@ OutputSensitivity between_worlds(const study::Study& study, const PointInputs& w
   return result;
 }
 
-/// The question that is asked of the points of a study, under one of its conditions, if it has any.
+/// The question that is asked of the points of a study.
 struct PointsAsked {
   const SensitivityQuestion& question;
-  std::vector<std::int64_t> points;
-  std::vector<std::string> labels;  ///< [point of the study]
   std::vector<SensitivityOutput> outputs;
   random::RandomStream bootstrap;  ///< the same for all outputs and points, as the trials are
   std::function<void()> done;      ///< one output of one point
 };
 
-/// @param file of the trials under `condition`
-PointSensitivity sensitivity_at(const reading::AllTrialsFile& file, const std::string& condition,
-                                std::int64_t point, const PointsAsked& asked) {
+/// @param file of the trials under the condition
+PointSensitivity sensitivity_at(const reading::AllTrialsFile& file,
+                                const measures::PointUnderCondition& place, const PointsAsked& asked) {
   const study::Study& study = file.study();
+  const std::int64_t point = place.point;
   const std::int64_t trials = trials_read(study, asked.question);
-  PointSensitivity at_point{
-      point, study::label_under(asked.labels.at(static_cast<std::size_t>(point)), condition), {}, {}};
-  if (!condition.empty()) at_point.condition = condition;
-  const PointInputs inputs = point_inputs(file, point, !condition.empty(), trials);
+  const PointInputs inputs = point_inputs(file, point, place.condition.has_value(), trials);
   const PointInputs worlds = inputs_of_worlds(study, point);
   const double confidence = asked.question.confidence;
+  PointSensitivity at_point{place, {}};
+  const auto add = [&](OutputSensitivity result) {
+    result.unit = parameters::unit_on(study.units.axis, result.unit);
+    result.meaning = parameters::text_on(study.units.axis, result.meaning);
+    at_point.outputs.push_back(std::move(result));
+  };
   for (const SensitivityOutput& output : asked.outputs) {
     const TrialOutputs values = trial_outputs(file, study, point, trials, output);
     OutputSensitivity result = output_sensitivity(inputs, output, values, confidence, asked.bootstrap);
     if (trials < study.trials && study.rigs == 0)
       result.notes.push_back(fmt::format("the first {} of {} trials are used", trials, study.trials));
-    put_on_axis(study.units.axis, result);
-    at_point.outputs.push_back(std::move(result));
-    if (study.worlds > 0) {
-      at_point.outputs.push_back(between_worlds(study, worlds, output, values, confidence, asked.bootstrap));
-      put_on_axis(study.units.axis, at_point.outputs.back());
-    }
+    add(std::move(result));
+    if (study.worlds > 0) add(between_worlds(study, worlds, output, values, confidence, asked.bootstrap));
     asked.done();
   }
   return at_point;
 }
 
 }  // namespace
-
-double move_duration(const trial::TrialParameters& trial) {
-  const double rate = trial.controller.sample_rate;
-  return std::round(trial.command.hold * rate) / rate;
-}
 
 std::vector<SensitivityOutput> sensitivity_outputs(const layout::MeasureTable& measures,
                                                    const goal::Question& question) {
@@ -318,25 +297,20 @@ StudySensitivity study_sensitivity(const reading::AllTrialsFile& file, const Sen
                                .confidence = question.confidence,
                                .points = {}};
   PointsAsked asked{.question = question,
-                    .points = points_asked(file, question),
-                    .labels = file.point_labels(),
                     .outputs = outputs_asked(question, file.table(), goal::question_of(study)),
                     .bootstrap = {designs::random_key(header.seed, "sensitivity/bootstrap"), 0},
                     .done = {}};
-  const std::int64_t all =
-      study::condition_count(study) * std::ssize(asked.points) * std::ssize(asked.outputs);
+  const std::int64_t points =
+      question.points.empty() ? study::point_count(study) : std::ssize(question.points);
+  const std::int64_t all = study::condition_count(study) * points * std::ssize(asked.outputs);
   asked.done = [&, done = std::int64_t{0}]() mutable {
     if (question.progress) question.progress(++done, all);
   };
-  // By point, then by condition.
-  const std::size_t conditions = static_cast<std::size_t>(study::condition_count(study));
-  sensitivity.points.resize(asked.points.size() * conditions);
-  std::size_t condition = 0;
-  reading::for_each_condition(file, [&](const reading::AllTrialsFile& one, const std::string& name) {
-    for (std::size_t i = 0; i < asked.points.size(); ++i)
-      sensitivity.points[i * conditions + condition] = sensitivity_at(one, name, asked.points[i], asked);
-    ++condition;
-  });
+  sensitivity.points = measures::at_points<PointSensitivity>(
+      file, question.points,
+      [&](const reading::AllTrialsFile& one, const measures::PointUnderCondition& place) {
+        return sensitivity_at(one, place, asked);
+      });
   return sensitivity;
 }
 

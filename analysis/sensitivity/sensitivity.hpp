@@ -11,6 +11,7 @@
 
 #include "analysis/document/answer.hpp"
 #include "analysis/goal/question.hpp"
+#include "analysis/measures/point_under_condition.hpp"
 #include "analysis/sensitivity/sobol_indices.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
@@ -72,10 +73,7 @@ struct OutputSensitivity {
 
 /// All outputs asked for, at one design point; under one of the conditions where there are any, so that the
 /// indices say what drives the trials within it.
-struct PointSensitivity {
-  std::int64_t point{0};
-  std::string label;                       ///< with the condition, if there is one
-  std::optional<std::string> condition{};  ///< that its trials are under
+struct PointSensitivity : measures::PointUnderCondition {
   std::vector<OutputSensitivity> outputs;
 };
 
@@ -147,9 +145,6 @@ SensitivityOutput find_sensitivity_output(std::string_view name, const layout::M
 TrialOutputs trial_outputs(const reading::AllTrialsFile& file, const study::Study& study, std::int64_t point,
                            std::int64_t trials, const SensitivityOutput& output);
 
-/// Duration of a move of this trial, a whole number of samples, s; of a closed loop.
-double move_duration(const trial::TrialParameters& trial);
-
 /// The values that one input had in the trials of a design point.
 struct InputValues {
   std::string name;
@@ -185,24 +180,5 @@ OutputSensitivity output_sensitivity(const PointInputs& inputs, const Sensitivit
 /// indices. With worlds there is no saltelli design to advise.
 std::string sensitivity_conclusion(const OutputSensitivity& sensitivity, bool from_saltelli,
                                    double confidence, Subject subject);
-
-/// The trials of a point from which the sensitivity of an output comes: those that have a value, of a
-/// saltelli design those whose whole row has.
-struct UsedTrials {
-  std::vector<std::size_t> row_starts;   ///< of the rows of a saltelli design
-  std::vector<std::size_t> independent;  ///< all, or those of A and B of a saltelli design
-  std::int64_t left_out{0};              ///< without a value, or in a row with one such
-  std::int64_t of_rigs{0};               ///< not looked at, because they share a rig with one that was
-};
-
-/// @param values [trial], NaN where there is none.
-UsedTrials used_trials(const PointInputs& point, const std::vector<double>& values);
-
-/// The values at these places.
-std::vector<double> picked(const std::vector<double>& values, const std::vector<std::size_t>& places);
-
-/// The rows used.
-SaltelliSample saltelli_sample(const PointInputs& point, const std::vector<double>& values,
-                               const UsedTrials& used);
 
 }  // namespace zerocount::sensitivity

@@ -56,10 +56,7 @@ Description<FactorSensitivity> factor_description() {
                        .meaning = meaning,
                        .unit = "1",
                        .notation = document::Notation::three_digits},
-                      [number](const FactorSensitivity& factor) {
-                        const BoundedNumber& found = factor.*number;
-                        return document::Bounded{found.value, found.low, found.high};
-                      });
+                      number);
   };
   add("total", "total", "total Sobol' index", &FactorSensitivity::total);
   add("first_order", "first order", "first-order Sobol' index", &FactorSensitivity::first_order);
@@ -124,13 +121,8 @@ Description<PointSensitivity> point_description() {
       .title([](const PointSensitivity& p) {
         return fmt::format("Point {}: {}", p.point, text::printable(p.label));
       })
-      .value(in_data("point", "number of the design point"), &PointSensitivity::point)
-      .value(in_data("label", "label of the design point, with the condition"), &PointSensitivity::label)
-      .value({.key = "condition",
-              .meaning = "condition that the trials are under",
-              .shown = document::Shown::in_json,
-              .optional = true},
-             &PointSensitivity::condition)
+      .include(measures::name_of_point(),
+               [](const PointSensitivity& p) -> const measures::PointUnderCondition& { return p; })
       .sections({.key = "outputs", .meaning = "outputs of the trials"}, output_description(),
                 &PointSensitivity::outputs);
 }

@@ -266,21 +266,6 @@ BoundedNumber number_total(const BoundedNumber& resampled, double unseen, double
   return total;
 }
 
-// As many trials as would, each with the same proportion, make up the variance of A and B (Kish's effective
-// number).
-double trials_behind_variance(const SaltelliSample& sample, double mean) {
-  double squares = 0.0;
-  double fourth_powers = 0.0;
-  for (const std::vector<double>* column : {&sample.a, &sample.b}) {
-    for (const double value : *column) {
-      const double square = (value - mean) * (value - mean);
-      squares += square;
-      fourth_powers += square * square;
-    }
-  }
-  return squares * (squares / fourth_powers);
-}
-
 BoundedNumber without_bounds(const BoundedNumber& number) {
   BoundedNumber value;
   value.value = number.value;
@@ -291,7 +276,9 @@ BoundedNumber without_bounds(const BoundedNumber& number) {
 void widen_bounds(const SaltelliSample& sample, double confidence, std::vector<SobolIndices>& indices) {
   const bool yes_or_no = is_yes_or_no(sample);
   const double unseen = unseen_index(sample.a, sample.b, confidence);
-  const bool too_few = trials_behind_variance(sample, mean_of(sample)) < min_behind_variance;
+  std::vector<double> of_a_and_b = sample.a;
+  of_a_and_b.insert(of_a_and_b.end(), sample.b.begin(), sample.b.end());
+  const bool too_few = values_behind_variance(of_a_and_b) < min_behind_variance;
   for (std::size_t j = 0; j < sample.c.size(); ++j) {
     auto& [first_order, total] = indices[j];
     const std::vector<double>& c = sample.c[j];
@@ -314,6 +301,14 @@ void widen_bounds(const SaltelliSample& sample, double confidence, std::vector<S
 }
 
 }  // namespace
+
+double values_behind_variance(std::span<const double> values) {
+  statistics::Moments moments;
+  for (const double value : values) moments.add(value);
+  double fourths = 0.0;
+  for (const double value : values) fourths += std::pow(value - moments.mean, 4);
+  return moments.squares * (moments.squares / fourths);
+}
 
 BoundedNumber given_data_first_order(std::span<const double> x, std::span<const double> y,
                                      double confidence) {

@@ -161,6 +161,10 @@ struct SobolIndices {
   BoundedNumber total;
 };
 
+/// As many values as would, each with the same part, make up the variance (Kish's effective number): of
+/// normal ones a third, of skewed ones the largest few. @param values finite
+double values_behind_variance(std::span<const double> values);
+
 /// How often rows are drawn again for bounds of this confidence: so often that 25 lie beyond each bound, and
 /// 1000 times at least.
 std::int64_t bootstrap_replicates(double confidence);

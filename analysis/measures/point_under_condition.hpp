@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "analysis/document/description.hpp"
+#include "core/failure/failure.hpp"
+#include "experiments/study/condition_study.hpp"
+#include "results/reading/all_trials_file.hpp"
+
+namespace zerocount::measures {
+
+/// A design point, under one of the conditions where there are any.
+struct PointUnderCondition {
+  std::int64_t point{0};
+  std::string label;                       ///< with the condition, if there is one
+  std::optional<std::string> condition{};  ///< that its trials are under
+};
+
+/// How data name it.
+inline document::Description<PointUnderCondition> name_of_point() {
+  return document::Description<PointUnderCondition>()
+      .value(document::in_data("point", "number of the design point"), &PointUnderCondition::point)
+      .value(document::in_data("label", "label of the design point, with the condition"),
+             &PointUnderCondition::label)
+      .value({.key = "condition",
+              .meaning = "condition that the trials are under",
+              .shown = document::Shown::in_json,
+              .optional = true},
+             &PointUnderCondition::condition);
+}
+
+/// What `make(file, place)` says of each of the points, of all if `points` is empty, under each condition: by
+/// point, then by condition. @param Part has the members of PointUnderCondition
+/// @throws Failure (bad_input) for a point that there is not
+template <class Part, class Make>
+std::vector<Part> at_points(const reading::AllTrialsFile& file, std::vector<std::int64_t> points,
+                            const Make& make) {
+  const study::Study& study = file.study();
+  if (points.empty()) {
+    points.resize(static_cast<std::size_t>(study::point_count(study)));
+    std::iota(points.begin(), points.end(), 0);
+  }
+  for (const std::int64_t point : points) {
+    if (point >= 0 && point < study::point_count(study)) continue;
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: there is no design point {}; expected 0 to {}", file.path().string(),
+                              point, study::point_count(study) - 1));
+  }
+  std::vector<Part> parts;
+  reading::for_each_condition(file, [&](const reading::AllTrialsFile& one, const std::string& condition) {
+    for (const std::int64_t point : points)
+      parts.push_back(make(
+          one, PointUnderCondition{
+                   point, study::label_under(study.points.labels[static_cast<std::size_t>(point)], condition),
+                   condition.empty() ? std::nullopt : std::optional(condition)}));
+  });
+  std::ranges::stable_sort(
+      parts, {}, [&](const Part& part) { return std::ranges::find(points, part.point) - points.begin(); });
+  return parts;
+}
+
+}  // namespace zerocount::measures

@@ -212,37 +212,35 @@ using Run = const SeriesRun&;
 
 /// How the value of a run compares with its baseline, for a run that was compared.
 Description<SeriesRun> comparison_description() {
-  const auto compared = [](auto ValueComparison::*member) {
-    return [member](Run r) { return (*r.value.comparison).*member; };
-  };
-  const auto baseline = [](std::string RunComparison::*member) {
-    return [member](Run r) {
-      return r.run->comparison ? std::optional((*r.run->comparison).*member) : std::nullopt;
-    };
-  };
+  const auto of_value =
+      Description<ValueComparison>()
+          .value(in_data("verdict", "verdict on the change"), &ValueComparison::verdict)
+          .value(in_data("baseline", "value of the baseline"), &ValueComparison::baseline)
+          .value(in_data("effect", "change for the worse, with one-sided bounds"),
+                 [](const ValueComparison& c) { return document::bounded(c.effect, c.bounds); })
+          .value(in_data("margin", "largest accepted effect"), &ValueComparison::margin)
+          .value(in_data("p", "two-sided p-value of no difference", "1"), &ValueComparison::p);
+  const auto of_run =
+      Description<RunComparison>()
+          .value(in_data("baseline_created", "time of the baseline, UTC"), &RunComparison::baseline_created)
+          .value(in_data("baseline_commit", "commit of the baseline"), &RunComparison::baseline_commit);
   return Description<SeriesRun>()
-      .value(in_data("verdict", "verdict on the change"), compared(&ValueComparison::verdict))
-      .value(in_data("baseline", "value of the baseline"), compared(&ValueComparison::baseline))
-      .value(in_data("effect", "change for the worse, with one-sided bounds"),
-             [](Run r) { return document::bounded(r.value.comparison->effect, r.value.comparison->bounds); })
-      .value(in_data("margin", "largest accepted effect"), compared(&ValueComparison::margin))
-      .value(in_data("p", "two-sided p-value of no difference", "1"), compared(&ValueComparison::p))
-      .value(in_data("baseline_created", "time of the baseline, UTC"),
-             baseline(&RunComparison::baseline_created))
-      .value(in_data("baseline_commit", "commit of the baseline"), baseline(&RunComparison::baseline_commit));
+      .include(of_value, [](Run r) -> const ValueComparison& { return *r.value.comparison; })
+      .include(of_run, [](Run r) { return r.run->comparison; });
 }
 
 Description<SeriesRun> run_description() {
+  const auto of_run =
+      Description<RunIdentity>()
+          .value(everywhere("created", "run", "time of the run, UTC"), &RunIdentity::created)
+          .value(everywhere("git_commit", "commit", "commit of the program"), &RunIdentity::git_commit)
+          .shown_as([](const RunIdentity& run) { return run.git_commit.substr(0, 10); })
+          .value(in_data("zerocount_version", "version of the program"), &RunIdentity::zerocount_version)
+          .value(in_data("study_sha256", "hash of the study"), &RunIdentity::study_sha256)
+          .value(everywhere("seed", "seed", "seed of the study, decimal"), &RunIdentity::seed)
+          .value(everywhere("trials", "trials", "trials per design point"), &RunIdentity::trials);
   return Description<SeriesRun>()
-      .value(everywhere("created", "run", "time of the run, UTC"), [](Run r) { return r.run->created; })
-      .value(everywhere("git_commit", "commit", "commit of the program"),
-             [](Run r) { return r.run->git_commit; })
-      .shown_as([](Run r) { return r.run->git_commit.substr(0, 10); })
-      .value(in_data("zerocount_version", "version of the program"),
-             [](Run r) { return r.run->zerocount_version; })
-      .value(in_data("study_sha256", "hash of the study"), [](Run r) { return r.run->study_sha256; })
-      .value(everywhere("seed", "seed", "seed of the study, decimal"), [](Run r) { return r.run->seed; })
-      .value(everywhere("trials", "trials", "trials per design point"), [](Run r) { return r.run->trials; })
+      .include(of_run, [](Run r) -> const RunIdentity& { return *r.run; })
       .value(in_data("n", "trials or values that the value is of"), [](Run r) { return r.value.n; })
       .value(
           everywhere("value", "value and 95 % bounds", "value of the measure, in its unit, with 95 % bounds"),

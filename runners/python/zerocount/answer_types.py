@@ -97,30 +97,30 @@ class CheckAnswer(Answer):
         - ``outside``: why (6) and (7) do not apply; null: they do
         - ``gain_name``: name of the integral gain
         - ``gain_unit``: unit of the gain and its bounds
-        - ``gain``.* (low, high): integral gain, over the trials
+        - ``gain``.* (low, high): integral gain
         - ``integral``: why there is no integral; null: there is one
         - ``criteria``: verdict of the paper's criteria (6) and (7)
         - ``criteria_trials``: trials that the criteria were tried in
         - ``criteria_stable``: trials in which (6) holds
         - ``criteria_unstable``: trials in which (7) is exceeded
         - ``sampled``: verdict of the sampled loop at k1, or without a spring
-        - ``stable_below``.* (low, high): bound of criterion (6), over the trials
-        - ``sampled_below``.* (low, high): bound of the sampled loop, over the trials
-        - ``unstable_above``.* (low, high): bound of criterion (7), over the trials
-        - ``dac_resolution``.* (low, high): torque of a code of the DAC, over the trials
-        - ``dac_bound``.* (low, high): bound of the rule for the DAC, over the trials
+        - ``stable_below``.* (low, high): bound of criterion (6)
+        - ``sampled_below``.* (low, high): bound of the sampled loop
+        - ``unstable_above``.* (low, high): bound of criterion (7)
+        - ``dac_resolution``.* (low, high): torque of a code of the DAC
+        - ``dac_bound``.* (low, high): bound of the rule for the DAC
         - ``torque_unit``: unit of both
         - ``coarse_feedback``: whether the bound is of the coarse encoder
         - ``rule_trials``: trials that the rules were tried in
         - ``fine_enough``: trials in which the DAC satisfies its rule
         - ``fast_enough``: trials in which the sample rate satisfies its rule
-        - ``natural_frequency``.* (low, high): natural frequency on k1 + k2, over the trials, Hz
-        - ``sample_rate``.* (low, high): sample rate, over the trials, Hz
+        - ``natural_frequency``.* (low, high): natural frequency on k1 + k2, Hz
+        - ``sample_rate``.* (low, high): sample rate, Hz
         - ``lowest_k1``: lowest stiffness k1 of the study
         - ``lowest_k1_source``: where it is from
         - ``lowest_stable_below``: bound of criterion (6) there, in the unit of the gain
         - ``lowest_sampled_below``: bound of the sampled loop there, in the unit of the gain
-        - ``time_constant``.* (low, high): slowest time constant of the loop, over the trials, s
+        - ``time_constant``.* (low, high): slowest time constant of the loop, s
         - ``hold``: time that the shortest move is held, s
         - ``longest_step``: length of the slowest move; 0: no step, count
         - ``longest_time``: time that it needs, with the dwell, s
@@ -129,12 +129,12 @@ class CheckAnswer(Answer):
           - ``loop``: where the rotor is
           - ``slides``: whether the rotor slides
           - ``stability``: stable, marginal or unstable: all that occur in the trials
-          - ``slow``.* (low, high): slowest time constants longer than the hold, over the trials, s
-          - ``bandwidth``.* (low, high): bandwidth while it slides, over the trials, Hz
-          - ``gain_margin``.* (low, high): gain margin, over the trials, dB
-          - ``gain_margin_at``.* (low, high): frequency of the gain margin, over the trials, Hz
-          - ``phase_margin``.* (low, high): phase margin, over the trials, °
-          - ``phase_margin_at``.* (low, high): frequency of the phase margin, over the trials, Hz
+          - ``slow``.* (low, high): slowest time constants longer than the hold, s
+          - ``bandwidth``.* (low, high): bandwidth while it slides, Hz
+          - ``gain_margin``.* (low, high): gain margin, dB
+          - ``gain_margin_at``.* (low, high): frequency of the gain margin, Hz
+          - ``phase_margin``.* (low, high): phase margin, °
+          - ``phase_margin_at``.* (low, high): frequency of the phase margin, Hz
         - ``hunting``: what the longest move of trial 0 comes to
         - ``hunting_step``: length of that move, count
         - ``hunting_amplitude``: half of the range of its oscillation; null: it does not hunt, count

@@ -1,6 +1,5 @@
 // Hunting that is announced is that of long trials, from the move itself and from other starts.
 #include "analysis/theory/point_theory.hpp"
-
 #include "core/friction/law.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/theory/gains.hpp"

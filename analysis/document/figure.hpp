@@ -50,6 +50,8 @@ struct Figure {
   std::string caption;  ///< plain text
   nlohmann::ordered_json specification;
   std::vector<FigureData> data;  ///< the first one is also shown as a table
+  nlohmann::ordered_json
+      parameters{};  ///< of the specification, a template: {"NAME": what stands there for "$NAME"}
 };
 
 }  // namespace zerocount::document

@@ -1,9 +1,14 @@
-// Completes the specification of a figure, for a page and for a picture:
+// Completes the template of a figure, for a page and for a picture:
 //
-//   panels:  usermeta.panels {field, of: [{value, title}]} repeats the view, one below the other, for the rows with each value
-//   layers:  those of a dataset that is not there, or has no rows, are left out
-//   titles:  a tooltip without one has that of its column; "@field" is the column's title with its unit, "words (@field)" only the unit
+//   parameters: "$name" is the parameter of the figure with this name; without one, what would have this value is left out
+//   panels:  usermeta.panels {field, titles, height} repeats the view, one below the other, for the rows with each value of the field
+//   layers:  those of a dataset that is not there, or without a place in any row that they show, are left out
+//   rows:    usermeta {row, rows} gives a view so many pixels for each name on its vertical axis, of which there are at least `rows`
+//   titles:  a tooltip without one has that of its column; "@field" is the column's title with its unit, "words (@field)" only the
+//            unit, and "@" that of the channel's own field
+//   colours: each of the study's conditions has its own in all figures; a legend without a title that names one thing is left out
 //   ticks:   an axis of numbers is labelled by labelTicks() below; axis.steps are the distances of ticks to choose from
+//   domains: "proportions" is 0 to 1, or of proportions near 1 only these
 //   width:   "container" becomes a number of pixels, and the legend has as many columns as fit
 //
 // The data stay in their units.
@@ -21,6 +26,14 @@ const completed = (() => {
     return parts && {power: prefixes.get(parts[1]), symbol: parts[2], rest: parts[3]};
   }
 
+  function withParameters(part, parameters) {
+    if (Array.isArray(part)) return part.map(one => withParameters(one, parameters)).filter(one => one !== undefined);
+    if (typeof part === "string" && /^\$\w+$/.test(part)) return parameters[part.slice(1)];
+    if (part === null || typeof part !== "object") return part;
+    const members = Object.entries(part).map(([key, one]) => [key, withParameters(one, parameters)]);
+    return Object.fromEntries(members.filter(([, one]) => one !== undefined));
+  }
+
   const titleOf = ([, title, unit]) => unit === "" || unit === "1" ? title : `${title} (${unit})`;
 
   // Titles by the columns of the data. Views and layers have the data of what they are in, unless they have their own.
@@ -30,32 +43,70 @@ const completed = (() => {
     const columnOf = field => [...figure.data.filter(data => data.name === own), ...figure.data]
       .flatMap(data => data.columns).find(([known, title]) => known === field && title !== "") ?? [field, field, ""];
     for (const one of [part.encoding?.tooltip ?? []].flat()) one.title ??= titleOf(columnOf(one.field));
+    if (part.title === "@") part.title += part.field;
     if (typeof part.title === "string")
       part.title = part.title.replace(/^@(\w+)$/, (_, field) => titleOf(columnOf(field)))
         .replace(/\(@(\w+)\)$/, (_, field) => `(${columnOf(field)[2]})`);
     for (const inner of Object.values(part)) entitle(inner, figure, own);
   }
 
-  function dividedIntoPanels(specification, figure) {
-    const panels = specification.usermeta?.panels;
-    if (!panels) return specification;
-    const {$schema, usermeta, data, ...view} = specification;
-    const hasField = name => figure.data.some(one => one.name === name && one.columns.some(([field]) => field === panels.field));
-    return {$schema, usermeta, vconcat: panels.of.map(({value, title}) => ({...view, title, layer: view.layer.map(layer => {
-      const source = layer.data ?? data;
-      const filters = hasField(source.name) ? [{filter: {field: panels.field, equal: value}}] : [];
-      return {...layer, data: source, transform: [...filters, ...layer.transform ?? []]};
-    })}))};
+  const distinct = (rows, field) => [...new Set(rows.map(row => row[field]))];
+
+  // The rows that a view or a layer shows: those of its dataset, or of what it is in, that pass its filters {field, equal}.
+  function rowsOf(part, outer, datasets) {
+    const filters = (part.transform ?? []).map(one => one.filter).filter(filter => filter?.field);
+    const rows = part.data ? part.data.values ?? datasets[part.data.name] ?? [] : outer;
+    return rows.filter(row => filters.every(({field, equal}) => row[field] === equal));
   }
 
-  function withoutEmptyLayers(part, datasets) {
+  function panelsOf(view, outer, datasets) {
+    const {field, titles, height} = view.usermeta?.panels ?? {};
+    const values = field ? distinct(rowsOf(view, outer, datasets), field) : [];
+    if (values.length < 2) return [view];
+    const only = (part, equal) => ({...part, transform: [{filter: {field, equal}}, ...part.transform ?? []]});
+    const within = (layers, value) => layers?.map(layer => layer.layer ? {...layer, layer: within(layer.layer, value)} :
+      layer.data && field in (rowsOf(layer, [], datasets)[0] ?? {}) ? only(layer, value) : layer);
+    return values.map(value => ({...only(view, value), layer: within(view.layer, value), title: titles?.[value] ?? value,
+                                 height: height ?? view.height}));
+  }
+
+  function inPanels(specification, datasets) {
+    const {$schema, data, usermeta, vconcat, ...view} = specification;
+    const views = (vconcat ?? [{...view, usermeta}]).flatMap(one => panelsOf(one, rowsOf({data}, [], datasets), datasets));
+    if (vconcat) return {...specification, vconcat: views};
+    return views.length > 1 ? {$schema, data, usermeta, vconcat: views} : specification;
+  }
+
+  function withoutEmptyLayers(part, outer, datasets) {
     if (!part.layer) return part;
-    const layers = part.layer.filter(layer => !layer.data?.name || datasets[layer.data.name]?.length > 0);
-    return {...part, layer: layers.map(layer => withoutEmptyLayers(layer, datasets))};
+    const rows = rowsOf(part, outer, datasets);
+    const placed = layer => {
+      const fields = ["x", "y"].map(name => layer.encoding?.[name]?.field).filter(Boolean);
+      return layer.layer || rowsOf(layer, rows, datasets).some(row => fields.every(field => (row[field] ?? null) !== null));
+    };
+    return {...part, layer: part.layer.filter(placed).map(layer => withoutEmptyLayers(layer, rows, datasets))};
+  }
+
+  // The channels of names of colours in a view, with the names that it shows.
+  function colouredNames(part, outer, datasets) {
+    const rows = rowsOf(part, outer, datasets);
+    const channel = part.encoding?.color;
+    const own = channel?.type === "nominal" ? [{channel, names: distinct(rows, channel.field)}] : [];
+    return [...own, ...(part.layer ?? []).flatMap(layer => colouredNames(layer, rows, datasets))];
+  }
+
+  function setColours(views, outer, datasets, conditions = []) {
+    const coloured = views.flatMap(view => colouredNames(view, outer, datasets)).filter(({channel}) => !channel.scale?.domain);
+    const all = [...new Set(coloured.flatMap(({names}) => names))];
+    for (const {channel, names} of coloured) {
+      const own = names.every(name => conditions.includes(name)) && names.length > 0;
+      if (own || channel.scale?.range) channel.scale = {...channel.scale, domain: own ? conditions : all};
+      if (channel.title === null && coloured.every(one => one.names.length < 2)) channel.legend = null;
+    }
   }
 
   // An axis of numbers of a view: the channels that share it, and its range in the data or by the domain of its scale.
-  function axisOf(view, name, right, source, datasets) {
+  function axisOf(view, name, right, outer, datasets) {
     const axis = {channels: [], low: Infinity, high: -Infinity, least: Infinity};
     const take = value => {
       if (typeof value !== "number") return;
@@ -64,17 +115,21 @@ const completed = (() => {
       if (value !== 0) axis.least = Math.min(axis.least, Math.abs(value));
     };
     const visit = (part, outer) => {
-      const data = part.data ?? outer;
+      const rows = rowsOf(part, outer, datasets);
       const channel = part.encoding?.[name];
       if ((channel?.axis?.orient === "right") === right) {
         const isNumber = channel?.type === "quantitative";
         if (isNumber) axis.channels.push(channel);
         for (const {field} of [isNumber ? channel : null, part.encoding?.[`${name}2`]].filter(Boolean))
-          for (const row of data?.values ?? datasets[data?.name] ?? []) take(row[field]);
+          for (const row of rows) take(row[field]);
       }
-      for (const layer of part.layer ?? []) visit(layer, data);
+      for (const layer of part.layer ?? []) visit(layer, rows);
     };
-    visit(view, source);
+    visit(view, outer);
+    for (const {scale} of axis.channels) {
+      if (scale?.type === "log") delete scale.zero;
+      if (scale?.domain === "proportions") scale.domain = [axis.low >= 0.8 ? Math.floor(100 * axis.low - 0.5) / 100 : 0, 1];
+    }
     axis.domain = axis.channels.map(one => one.scale?.domain).find(domain => domain?.length === 2 && typeof domain[0] === "number");
     if (axis.domain) [axis.low, axis.high] = [Infinity, -Infinity];
     axis.domain?.forEach(take);
@@ -195,14 +250,19 @@ const completed = (() => {
     const datasets = Object.fromEntries(figure.data.map(data =>
       [data.name, data.rows.map(row => Object.fromEntries(data.columns.map(([field], i) => [field, row[i]])))]));
     const clone = part => JSON.parse(JSON.stringify(part));
-    let specification = clone(figure.specification);
+    let specification = withParameters(clone(figure.specification), figure.parameters ?? {});
     entitle(specification, figure);
-    specification = withoutEmptyLayers(dividedIntoPanels(specification, figure), datasets);
-    if (specification.vconcat) specification.vconcat = specification.vconcat.map(view => withoutEmptyLayers(view, datasets));
-    specification = clone(specification); // panels share their parts
-    for (const view of specification.vconcat ?? [specification])
-      for (const name of ["x", "y"])
-        for (const right of [false, true]) labelTicks(axisOf(view, name, right, specification.data, datasets));
+    specification = inPanels(specification, datasets);
+    const outer = specification.vconcat ? rowsOf(specification, [], datasets) : [];
+    const wholeViews = (specification.vconcat ?? [specification]).map(view => withoutEmptyLayers(view, outer, datasets));
+    const views = clone(wholeViews); // panels share their parts
+    specification = specification.vconcat ? {...specification, vconcat: views} : views[0];
+    setColours(views, outer, datasets, figure.parameters?.conditions);
+    for (const view of views) {
+      const {row, rows = 1} = view.usermeta ?? {};
+      if (row) view.height = row * Math.max(rows, distinct(rowsOf(view, outer, datasets), view.encoding.y.field).length);
+      for (const name of ["x", "y"]) for (const right of [false, true]) labelTicks(axisOf(view, name, right, outer, datasets));
+    }
     setWidth(specification, specification.vconcat ? width - (specification.usermeta?.margin ?? 80) : width);
     if (!specification.vconcat) specification.autosize = {type: "fit-x", contains: "padding"};
     specification.config = {...theme, legend: {...theme.legend, ...legendFor(figure, width)}};

@@ -32,8 +32,9 @@ std::string css_colours() {
 }
 
 constexpr std::string_view without_scripts =
-    "<noscript><p class=\"warning\">The figures are drawn by JavaScript, which is turned off "
-    "here.</p></noscript>";
+    "<noscript><p class=\"warning\">The figures are drawn by JavaScript, which is turned off here; the data "
+    "of "
+    "each stand below it.</p></noscript>";
 
 /// The scripts of a page with figures, in the order in which they run, and the sources that its
 /// Content-Security-Policy (level 2) allows: their hashes.
@@ -66,12 +67,45 @@ std::string state_elements(PageState state) {
   return std::string(unfinished_mark) + reload;
 }
 
+std::string cell_text(const ordered_json& value) {
+  if (value.is_null()) return "–";
+  if (value.is_string()) return document::markup(value.get<std::string>());
+  return value.is_number_float() ? fmt::format("{:.5g}", value.get<double>()) : value.dump();
+}
+
+/// The table behind a figure, which stands without scripts too. There can be thousands of cells: they do not
+/// repeat the heads of their columns, as those of document::html() do, and have no end tags, which HTML
+/// allows.
+std::string data_table(const FigureData& data) {
+  std::string html = "<table><thead><tr>";
+  const auto style = [&](std::size_t i) { return data.columns[i].unit.empty() ? " class=text" : ""; };
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < data.columns.size(); ++i) {
+    const FigureColumn& column = data.columns[i];
+    if (column.title.empty()) continue;
+    shown.push_back(i);
+    const std::string unit =
+        column.unit.empty() || column.unit == "1"
+            ? ""
+            : fmt::format("<span class=\"unit\">{}</span>", document::markup(column.unit));
+    html += fmt::format("<th{}>{}{}</th>", style(i), document::markup(column.title), unit);
+  }
+  html += "</tr></thead><tbody>\n";
+  for (const ordered_json& row : data.rows) {
+    html += "<tr>";
+    for (const std::size_t i : shown) html += fmt::format("<td{}>{}", style(i), cell_text(row[i]));
+    html += "\n";
+  }
+  return html + "</tbody></table>";
+}
+
 std::string figure_html(const Figure& figure) {
   return fmt::format(
       "<figure id=\"figure-{0}\"><h3>{1}</h3><div class=\"plot\" role=\"img\" "
       "aria-label=\"{1}\"></div><figcaption>{2}</figcaption><details class=\"data\"><summary>Data of this "
-      "figure</summary><div class=\"scroll\"></div></details></figure>\n",
-      document::markup(figure.name), document::markup(figure.title), document::prose_markup(figure.caption));
+      "figure</summary><div class=\"scroll\">{3}</div></details></figure>\n",
+      document::markup(figure.name), document::markup(figure.title), document::prose_markup(figure.caption),
+      data_table(figure.data.front()));
 }
 
 std::string section_html(const PageSection& section) {

@@ -42,15 +42,19 @@ void add(ReportPage& page, PageSection section) {
   if (!section.html.empty() || !section.figures.empty()) page.sections.push_back(std::move(section));
 }
 
+/// Whether the first screen has the only verdict, so that the tables of the points tell of zero counts alone.
+bool has_one_verdict(const ReportedStudy& reported) {
+  return reported.summary.points.size() == 1 && question_of(reported).claim();
+}
+
 PageSection success_section(const ReportedStudy& reported) {
   const char* title = reported.study.open_loop        ? "$Torque levels"
                       : question_of(reported).claim() ? "The goal"
                                                       : "Success";
   PageSection section{"points", title, "", {}};
   std::vector<Figure> maps = stability_maps(reported);
-  // The first screen has the requirements of a single point. A map shows many points better than a table.
-  const bool has_table = reported.summary.points.size() > 1 || !question_of(reported).claim();
-  if (has_table) (maps.empty() ? section.html : section.html_after) = points_html(reported);
+  // A map shows many points better than a table.
+  if (!has_one_verdict(reported)) (maps.empty() ? section.html : section.html_after) = points_html(reported);
   if (std::optional<Figure> success = success_figure(reported))
     section.figures.push_back(std::move(*success));
   for (Figure& map : maps) section.figures.push_back(std::move(map));
@@ -66,16 +70,21 @@ std::vector<Figure> under_worst_condition(const ReportedStudy& reported, std::ve
 /// Zero counts, of a study that is judged by a goal.
 PageSection zero_count_section(const ReportedStudy& reported) {
   PageSection section{"zero-counts", "Zero counts", "", {}};
-  if (question_of(reported).claim())
-    section.html = zero_counts_html(reported) + html_folded("Numbers", zero_count_tables_html(reported));
+  if (!question_of(reported).claim()) return section;
+  section.html = zero_counts_html(reported);
+  if (has_one_verdict(reported)) section.html += html_folded("Numbers", points_html(reported));
   return section;
 }
 
-/// Converts all figures from a rotary axis, for which they are written.
-void put_on_axis(parameters::AxisKind axis, ReportPage& page) {
+/// Converts all figures from a rotary axis, for which they are written, and names the conditions, which have
+/// the same colours in all.
+void put_on_axis(const study::Study& study, ReportPage& page) {
   for (PageSection& section : page.sections) {
-    section.title = parameters::text_on(axis, section.title);
-    for (Figure& figure : section.figures) report::put_on_axis(figure, axis);
+    section.title = parameters::text_on(study.units.axis, section.title);
+    for (Figure& figure : section.figures) {
+      report::put_on_axis(figure, study.units.axis);
+      figure.parameters["conditions"] = study.conditions;
+    }
   }
 }
 
@@ -146,7 +155,7 @@ StudyReport study_report(const reading::AllTrialsFile& file, const ReportOptions
   parts.warnings = warnings_html(report.warnings);
   page.sections.front() = first_screen(reported, parts);
   qualify_bounds(reported, page);
-  put_on_axis(reported.study.units.axis, page);
+  put_on_axis(reported.study, page);
   return report;
 }
 

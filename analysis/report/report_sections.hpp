@@ -24,20 +24,16 @@ struct Conclusions {
 /// success it states the upper bound of the failure probability.
 Conclusions conclusions_of(const ReportedStudy& reported);
 
-/// Zero counts at the chosen point of a study with a goal: their rate, moves that are undecided, rigs,
-/// arrival, jerks, and the prediction of the criteria.
+/// Zero counts at the chosen point of a study with a goal, as its own question: their rate, and the
+/// prediction of the criteria.
 std::string zero_counts_html(const ReportedStudy& reported);
 
 /// The provenance: size, design, random parameters, program, manifest.
 std::string run_html(const ReportedStudy& reported);
 
-/// The table of the points by the question of the study, or of the levels of an open-loop study. At most 400
-/// rows; a note states if there are more.
+/// The tables of `summary`: of the points by the question of the study, of zero counts, and of what else the
+/// study has of them; of an open-loop study of its levels. At most 400 rows; a note states if there are more.
 std::string points_html(const ReportedStudy& reported);
-
-/// Of a study with a goal: the tables of zero counts, arrival, jerks and criteria, and the sections of the
-/// summary that are about zero counts. Without a goal these are part of points_html().
-std::string zero_count_tables_html(const ReportedStudy& reported);
 
 /// The series of a history as figures, those that changed first, and their changes in words. At most
 /// `max_figures`; a note states if there are more.

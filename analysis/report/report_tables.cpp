@@ -17,87 +17,7 @@
 namespace zerocount::report {
 namespace {
 
-using document::Notation;
-using summary_answer::PointReading;
-using summary_answer::SummaryReading;
-using Point = const PointReading&;
-
 constexpr std::size_t max_rows = 400;
-
-/// A quantile of settling times with its bounds, of which one may not be reached within the hold.
-std::string quantile_text(Point p, const statistics::Quantile& quantile) {
-  std::string value = summary_answer::settling_text(p.statistics(), quantile.value);
-  if (std::isnan(quantile.low) && std::isnan(quantile.high)) return value;
-  return fmt::format("{} [{}, {}]", value, std::isnan(quantile.low) ? "0" : text::short_number(quantile.low),
-                     summary_answer::settling_text(p.statistics(), quantile.high));
-}
-
-/// Trials by their worst move.
-summary_answer::PointDescription outcome_columns(const summary::StudySummary& summary) {
-  summary_answer::PointDescription columns = summary_answer::labelled_points(summary);
-  const auto count = [](std::int64_t measures::OutcomeCounts::*outcome) {
-    return [outcome](Point p) { return p.statistics().outcomes.*outcome; };
-  };
-  using Counts = measures::OutcomeCounts;
-  columns.value({.heading = "trials"}, [](Point p) { return p.statistics().trials; })
-      .value({.heading = "zero-count"}, count(&Counts::zero_count))
-      .value({.heading = "one count"}, count(&Counts::one_count))
-      .value({.heading = "undecided"}, count(&Counts::off_target))
-      .value({.heading = "oscil\u00adlating"}, count(&Counts::oscillating))
-      .value({.heading = "lost"}, count(&Counts::nonfinite));
-  if (!summary.features.rigs) return columns;
-  return columns
-      .value(
-          {.heading = "machines without failure [95 % bounds]", .unit = "1", .notation = Notation::percent},
-          [](Point p) {
-            const statistics::RigStatistics& rigs = p.statistics().rigs;
-            return document::Bounded{rigs.without_failure, rigs.without_failure_bounds.low,
-                                     rigs.without_failure_bounds.high};
-          })
-      .value({.heading = "sd between machines"}, [](Point p) { return p.statistics().rigs.success_sd; })
-      .value({.heading = "worst 5 % of machines", .unit = "1", .notation = Notation::percent},
-             [](Point p) { return p.statistics().rigs.worst_5_percent; });
-}
-
-/// Quantiles of times with their bounds.
-summary_answer::PointDescription time_columns(const summary::StudySummary& summary) {
-  summary_answer::PointDescription columns = summary_answer::labelled_points(summary);
-  const auto add = [&](const std::string& heading, auto quantile) {
-    columns.value({.heading = heading, .unit = "s", .numeric = true},
-                  [quantile](Point p) { return quantile_text(p, quantile(p.statistics())); });
-  };
-  using Statistics = const measures::PointSummary&;
-  add("arrival, median", [](Statistics s) { return s.of(&trial::MoveOutcome::arrival_time).median; });
-  add("arrival, 95 %", [](Statistics s) { return s.of(&trial::MoveOutcome::arrival_time).p95; });
-  for (const std::int64_t band : summary.features.bands.values())
-    add(fmt::format("settled ±{}, 95 %", band),
-        [band](Statistics s) { return measures::of_band(s, "band_settling_time", band).p95; });
-  return columns;
-}
-
-/// What the report says of zero counts beyond the summary.
-document::Description<SummaryReading> zero_count_description(const summary::StudySummary& summary) {
-  const std::string of_rigs =
-      summary.features.rigs ? " Sd between rigs: standard deviation of the success probability. Worst "
-                              "5 % of machines: mean observed success rate of the machines with the lowest "
-                              "rates."
-                            : "";
-  document::Description<SummaryReading> tables;
-  if (summary.features.open_loop) return tables;
-  return tables
-      .table(
-          {.heading = "trials by their worst move",
-           .note = "Undecided: a move ended off target (stalled or still moving); it is neither stable nor "
-                   "shown unstable." +
-                   of_rigs},
-          outcome_columns(summary), &SummaryReading::points)
-      .table({.heading = "times with their bounds",
-              .note = "Arrival: the error is first 0 for the whole dwell. Settled ±b: the error stays within "
-                      "b counts from then to the end of the move. Quantiles are those of all moves, with "
-                      "order-statistic bounds; moves that never arrived, or end outside, are later than all "
-                      "others."},
-             time_columns(summary), &SummaryReading::points);
-}
 
 /// The points that fit into the table.
 std::vector<std::int64_t> first_points(const ReportedStudy& reported) {
@@ -110,58 +30,28 @@ std::vector<std::int64_t> first_points(const ReportedStudy& reported) {
   return points;
 }
 
-std::string html_of(const ReportedStudy& reported, document::Description<SummaryReading> tables) {
-  const document::AnswerDescription<SummaryReading> answer{{}, std::move(tables)};
-  const SummaryReading reading =
-      summary_answer::read_summary(reported.summary, {first_points(reported), reported.chosen.point, true});
-  return document::html(answer.of(reading, ExitCode::success, document::Audience::people));
-}
-
 }  // namespace
 
 std::string points_html(const ReportedStudy& reported) {
   const summary::StudySummary& summary = reported.summary;
-  document::Description<SummaryReading> tables;
-  const auto same = [](const SummaryReading& s) -> const SummaryReading& { return s; };
-  tables.sentence([](const SummaryReading& s) { return summary_answer::design_line(s.summary); })
-      .include(summary_answer::point_tables(summary), same);
-  if (!summary.question.claim()) tables.include(zero_count_description(summary), same);
-  std::string html = html_of(reported, std::move(tables));
-  const std::size_t shown = first_points(reported).size();
-  if (shown < summary.points.size()) {
+  document::AnswerDescription<summary_answer::SummaryReading> answer;
+  answer.items.sentence([&](const auto& s) { return summary_answer::design_line(s.summary); })
+      .include(
+          summary_answer::point_tables(summary), [](const auto& s) -> const auto& { return s; });
+  const std::vector<std::int64_t> shown = first_points(reported);
+  std::string html =
+      document::html(answer.of(summary_answer::read_summary(summary, {shown, reported.chosen.point, true}),
+                               ExitCode::success, document::Audience::people));
+  if (shown.size() < summary.points.size()) {
     html += fmt::format(
         "<p class=\"note\">The first {} of {} points; all are printed by <code>zerocount "
         "summary</code>.</p>\n",
-        shown, summary.points.size());
+        shown.size(), summary.points.size());
   }
   return html;
 }
 
-std::string zero_count_tables_html(const ReportedStudy& reported) {
-  return html_of(reported, zero_count_description(reported.summary));
-}
-
 namespace {
-
-std::string design_text(const study::Study& study) {
-  std::string text;
-  switch (study.design) {
-    case study::Design::monte_carlo:
-      text = "Monte Carlo";
-      break;
-    case study::Design::latin_hypercube:
-      text = "Latin hypercube";
-      break;
-    case study::Design::sobol:
-      text = "Sobol' sequence";
-      break;
-    case study::Design::saltelli:
-      text = "Saltelli's, for Sobol' indices";
-      break;
-  }
-  return text + (study.independent_points ? ", drawn anew at each point"
-                                          : "; all points share the draws of a trial");
-}
 
 /// The sweep: the range of each number of the grid, and the cases.
 std::vector<document::Fact> sweep_facts(const ReportedStudy& reported) {
@@ -206,7 +96,9 @@ std::vector<document::Fact> facts_of(const ReportedStudy& reported) {
        fmt::format("{} at each of {}, {} each: {}", header.trials,
                    text::counted(header.points, "design point"), text::counted(reported.file.moves(), "move"),
                    text::counted(header.points * header.trials, "trial"))},
-      {"Design", design_text(reported.study)}};
+      {"Design", reported.summary.design + (reported.study.independent_points
+                                                ? ", drawn anew at each point"
+                                                : "; all points share the draws of a trial")}};
   if (!header.overrides.empty())
     facts.push_back({"Set on the command line", fmt::format("{}", fmt::join(header.overrides, ", "))});
   if (header.plugin) {

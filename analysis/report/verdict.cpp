@@ -19,15 +19,6 @@
 namespace zerocount::report {
 namespace {
 
-/// A proportion as a percentage with enough digits to differ from 100 %; only 1 is "100 %".
-std::string proportion_text(double proportion) {
-  if (proportion == 1.0) return "100 %";
-  const double distance = std::min(proportion, 1.0 - proportion);
-  const int digits =
-      distance > 0.0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(distance))) - 1, 1, 9) : 0;
-  return fmt::format("{:.{}f} %", 100.0 * proportion, digits);
-}
-
 /// The number of points that the bounds of a point account for: those that it was chosen from.
 std::size_t chosen_from(const ReportedStudy& reported, std::int64_t point) {
   return point == reported.chosen.point ? static_cast<std::size_t>(reported.chosen.chosen_from)
@@ -71,44 +62,17 @@ std::string flawless_text(const ReportedStudy& reported, const statistics::Succe
       statistics::trials_for_claim(0.999, claim.confidence, 0), claim.rigs > 0 ? "machines" : "trials");
 }
 
-/// The claim of the best point, with bounds that account for its choice among all points.
-statistics::SuccessClaim claim_of_best(const ReportedStudy& reported, std::int64_t best) {
-  return goal::claim_of_chosen(point_of(reported, best), chosen_from(reported, best),
-                               question_of(reported).stopped);
-}
-
-/// Statement about all axes; for dependent trials only the observed rate.
-std::string claim_text(const ReportedStudy& reported, std::int64_t best) {
-  if (!reported.summary.features.dependent_trials)
-    return statistics::claim_sentence(claim_of_best(reported, best));
-  const measures::PointSummary& point = point_of(reported, best);
-  return fmt::format("{} of the trials succeeded ({}), which says nothing about all axes",
-                     text::percentage(point.outcomes.zero_count, point.trials),
-                     of_all(point.outcomes.zero_count, point.trials));
-}
-
-/// "Best of 8 points, 3 (kp=400): …", or "At 3 (kp=400): …" for a point that was named.
-std::string of_chosen(const ReportedStudy& reported, const std::string& claim) {
-  if (reported.summary.points.size() == 1) return claim;
-  const std::string name =
-      summary::point_names(reported.summary)[static_cast<std::size_t>(reported.chosen.point)];
-  if (reported.chosen.chosen_from == 1) return fmt::format("At {}: {}", name, claim);
-  return fmt::format("Best of {} points, {}: {}{}", reported.chosen.chosen_from, name, claim,
-                     reported.summary.features.dependent_trials
-                         ? ""
-                         : ", with bounds that account for the selection of the best point");
-}
-
-std::string headline(const ReportedStudy& reported, const std::optional<summary::JudgedPoint>& judged) {
-  if (judged) return of_chosen(reported, std::string(summary::verdict_words(judged->verdict.status)));
-  return of_chosen(reported, (reported.summary.question.worlds > 0 ? "on average over the worlds " : "") +
-                                 claim_text(reported, reported.chosen.point));
-}
-
 std::string capitalised(std::string line) {
   if (!line.empty() && line.front() >= 'a' && line.front() <= 'z')
     line.front() = static_cast<char>(line.front() - 'a' + 'A');
   return line;
+}
+
+/// The headline of `summary`; of a study with one point without its name.
+std::string headline(const ReportedStudy& reported, const std::optional<summary::JudgedPoint>& judged) {
+  const std::string text = judged ? summary::judgement_headline(reported.summary, *judged)
+                                  : summary::claim_of_chosen_point(reported.summary, reported.chosen);
+  return capitalised(reported.summary.points.size() == 1 ? text.substr(text.find(": ") + 2) : text);
 }
 
 /// A line per line of the text, as a sentence.
@@ -143,7 +107,8 @@ void add_success(std::vector<std::string>& lines, const ReportedStudy& reported,
                               bounds_text(reported, success_of(reported), best),
                               reported.summary.question.worlds > 0 ? ", on average over the worlds" : ""));
   if (point.outcomes.zero_count == point.trials)
-    lines.push_back(flawless_text(reported, claim_of_best(reported, best)));
+    lines.push_back(flawless_text(
+        reported, goal::claim_of_chosen(point, chosen_from(reported, best), question_of(reported).stopped)));
   const measures::OutcomeCounts& outcomes = point.outcomes;
   if (outcomes.zero_count < point.trials) {
     lines.push_back(
@@ -151,44 +116,6 @@ void add_success(std::vector<std::string>& lines, const ReportedStudy& reported,
                     "target), {} oscillating, and {} failed numerically.",
                     outcomes.one_count, outcomes.off_target, outcomes.oscillating, outcomes.nonfinite));
   }
-}
-
-/// " at b" if there are several points.
-std::string at_point(const ReportedStudy& reported, std::int64_t point) {
-  return reported.summary.points.size() == 1 ? "" : " at " + label_of(reported, point);
-}
-
-/// Adds the numbers of undecided moves at the best point and at the point with most of them.
-void add_undecided(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
-  const std::vector<measures::PointSummary>& points = reported.summary.points;
-  const auto most = std::max_element(points.begin(), points.end(),
-                                     [](const measures::PointSummary& a, const measures::PointSummary& b) {
-                                       return a.undecided.off_target < b.undecided.off_target;
-                                     });
-  const auto add = [&](std::int64_t point) {
-    const std::string sentence = measures::undecided_sentence(point_of(reported, point).undecided);
-    if (sentence.empty()) return;
-    lines.push_back(fmt::format("Undecided{}: {}. These moves are neither stable nor shown unstable.",
-                                at_point(reported, point), sentence));
-  };
-  add(best);
-  if (most - points.begin() != best) add(most - points.begin());
-}
-
-/// Adds the differences between rigs at the chosen point.
-void add_rigs(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
-  const statistics::RigStatistics& rigs = point_of(reported, best).rigs;
-  if (rigs.n == 0) return;
-  std::string line =
-      fmt::format("{} of {} machines had no failure; the worst 5 % of them succeeded in {} of their trials.",
-                  std::llround(rigs.without_failure * static_cast<double>(rigs.n)), rigs.n,
-                  proportion_text(rigs.worst_5_percent));
-  if (rigs.tolerance.min_rigs > 0) {
-    std::string sentence = statistics::tolerance_sentence(rigs.tolerance);
-    sentence.front() = 'W';
-    line += " " + sentence + ".";
-  }
-  lines.push_back(line);
 }
 
 void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
@@ -213,45 +140,6 @@ void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported, 
   lines.push_back(fmt::format("{} without a {}. The worst, {}, {} in {} of {} {}{}.", proportion,
                               words.failure, label_of(reported, at), words.succeeded, worst->hits,
                               worst->events, words.events, bounds_text(reported, question_of(reported), at)));
-}
-
-/// Examples: "half of all moves within 0.05 s", "95 % of them not within the hold".
-std::string within_text(const measures::PointSummary& point, std::string_view moves, double time) {
-  if (!std::isnan(time)) return fmt::format("{} within {} s", moves, text::short_number(time));
-  return fmt::format("{} not within {}", moves,
-                     std::isnan(point.hold) ? "the hold" : text::short_number(point.hold) + " s");
-}
-
-/// " (95 % bounds a to b s)"; empty if the trials are not independent, a bound is missing, or the point was
-/// chosen among several: bounds of one point by itself are in the table.
-std::string median_bounds_text(const ReportedStudy& reported, const statistics::Quantile& median) {
-  if (reported.summary.features.dependent_trials || reported.summary.points.size() > 1 ||
-      std::isnan(median.low) || std::isnan(median.high))
-    return "";
-  return fmt::format(" (95 % bounds {} to {} s)", text::short_number(median.low),
-                     text::short_number(median.high));
-}
-
-void add_times(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
-  const measures::PointSummary& point = point_of(reported, best);
-  const measures::MeasureStatistics& settling = point.of(&trial::MoveOutcome::arrival_time);
-  const measures::MeasureStatistics& jerks = point.of(&trial::MoveOutcome::jerk_count);
-  if (settling.n == 0) return;
-  lines.push_back(fmt::format("{} of the moves arrived{}: {}, {}.", text::percentage(settling.n, point.moves),
-                              at_point(reported, best),
-                              within_text(point, "half of all moves", settling.median.value) +
-                                  median_bounds_text(reported, settling.median),
-                              within_text(point, "95 % of them", settling.p95.value)));
-  if (jerks.total == 0) {
-    lines.push_back("No move was disturbed by a jerk after it arrived.");
-    return;
-  }
-  lines.push_back(parameters::text_on(
-      reported.file.axis(),
-      fmt::format("After arrival there were {} jerks per trial; {} of them went in the direction of the "
-                  "holding $torque, {} were of one count.",
-                  text::short_number(jerks.mean), proportion_text(point.jerk_agreement),
-                  proportion_text(point.jerk_one_count_share))));
 }
 
 /// The points at which a criterion decides every trial.
@@ -307,14 +195,6 @@ Conclusions open_loop_conclusions(const ReportedStudy& reported) {
               broke_away, trials, lost))}};
 }
 
-/// What there is to say of zero counts beside their rate.
-void add_of_zero_counts(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
-  add_undecided(lines, reported, best);
-  add_rigs(lines, reported, best);
-  add_times(lines, reported, best);
-  add_theory(lines, reported);
-}
-
 }  // namespace
 
 Conclusions conclusions_of(const ReportedStudy& reported) {
@@ -333,16 +213,18 @@ Conclusions conclusions_of(const ReportedStudy& reported) {
   } else {
     add_success(lines, reported, best);
   }
+  if (reported.chosen.chosen_from > 1 && !reported.summary.features.dependent_trials)
+    lines.emplace_back("The bounds allow for the choice of the point by these trials.");
   add_sentences(lines, summary::competition_text(reported.summary, reported.chosen));
   add_spread(lines, reported, best);
-  if (!judged) add_of_zero_counts(lines, reported, best);
-  return {capitalised(headline(reported, judged)), std::move(lines)};
+  if (!judged) add_theory(lines, reported);
+  return {headline(reported, judged), std::move(lines)};
 }
 
 std::string zero_counts_html(const ReportedStudy& reported) {
   std::vector<std::string> lines;
   add_success(lines, reported, reported.chosen.point);
-  add_of_zero_counts(lines, reported, reported.chosen.point);
+  add_theory(lines, reported);
   std::string html;
   for (const std::string& line : lines) html += fmt::format("<p>{}</p>\n", document::prose_markup(line));
   return html;

@@ -132,33 +132,26 @@ std::vector<document::Figure> limits_figures(const std::vector<Limit>& limits) {
                              {"low", "lower 95 % bound", "1"},
                              {"high", "upper 95 % bound", "1"}}};
   if (limits.empty()) return {};
-  double lowest = limits.front().asked;
   for (const Limit& one : limits) {
     if (!one.rate) continue;
     // As if each machine, or trial, met or missed the goal as a whole.
     const statistics::ConfidenceInterval bounds =
         statistics::wilson_interval(*one.rate, static_cast<double>(one.estimate.units),
                                     statistics::two_sided_normal_quantile(statistics::summary_confidence));
-    lowest = std::min(lowest, bounds.low);
     data.rows.push_back({data.rows.empty() ? "nothing off" : one.effect, datum(*one.rate), datum(bounds.low),
                          datum(bounds.high)});
   }
-  const std::size_t rows = data.rows.size();
-  if (rows < 2) return {};
+  if (data.rows.size() < 2) return {};
   const document::FigureData lines{"lines",
                                    {{"rate", "", "1"}, {"line", "", ""}},
                                    {ordered_json::array({datum(*limits.front().rate), "as it is"}),
                                     ordered_json::array({limits.front().asked, "asked for"})}};
-  document::Figure figure = report::figure_of(
+  return {report::figure_of(
       "tuning-limits", "tuning-limits", "What limits it?",
       "The rate of the goal with a cause of failures switched off, on the same machines with the same random "
       "numbers, with 95 % bounds of a machine's chance. A bar that ends far above the rate as it is names "
       "what to improve; what the goal asks for is dashed.",
-      {std::move(data), lines});
-  const double from = lowest >= 0.8 ? std::floor(lowest * 100.0 - 0.5) / 100.0 : 0.0;
-  figure.specification["layer"][0]["encoding"]["x"]["scale"]["domain"] = {from, 1};
-  report::set_rows(figure, rows, 24);
-  return {std::move(figure)};
+      {std::move(data), lines})};
 }
 
 struct PointLimits {

@@ -365,14 +365,11 @@ std::vector<document::Figure> rare_figures(const std::vector<FailureInput>& inpu
                            place(of.low), place(of.median), place(of.high)});
   }
   if (data.rows.empty()) return {};
-  const std::size_t rows = data.rows.size();
-  document::Figure figure = report::figure_of("rare-inputs", "rare-inputs", "What failures have in common",
-                                              "Medians and 5 % to 95 % of the inputs in failures and in all "
-                                              "trials. 0 % and 100 % are the ends of the "
-                                              "range of all trials.",
-                                              {std::move(data)});
-  report::set_rows(figure, rows, 16);
-  return {figure};
+  return {report::figure_of("rare-inputs", "rare-inputs", "What failures have in common",
+                            "Medians and 5 % to 95 % of the inputs in failures and in all "
+                            "trials. 0 % and 100 % are the ends of the "
+                            "range of all trials.",
+                            {std::move(data)})};
 }
 
 }  // namespace zerocount::rare

@@ -42,9 +42,12 @@ def drawn(request: pytest.FixtureRequest, small: zc.Results, results_of: Results
     yield [(figure, figure.matplotlib()) for figure in figures]
 
 
-def kept(layer: dict[str, Any], rows: list[Row]) -> list[Row]:
-    """The rows of a layer after its filters."""
-    for transform in layer.get("transform", []):
+def kept(layer: dict[str, Any], view: dict[str, Any], rows: list[Row]) -> list[Row]:
+    """The rows of a layer after its filters, and those of its view unless it has data of its own."""
+    for transform in [*([] if "data" in layer else view.get("transform", [])), *layer.get("transform", [])]:
+        if isinstance(transform["filter"], dict):
+            rows = [row for row in rows if row[transform["filter"]["field"]] == transform["filter"]["equal"]]
+            continue
         text = re.sub(r"indexof\(datum\.(\w+), ('.*?')\) >= 0", r"\2 in row['\1']", transform["filter"])
         text = re.sub(r"datum\.(\w+)", r"row['\1']", re.sub(r"!(?!=)", "not ", text))
         rows = [row for row in rows if eval(text, {"row": row})]
@@ -67,7 +70,7 @@ def layers_of(specification: dict[str, Any], view: dict[str, Any]) -> Iterator[t
         rows = data["values"] if "values" in data else specification["datasets"][data["name"]]
         if mark.get("opacity", 1) > 0:
             channels = {**view.get("encoding", {}), **layer.get("encoding", {})}
-            yield mark["type"], {name: c for name, c in channels.items() if isinstance(c, dict) and set(c) != {"value"}}, kept(layer, rows)
+            yield mark["type"], {name: c for name, c in channels.items() if isinstance(c, dict) and set(c) != {"value"}}, kept(layer, view, rows)
 
 
 def shown(axes: Any) -> tuple[set[tuple[float, float]], set[float], set[float]]:

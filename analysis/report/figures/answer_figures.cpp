@@ -69,11 +69,7 @@ Figure margins_figure(const comparison::StudyComparison& comparison,
   if (drawable > max_bars)
     caption += fmt::format("Shown are {} of {} measures, the worst verdicts first. ", max_bars, drawable);
   if (drawable < measures.size()) caption += "Measures without a margin or without values are not shown. ";
-  const std::size_t bars = data.rows.size();
-  Figure figure =
-      figure_of("margins", "margins", "All measures against their margins", caption, {std::move(data)});
-  set_rows(figure, bars, 20);
-  return figure;
+  return figure_of("margins", "margins", "All measures against their margins", caption, {std::move(data)});
 }
 
 /// Figure of the change at each point of the success rate, or of the proportion of moves that meet the goal.
@@ -104,12 +100,9 @@ Figure success_change(const comparison::StudyComparison& comparison,
   if (comparison.points.size() > max_bars)
     caption += fmt::format("Shown are the {} of {} points with the worst verdicts. ", max_bars,
                            comparison.points.size());
-  const std::size_t bars = data.rows.size();
-  Figure figure = figure_of("success-change", "success-change",
-                            by_goal ? "The goal against the baseline" : "Success against the baseline",
-                            caption, {std::move(data)});
-  set_rows(figure, bars, 24);
-  return figure;
+  return figure_of("success-change", "success-change",
+                   by_goal ? "The goal against the baseline" : "Success against the baseline", caption,
+                   {std::move(data)});
 }
 
 std::vector<Figure> comparison_figures(const comparison::StudyComparison& comparison) {
@@ -211,15 +204,11 @@ Figure figure_for(const sensitivity::StudySensitivity& study, const OutputAtPoin
   caption += total ? "What several parameters do only together counts in the total of each, so totals need "
                      "not add up to 100 %. "
                    : "What a parameter does only together with others does not show in this design. ";
-  std::size_t most = 0;
-  std::vector<FigurePanel> panels;
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < shown.outputs.size(); ++i) {
     const sensitivity::OutputSensitivity& output = *shown.outputs[i];
     const std::string condition = shown.points[i]->condition.value_or("");
-    panels.push_back({condition, condition});
     const std::size_t factors = std::min(max_factors, output.factors.size());
-    most = std::max(most, factors);
     for (std::size_t k = 0; k < factors; ++k) {
       const sensitivity::FactorSensitivity& factor = output.factors[k];
       add_index(data, factor, "first order: alone", factor.first_order, condition);
@@ -239,16 +228,8 @@ Figure figure_for(const sensitivity::StudySensitivity& study, const OutputAtPoin
       "sensitivity", fmt::format("sensitivity-{}{}", name, of_point),
       fmt::format("Which parameters decide {}{}?", name == "success" ? "" : "the ", label_text(name)),
       caption, {std::move(data)});
-  if (!total) {
-    ordered_json& colour = figure.specification["encoding"]["color"];
-    colour["legend"] = nullptr;
-    if (point.condition) {
-      colour["field"] = "condition";
-      colour_by_name(colour, conditions_of(study));
-    }
-  }
-  set_rows(figure, most, 28);
-  divide_into_panels(figure, "condition", panels);
+  figure.parameters["colour"] = !total && point.condition ? "condition" : "index";
+  figure.parameters["conditions"] = conditions_of(study);
   return figure;
 }
 
@@ -258,7 +239,8 @@ std::vector<Figure> sensitivity_figures(const sensitivity::StudySensitivity& stu
   for (const OutputAtPoint& one : shown) {
     const bool several = one.points.front()->point != shown.front().points.front()->point ||
                          shown.back().points.front()->point != shown.front().points.front()->point;
-    figures.push_back(figure_for(study, one, several));
+    Figure figure = figure_for(study, one, several);
+    if (!figure.data.front().rows.empty()) figures.push_back(std::move(figure));
   }
   return figures;
 }
@@ -334,7 +316,7 @@ Figure history_figure(const Series& series, std::size_t number) {
                             fmt::format("{}, {}: {} over time", series.study, series.point, series.measure),
                             caption_of(series), {runs_data(series), changes_data(series)});
   if (series.runs.front().value.kind == statistics::MeasurementKind::proportion)
-    figure.specification["layer"][2]["encoding"]["y"]["axis"]["format"] = "~p";
+    figure.parameters["format"] = "~p";
   return figure;
 }
 

@@ -199,8 +199,7 @@ std::optional<Figure> bode_figure(const ReportedStudy& reported) {
       study::study_trial(reported.study, reported.chosen.point, shown_trial).parameters;
   const std::vector<LoopCurve> curves = loop_curves(parameters);
   if (curves.empty()) return std::nullopt;
-  theory::Range frequencies;
-  theory::Range phases;
+  theory::Range frequencies, phases;
   phases.add(-180.0);
   for (const LoopCurve& curve : curves) {
     frequencies.add(curve.points.front().frequency);
@@ -211,16 +210,8 @@ std::optional<Figure> bode_figure(const ReportedStudy& reported) {
   Figure figure = figure_of("bode", "bode", "How much margin do the loops have?",
                             bode_caption(reported, parameters, magnitudes),
                             {curve_data(curves), margin_data(curves), reversal_levels(phases)});
-  // Not the colours of conditions.
-  const ordered_json colours{"var(--s7)", "var(--s5)", "var(--s4)", "var(--s8)"};
-  ordered_json labels = ordered_json::array();
-  for (const LoopCurve& curve : curves) labels.push_back(curve.label);
-  for (ordered_json& part : figure.specification["vconcat"]) {
-    part["encoding"]["x"]["scale"]["domain"] = {datum(frequencies.low), datum(frequencies.high)};
-    part["encoding"]["color"]["scale"] = {{"domain", labels}, {"range", colours}};
-  }
-  figure.specification["vconcat"][0]["layer"][1]["encoding"]["y"]["scale"]["domain"] = {magnitudes.low,
-                                                                                        magnitudes.high};
+  figure.parameters["frequencies"] = {datum(frequencies.low), datum(frequencies.high)};
+  figure.parameters["magnitudes"] = {magnitudes.low, magnitudes.high};
   return figure;
 }
 

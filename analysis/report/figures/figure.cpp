@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ranges>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
@@ -11,17 +12,8 @@
 
 namespace zerocount::report {
 
+using boost::algorithm::replace_all_copy;
 using nlohmann::ordered_json;
-
-namespace {
-
-std::string replaced(std::string text, std::string_view what, std::string_view by) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
-    text.replace(at, what.size(), by);
-  return text;
-}
-
-}  // namespace
 
 std::string_view embedded_file(std::string_view name) {
   const std::span<const EmbeddedFile> files = embedded_files();
@@ -75,7 +67,10 @@ ordered_json figure_json(const Figure& figure) {
       columns.push_back({column.field, column.title, column.unit});
     data.push_back({{"name", part.name}, {"columns", columns}, {"rows", part.rows}});
   }
-  return {{"name", figure.name}, {"specification", figure.specification}, {"data", std::move(data)}};
+  return {{"name", figure.name},
+          {"specification", figure.specification},
+          {"parameters", figure.parameters},
+          {"data", std::move(data)}};
 }
 
 ordered_json figure_theme() {
@@ -88,11 +83,11 @@ ordered_json colours_of(const char* mode) {
 
 std::string script_json(const ordered_json& json) {
   const std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-  return replaced(text, "<", "\\u003c");
+  return replace_all_copy(text, "<", "\\u003c");
 }
 
 std::string script_source(std::string_view source) {
-  return replaced(replaced(std::string(source), "</script", "<\\/script"), "<!--", "<\\!--");
+  return replace_all_copy(replace_all_copy(std::string(source), "</script", "<\\/script"), "<!--", "<\\!--");
 }
 
 std::string drawing_program(const Figure& figure, std::string_view form) {
@@ -109,17 +104,6 @@ std::string drawing_program(const Figure& figure, std::string_view form) {
       "const {{figure, theme, colours, wanted}} = {};\n{}",
       quoted("vega.min.js"), quoted("vega-lite.min.js"), quoted("figures.js"), script_json(subject),
       embedded_file("render.js"));
-}
-
-void set_rows(Figure& figure, std::size_t rows, int row) {
-  figure.specification["height"] = static_cast<int>(rows) * row;
-}
-
-void divide_into_panels(Figure& figure, const std::string& field, const std::vector<FigurePanel>& panels) {
-  if (panels.size() < 2) return;
-  ordered_json views = ordered_json::array();
-  for (const FigurePanel& panel : panels) views.push_back({{"value", panel.value}, {"title", panel.title}});
-  figure.specification["usermeta"]["panels"] = {{"field", field}, {"of", std::move(views)}};
 }
 
 FigureData boundaries_data() {
@@ -140,13 +124,6 @@ void add_boundary(FigureData& boundaries, const std::string& line, const std::ve
   }
 }
 
-void colour_by_name(ordered_json& colour, const std::vector<std::string>& names) {
-  constexpr std::size_t colours = 8;
-  ordered_json range = ordered_json::array();
-  for (std::size_t i = 0; i < names.size(); ++i) range.push_back(fmt::format("var(--s{})", i % colours + 1));
-  colour["scale"] = {{"domain", names}, {"range", std::move(range)}};
-}
-
 ordered_json datum(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
   const double rounded = text::round_to_digits(value, digits);
@@ -155,13 +132,12 @@ ordered_json datum(double value, int digits) {
 }
 
 void scale_ages(Figure& figure, const std::vector<double>& ages) {
-  ordered_json& x = figure.specification["encoding"]["x"];
   const std::size_t first = ages.front() > 0.0 ? 0 : 1;
   constexpr double decade = 10.0;
   if (first >= ages.size() || ages.back() < decade * ages[first]) return;
-  x["scale"] = first == 0 ? ordered_json{{"type", "log"}, {"nice", false}}
-                          : ordered_json{{"type", "symlog"}, {"constant", ages[first]}, {"nice", false}};
-  x["axis"] = {{"values", ages}};
+  figure.parameters["ages"] = ages;
+  figure.parameters["scale"] = first == 0 ? "log" : "symlog";
+  if (first > 0) figure.parameters["constant"] = ages[first];
 }
 
 bool spaced_by_ratio(const std::vector<double>& sorted) {
@@ -190,6 +166,19 @@ std::vector<std::size_t> extreme_samples(std::size_t first, std::size_t end,
   std::sort(samples.begin(), samples.end());
   samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
   return samples;
+}
+
+std::vector<std::size_t> thinned_samples(std::size_t samples, std::size_t length,
+                                         const std::vector<SampleQuantity>& quantities,
+                                         const std::function<bool(std::size_t)>& begins) {
+  std::vector<std::size_t> kept;
+  for (std::size_t first = 0, end = 0; first < samples; first = end) {
+    do ++end;
+    while (end < samples && end % length != 0 && !(begins && begins(end)));
+    const std::vector<std::size_t> group = extreme_samples(first, end, quantities);
+    kept.insert(kept.end(), group.begin(), group.end());
+  }
+  return kept;
 }
 
 }  // namespace zerocount::report

@@ -12,8 +12,9 @@
 #include "core/text/embedded_file.hpp"
 #include "experiments/parameters/study_units.hpp"
 
-/// Figures: data with the names and units of their columns, a caption, and an embedded specification, which
-/// figures.js completes with titles, ticks, panels and the width, in a page as in a picture.
+/// Figures: data with the names and units of their columns, a caption, and an embedded specification, a
+/// template that figures.js completes with the figure's parameters, titles, ticks, panels, colours and sizes,
+/// in a page as in a picture.
 namespace zerocount::report {
 
 using document::ColumnOf;
@@ -48,7 +49,7 @@ void call_bounds_too_narrow(Figure& figure, const std::string& why);
 /// Converts the figure's titles, units and caption from a rotary axis to an axis of this kind.
 void put_on_axis(Figure& figure, parameters::AxisKind axis);
 
-/// {"name", "specification", "data": [{"name", "columns": [[field, title, unit]], "rows"}]}
+/// {"name", "specification", "parameters", "data": [{"name", "columns": [[field, title, unit]], "rows"}]}
 nlohmann::ordered_json figure_json(const Figure& figure);
 
 /// For the content of <script type="application/json">: escapes every '<', so that the content cannot end the
@@ -69,20 +70,6 @@ nlohmann::ordered_json colours_of(const char* mode);
 /// Vega-Lite that needs nothing else
 std::string drawing_program(const Figure& figure, std::string_view form);
 
-/// Sets the height to `rows` rows of `row` pixels each.
-void set_rows(Figure& figure, std::size_t rows, int row);
-
-/// A part of a figure that shows the rows with one value of a field.
-struct FigurePanel {
-  std::string value;  ///< of the field
-  std::string title;
-};
-
-/// Divides a figure of one view into panels, one below the other, of the rows of its datasets in which
-/// `field` has the panel's value. Datasets without the field are shown in all. One panel leaves the figure as
-/// it is.
-void divide_into_panels(Figure& figure, const std::string& field, const std::vector<FigurePanel>& panels);
-
 /// A cell of a map.
 struct CellEdges {
   double x_from{0.0}, x_to{0.0};
@@ -94,9 +81,6 @@ FigureData boundaries_data();
 /// Adds a boundary to it. @param cells of a grid, x fastest @param columns of it
 void add_boundary(FigureData& boundaries, const std::string& line, const std::vector<CellEdges>& cells,
                   std::size_t columns, const std::function<bool(std::size_t)>& has);
-
-/// Gives each name of a colour channel its colour, whichever of them a figure shows.
-void colour_by_name(nlohmann::ordered_json& colour, const std::vector<std::string>& names);
 
 /// A number for a dataset, with `digits` significant digits; null for NaN and infinities.
 nlohmann::ordered_json datum(double value, int digits = 6);
@@ -115,5 +99,10 @@ using SampleQuantity = std::function<double(std::size_t)>;
 /// maximum of each quantity. In order, each once.
 std::vector<std::size_t> extreme_samples(std::size_t first, std::size_t end,
                                          const std::vector<SampleQuantity>& quantities);
+
+/// These of each group of `length` samples. @param begins whether a sample begins a group of its own
+std::vector<std::size_t> thinned_samples(std::size_t samples, std::size_t length,
+                                         const std::vector<SampleQuantity>& quantities,
+                                         const std::function<bool(std::size_t)>& begins = {});
 
 }  // namespace zerocount::report

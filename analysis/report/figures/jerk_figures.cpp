@@ -124,10 +124,7 @@ Figure raster(const ReportedStudy& reported, std::int64_t point, const jerks::Je
     caption += fmt::format("Of each move at most {} jerks are shown; {} later ones are omitted. ",
                            max_jerks_of_a_row, left_out);
   }
-  Figure figure =
-      figure_of("jerk-raster", "jerk-raster", "When do single moves jerk?", caption, {std::move(data)});
-  set_rows(figure, std::max<std::size_t>(moves.shown.size(), 12), 6);
-  return figure;
+  return figure_of("jerk-raster", "jerk-raster", "When do single moves jerk?", caption, {std::move(data)});
 }
 
 std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point,
@@ -152,10 +149,9 @@ std::optional<Figure> rate(const ReportedStudy& reported, std::int64_t point,
           "range of time (Garwood, widened if trials differ), for each range separately.",
           label_of(reported, point)),
       {std::move(data)});
-  if (jerks.rates.front().from == 0.0) {  // a logarithmic axis cannot show 0
-    figure.specification["encoding"]["x"]["scale"] = {
-        {"type", "symlog"}, {"constant", jerks.rates.front().to}, {"nice", false}};
-  }
+  const bool from_zero = jerks.rates.front().from == 0.0;  // which a logarithmic axis cannot show
+  figure.parameters["scale"] = from_zero ? "symlog" : "log";
+  if (from_zero) figure.parameters["constant"] = jerks.rates.front().to;
   return figure;
 }
 

@@ -118,19 +118,6 @@ std::string fit_caption(const RecordSummary& record, const ShownUnit& unit, doub
   return caption;
 }
 
-/// Sets the range of the readings, and without masked samples drops their layers and their entry in the
-/// legend.
-void set_axes(ordered_json& panels, const theory::Range& range, bool masked) {
-  panels[0]["encoding"]["y"]["scale"]["domain"] = {datum(range.low), datum(range.high)};
-  panels[2]["encoding"]["x"]["scale"]["domain"] = {datum(range.low), datum(range.high)};
-  if (masked) return;
-  panels[0]["layer"].erase(2);
-  panels[2]["layer"].erase(1);
-  ordered_json& colours = panels[0]["layer"][1]["encoding"]["color"]["scale"];
-  colours["domain"].erase(1);
-  colours["range"].erase(1);
-}
-
 Figure fit_figure(const RecordSummary& record, const FittedRecord& fit, std::size_t number,
                   std::size_t buckets) {
   const ShownUnit unit = shown_unit(record);
@@ -140,7 +127,9 @@ Figure fit_figure(const RecordSummary& record, const FittedRecord& fit, std::siz
       figure_of("identification", fmt::format("record-{}", number), record.name,
                 fit_caption(record, unit, band, samples.size()),
                 {samples_data(fit, unit, record.axis, samples), masks_data(fit), band_data(band)});
-  set_axes(figure.specification["vconcat"], angle_range(fit, unit), record.excluded > 0);
+  const theory::Range range = angle_range(fit, unit);
+  figure.parameters["readings"] = {datum(range.low), datum(range.high)};
+  if (record.excluded > 0) figure.parameters.update({{"masked", "masked"}, {"masked_colour", "var(--s8)"}});
   return figure;
 }
 
@@ -152,16 +141,8 @@ std::vector<std::size_t> drawn_samples(const FittedRecord& record, std::size_t b
   const std::vector<SampleQuantity> quantities{
       [&](std::size_t k) { return record.torque[k]; }, [&](std::size_t k) { return record.reading[k]; },
       [&](std::size_t k) { return record.fitted[k]; }, [&](std::size_t k) { return residual(record, k); }};
-  std::vector<std::size_t> drawn;
-  for (std::size_t first = 0; first < samples;) {
-    const std::size_t group_end = std::min(samples, (first / length + 1) * length);
-    std::size_t end = first + 1;
-    while (end < group_end && record.excluded[end] == record.excluded[first]) ++end;
-    const std::vector<std::size_t> kept = extreme_samples(first, end, quantities);
-    drawn.insert(drawn.end(), kept.begin(), kept.end());
-    first = end;
-  }
-  return drawn;
+  return thinned_samples(samples, length, quantities,
+                         [&](std::size_t k) { return record.excluded[k] != record.excluded[k - 1]; });
 }
 
 double reading_noise(const RecordSummary& record, const FittedRecord& fit) {
@@ -199,11 +180,6 @@ Figure experiment_figure(const ExperimentDesign& design) {
   const auto count = [&](std::size_t k) { return static_cast<double>(design.record.counts[k]); };
   const std::size_t samples = design.protocol.torque.size();
   const std::size_t length = std::max<std::size_t>(1, samples / buckets);
-  std::vector<std::size_t> drawn;
-  for (std::size_t first = 0; first < samples; first += length) {
-    const auto kept = extreme_samples(first, std::min(first + length, samples), {torque, count});
-    drawn.insert(drawn.end(), kept.begin(), kept.end());
-  }
   constexpr int digits = 9;
   const auto time = [&](std::size_t k) { return static_cast<double>(k) * design.frame.sample_time; };
   Figure figure = figure_of(
@@ -212,7 +188,7 @@ Figure experiment_figure(const ExperimentDesign& design) {
       "would give. "
       "All extremes of the samples are drawn.",
       {data_of<std::size_t>(
-          "samples", drawn,
+          "samples", thinned_samples(samples, length, {torque, count}),
           {{{"time", "time", "s"}, [&](std::size_t k) { return datum(time(k), digits); }},
            {{"torque", "$torque", "N m"}, [&](std::size_t k) { return datum(torque(k)); }},
            {{"count", "reading", "counts"}, [&](std::size_t k) { return datum(count(k), digits); }}})});

@@ -47,10 +47,6 @@ class TraceThinner {
 ReplayedTrial replay_trial(const study::Study& study, std::int64_t point, std::int64_t index,
                            std::int64_t buckets);
 
-/// Gives each condition its colour, the same in all figures; without conditions the legend goes. @param
-/// colour the channel, of names of conditions
-void colour_conditions(nlohmann::ordered_json& colour, const ReportedStudy& reported);
-
 /// Success per point with bounds and what is asked: over a swept number if there is one, otherwise a row per
 /// point and condition. Several goals have a panel each. Nothing for an open-loop study.
 std::optional<Figure> success_figure(const ReportedStudy& reported);

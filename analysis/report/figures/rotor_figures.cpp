@@ -182,7 +182,7 @@ Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile&
       caption,
       {std::move(trials), profile_data(profile),
        sector_data(ends, period, trials_shown >= 480 ? 24 : 12, words)});
-  figure.specification["vconcat"][1]["encoding"]["x"]["scale"]["domain"] = {0.0, period};
+  figure.parameters["period"] = {0.0, period};
   // The first dataset is the table behind the figure.
   if (failures.empty()) std::rotate(figure.data.begin(), figure.data.begin() + 2, figure.data.end());
   return figure;

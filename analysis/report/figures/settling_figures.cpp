@@ -186,13 +186,10 @@ std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
   }
   Figure figure = figure_of("settling-time", "settling-time", "How soon do the moves arrive?", caption,
                             {std::move(data)});
-  ordered_json& x = figure.specification["encoding"]["x"];
   if (start > 0.0 && end > 12.0 * start) {  // otherwise a few late arrivals would compress all others
-    x["scale"]["type"] = "symlog";
-    x["scale"]["constant"] = start / 4.0;
+    figure.parameters = {{"scale", "symlog"}, {"constant", start / 4.0}};
     figure.caption += "The time axis is linear near zero and logarithmic beyond.";
   }
-  if (shown.size() == 1) colour_conditions(figure.specification["encoding"]["color"], reported);
   return figure;
 }
 
@@ -288,16 +285,11 @@ std::optional<Figure> settled_figure(const ReportedStudy& reported) {
                     : fmt::format("How soon are the moves within {} for good?",
                                   with_claim ? "what each goal asks" : "each band"),
                 caption, {std::move(data)});
-  if (has_conditions(reported) || with_claim)
-    colour_conditions(figure.specification["encoding"]["color"], reported);
   add_goals(figure, subjects);
   if (!has_conditions(reported) && !with_claim) return figure;
-  std::vector<FigurePanel> panels;
-  panels.reserve(subjects.size());
+  figure.parameters["panels"] = "subject";
   for (const SettledSubject& one : subjects)
-    panels.push_back({one.name, one.claim ? goal_text(one) : one.name});
-  if (panels.size() > 1) figure.specification["height"] = 190;
-  divide_into_panels(figure, "subject", panels);
+    if (one.claim) figure.parameters["titles"][one.name] = goal_text(one);
   return figure;
 }
 
@@ -322,17 +314,6 @@ constexpr std::int64_t max_world_steps = 80;   ///< of a curve
 /// The parameter of a rule, or the first.
 std::size_t leading_input(const worlds::PointWorlds& point) {
   return point.rule ? point.rule->conditions.front().input : 0;
-}
-
-/// Draws what is asked as a dashed line across the figure. @param channel "x" or "y"
-void add_asked(Figure& figure, const char* channel, double value) {
-  ordered_json encoding{
-      {"x", nullptr}, {"y", nullptr}, {"detail", nullptr}, {"color", {{"value", "var(--ink)"}}}};
-  encoding[channel] = {{"field", "asked"}, {"type", "quantitative"}};
-  figure.specification["layer"].push_back(
-      {{"data", {{"values", {{{"asked", value}}}}}},
-       {"mark", {{"type", "rule"}, {"strokeDash", {4, 3}}, {"strokeWidth", 1.2}}},
-       {"encoding", std::move(encoding)}});
 }
 
 /// One curve of settled moves for each world ("horsetail").
@@ -374,12 +355,8 @@ std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds:
           summary::bad_worlds_sentence(point, inputs, reported.summary.question), parameter,
           moves.size() > max_world_curves ? fmt::format("; shown are the first {}", max_world_curves) : ""),
       {std::move(data)});
-  if (std::ranges::find(point.bad, true) == point.bad.end())
-    figure.specification["layer"].erase(1);  // a layer without rows has no scale
-  if (question.claim()) {
-    add_asked(figure, "x", question.claim()->within);
-    add_asked(figure, "y", question.claim()->moves);
-  }
+  if (question.claim())
+    figure.parameters["asked"] = {{{"within", question.claim()->within}, {"moves", question.claim()->moves}}};
   return figure;
 }
 
@@ -409,10 +386,9 @@ Figure rate_figure(const ReportedStudy& reported, const worlds::PointWorlds& poi
                              : "each world alone, with 95 % confidence"),
       {std::move(data)});
   const auto [least, largest] = std::ranges::minmax(parameter.values);
-  if (least > 0.0 && largest > 5.0 * least)
-    figure.specification["encoding"]["x"]["scale"] = {{"type", "log"}};
+  if (least > 0.0 && largest > 5.0 * least) figure.parameters["scale"] = "log";
   if (const std::optional<study::Goal>& claim = reported.summary.question.claim())
-    add_asked(figure, "y", claim->machines.value_or(claim->moves));
+    figure.parameters["asked"] = {{{"rate", claim->machines.value_or(claim->moves)}}};
   return figure;
 }
 

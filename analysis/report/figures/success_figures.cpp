@@ -112,15 +112,6 @@ std::string bounds_note(const ReportedStudy& reported, std::string_view line, st
       bounds, shown_bounds(reported));
 }
 
-void divide_by_goals(Figure& figure, const ReportedStudy& reported, int height) {
-  if (!has_several(question_of(reported))) return;
-  std::vector<FigurePanel> panels;
-  for (const goal::JudgedPart& part : question_of(reported).parts)
-    panels.push_back({part.claim->name, part.claim->name});
-  figure.specification["height"] = height;
-  divide_into_panels(figure, "goal", panels);
-}
-
 /// The points by decreasing rate; evenly spaced points of that order if there are too many.
 std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported, std::int64_t lines_of_each) {
   std::vector<std::int64_t> order(reported.summary.points.size());
@@ -163,30 +154,17 @@ Figure row_per_point(const ReportedStudy& reported) {
                            shown.size(), reported.summary.points.size());
   }
   FigureData data = rates_data(words);
-  double lowest = 1.0;
   for (const std::int64_t point : shown) {
-    for (const ShownLine& line : lines) {
-      const goal::QuestionRate rate = line.rate(point);
-      data.rows.push_back(row_of(label_of_line(reported, point, line, alone), line, rate));
-      lowest = std::min({lowest, rate.bounds.low, line.asked().is_null() ? 1.0 : line.asked().get<double>()});
-    }
+    for (const ShownLine& line : lines)
+      data.rows.push_back(row_of(label_of_line(reported, point, line, alone), line, line.rate(point)));
   }
-  const std::size_t rows = data.rows.size() / (alone ? 1 : question.parts.size());
   const char* const title = !question.claim()          ? "How many trials succeed?"
                             : !alone                   ? "Which design points meet the goal?"
                             : has_conditions(reported) ? "Is the goal met under each condition?"
                                                        : "Is the goal met?";
   Figure figure = figure_of("success", "success", title, caption + bounds_note(reported, "dark", "bars"),
                             {std::move(data)});
-  const double from = lowest >= 0.8 ? std::floor(lowest * 100.0 - 0.5) / 100.0 : 0.0;
-  figure.specification["layer"][0]["encoding"]["x"]["scale"]["domain"] = {from, 1};
-  if (has_conditions(reported)) {
-    colour_conditions(figure.specification["encoding"]["color"], reported);
-  } else {
-    figure.specification["encoding"]["color"] = {{"value", "var(--s1)"}};
-  }
-  set_rows(figure, rows, 24);
-  if (!alone) divide_by_goals(figure, reported, figure.specification["height"]);
+  if (!alone) figure.parameters["panels"] = "goal";
   return figure;
 }
 
@@ -242,23 +220,13 @@ Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
                 question_of(reported).claim() ? fmt::format("At which {} is the goal met?", swept.name)
                                               : fmt::format("How does success depend on {}?", swept.name),
                 caption + bounds_note(reported, "dashed", "bands"), {std::move(data)});
-  ordered_json& encoding = figure.specification["encoding"];
-  if (spaced_by_ratio(values_of(swept))) encoding["x"]["scale"]["type"] = "log";
-  encoding["x"]["scale"]["domain"] = {values_of(swept).front(), values_of(swept).back()};
-  if (groups.size() == 1) colour_conditions(encoding["color"], reported);
-  divide_by_goals(figure, reported, 220);
+  const std::vector<double> values = values_of(swept);
+  figure.parameters["scale"] = spaced_by_ratio(values) ? "log" : "linear";
+  figure.parameters["domain"] = {values.front(), values.back()};
   return figure;
 }
 
 }  // namespace
-
-void colour_conditions(nlohmann::ordered_json& colour, const ReportedStudy& reported) {
-  if (has_conditions(reported)) {
-    colour_by_name(colour, reported.study.conditions);
-  } else {
-    colour["legend"] = nullptr;
-  }
-}
 
 std::optional<Figure> success_figure(const ReportedStudy& reported) {
   if (reported.study.open_loop) return std::nullopt;
@@ -291,10 +259,6 @@ struct MapAxis {
     return found + 1 == values.end() ? value : between(value, *(found + 1));
   }
   theory::PlaneAxis of_criteria() const { return {axis.name, values.front(), values.back(), by_ratio}; }
-  void set(ordered_json& channel) const {
-    channel["scale"]["domain"] = {values.front(), values.back()};
-    if (by_ratio) channel["scale"]["type"] = "log";
-  }
 };
 
 /// Points that differ only in two swept numbers.
@@ -416,9 +380,10 @@ Figure map_figure(const MapOfPoints& map, std::size_t number) {
   Figure figure =
       figure_of("stability-map", number == 0 ? "stability-map" : fmt::format("stability-map-{}", number + 1),
                 title, caption, {cells_of(map), std::move(curves), goal_boundary(map)});
-  ordered_json& encoding = figure.specification["layer"][0]["encoding"];
-  map.x.set(encoding["x"]);
-  map.y.set(encoding["y"]);
+  for (const auto& [name, one] : {std::pair("x", &map.x), {"y", &map.y}}) {
+    figure.parameters[fmt::format("{}_domain", name)] = {one->values.front(), one->values.back()};
+    figure.parameters[fmt::format("{}_scale", name)] = one->by_ratio ? "log" : "linear";
+  }
   return figure;
 }
 
@@ -511,10 +476,7 @@ Figure lives_figure(const ReportedStudy& reported, const std::vector<summary::Ce
           reported, ages,
           {{"machines", [](const summary::CellOfPoint& age) { return age.living; }, std::nullopt}})});
   scale_ages(figure, question_of(reported).ages.at);
-  ordered_json& layers = figure.specification["layer"];
-  for (const int layer : {0, 2}) layers[layer]["mark"]["interpolate"] = "step-after";
-  layers.erase(1);  // nothing is asked
-  figure.specification["encoding"]["color"]["legend"] = nullptr;
+  figure.parameters["interpolate"] = "step-after";
   return figure;
 }
 

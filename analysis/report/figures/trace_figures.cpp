@@ -101,10 +101,9 @@ FigureData boxes_of(const goal::Question& question, const trial::TrialParameters
   return data;
 }
 
-/// Puts an error in one unit on an axis that is linear within `smallest` and logarithmic beyond.
-void set_error_axis(ordered_json& channel, double smallest, double largest) {
-  channel["scale"] = {
-      {"type", "symlog"}, {"constant", datum(smallest)}, {"domain", {datum(-largest), datum(largest)}}};
+/// The scale of an error in one unit that is linear within `smallest` and logarithmic beyond.
+ordered_json error_scale(double smallest, double largest) {
+  return {{"type", "symlog"}, {"constant", datum(smallest)}, {"domain", {datum(-largest), datum(largest)}}};
 }
 
 }  // namespace
@@ -184,15 +183,10 @@ std::vector<Figure> response_figures(const ReportedStudy& reported, const Replay
                            : "The shaded box is zero counts.",
           course + "."),
       {std::move(data), boxes_of(question, parameters)});
-  for (std::size_t panel : {0U, 1U}) {
-    ordered_json& layers = figure.specification["vconcat"][panel]["layer"];
-    set_error_axis(layers[0]["layer"][1]["encoding"]["y"], smallest, largest);
-    set_error_axis(layers[1]["encoding"]["y"], smallest / resolution, largest / resolution);
-    colour_conditions(layers[0]["layer"][1]["encoding"]["color"], reported);
-    figure.specification["vconcat"][panel]["title"] =
-        fmt::format("{} {}", panel == 0 ? "median" : "worst", subject);
-  }
-  colour_conditions(figure.specification["vconcat"][2]["encoding"]["color"], reported);
+  for (const SampleTrial& trial : trials)
+    figure.parameters["titles"][trial.name] = fmt::format("{} {}", trial.name, subject);
+  figure.parameters["error_scale"] = error_scale(smallest, largest);
+  figure.parameters["count_scale"] = error_scale(smallest / resolution, largest / resolution);
   return {std::move(figure)};
 }
 
@@ -265,16 +259,24 @@ Figure jerks_in_time(const ReplayedTrial& trial) {
       {data_of("samples", trial.samples, {time_column, count_column, torque_column})});
 }
 
+/// A place that an open-loop trial loads, over which its torque is drawn.
+struct LoadedPlace {
+  const char* field;
+  const char* title;
+  double trial::SampleRecord::*of_sample;
+  double trial::MoveOutcome::*at_end;  ///< of a level
+};
+
 /// The ends of the torque levels. Levels that end at the same point share a row.
-/// @param field and @param title of the column of places
-FigureData level_ends(const ReplayedTrial& trial, const char* field, const char* title,
-                      double trial::MoveOutcome::*place) {
-  FigureData data{"levels", {{"levels", "levels", ""}, {field, title, "µrad"}, {"torque", "$torque", "N m"}}};
+FigureData level_ends(const ReplayedTrial& trial, const LoadedPlace& place) {
+  FigureData data{
+      "levels", {{"levels", "levels", ""}, {place.field, place.title, "µrad"}, {"torque", "$torque", "N m"}}};
   const std::vector<trial::MoveOutcome>& levels = trial.result.outcome.moves;
   double reach = 0.0;
-  for (const trial::MoveOutcome& level : levels) reach = std::max(reach, std::abs(1e6 * (level.*place)));
+  for (const trial::MoveOutcome& level : levels)
+    reach = std::max(reach, std::abs(1e6 * (level.*place.at_end)));
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    const double end = 1e6 * (levels[i].*place);
+    const double end = 1e6 * (levels[i].*place.at_end);
     const std::string name = fmt::format("{}", i + 1);
     const auto shared = std::find_if(data.rows.begin(), data.rows.end(), [&](const ordered_json& row) {
       return std::abs(row[1].get<double>() - end) <= 0.01 * reach &&
@@ -289,35 +291,39 @@ FigureData level_ends(const ReplayedTrial& trial, const char* field, const char*
   return data;
 }
 
+/// The torque over a place that it loads. @param meaning what the curve shows
+Figure loading_figure(const ReplayedTrial& trial, const char* name, const char* title,
+                      const LoadedPlace& place, const char* meaning) {
+  const SampleColumn column{{place.field, place.title, "µrad"},
+                            [place](Sample s) { return datum(1e6 * s.*place.of_sample); }};
+  Figure figure = figure_of(
+      "loading", name, title,
+      fmt::format(
+          "$Torque over {} of trial {}. Each number marks the end of a $torque level, in their order. {}",
+          place.title, trial.result.row, meaning),
+      {data_of("samples", trial.samples, {time_column, column, motor_torque_column}),
+       level_ends(trial, place)});
+  figure.parameters["place"] = place.field;
+  return figure;
+}
+
 Figure hysteresis(const ReplayedTrial& trial, bool creeping) {
-  const SampleColumn angle{{"angle", "$rotor_angle", "µrad"}, [](Sample s) { return datum(1e6 * s.theta); }};
-  return figure_of(
-      "hysteresis", "paper-fig4", "$Torque over $angle (Fig. 4 of the paper)",
-      fmt::format("$Torque over $rotor_angle of trial {}, loaded and unloaded. Each number marks "
-                  "the end of a $torque level, in their order. {}",
-                  trial.result.row,
-                  creeping ? "Creep moves the $rotor on while the $torque is held, so a loop does "
-                             "not close where the contact has crept in it."
-                           : "The spring has hysteresis with return-point memory: loops between "
-                             "the same $torques have the same width, and a closed loop has no "
-                             "further influence, so levels of equal $torque end at the same "
-                             "point."),
-      {data_of("samples", trial.samples, {time_column, angle, motor_torque_column}),
-       level_ends(trial, "angle", "$rotor_angle", &trial::MoveOutcome::final_position)});
+  return loading_figure(
+      trial, "paper-fig4", "$Torque over $angle (Fig. 4 of the paper)",
+      {"angle", "$rotor_angle", &trial::SampleRecord::theta, &trial::MoveOutcome::final_position},
+      creeping ? "Creep moves the $rotor on while the $torque is held, so a loop does not close where the "
+                 "contact has crept in it."
+               : "The spring has hysteresis with return-point memory: loops between the same $torques have "
+                 "the same width, and a closed loop has no further influence, so levels of equal $torque end "
+                 "at the same point.");
 }
 
 Figure plastic_extension(const ReplayedTrial& trial) {
-  const SampleColumn extension{{"extension", "plastic extension", "µrad"},
-                               [](Sample s) { return datum(1e6 * s.xp); }};
-  return figure_of(
-      "creep", "paper-fig6", "$Torque over plastic extension (Fig. 6 of the paper)",
-      fmt::format(
-          "$Torque over plastic (creep) extension of trial {}. Each number marks the end of a $torque "
-          "level, in their order. At constant $torque the contact creeps along a horizontal line "
-          "until it has hardened. A repeated or smaller $torque of either sign adds no extension.",
-          trial.result.row),
-      {data_of("samples", trial.samples, {time_column, extension, motor_torque_column}),
-       level_ends(trial, "extension", "plastic extension", &trial::MoveOutcome::creep)});
+  return loading_figure(
+      trial, "paper-fig6", "$Torque over plastic extension (Fig. 6 of the paper)",
+      {"extension", "plastic extension", &trial::SampleRecord::xp, &trial::MoveOutcome::creep},
+      "At constant $torque the contact creeps along a horizontal line until it has hardened. A repeated or "
+      "smaller $torque of either sign adds no extension.");
 }
 
 /// Whether the contact of the first trial creeps.

@@ -1,10 +1,15 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include <boost/algorithm/string/finder.hpp>
+#include <boost/algorithm/string/iter_find.hpp>
+#include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "analysis/document/markup.hpp"
+#include "analysis/report/figures/figure.hpp"
 #include "analysis/report/first_screen/first_screen.hpp"
 #include "core/friction/law.hpp"
 #include "core/loop/dac.hpp"
@@ -15,127 +20,7 @@
 namespace zerocount::report {
 namespace {
 
-/// Lines of one phase of the control. @param path "controller." or "controller.coarse."
-class PhaseLines {
- public:
-  PhaseLines(const PointValues& values, std::string path) : values_(values), path_(std::move(path)) {}
-
-  void add(const loop::ControlBlocks& blocks) {
-    if (blocks.structure == loop::ControlStructure::cascade) {
-      add_group("cascade: ", {{"kv", "cascade.kv"}, {"kp", "cascade.kp"}, {"ki", "cascade.ki"}}, ", ");
-    } else {
-      for (const char* const gain : {"kp", "ki", "kd"}) add_positive(gain, gain);
-    }
-    add_unless_none("derivative low-pass", "derivative_cutoff");
-    add_unless_none("integrates within", "integrator_zone");
-    add_unless_none("integral decays in", "integrator_leak");
-    add_unless_none("integral frozen within", "deadband.enter");
-    add_unless_none("dead zone", "error_deadband.band");
-    add_unless_none("torque held within", "hold.enter");
-    if (add_unless_none("standstill gains within", "standstill.band"))
-      add_group("  ", {{"kp", "standstill.kp"}, {"ki", "standstill.ki"}, {"kd", "standstill.kd"}}, ", ");
-    for (std::size_t i = 0; i < blocks.filters.size(); ++i)
-      lines.push_back(filter_text(i, blocks.filters[i]));
-    add_group("feed-forward ",
-              {{"velocity", "feedforward.velocity"},
-               {"acceleration", "feedforward.acceleration"},
-               {"friction", "feedforward.friction"}},
-              ", ");
-    if (values_.can_be_positive(path_ + "observer.bandwidth"))
-      add_group("observer ", {{"", "observer.bandwidth"}, {"of", "observer.inertia"}}, " ");
-  }
-
-  std::vector<std::string> lines{};
-
- private:
-  struct Named {
-    std::string_view name;
-    std::string_view key;
-  };
-
-  std::string text(std::string_view key) const { return values_.text(path_ + std::string(key)); }
-
-  void add_positive(std::string_view name, std::string_view key) {
-    if (values_.can_be_positive(path_ + std::string(key)))
-      lines.push_back(fmt::format("{} {}", name, text(key)));
-  }
-  /// Adds a parameter that can be "none".
-  bool add_unless_none(std::string_view name, std::string_view key) {
-    if (values_.is_none(path_ + std::string(key))) return false;
-    lines.push_back(fmt::format("{} {}", name, text(key)));
-    return true;
-  }
-  /// Those of the parameters that can be positive, in one line.
-  void add_group(std::string_view head, const std::vector<Named>& rows, std::string_view separator) {
-    std::vector<std::string> texts;
-    for (const Named& row : rows) {
-      if (values_.can_be_positive(path_ + std::string(row.key)))
-        texts.push_back(fmt::format("{}{}{}", row.name, row.name.empty() ? "" : "\u00a0", text(row.key)));
-    }
-    if (!texts.empty()) lines.push_back(fmt::format("{}{}", head, fmt::join(texts, separator)));
-  }
-
-  std::string filter_text(std::size_t index, const loop::Filter& filter) const {
-    const auto frequency = [&] { return text(fmt::format("filters.{}.frequency", index)); };
-    switch (filter.kind) {
-      case loop::FilterKind::lowpass:
-        return "low-pass " + frequency();
-      case loop::FilterKind::notch:
-        return "notch " + frequency();
-      case loop::FilterKind::lead:
-        return "lead " + frequency();
-      case loop::FilterKind::biquad:
-        break;
-    }
-    return fmt::format("biquad b {}; a {}", fmt::join(filter.b, ", "), fmt::join(filter.a, ", "));
-  }
-
-  const PointValues& values_;
-  std::string path_;
-};
-
-std::vector<std::string> plugin_lines(const PointValues& values, const trial::TrialParameters& p) {
-  std::vector<std::string> lines{"plugin " + p.controller.user.plugin->description.name};
-  for (const plugin::PluginParameter& one : p.controller.user.plugin->description.parameters)
-    lines.push_back(fmt::format("{} {}", one.name, values.text("controller.parameters." + one.name)));
-  return lines;
-}
-
-/// The blocks of the controller that are on, with their gains.
-DiagramBlock controller_block(const PointValues& values, const trial::TrialParameters& p) {
-  const bool is_plugin = p.controller.user.plugin != nullptr;
-  const bool is_cascade = p.controller.blocks.structure == loop::ControlStructure::cascade;
-  DiagramBlock block{
-      is_plugin    ? "Controller"
-      : is_cascade ? "Cascade control"
-                   : "PID control",
-      {fmt::format("{}, delay {}", values.text("controller.sample_rate"), values.text("controller.delay"))}};
-  const auto append = [&](const std::vector<std::string>& lines) {
-    block.lines.insert(block.lines.end(), lines.begin(), lines.end());
-  };
-  if (is_plugin) {
-    append(plugin_lines(values, p));
-    return block;
-  }
-  PhaseLines fine(values, "controller.");
-  fine.add(p.controller.blocks);
-  append(fine.lines);
-  if (values.can_be_positive("controller.dither.amplitude"))
-    block.lines.push_back("dither " + values.text("controller.dither.amplitude"));
-  if (!study::can_have_coarse_phase(values.limits("controller.coarse.coarse_beyond"))) return block;
-  block.lines.push_back("coarse phase beyond " + values.text("controller.coarse.coarse_beyond"));
-  PhaseLines coarse(values, "controller.coarse.");
-  coarse.add(p.controller.coarse.blocks);
-  append(coarse.lines);
-  return block;
-}
-
-std::string on_axis(const PointValues& values, std::string_view text) {
-  return parameters::text_on(values.study().units.axis, text);
-}
-std::string unit_on_axis(const PointValues& values, std::string_view rotary) {
-  return parameters::unit_on(values.study().units.axis, rotary);
-}
+using boost::algorithm::replace_all_copy;
 
 /// "20, 21, 20, 0 µm", or of many or drawn values their range.
 std::string moves_text(const PointValues& values) {
@@ -154,177 +39,172 @@ std::string moves_text(const PointValues& values) {
   return fmt::format("{}, {}", text::counted(plan.list.count, "move"), range_text(all.low, all.high, unit));
 }
 
-DiagramBlock levels_block(const PointValues& values) {
-  return {on_axis(values, "$Torque levels"),
-          {moves_text(values), "at " + values.text("command.torque.rate")}};
+/// What axis.html names beside parameters: values that are computed, and as empty texts what is on.
+using Facts = std::map<std::string, std::string, std::less<>>;
+
+void add(Facts& facts, const std::string& name, bool is_on) {
+  if (is_on) facts.emplace(name, "");
 }
 
-void add_profile(std::vector<std::string>& lines, const PointValues& values, loop::ReferenceShape shape) {
-  const auto text = [&](const char* key) { return values.text(std::string("command.profile.") + key); };
-  switch (shape) {
-    case loop::ReferenceShape::step:
-      lines.emplace_back("in steps");
-      return;
-    case loop::ReferenceShape::sine:
-      lines.push_back(fmt::format("sine of {}, {}", text("amplitude"), text("frequency")));
-      return;
-    case loop::ReferenceShape::trapezoidal:
-      lines.emplace_back("trapezoidal velocity");
-      break;
-    case loop::ReferenceShape::s_curve:
-      lines.push_back("s-curve, jerk\u00a0≤\u00a0" + text("jerk_limit"));
-      break;
+void add_controller(Facts& facts, const PointValues& values, const trial::TrialParameters& p) {
+  facts["shape"] = values.text("command.profile.shape");
+  if (const plugin::ControllerPlugin* const plugin = p.controller.user.plugin.get()) {
+    facts["plugin"] = plugin->description.name;
+    const std::vector<plugin::PluginParameter>& own = plugin->description.parameters;
+    for (std::size_t i = 0; i < own.size(); ++i)
+      facts[fmt::format("plugin.{}", i)] =
+          fmt::format("{} {}", own[i].name, values.text("controller.parameters." + own[i].name));
+    return;
   }
-  lines.push_back("velocity ≤\u00a0" + text("velocity_limit"));
-  lines.push_back("acceleration ≤\u00a0" + text("acceleration_limit"));
+  facts["structure"] = values.text("controller.structure");
+  add(facts, "coarse", study::can_have_coarse_phase(values.limits("controller.coarse.coarse_beyond")));
 }
 
-DiagramBlock reference_block(const PointValues& values, const trial::TrialParameters& p) {
-  DiagramBlock block{"Reference", {"to " + moves_text(values)}};
-  add_profile(block.lines, values, p.command.profile.shape);
-  block.lines.push_back("hold " + values.text("command.hold"));
-  return block;
-}
-
-DiagramBlock drive_block(const PointValues& values, const trial::TrialParameters& p) {
-  const std::string unit = unit_on_axis(values, "N m");
-  DiagramBlock block{
-      "DAC and amplifier",
-      {fmt::format("{}, ±{}", values.text("dac.bits"), quantity_text(-loop::lowest_torque(p.dac), unit)),
-       fmt::format("1 code = {}", quantity_text(p.dac.resolution, unit))}};
-  block.lines.push_back(values.can_be_positive("amplifier.bandwidth")
-                            ? "bandwidth " + values.text("amplifier.bandwidth")
-                            : "ideal amplifier");
-  if (values.can_be_positive("dac.noise")) block.lines.push_back("noise " + values.text("dac.noise"));
-  return block;
-}
-
-void add_damping(DiagramBlock& block, const PointValues& values, const friction::LawTraits& law) {
-  if (law.has_presliding_damping) block.lines.push_back("damping " + values.text("plant.presliding_damping"));
-  if (law.has_sliding_damping)
-    block.lines.push_back("sliding damping " + values.text("plant.sliding_damping"));
-}
-
-DiagramBlock plant_block(const PointValues& values, const trial::TrialParameters& p) {
-  DiagramBlock block{on_axis(values, "Motor and $rotor"),
-                     {on_axis(values, "$inertia ") + values.text("plant.inertia")}};
-  add_damping(block, values, friction::traits_of(p.friction.model));
-  if (!values.can_be_positive("plant.load.inertia")) return block;
-  block.lines.push_back("load " + values.text("plant.load.inertia"));
-  block.lines.push_back("coupling " + values.text("plant.load.stiffness"));
-  return block;
-}
-
-/// The virgin curve as it was measured; empty where the manifest gives the parameters of the law.
-std::vector<std::string> measured_lines(const PointValues& values) {
-  const auto text = [&](const char* key) { return values.text(std::string("friction.measured.") + key); };
-  for (const study::MeasuredSlots& group : values.study().plan->measured) {
-    const std::string_view first = group.group->names.front();
-    if (first == "friction.measured.secant_stiffness")
-      return {fmt::format("{} over {}", text("secant_stiffness"), text("secant_travel")),
-              fmt::format("slides at {} after {}", text("breakaway"), text("breakaway_travel"))};
-    if (first == "friction.measured.initial_stiffness")
-      return {"stiffness " + text("initial_stiffness"), "softens to " + text("final_stiffness"),
-              fmt::format("slides at {} after {}", text("breakaway"), text("breakaway_travel"))};
-  }
-  return {};
-}
-
-/// The main parameters that the law uses.
-std::vector<std::string> law_lines(const PointValues& values, const trial::TrialParameters& p) {
-  struct Row {
-    friction::ContactField field;
-    const char* word;
-    const char* key;
-  };
+void add_friction(Facts& facts, const PointValues& values, friction::FrictionModel model) {
   using F = friction::FrictionParameters;
-  static const std::vector<Row> rows{{&F::k1, "k1", "friction.k1"},
-                                     {&F::k2, "k2", "friction.k2"},
-                                     {&F::sigma0, "σ0", "friction.sigma0"},
-                                     {&F::breakaway, "breakaway", "friction.breakaway"}};
-  const friction::LawTraits& law = friction::traits_of(p.friction.model);
-  std::vector<std::string> lines;
-  for (const Row& row : rows) {
-    if (friction::uses(law, row.field)) lines.push_back(fmt::format("{} {}", row.word, values.text(row.key)));
+  const friction::LawTraits& law = friction::traits_of(model);
+  add(facts, "presliding damping", law.has_presliding_damping);
+  add(facts, "sliding damping", law.has_sliding_damping);
+  add(facts, "friction", friction::has_friction(model));
+  add(facts, "creep", friction::has_creep(model));
+  add(facts, "uses friction.k1", friction::uses(law, &F::k1));
+  add(facts, "uses friction.k2", friction::uses(law, &F::k2));
+  add(facts, "uses friction.sigma0", friction::uses(law, &F::sigma0));
+  add(facts, "uses friction.breakaway", friction::uses(law, &F::breakaway));
+  for (const study::MeasuredSlots& group : values.study().plan->measured) {
+    const std::vector<std::string_view>& names = group.group->names;
+    add(facts, fmt::format("by {}", names.front()), true);
+    add(facts, "measured", std::ranges::find(names, "friction.measured.breakaway") != names.end());
   }
-  return lines;
 }
 
-std::optional<DiagramBlock> friction_block(const PointValues& values, const trial::TrialParameters& p) {
-  const friction::FrictionModel model = p.friction.model;
-  if (!friction::has_friction(model)) return std::nullopt;
-  DiagramBlock block{
-      fmt::format("Friction: {}", friction::friction_model_labels()[static_cast<std::size_t>(model)]),
-      measured_lines(values)};
-  if (block.lines.empty()) block.lines = law_lines(values, p);
-  if (friction::has_creep(model) && values.can_be_positive("friction.alpha"))
-    block.lines.push_back("creep rate " + values.text("friction.alpha"));
-  return block;
+void add_disturbance(Facts& facts, const PointValues& values,
+                     const trial::DisturbanceParameters& disturbance) {
+  const study::ValueLimits constant = values.limits("disturbance.torque");
+  add(facts, "constant", constant.low != 0.0 || constant.high != 0.0);
+  add(facts, "random", !disturbance.spectra.empty());
+  add(facts, "disturbed",
+      facts.contains("constant") || facts.contains("random") || !disturbance.ripple.empty() ||
+          !disturbance.vibration.empty());
 }
 
-std::optional<DiagramBlock> disturbance_block(const PointValues& values, const trial::TrialParameters& p) {
-  DiagramBlock block{"Disturbance", {}};
-  const study::ValueLimits torque = values.limits("disturbance.torque");
-  if (torque.low != 0.0 || torque.high != 0.0)
-    block.lines.push_back("constant " + values.text("disturbance.torque"));
-  for (std::size_t i = 0; i < p.disturbance.ripple.size(); ++i)
-    block.lines.push_back("ripple " + values.text(fmt::format("disturbance.ripple.{}.amplitude", i)));
-  for (std::size_t i = 0; i < p.disturbance.vibration.size(); ++i)
-    block.lines.push_back(fmt::format("{} at {}",
-                                      values.text(fmt::format("disturbance.vibration.{}.amplitude", i)),
-                                      values.text(fmt::format("disturbance.vibration.{}.frequency", i))));
-  if (!p.disturbance.spectra.empty()) block.lines.emplace_back("random vibration");
-  if (block.lines.empty()) return std::nullopt;
-  return block;
+Facts facts_of(const PointValues& values, const trial::TrialParameters& p) {
+  const parameters::AxisKind axis = values.study().units.axis;
+  const std::string torque = parameters::unit_on(axis, "N m"), length = parameters::unit_on(axis, "rad");
+  Facts facts{{"moves", moves_text(values)},
+              {"range", quantity_text(-loop::lowest_torque(p.dac), torque)},
+              {"code", quantity_text(p.dac.resolution, torque)},
+              {"count", quantity_text(loop::fine_resolution(p.encoder), length)},
+              {"coarse count", quantity_text(loop::coarse_resolution(p.encoder), length)},
+              {values.study().open_loop ? "open" : "closed", ""}};
+  if (!values.study().open_loop) add_controller(facts, values, p);
+  add_friction(facts, values, p.friction.model);
+  add_disturbance(facts, values, p.disturbance);
+  return facts;
 }
 
-DiagramBlock encoder_block(const PointValues& values, const trial::TrialParameters& p) {
-  const std::string length = unit_on_axis(values, "rad");
-  DiagramBlock block{"Encoder", {}};
-  block.lines.push_back("1 count = " + quantity_text(loop::fine_resolution(p.encoder), length));
-  if (values.can_be_positive("encoder.fine_errors.noise"))
-    block.lines.push_back("noise " + values.text("encoder.fine_errors.noise") + " rms");
-  if (values.can_be_positive("encoder.fine_errors.interpolation"))
-    block.lines.push_back("interpolation error " + values.text("encoder.fine_errors.interpolation"));
-  if (values.can_be_positive("plant.load.inertia"))
-    block.lines.push_back(p.plant.load.encoder == motion::EncoderPlace::load ? "at the load"
-                                                                             : "at the motor");
-  if (p.controller.encoder == loop::EncoderChoice::coarse)
-    block.lines.push_back("the coarse one closes the loop: 1 count = " +
-                          quantity_text(loop::coarse_resolution(p.encoder), length));
-  return block;
+std::vector<std::string> divided(std::string_view text, const char* separator) {
+  std::vector<std::string> parts;
+  boost::algorithm::iter_split(parts, text, boost::algorithm::first_finder(separator));
+  return parts;
 }
+
+/// Fills axis.html, line by line:
+///
+///     {NAME}             the value of the parameter, over all trials and conditions, or the fact
+///     {NAME>0}, {NAME?}  likewise, where the parameter can be above 0; where it is not the word "none"
+///     {if NAME}          nothing, where this value would be shown; {unless NAME} where it would not
+///     {if NAME=a,b}      nothing, where it is one of these words
+///     #                  0, 1, …: lines that follow each other, for each element of a list
+///     head | a | b       a part that cannot be filled is left out; a head that ends with a colon needs one
+///     ~                  a space without a line break
+///
+/// A line that cannot be filled is left out: the study has no such value. Lines without markup are lines of a
+/// block.
+class AxisTemplate {
+ public:
+  AxisTemplate(const PointValues& values, Facts facts) : values_(values), facts_(std::move(facts)) {}
+
+  std::string filled(const std::string& pattern) const {
+    constexpr int max_elements = 16;
+    std::string html, of_elements;
+    for (const std::string& line : divided(pattern + "\n", "\n")) {
+      if (line.find('#') != std::string::npos) {
+        of_elements += line + "\n";
+        continue;
+      }
+      for (int i = 0; i < max_elements && !of_elements.empty(); ++i)
+        html += filled(replace_all_copy(of_elements, "#", std::to_string(i)));
+      of_elements.clear();
+      html += line_html(line);
+    }
+    return html;
+  }
+
+ private:
+  std::string line_html(const std::string& line) const {
+    const std::vector<std::string> parts = divided(line, " | ");
+    std::optional<std::string> text = part(parts.front());
+    std::vector<std::string> more;
+    for (std::size_t i = 1; i < parts.size(); ++i)
+      if (std::optional<std::string> one = part(parts[i])) more.push_back(std::move(*one));
+    if (!text || text->empty() || (text->ends_with(':') && more.empty())) return "";
+    if (!more.empty()) *text += fmt::format("{}{}", text->ends_with(':') ? " " : ", ", fmt::join(more, ", "));
+    return (text->starts_with('<') ? *text : fmt::format("<span>{}</span>", *text)) + "\n";
+  }
+
+  /// The part with its names replaced; nothing where one has no value.
+  std::optional<std::string> part(std::string_view pattern) const {
+    std::string text;
+    for (std::size_t open = pattern.find('{'); open != std::string_view::npos; open = pattern.find('{')) {
+      const std::size_t close = pattern.find('}');
+      const std::optional<std::string> value = replacement(pattern.substr(open + 1, close - open - 1));
+      if (!value) return std::nullopt;
+      text += std::string(pattern.substr(0, open)) + document::markup(*value);
+      pattern.remove_prefix(close + 1);
+    }
+    return replace_all_copy(text + std::string(pattern), "~", "\u00a0");
+  }
+
+  std::optional<std::string> replacement(std::string_view name) const {
+    constexpr std::string_view kept = "if ", left_out = "unless ";
+    const auto nothing = [](bool is_kept) { return is_kept ? std::optional<std::string>("") : std::nullopt; };
+    if (name.starts_with(left_out)) return nothing(!value(name.substr(left_out.size())));
+    if (!name.starts_with(kept)) return value(name);
+    name.remove_prefix(kept.size());
+    const std::size_t words = std::min(name.find('='), name.size());
+    const std::optional<std::string> found = value(name.substr(0, words));
+    if (!found || words == name.size()) return nothing(found.has_value());
+    const std::vector<std::string> wanted = divided(name.substr(words + 1), ",");
+    return nothing(std::ranges::find(wanted, *found) != wanted.end());
+  }
+
+  std::optional<std::string> value(std::string_view name) const {
+    if (const auto fact = facts_.find(name); fact != facts_.end()) return fact->second;
+    const bool positive = name.ends_with(">0"), given = name.ends_with('?');
+    name.remove_suffix(positive ? 2 : given ? 1 : 0);
+    if (!values_.has(name) || (positive && !values_.can_be_positive(name)) ||
+        (given && values_.is_none(name)))
+      return std::nullopt;
+    return values_.text(name);
+  }
+
+  const PointValues& values_;
+  Facts facts_;
+};
 
 }  // namespace
 
-AxisDiagram axis_diagram(const study::Study& study, std::int64_t point) {
+std::string diagram_html(const study::Study& study, std::int64_t point) {
   const PointValues values(study, point);
-  const trial::TrialParameters p = study::commanded_trial(study, point, 0).parameters;
-  AxisDiagram diagram{.reference = study.open_loop ? levels_block(values) : reference_block(values, p),
-                      .drive = drive_block(values, p),
-                      .plant = plant_block(values, p),
-                      .friction = friction_block(values, p),
-                      .disturbance = disturbance_block(values, p),
-                      .encoder = encoder_block(values, p)};
-  if (!study.open_loop) diagram.controller = controller_block(values, p);
-  return diagram;
-}
-
-std::string diagram_html(const AxisDiagram& diagram) {
-  const auto block = [](const char* place, const DiagramBlock& one, const std::string& inner = "") {
-    std::string html = fmt::format("<div class=\"block {}\"><b>{}</b>", place, document::markup(one.title));
-    for (const std::string& line : one.lines) html += fmt::format("<span>{}</span>", document::markup(line));
-    return html + inner + "</div>\n";
-  };
-  std::string acts_on_plant;
-  if (diagram.disturbance) acts_on_plant = block("disturbance", *diagram.disturbance);
-  if (diagram.friction) acts_on_plant += block("friction", *diagram.friction);
-  return "<div class=\"axis\">\n" + block("reference", diagram.reference) +
-         (diagram.controller ? "<i class=\"sum\">−</i>\n" + block("controller", *diagram.controller) : "") +
-         block("drive", diagram.drive) + block("plant", diagram.plant, acts_on_plant) +
-         block("encoder", diagram.encoder) +
-         (diagram.controller ? "<i class=\"back\"></i><i class=\"rise\"></i>" : "") +
-         "<i class=\"out\"></i><i class=\"home\"></i></div>\n";
+  const Facts facts = facts_of(values, study::commanded_trial(study, point, 0).parameters);
+  std::string pattern(embedded_file("axis.html"));
+  for (const auto& [phase, is_on] : {std::pair("controller.", "structure"), {"controller.coarse.", "coarse"}})
+    pattern = replace_all_copy(
+        pattern, fmt::format("{{phase {}}}", phase),
+        facts.contains(is_on) ? replace_all_copy(std::string(embedded_file("axis_phase.html")), "@", phase)
+                              : "");
+  return AxisTemplate(values, facts).filled(parameters::text_on(study.units.axis, pattern));
 }
 
 }  // namespace zerocount::report

@@ -179,13 +179,6 @@ struct RequirementRow {
   std::string condition{};
 };
 
-/// A column of the table, of what is claimed or of what the moves do.
-struct RequirementColumn {
-  std::string head;
-  std::function<std::string(const CellOfPoint&)> of_claim{};
-  std::function<std::string(const MoveBehaviour&)> of_moves{};
-};
-
 std::string verdict_cell(const CellOfPoint& claim) {
   const char* const style = claim.status == goal::Status::met      ? "good"
                             : claim.status == goal::Status::missed ? "bad"
@@ -222,46 +215,37 @@ std::string peak_cell(const MoveBehaviour& moves, std::string_view unit) {
                      100.0 * moves.peak_of_range.max);
 }
 
-/// The columns after that of the conditions.
-std::vector<RequirementColumn> columns_of(const ReportedStudy& reported) {
+/// The head of a column and what a row has there, HTML.
+using Cell = std::pair<std::string, std::string>;
+
+/// The same columns for all rows.
+std::vector<Cell> cells_of(const RequirementRow& row, const ReportedStudy& reported) {
   const parameters::AxisKind axis = reported.study.units.axis;
-  std::vector<RequirementColumn> columns;
+  std::vector<Cell> cells;
+  if (!reported.study.conditions.empty()) cells.emplace_back("condition", document::markup(row.condition));
+  const auto of_claim = [&](const char* head, auto cell) {
+    cells.emplace_back(head, row.claim ? cell(*row.claim) : "");
+  };
+  const auto of_moves = [&](const std::string& head,
+                            const std::function<std::string(const MoveBehaviour&)>& cell) {
+    cells.emplace_back(head, row.moves ? cell(*row.moves) : "");
+  };
   if (question_of(reported).claim()) {
-    columns = {{"verdict", verdict_cell}, {"moves in the goal", moves_cell}};
+    of_claim("verdict", verdict_cell);
+    of_claim("moves in the goal", moves_cell);
     if (std::ranges::any_of(reported.study.goals,
                             [](const study::Goal& goal) { return goal.machines.has_value(); }))
-      columns.push_back({"machines in the goal", machines_cell});
-    columns.push_back({"95 % settle within", time_cell});
+      of_claim("machines in the goal", machines_cell);
+    of_claim("95 % settle within", time_cell);
   }
-  const auto of_moves = [&](std::string head, auto cell, std::string_view unit) {
-    columns.push_back(
-        {std::move(head), {}, [cell, on_axis = parameters::unit_on(axis, unit)](const MoveBehaviour& moves) {
-           return cell(moves, on_axis);
-         }});
-  };
-  of_moves("overshoot (95 %)", overshoot_cell, "rad");
-  of_moves(parameters::text_on(axis, "peak $torque"), peak_cell, "N m");
-  columns.push_back({"moves that saturate", {}, [](const MoveBehaviour& moves) {
-                       return text::percent_near(moves.saturated);
-                     }});
-  return columns;
-}
-
-std::string cell_html(const std::string& head, const std::string& html) {
-  return fmt::format("<td class=\"text\" data-head=\"{}\">{}</td>", document::markup(head), html);
-}
-
-std::string row_html(const RequirementRow& row, const std::vector<RequirementColumn>& columns,
-                     bool with_condition) {
-  std::string html = "<tr>";
-  if (with_condition) html += cell_html("condition", document::markup(row.condition));
-  for (const RequirementColumn& column : columns) {
-    std::string cell;
-    if (row.claim && column.of_claim) cell = column.of_claim(*row.claim);
-    if (row.moves && column.of_moves) cell = column.of_moves(*row.moves);
-    html += cell_html(column.head, cell);
-  }
-  return html + "</tr>\n";
+  of_moves("overshoot (95 %)", [&](const MoveBehaviour& moves) {
+    return overshoot_cell(moves, parameters::unit_on(axis, "rad"));
+  });
+  of_moves(parameters::text_on(axis, "peak $torque"),
+           [&](const MoveBehaviour& moves) { return peak_cell(moves, parameters::unit_on(axis, "N m")); });
+  of_moves("moves that saturate",
+           [](const MoveBehaviour& moves) { return text::percent_near(moves.saturated); });
+  return cells;
 }
 
 /// The rows of the goal with this number; the number of goals for moves that none asks.
@@ -338,19 +322,22 @@ std::string requirements_html(const ReportedStudy& reported,
   if (reported.study.open_loop) return "";
   const std::int64_t point = reported.chosen.point;
   const std::vector<MoveBehaviour> behaviour = summary::behaviour_in(reported.file, reported.study, point);
-  const std::vector<RequirementColumn> columns = columns_of(reported);
-  const bool with_condition = !reported.study.conditions.empty();
   std::string html = "<table class=\"requirements\"><thead><tr>";
-  if (with_condition) html += "<th class=\"text\">condition</th>";
-  for (const RequirementColumn& column : columns)
-    html += fmt::format("<th class=\"text\">{}</th>", document::markup(column.head));
+  const std::vector<Cell> heads = cells_of({}, reported);
+  for (const auto& [head, none] : heads)
+    html += fmt::format("<th class=\"text\">{}</th>", document::markup(head));
   html += "</tr></thead><tbody>\n";
   for (std::size_t number = 0; number <= std::max<std::size_t>(reported.study.goals.size(), 1); ++number) {
     const std::vector<RequirementRow> rows = rows_of_goal(number, reported, claims, behaviour);
     if (rows.empty()) continue;
-    html += fmt::format("<tr class=\"group\"><th class=\"text\" colspan=\"{}\">{}</th></tr>\n",
-                        columns.size() + (with_condition ? 1 : 0), title_of(number, reported));
-    for (const RequirementRow& row : rows) html += row_html(row, columns, with_condition);
+    html += fmt::format("<tr class=\"group\"><th class=\"text\" colspan=\"{}\">{}</th></tr>\n", heads.size(),
+                        title_of(number, reported));
+    for (const RequirementRow& row : rows) {
+      html += "<tr>";
+      for (const auto& [head, cell] : cells_of(row, reported))
+        html += fmt::format("<td class=\"text\" data-head=\"{}\">{}</td>", document::markup(head), cell);
+      html += "</tr>\n";
+    }
   }
   return html + "</tbody></table>\n";
 }
@@ -368,9 +355,8 @@ PageSection first_screen(const ReportedStudy& reported, const FirstScreenParts& 
           parts.warnings +
               fmt::format("<p class=\"headline {}\">{}</p>\n", style_of(claims),
                           document::prose_markup(headline)) +
-              diagram_html(axis_diagram(study, point)) +
-              part_html("Requirements", requirements_html(reported, claims)) + lines_html(conclusions.lines) +
-              "<div class=\"columns\">\n" +
+              diagram_html(study, point) + part_html("Requirements", requirements_html(reported, claims)) +
+              lines_html(conclusions.lines) + "<div class=\"columns\">\n" +
               part_html("Gains", study.open_loop ? "" : gains_html(study, point)) +
               part_html("Margins of the linear loops", margins) +
               part_html("Assumptions", assumptions_html(study, point)) + "</div>\n",
@@ -378,7 +364,7 @@ PageSection first_screen(const ReportedStudy& reported, const FirstScreenParts& 
 }
 
 std::string axis_html(const study::Study& study, std::int64_t point) {
-  return diagram_html(axis_diagram(study, point)) + part_html("Assumptions", assumptions_html(study, point));
+  return diagram_html(study, point) + part_html("Assumptions", assumptions_html(study, point));
 }
 
 }  // namespace zerocount::report

@@ -41,7 +41,11 @@ class PointValues {
   /// Whether the value is the word "none" in all trials.
   bool is_none(std::string_view name) const;
 
-  /// "3.2 … 4.6 kg", "presliding", "none"; of a distribution without ends "about 130 N m/rad".
+  /// Whether the study has a parameter or a list with this dotted path.
+  bool has(std::string_view name) const;
+
+  /// "3.2 … 4.6 kg", "presliding", "none"; of a distribution without ends "about 130 N m/rad"; of a list its
+  /// values.
   std::string text(std::string_view name) const;
   std::string text(std::size_t slot) const;
 
@@ -56,30 +60,10 @@ class PointValues {
   std::int64_t point_;
 };
 
-/// A block of the axis: its name, and its main numbers with their units, a line each.
-struct DiagramBlock {
-  std::string title;
-  std::vector<std::string> lines;
-};
-
-/// The axis as blocks in the direction of the signals: reference → controller → drive → plant → encoder,
-/// which closes the loop.
-struct AxisDiagram {
-  DiagramBlock reference;                     ///< of an open loop the levels of the torque
-  std::optional<DiagramBlock> controller{};   ///< none of an open loop
-  DiagramBlock drive;                         ///< converter and amplifier
-  DiagramBlock plant;                         ///< motor and moved mass, with the load if there is one
-  std::optional<DiagramBlock> friction{};     ///< none without friction
-  std::optional<DiagramBlock> disturbance{};  ///< none without disturbances
-  DiagramBlock encoder;
-};
-
-/// The axis of a design point: what is on in some trial under some condition.
-AxisDiagram axis_diagram(const study::Study& study, std::int64_t point);
-
-/// The axis as HTML: boxes that page.css lays out and joins by arrows, from left to right on wide screens and
-/// paper, from top to bottom on phones.
-std::string diagram_html(const AxisDiagram& diagram);
+/// The axis of a design point as HTML, by axis.html: blocks with what is on in some trial under some
+/// condition, which page.css lays out and joins by arrows, from left to right on wide screens and paper, from
+/// top to bottom on phones.
+std::string diagram_html(const study::Study& study, std::int64_t point);
 
 /// A goal in SI units: "±10 nm for good after 30 ms; true overshoot ≤ 1 µm; in 95 % of moves 0, 3 of 95 % of
 /// the machines, with 95 % confidence".

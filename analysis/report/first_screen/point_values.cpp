@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "analysis/report/first_screen/first_screen.hpp"
 #include "analysis/text/quantity.hpp"
 #include "experiments/study/plan.hpp"
@@ -95,8 +98,15 @@ std::string PointValues::text(std::size_t slot) const {
   return "about " + (least == largest ? quantity_text(least, unit) : range_text(least, largest, unit));
 }
 
+bool PointValues::has(std::string_view name) const {
+  return study::find_slots(name, study_.plan->table).has_value();
+}
+
 std::string PointValues::text(std::string_view name) const {
-  return text(slot_of(name));
+  const study::SlotRange slots = study::find_slots(name, study_.plan->table).value();
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < slots.count; ++i) texts.push_back(text(slots.first + i));
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 std::string PointValues::draw_text(std::size_t slot) const {

@@ -148,12 +148,9 @@ Figure map_figure(const TuneAnswer& answer, const TuningMap& map) {
        {"tuned",
         {{"x", "", ""}, {"y", "", ""}},
         {ordered_json::array({datum(answer.tuned.values[map.x]), datum(answer.tuned.values[map.y])})}}});
-  ordered_json& encoding = figure.specification["layer"][0]["encoding"];
   for (const auto& [axis, parameter] : {std::pair{"x", &x}, std::pair{"y", &y}}) {
-    encoding[axis]["title"] =
-        parameter->unit == "1" ? parameter->name : fmt::format("{} ({})", parameter->name, parameter->unit);
-    encoding[axis]["scale"]["domain"] = {parameter->low, parameter->high};
-    if (parameter->logarithmic) encoding[axis]["scale"]["type"] = "log";
+    figure.parameters[fmt::format("{}_domain", axis)] = {parameter->low, parameter->high};
+    figure.parameters[fmt::format("{}_scale", axis)] = parameter->logarithmic ? "log" : "linear";
   }
   return figure;
 }

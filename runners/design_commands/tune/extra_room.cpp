@@ -121,13 +121,10 @@ std::vector<document::Figure> room_figures(Of tuning) {
                          text::range_text(low[i], high[i], answer.free[i].unit), datum(tuned[i]),
                          datum(low_place[i]), datum(high_place[i])});
   }
-  document::Figure figure =
-      report::figure_of("tuning-room", "tuning-room", "How far may each parameter move?",
-                        "The interval around the tuned value in which the goal seems met, the others as "
-                        "tuned, by simulation on machines of the search, with its ends.",
-                        {std::move(data)});
-  report::set_rows(figure, rooms.size(), 36);
-  return {std::move(figure)};
+  return {report::figure_of("tuning-room", "tuning-room", "How far may each parameter move?",
+                            "The interval around the tuned value in which the goal seems met, the others as "
+                            "tuned, by simulation on machines of the search, with its ends.",
+                            {std::move(data)})};
 }
 
 void describe_room(Items& items) {

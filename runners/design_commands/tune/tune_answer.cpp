@@ -195,7 +195,7 @@ std::vector<document::Figure> frontier_figures(Of tuning) {
        points_data("tried", answer, tried),
        points_data("tuned", answer, {tuned}),
        {"asked", {{"rate", "asked for", "1"}}, {nlohmann::ordered_json::array({tuning::asked_rate(goal)})}}});
-  figure.specification["layer"][0]["encoding"]["x"]["title"] = criterion_title(tuning.study);
+  figure.parameters["criterion"] = criterion_title(tuning.study);
   return {std::move(figure)};
 }
 

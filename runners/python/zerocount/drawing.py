@@ -122,7 +122,8 @@ class _View:
         """The data of a layer, after its filters."""
         data: Any = layer.get("data") or self.view.get("data") or self.specification.get("data")
         rows = data["values"] if "values" in data else self.specification["datasets"][data["name"]]
-        for transform in layer.get("transform", []):
+        of_view = [] if "data" in layer else self.view.get("transform", [])
+        for transform in [*of_view, *layer.get("transform", [])]:
             rows = [row for row in rows if _keeps(transform["filter"], row)]
         return list(rows)
 
@@ -223,7 +224,7 @@ class _Layer:
         scale = channel.get("scale", {})
         if "range" in scale:
             return scale["range"][scale["domain"].index(name) % len(scale["range"])]
-        names: list[Any] = list(dict.fromkeys(row.get(channel["field"]) for row in self.rows))
+        names: list[Any] = scale.get("domain") or list(dict.fromkeys(row.get(channel["field"]) for row in self.rows))
         if "scheme" in scale:
             place = names.index(name) / max(1, len(names) - 1)
             return required("matplotlib", "a figure").colormaps[scale["scheme"]](place)
@@ -356,8 +357,10 @@ def _number(value: Any) -> float:
     return float(value) if isinstance(value, (int, float)) else 0.0
 
 
-def _keeps(expression: str, row: Row) -> bool:
+def _keeps(expression: str | Mapping[str, Any], row: Row) -> bool:
     """Whether a filter keeps a row."""
+    if isinstance(expression, Mapping):
+        return bool(row.get(expression["field"]) == expression["equal"])
     for pattern, keeps in _FILTERS:
         if found := re.fullmatch(pattern, expression):
             return keeps(row.get(found[1]), found[2] if found.re.groups > 1 else "")

@@ -1,6 +1,7 @@
-// Writes reports and opens them in a browser without a window: nothing in the console, no request to anywhere, marks in every
-// figure, a value at the pointer, a table behind every figure, no table wider than its column, the first screen on one screen, by day,
-// by night, on a phone and on at most four pages of paper. Leaves screenshots.
+// Writes pages of all kinds of studies and opens each in a browser without a window, on a screen and on a phone, by day and by night:
+// nothing in the console, no request to anywhere, marks in every figure, every axis of numbers with its unit, no text on another, a
+// table behind every figure, no table wider than its column. On some of them a value at the pointer, the first screen on one screen,
+// at most four pages of paper. Leaves screenshots. Without Chromium it is skipped: exit code 77.
 //
 // usage: node open_in_browser.mjs ZEROCOUNT ROOT CHROMIUM SCREENSHOTS
 import {execFileSync} from "node:child_process";
@@ -11,6 +12,11 @@ import {join} from "node:path";
 import {pathToFileURL} from "node:url";
 
 const [zerocount, root, chromiumPath, screenshots] = process.argv.slice(2);
+if (chromiumPath.endsWith("NOTFOUND")) {
+  console.log("SKIPPED: no chromium, chromium-browser or google-chrome was found when the build was configured; " +
+              "pages are looked at in one (Debian: apt-get install chromium, then cmake again)");
+  process.exit(77);
+}
 const {chromium} = createRequire(join(root, "analysis/report/package.json"))("playwright-core");
 const folder = mkdtempSync(join(tmpdir(), "zerocount-report-"));
 let failures = 0;
@@ -75,11 +81,13 @@ tune: {free: {controller.ki: {log: [5.0e-6, 1.0e-3]}, controller.kp: [0, 5.0e-3]
   return join(folder, "tuned.html");
 }
 
-const shipped = (name, trials) =>
-  readFileSync(join(root, `experiments/manifests/${name}.yaml`), "utf8").replace(/^trials: \d+/m, `trials: ${trials}`);
+/// A shipped manifest with fewer trials, and with the same for other keys of its first level.
+const shipped = (name, trials, more = {}) => Object.entries({trials, ...more}).reduce((text, [key, number]) =>
+  text.replace(new RegExp(`^${key}: \\d+`, "m"), `${key}: ${number}`), readFileSync(join(root, `experiments/manifests/${name}.yaml`), "utf8"));
 
-async function open(browser, path, {scheme = "light", width = 1000, phone = false} = {}) {
-  const context = await browser.newContext({colorScheme: scheme, viewport: {width, height: 900}, isMobile: phone, hasTouch: phone});
+async function open(browser, path, width) {
+  const phone = width < 500;
+  const context = await browser.newContext({colorScheme: "light", viewport: {width, height: 900}, isMobile: phone, hasTouch: phone});
   const page = await context.newPage();
   const said = [];
   const requests = [];
@@ -88,11 +96,11 @@ async function open(browser, path, {scheme = "light", width = 1000, phone = fals
   page.on("request", request => requests.push(request.url()));
   await page.goto(pathToFileURL(path).href);
   await page.waitForFunction(() => document.documentElement.dataset.drawn === "yes", null, {timeout: 30000});
-  return {context, page, said, requests, name: `${path.split("/").pop()} ${scheme} ${width}`};
+  return {context, page, said, requests, width, name: `${path.split("/").pop()} ${width}`};
 }
 
 /// What must hold of every page, however it is opened.
-async function checkPage({page, said, requests, name}) {
+async function checkPage({page, said, requests, name, width}) {
   expect(said.length === 0, `${name}: the console is empty: ${said.join("; ")}`);
   expect(requests.length === 1, `${name}: only the page itself is asked for: ${requests.join(" ")}`);
   expect(!(await page.evaluate(() => window.broken)), `${name}: nothing of the manifest is run`);
@@ -109,7 +117,8 @@ async function checkPage({page, said, requests, name}) {
               .filter(labels => new Set(labels).size < labels.length).map(labels => labels.join(" | ")),
             titles: figure.querySelectorAll(".plot svg .role-axis-title").length, caption: figure.querySelector("figcaption").textContent.length};
   }));
-  await checkWidths({page, name});
+  await checkWidths({page, name, width});
+  await checkTexts({page, name});
   expect(figures.length > 0, `${name}: there are figures`);
   for (const figure of figures) {
     expect(figure.marks > 0, `${name}: ${figure.name} has marks`);
@@ -118,7 +127,62 @@ async function checkPage({page, said, requests, name}) {
     expect(figure.repeated.length === 0, `${name}: ${figure.name} repeats labels of an axis: ${figure.repeated.join("; ")}`);
     expect(figure.caption > 60, `${name}: ${figure.name} has a caption`);
   }
-  return figures.length;
+}
+
+// Titles of axes of numbers whose unit the words themselves say, or that have none.
+const withoutUnit = /^counts$|jerks per second|in margins|^friction\.n$/;
+
+/// No visible text lies on another, and every axis of numbers has a title with a unit, or "%" or units at its labels.
+async function checkTexts({page, name}) {
+  const {overlaps, axes} = await page.evaluate(() => {
+    const visible = element => !element.closest("script,style,noscript,[opacity='0'],details:not([open]) > :not(summary)") &&
+      element.checkVisibility({visibilityProperty: true});
+    const texts = [];
+    const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+      if (!node.textContent.trim() || !visible(node.parentElement)) continue;
+      const range = document.createRange();
+      range.selectNodeContents(node);
+      for (const box of range.getClientRects())
+        if (box.width > 1 && box.height > 1) texts.push({node, box, text: node.textContent.trim()});
+    }
+    texts.sort((a, b) => a.box.top - b.box.top);
+    const overlaps = [];
+    for (let i = 0; i < texts.length; ++i) {
+      for (let k = i + 1; k < texts.length && texts[k].box.top < texts[i].box.bottom; ++k) {
+        const [a, b] = [texts[i], texts[k]];
+        const across = Math.min(a.box.right, b.box.right) - Math.max(a.box.left, b.box.left);
+        const down = Math.min(a.box.bottom, b.box.bottom) - b.box.top; // boxes of lines of text have room above and below
+        if (across > 1.5 && down > 0.3 * Math.min(a.box.height, b.box.height) && a.node !== b.node && a.text !== b.text)
+          overlaps.push(`${a.node.parentElement.closest("[id]")?.id}: "${a.text.slice(0, 40)}" on "${b.text.slice(0, 40)}"`);
+      }
+    }
+    const axes = [...document.querySelectorAll("figure")].flatMap(figure => [...figure.querySelectorAll(".plot svg .role-axis")].map(axis => {
+      const of = role => [...axis.querySelectorAll(`.${role} text`)].filter(visible).map(text => text.textContent).filter(Boolean);
+      return {figure: figure.id, labels: of("role-axis-label"), title: of("role-axis-title").join(" ")};
+    }));
+    return {overlaps, axes};
+  });
+  expect(overlaps.length === 0, `${name}: no text lies on another: ${overlaps.slice(0, 5).join("; ")}`);
+  for (const {figure, labels, title} of axes.filter(({labels}) => labels.some(label => /^−?[0-9.]+( .*)?$/.test(label)))) {
+    const hasUnit = / \([^()]+(\([^()]*\)[^()]*)*\)$/.test(title) || withoutUnit.test(title) || labels.every(label => / [%a-zA-Zµ]+$|^0$/.test(label));
+    expect(title !== "" && hasUnit, `${name}: an axis of ${figure} has a title with a unit: "${title}", ${labels.slice(0, 3).join(" ")}`);
+  }
+}
+
+/// By night too the texts of the figures stand out from the paper.
+async function checkNight({page, name}) {
+  await page.emulateMedia({colorScheme: "dark"});
+  const dim = await page.evaluate(() => {
+    const luminance = colour => {
+      const parts = colour.match(/[\d.]+/g).slice(0, 3).map(part => part / 255).map(part => part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4);
+      return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2];
+    };
+    const paper = luminance(getComputedStyle(document.documentElement).backgroundColor);
+    const contrast = text => (luminance(getComputedStyle(text).fill) + 0.05) / (paper + 0.05);
+    return [...document.querySelectorAll(":is(.role-axis, .role-legend) text")].filter(text => contrast(text) < 4.5).map(text => text.textContent);
+  });
+  expect(dim.length === 0, `${name}: texts can be read by night: ${dim.slice(0, 5).join("; ")}`);
 }
 
 /// The blocks of the diagram hold their text and do not overlap.
@@ -136,17 +200,18 @@ async function checkDiagram({page, name}) {
 }
 
 /// No table is wider than its column, folded ones and those behind figures included.
-async function checkWidths({page, name}) {
-  const wide = await page.evaluate(async () => {
+async function checkWidths({page, name, width}) {
+  const wide = await page.evaluate(async phone => {
     for (const details of document.querySelectorAll("details")) details.open = true;
     await new Promise(resolve => setTimeout(resolve, 300));
-    const found = [...document.querySelectorAll("table,pre")].filter(one => {
+    const scrolls = phone ? ":not(.data table)" : ""; // on a phone the data of figures scroll
+    const found = [...document.querySelectorAll(`table${scrolls},pre`)].filter(one => {
       const column = one.parentElement;
       return one.scrollWidth > column.clientWidth + 1 || one.getBoundingClientRect().right > column.getBoundingClientRect().right + 1;
     }).map(one => `${(one.closest("figure,section") ?? one).id} ${one.scrollWidth}: ${one.textContent.slice(0, 40)}`);
     for (const details of document.querySelectorAll("details")) details.open = false;
     return found;
-  });
+  }, width < 500);
   expect(wide.length === 0, `${name}: no table is wider than its column: ${wide.join("; ")}`);
 }
 
@@ -224,64 +289,60 @@ const options = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-
 let browser;
 try {
   mkdirSync(screenshots, {recursive: true});
-  const main = report("rich", rich);
-  const others = [["paper-fig4", 5], ["paper-fig6", 5], ["paper-fig7", 20], ["paper-fig8", 20]].map(
-    ([name, trials]) => [name, report(name, shipped(name, trials))]);
-  browser = await chromium.launch({executablePath: chromiumPath, args: options});
-  for (const [scheme, width] of [["light", 1280], ["dark", 390]]) {
-    const opened = await open(browser, main, {scheme, width, phone: width < 500});
-    const figures = await checkPage(opened);
-    expect(figures >= 10, `${opened.name}: ${figures} figures`);
-    await opened.page.screenshot({path: join(screenshots, `${scheme}-${width}.png`), fullPage: true});
-    if (scheme === "light" && width === 1280) {
-      await checkTables(opened);
-      await checkHover(opened, "stability-map", "success rate");
-      await checkHover(opened, "settling-time", "by (s)");
-      await checkPolicy(opened);
-    }
-    await opened.context.close();
-  }
-  const stage = report("two-step-stage", shipped("two-step-stage", 320).replace(/^rigs: \d+/m, "rigs: 40"));
-  for (const [scheme, width] of [["light", 1280], ["dark", 390]]) {
-    const opened = await open(browser, stage, {scheme, width, phone: width < 500});
-    await checkPage(opened);
-    await checkDiagram(opened);
-    await opened.page.screenshot({path: join(screenshots, `stage-${scheme}-${width}.png`), fullPage: true});
-    if (width === 1280) {
-      const bottom = await opened.page.evaluate(() => document.getElementById("overview").getBoundingClientRect().bottom);
-      expect(bottom <= 900, `${opened.name}: the first screen ends at ${bottom} of 900 pixels`);
+  const paper = [["paper-fig4", 5], ["paper-fig6", 5], ["paper-fig7", 20], ["paper-fig8", 20]];
+  const has = async ({page, name}, ...figures) => {
+    for (const figure of figures) expect(await page.locator(`#figure-${figure}`).count() === 1, `${name}: ${figure}`);
+  };
+  const onOneScreen = async ({page, name}) => {
+    const bottom = await page.evaluate(() => document.getElementById("overview").getBoundingClientRect().bottom);
+    expect(bottom <= 900, `${name}: the first screen ends at ${bottom} of 900 pixels`);
+  };
+  // The page, what must hold of it on a screen and on a phone, and what is looked at on a screen only.
+  const pages = [
+    {path: report("rich", rich), always: opened => has(opened, "success", "stability-map", "settling-time", "rotor-friction\\.k1", "bode"),
+     once: async opened => {
+       await checkTables(opened);
+       await checkHover(opened, "stability-map", "success rate");
+       await checkHover(opened, "settling-time", "by (s)");
+     }},
+    {path: report("stage", shipped("two-step-stage", 320, {rigs: 40})), always: checkDiagram, once: async opened => {
+      await onOneScreen(opened);
       await checkPrint(opened, join(screenshots, "stage.pdf"), 4);
-    }
-    await opened.context.close();
-  }
-  for (const [name, path] of others) {
-    const opened = await open(browser, path);
-    await checkPage(opened);
-    expect(await opened.page.locator(`#figure-${name}`).count() === 1, `${name}: the figure of the paper is there`);
-    await opened.context.close();
-  }
-  const fit = identification();
-  const fitted = await open(browser, fit);
-  expect(await checkPage(fitted) === 2, `${fitted.name}: a figure for each record`);
-  await fitted.page.screenshot({path: join(screenshots, "fit.png"), fullPage: true});
-  await checkTables(fitted);
-  await checkHover(fitted, "record-2", "residual");
-  await fitted.context.close();
-  const tuned = tuning();
-  for (const [scheme, width] of [["light", 1280], ["dark", 390]]) {
-    const opened = await open(browser, tuned, {scheme, width, phone: width < 500});
-    await checkPage(opened);
-    for (const name of ["tuning-map-1-2", "tuning-frontier", "tuning-room", "response"])
-      expect(await opened.page.locator(`#figure-${name}`).count() === 1, `${opened.name}: ${name}`);
-    await opened.page.screenshot({path: join(screenshots, `tuned-${scheme}-${width}.png`), fullPage: true});
-    await checkDiagram(opened);
-    if (width === 1280) {
+    }},
+    ...paper.map(([name, trials]) => ({path: report(name, shipped(name, trials)), always: opened => has(opened, name)})),
+    {path: report("ages", shipped("million-cycles", 160, {rigs: 10})), always: opened => has(opened, "ages", "lives")},
+    {path: report("worlds", shipped("unknown-friction", 60, {worlds: 3})), always: opened => has(opened, "worlds", "world-rate-1")},
+    {path: report("parameters", shipped("which-parameters", 90)), always: async ({page, name}) =>
+      expect(await page.locator("[id^=figure-sensitivity]").count() > 0, `${name}: there is a figure of sensitivities`)},
+    {path: report("linear", shipped("linear-stage", 24)), always: checkDiagram},
+    {path: identification(), always: opened => has(opened, "record-1", "record-2"), once: async opened => {
+      await checkTables(opened);
+      await checkHover(opened, "record-2", "residual");
+    }},
+    {path: tuning(), always: async opened => {
+      await has(opened, "tuning-map-1-2", "tuning-frontier", "tuning-room", "response");
+      await checkDiagram(opened);
+    }, once: async opened => {
       await checkTables(opened);
       await checkHover(opened, "tuning-map-1-2", "margins");
       await checkStar(opened, "tuning-map-1-2");
       await checkPrint(opened, join(screenshots, "tuned.pdf"), 4);
+    }}];
+  browser = await chromium.launch({executablePath: chromiumPath, args: options});
+  for (const {path, always, once} of pages) {
+    for (const width of [1280, 390]) {
+      const opened = await open(browser, path, width);
+      await checkPage(opened);
+      await always(opened);
+      if (width === 1280) await once?.(opened);
+      const place = scheme => join(screenshots, `${path.split("/").pop().replace(".html", "")}-${scheme}-${width}.png`);
+      await opened.page.screenshot({path: place("light"), fullPage: true});
+      await checkNight(opened);
+      await opened.page.screenshot({path: place("dark"), fullPage: true});
+      expect(opened.said.length === 0, `${opened.name}: the console is still empty: ${opened.said.join("; ")}`);
+      if (width === 1280 && path === pages[0].path) await checkPolicy(opened);
+      await opened.context.close();
     }
-    await opened.context.close();
   }
 } finally {
   await browser?.close();

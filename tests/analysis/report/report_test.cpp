@@ -321,7 +321,7 @@ TEST(ReportPage, TheBestPointAllowsForItsChoice) {
       "sweep: {grid: {controller.ki: [1.8e-5, 1.9e-5, 2.0e-5, 2.1e-5]}}\n");
   const StudyReport report = study_report(reading::AllTrialsFile(folder / "a.h5"));
   const std::string& verdict = report.page.sections.front().html;
-  EXPECT_TRUE(says(verdict, "Best of 4 points, ", "at most 13.6&nbsp;% fail"));
+  EXPECT_TRUE(says(verdict, "Best of 4 points: ", "at most 13.6&nbsp;% fail"));
 }
 
 /// A study whose trials share their draws by rows of five, three factors and two more.
@@ -348,7 +348,7 @@ TEST(DependentTrials, MakeNoClaimOfAllAxes) {
     const std::string& verdict = page.sections.front().html;
     for (const char* claim : {"confidence", "at least", "at most", "bounds 0", "% bounds", "account for"})
       EXPECT_FALSE(says(verdict, claim)) << claim << "\n" << verdict;
-    EXPECT_TRUE(says(verdict, "says nothing about all axes", "are not independent"));
+    EXPECT_TRUE(says(verdict, "dependent trials give no bounds", "are not independent"));
     EXPECT_FALSE(says(page.sections[1].html, "of all axes that the manifest describes"));
   }
 }

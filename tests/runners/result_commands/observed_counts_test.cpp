@@ -193,7 +193,7 @@ TEST(OnePoint, IsTheSameInEveryOutputOfRandomStudies) {
     ASSERT_EQ(run({"report", "study.h5", "--force", "-o", "study.html"}).code, 0);
     const std::string page = folder.read("study.html");
     std::smatch named, star, trace;
-    ASSERT_TRUE(std::regex_search(page, named, std::regex("Best of 8 points, ([0-9]*) \\(([^)]*)\\)")));
+    ASSERT_TRUE(std::regex_search(page, named, std::regex("Best of 8 points: ([0-9]*) \\(([^)]*)\\)")));
     ASSERT_TRUE(std::regex_search(page, star, std::regex("<td[^>]*>([^<]*) \\*<")));
     ASSERT_TRUE(std::regex_search(page, trace, std::regex("of point ([^,]*), simulated again")));
     EXPECT_EQ(named[1], std::to_string(best));

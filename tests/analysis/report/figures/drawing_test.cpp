@@ -192,7 +192,7 @@ TEST(DrawnFigure, NeedsNeitherDataNorThemeNorColoursOfThePage) {
   EXPECT_EQ(whole["width"], 560);
   EXPECT_EQ(whole["config"]["background"], "white");
   EXPECT_EQ(whole["config"]["line"]["color"], colours_of("light")["--s1"]);
-  EXPECT_EQ(whole["layer"][1]["mark"]["color"], colours_of("light")["--ink"]);
+  EXPECT_EQ(whole["layer"][0]["mark"]["stroke"], colours_of("light")["--paper"]);
   EXPECT_EQ(whole["datasets"]["points"][0]["label"], "var(--a label)");
   EXPECT_EQ(whole["datasets"]["points"][0]["rate"], 0.5);
   nlohmann::ordered_json drawing = whole;
@@ -223,11 +223,33 @@ TEST(DrawnFigure, HasTitlesPanelsAndLayersByItsData) {
   EXPECT_EQ(whole["layer"][0]["encoding"]["x"]["title"], "arrived by (s)");
   EXPECT_EQ(whole["layer"][0]["encoding"]["tooltip"][0]["title"], "arrived by (s)");
   EXPECT_EQ(whole["layer"][0]["encoding"]["tooltip"][1]["title"], "own");
-  divide_into_panels(figure, "kind", {{"it's", "first"}, {"b", "second"}});
+  figure.specification["data"] = {{"name", "all"}};
+  figure.specification["usermeta"]["panels"] = {{"field", "$panels"}, {"titles", "$titles"}};
+  EXPECT_FALSE(drawn().contains("vconcat"));  // without the parameter
+  figure.parameters = {{"panels", "kind"}, {"titles", {{"it's", "first"}}}};
   const ordered_json panels = drawn()["vconcat"];
   ASSERT_EQ(panels.size(), 2U);
   EXPECT_EQ(panels[0]["title"], "first");
+  EXPECT_EQ(panels[1]["title"], "b");
   EXPECT_EQ(panels[0]["layer"][0]["transform"][0]["filter"]["equal"], "it's");
+}
+
+/// Each condition has its own colour in all figures, also in one that does not show them all; there is a row
+/// for each name.
+TEST(DrawnFigure, HasColoursAndRowsByItsData) {
+  using nlohmann::ordered_json;
+  Figure figure =
+      figure_of("success", "success", "", "",
+                {{"points",
+                  {{"label", "point", ""}, {"rate", "rate", "1"}, {"low", "", "1"}, {"condition", "", ""}},
+                  {}}});
+  for (const char* const label : {"a", "b", "b"})
+    figure.data.front().rows.push_back(ordered_json::array({label, 0.97, 0.93, "warm"}));
+  figure.parameters["conditions"] = {"cold", "warm"};
+  const ordered_json whole = ordered_json::parse(drawn_by_node(figure, "specification"));
+  EXPECT_EQ(whole["encoding"]["color"]["scale"]["domain"], ordered_json({"cold", "warm"}));
+  EXPECT_TRUE(whole["height"] == 48 && whole["layer"].size() == 2U) << whole;  // nothing is asked for
+  EXPECT_EQ(whole["layer"][0]["encoding"]["x"]["scale"]["domain"], ordered_json({0.92, 1}));
 }
 
 TEST(Datum, KeepsTheDigitsAskedFor) {

@@ -128,30 +128,29 @@ const char* const linear =
     "kd: 2000}\n";
 
 TEST(Diagram, NamesEachBlockThatIsOnWithItsNumbers) {
-  const AxisDiagram diagram = axis_diagram(axis(long_controller), 0);
-  std::string control;
-  for (const std::string& line : diagram.controller->lines) control += line + "\n";
-  EXPECT_TRUE(says(control, "kp 0.0001", "ki 2e-5", "notch 400", "low-pass 900", "observer 30",
-                   "derivative low-pass 400", "integral frozen within 1", "feed-forward velocity",
-                   "integrates within 40", "delay 1"));
-  EXPECT_FALSE(says(control, "none"));
-  EXPECT_FALSE(says(control, "dither"));
-  EXPECT_EQ(diagram.friction->title, "Friction: presliding");
-  EXPECT_EQ(diagram.disturbance->lines.size(), 2U);
+  const std::string html = diagram_html(axis(long_controller), 0);
+  EXPECT_TRUE(says(html, ">kp 0.0001", ">ki 2e-5",
+                   "<span>notch 400\u00a0Hz</span>\n<span>low-pass 900\u00a0Hz</span>", "observer 30",
+                   "derivative low-pass 400", "integral frozen within 1", "feed-forward: velocity\u00a00.1",
+                   "integrates within 40", "delay 1", "load 0.0001", "<b>Friction: presliding</b>",
+                   "noise 0.2\u00a0counts rms", "bandwidth 500"));
+  EXPECT_TRUE(says(
+      html, "<b>Disturbance</b>\n<span>constant 0.01\u00a0N\u00a0m</span>\n<span>0.002\u00a0N\u00a0m at 50"));
+  EXPECT_FALSE(says(html, "none") || says(html, "dither") || says(html, "coarse"));
+  EXPECT_EQ(html.find_first_of("{}@#~|"), std::string::npos) << html;
 }
 
 TEST(Diagram, SpeaksOfForcesAndLengthsOnALinearAxis) {
-  const AxisDiagram diagram = axis_diagram(axis(linear), 0);
-  EXPECT_EQ(diagram.plant.title, "Motor and slide");
-  EXPECT_EQ(diagram.plant.lines.front(), "mass 2\u00a0kg");
-  EXPECT_EQ(diagram.drive.lines.front(), "16\u00a0bit, ±40\u00a0N");
-  EXPECT_EQ(diagram.encoder.lines.front(), "1 count = 10\u00a0nm");
-  EXPECT_EQ(diagram.friction->title, "Friction: coulomb");
+  const std::string html = diagram_html(axis(linear), 0);
+  EXPECT_TRUE(says(html, "<b>Motor and slide</b>\n<span>mass 2\u00a0kg</span>",
+                   "<span>16\u00a0bit, ±40\u00a0N</span>", "<span>1 count = 10\u00a0nm</span>",
+                   "<b>Friction: coulomb</b>", "ideal amplifier"));
+  EXPECT_FALSE(says(html, "k1"));  // Coulomb's law has none
 }
 
 // A list is one parameter after the other, each with its range over the conditions.
 TEST(Diagram, ShowsTheValuesOfAllConditions) {
-  const AxisDiagram diagram = axis_diagram(
+  const std::string html = diagram_html(
       axis("command: {targets: [3], hold: 0.15}\nfriction: {k1: {lognormal: {median: 100, cv: 0.1}}}\n"
            "controller: {filters: [{notch: {frequency: 400, damping: 0.1, depth: 0.2}}]}\n"
            "disturbance: {ripple: [{amplitude: 8.0e-3, periods: 1}, {amplitude: {uniform: [1.0e-3, 3.0e-3]}, "
@@ -160,24 +159,28 @@ TEST(Diagram, ShowsTheValuesOfAllConditions) {
            "controller.filters.0.frequency: 300, disturbance.vibration.0.frequency: 60, "
            "friction.k1: {lognormal: {median: 200, cv: 0.1}}}}\n"),
       0);
-  EXPECT_EQ(diagram.disturbance->lines, (std::vector<std::string>{"ripple 0.008 … 0.045\u00a0N\u00a0m",
-                                                                  "ripple 0.001 … 0.003\u00a0N\u00a0m",
-                                                                  "0.002\u00a0N\u00a0m at 50 … 60\u00a0Hz"}));
-  EXPECT_NE(std::ranges::find(diagram.controller->lines, "notch 300 … 400\u00a0Hz"),
-            diagram.controller->lines.end());
-  EXPECT_EQ(diagram.friction->lines.front(), "k1 about 100 … 200\u00a0N\u00a0m/rad");
+  EXPECT_TRUE(
+      says(html,
+           "ripple 0.008 … 0.045\u00a0N\u00a0m</span>\n<span>ripple 0.001 … 0.003\u00a0N\u00a0m</span>\n"
+           "<span>0.002\u00a0N\u00a0m at 50 … 60\u00a0Hz</span>",
+           "<span>notch 300 … 400\u00a0Hz</span>", "<span>k1 about 100 … 200\u00a0N\u00a0m/rad</span>"));
+}
+
+TEST(Diagram, HasTheCoarsePhaseAfterTheFineOne) {
+  const std::string html = diagram_html(
+      axis(
+          "command: {targets: [3000], hold: 0.5}\ncontroller: {ki: 2.0e-5, filters: [{biquad: {b: [1, 0, 0], "
+          "a: [0.5, 0]}}], coarse: {coarse_beyond: 300, kp: 2.0e-4}}\n"),
+      0);
+  EXPECT_LT(html.find("ki 2e-5"), html.find("coarse phase beyond 300"));
+  EXPECT_LT(html.find("coarse phase beyond"), html.find("kp 0.0002"));
+  EXPECT_TRUE(says(html, "biquad b 1, 0, 0; a 0.5, 0"));
 }
 
 TEST(Diagram, AnOpenLoopHasNoController) {
-  const study::Study open = axis("command: {torque: {levels: [0.1, 0]}}\n");
-  EXPECT_FALSE(axis_diagram(open, 0).controller);
-  EXPECT_FALSE(says(diagram_html(axis_diagram(open, 0)), "sum"));
-}
-
-TEST(Diagram, EscapesNames) {
-  AxisDiagram diagram = axis_diagram(axis("command: {targets: [3], hold: 0.15}\n"), 0);
-  diagram.controller->lines.emplace_back("</div><script>");
-  EXPECT_FALSE(says(diagram_html(diagram), "<script"));
+  const std::string html = diagram_html(axis("command: {torque: {levels: [0.1, 0]}}\n"), 0);
+  EXPECT_TRUE(says(html, "<b>Torque levels</b>\n<span>0.1, 0\u00a0N\u00a0m</span>"));
+  EXPECT_FALSE(says(html, "sum") || says(html, "controller") || says(html, "hold"));
 }
 
 }  // namespace

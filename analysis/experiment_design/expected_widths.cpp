@@ -78,12 +78,8 @@ using fit::coordinate_count;
 using fit::TestRecord;
 
 /// The fit of a record, at the truth in place of a fit.
-struct TrueFit {
+struct TrueFit : fit::Fit {
   std::vector<TestRecord> records;
-  fit::FitSetting setting;
-  fit::FittedModel model;
-  std::vector<double> noise;  ///< of the record, counts
-  fit::Observations observations;
   /// [parameter] of the keys of a manifest; without those that the fit does not leave free.
   std::array<std::optional<fit::Quantity>, fit::time_offset> quantities;
 };
@@ -104,10 +100,8 @@ TrueFit true_fit(const Machine& machine, const TorqueProtocol& protocol, const S
   fit.setting.prior = fit::point_of(contact, creep_torque);
   fit::FitPoint point{fit.setting.prior, Eigen::VectorXd(1)};
   point.offset[0] = machine.parameters.initial.encoder_phase;
-  fit.model = fit::model_at(fit.records, point, fit.setting);
-  fit.noise = fit::noise_along(fit.records, fit.model);
-  fit.observations = fit::observations_along(fit.records, fit.model, fit.noise);
-  for (const fit::Quantity& quantity : fit::fitted_quantities(point.axis, creep_torque)) {
+  fit::observe_at(fit.records, point, fit);
+  for (const fit::Quantity& quantity : fit.setting.model.quantities_at(point.axis)) {
     for (std::size_t j = 0; j < fit.quantities.size(); ++j) {
       if (quantity.key == fit::coordinate_keys[j] && fit.setting.free[j]) fit.quantities[j] = quantity;
     }
@@ -158,14 +152,12 @@ Widths expected_widths(const Machine& machine, const TorqueProtocol& protocol,
                        const SimulatedRecord& simulated) {
   constexpr std::size_t replicates = 200;
   const TrueFit fit = true_fit(machine, protocol, simulated);
-  const fit::ReadingReplicates found =
-      fit::replicate_readings(fit.records, fit.model, fit.setting, fit.noise, replicates);
+  const fit::ReadingReplicates found = fit::replicate_readings(fit.records, fit, replicates);
   Widths widths;
   for (const std::optional<fit::Quantity>& quantity : fit.quantities) {
     widths.push_back(std::numeric_limits<double>::infinity());
     if (!quantity) continue;
-    const auto errors = found.errors.leftCols(fit::contact_dimension);
-    widths.back() = fit::interval_of_errors(*quantity, errors, 1.0).half_width();
+    widths.back() = fit::interval_of_errors(*quantity, found.errors, 1.0).half_width();
   }
   return widths;
 }

@@ -108,7 +108,7 @@ std::int64_t weighted_samples(const TestRecord& record, const AxisParameters& ax
   return static_cast<std::int64_t>(std::min(steps, 1e3) * static_cast<double>(sample_count(record)));
 }
 
-SampledPath path_at(const TestRecord& record, const AxisModel& model, const Point& point) {
+SampledPath path_at(const TestRecord& record, const FitModel& model, const Point& point) {
   const AxisParameters axis = model.parameters_at(point);
   plant::Plant plant(axis.plant, axis.friction, record.start,
                      {motion_tolerance * record.unit, rest_tolerance * record.unit});
@@ -129,18 +129,18 @@ double fastest_rate(const AxisParameters& parameters) {
                   contact.damping / parameters.plant.inertia);
 }
 
-Eigen::VectorXd modelled_path(const TestRecord& record, const AxisModel& model, const Point& point) {
+Eigen::VectorXd modelled_path(const TestRecord& record, const FitModel& model, const Point& point) {
   return path_at(record, model, point).angle;
 }
 
-std::int64_t samples_of_paths(Records records, const AxisModel& model, const Point& point) {
+std::int64_t samples_of_paths(Records records, const FitModel& model, const Point& point) {
   const AxisParameters axis = model.parameters_at(point);
   std::int64_t samples = 0;
   for (const TestRecord& record : records) samples += weighted_samples(record, axis);
   return samples;
 }
 
-std::vector<RecordMotion> modelled_motions(Records records, const AxisModel& model, const Point& point,
+std::vector<RecordMotion> modelled_motions(Records records, const FitModel& model, const Point& point,
                                            const FreeCoordinates& free, std::vector<RecordMotion> known) {
   const Eigen::Index offset = dimension_of(model) - 1;
   std::vector<Eigen::Index> columns;
@@ -180,15 +180,15 @@ std::vector<RecordMotion> modelled_motions(Records records, const AxisModel& mod
   return motions;
 }
 
-bool is_sampled(Records records, const AxisModel& model, const Point& point, double max_rate) {
+bool is_sampled(Records records, const FitModel& model, const Point& point, double max_rate) {
   const double rate = fastest_rate(model.parameters_at(point));
   return std::all_of(records.begin(), records.end(),
                      [&](const TestRecord& record) { return rate * record.sample_time <= max_rate; });
 }
 
-bool is_within_reach(Records records, const AxisModel& model, const Point& prior, const Point& point) {
-  for (std::size_t j = 0; j < model.coordinates.size(); ++j) {
-    const CoordinateRange& range = model.coordinates[j];
+bool is_within_reach(Records records, const FitModel& model, const Point& prior, const Point& point) {
+  for (std::size_t j = 0; j < model.ranges.size(); ++j) {
+    const CoordinateRange& range = model.ranges[j];
     const double value = point[static_cast<Eigen::Index>(j)];
     const double increase = value - prior[static_cast<Eigen::Index>(j)];
     if (!(increase <= range.max_increase && increase >= -range.max_decrease)) return false;

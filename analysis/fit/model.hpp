@@ -85,19 +85,31 @@ struct CoordinateRange {
   double high{std::numeric_limits<double>::infinity()};
 };
 
-/// A friction law as a function of coordinates that are fitted. Its motion is that of core's Plant.
-struct AxisModel {
-  std::vector<CoordinateRange> coordinates;  ///< with that of the time offset, the last one
+/// A friction law as a function of coordinates that are fitted, and what is reported of a fit. Its motion is
+/// that of core's Plant.
+struct FitModel {
+  friction::FrictionModel law{friction::FrictionModel::presliding};
+  std::vector<CoordinateRange> ranges;  ///< with that of the time offset, the last one
+  FreeCoordinates free;                 ///< [coordinate] false for one that the law does not have
   std::function<AxisParameters(const Point&)> parameters_at;
   /// Compliance of a fixture in series with the contact, rad/(N m); empty: none.
   std::function<double(const Point&)> series_compliance{};
+  std::function<std::vector<Quantity>(const Point&)> quantities_at;
+  std::vector<Point> starts{};  ///< starting points of the fit
+  /// Other starting points near a local minimum; may be empty.
+  std::function<std::vector<Point>(const Point&)> neighbours{};
+  /// Lines below `friction:` in a manifest for what is not fitted, with the units of a rotary axis; may be
+  /// empty.
+  std::function<std::string(const Point&)> fixed_lines{};
+  /// The line `sliding_damping` below `plant:` where the records do not determine it; empty: no such line.
+  std::string plant_lines{};
   /// Samples simulated with this model and its copies, each weighted by the steps that a fast rotor needs in
   /// it. The same for any number of threads.
   std::shared_ptr<std::atomic<std::int64_t>> simulated{std::make_shared<std::atomic<std::int64_t>>(0)};
 };
 
-inline Eigen::Index dimension_of(const AxisModel& model) {
-  return static_cast<Eigen::Index>(model.coordinates.size());
+inline Eigen::Index dimension_of(const FitModel& model) {
+  return static_cast<Eigen::Index>(model.ranges.size());
 }
 
 /// The range of the time offset.
@@ -117,23 +129,23 @@ struct RecordMotion {
 
 /// The path of a record, simulated to 0.01 of the record's unit. When only creep moves the rotor in a long
 /// hold of an evenly sampled record, the steps are longer and the samples are interpolated by cubics.
-Eigen::VectorXd modelled_path(const TestRecord& record, const AxisModel& model, const Point& point);
+Eigen::VectorXd modelled_path(const TestRecord& record, const FitModel& model, const Point& point);
 
 /// The motions of all records, with derivatives by forward differences, that with respect to the time offset
 /// from the velocity. Simulated in parallel.
 /// @param known empty, or these motions with their paths and the derivatives by the time offset alone
-std::vector<RecordMotion> modelled_motions(Records records, const AxisModel& model, const Point& point,
+std::vector<RecordMotion> modelled_motions(Records records, const FitModel& model, const Point& point,
                                            const FreeCoordinates& free, std::vector<RecordMotion> known = {});
 
-/// What the paths of all records at a point add to AxisModel::simulated.
-std::int64_t samples_of_paths(Records records, const AxisModel& model, const Point& point);
+/// What the paths of all records at a point add to FitModel::simulated.
+std::int64_t samples_of_paths(Records records, const FitModel& model, const Point& point);
 
 /// True if a fit whose prior has the mean `prior` may try the point: all coordinates within their ranges, and
 /// the motion at most 20 times as fast as the sampling, or twice as fast as that of the prior.
-bool is_within_reach(Records records, const AxisModel& model, const Point& prior, const Point& point);
+bool is_within_reach(Records records, const FitModel& model, const Point& prior, const Point& point);
 
 /// True if the motion is at most `max_rate` times as fast as the sampling of every record. A faster one takes
 /// long to simulate, and cannot be told from the records.
-bool is_sampled(Records records, const AxisModel& model, const Point& point, double max_rate = 20.0);
+bool is_sampled(Records records, const FitModel& model, const Point& point, double max_rate = 20.0);
 
 }  // namespace zerocount::fit

@@ -58,7 +58,8 @@ ResidualStatistics residual_statistics(const std::vector<double>& residuals) {
 
 namespace {
 
-/// As residuals_of(), with other paths than the model's.
+/// (observed − modelled angle)/√variance of every observation along the paths, plus `step` in the linearised
+/// model; an empty `step` is 0.
 std::vector<double> residuals_along(const FittedModel& model, const std::vector<Eigen::VectorXd>& paths,
                                     const Observations& observations, const Eigen::VectorXd& step) {
   std::vector<double> residuals;
@@ -78,16 +79,15 @@ std::vector<double> residuals_along(const FittedModel& model, const std::vector<
 
 }  // namespace
 
-std::vector<double> residuals_of(const FittedModel& model, const Observations& observations,
-                                 const Eigen::VectorXd& step) {
+ResidualStatistics residual_statistics(const FittedModel& model, const Observations& observations) {
   std::vector<Eigen::VectorXd> paths;
   for (const RecordMotion& motion : model.motions) paths.push_back(motion.path);
-  return residuals_along(model, paths, observations, step);
+  return residual_statistics(residuals_along(model, paths, observations, {}));
 }
 
-ReadingReplicates replicate_readings(Records records, const FittedModel& model, const FitSetting& setting,
-                                     const std::vector<double>& noise, std::size_t replicates,
+ReadingReplicates replicate_readings(Records records, const Fit& fit, std::size_t replicates,
                                      std::size_t first) {
+  const auto& [setting, model, noise, last_observations] = fit;
   const Observations observations = observations_along(records, model, noise);
   const Eigen::MatrixXd matrix = normal_equations(model, observations, setting).matrix;
   const Eigen::MatrixXd root = numerics::cholesky_factor(matrix);
@@ -320,6 +320,11 @@ ResidualChecks check_residuals(const ResidualStatistics& residuals,
   const double longer = std::max(1.0, checks.correlation_length / checks.expected_correlation_length);
   checks.widening = larger * std::sqrt(longer);
   return checks;
+}
+
+FitErrors errors_of(Records records, const Fit& fit, std::size_t replicates) {
+  const ReadingReplicates found = replicate_readings(records, fit, replicates);
+  return {found.errors, check_residuals(residual_statistics(fit.model, fit.observations), found.residuals)};
 }
 
 std::string reason_of_misfit(const ResidualChecks& checks) {

@@ -26,10 +26,8 @@ struct ResidualStatistics {
 
 ResidualStatistics residual_statistics(const std::vector<double>& residuals);
 
-/// (observed − modelled angle)/√variance of every observation, at the model's point plus `step` in the
-/// linearised model; an empty `step` is 0.
-std::vector<double> residuals_of(const FittedModel& model, const Observations& observations,
-                                 const Eigen::VectorXd& step);
+/// Those of (observed − modelled angle)/√variance of every observation.
+ResidualStatistics residual_statistics(const FittedModel& model, const Observations& observations);
 
 /// Standard deviation of the replicates' true parameters, in textbook standard deviations.
 inline constexpr double truth_spread = 3.0;
@@ -66,10 +64,8 @@ struct ReadingReplicates {
 /// compensate each other, and their influence depends on the positions of the edges. The true parameters have
 /// three times the textbook standard deviations: enough to vary these positions, and little enough for the
 /// linearisation.
-/// @param noise [record] of the readings, in the record's unit.
 /// @param first number of the first replicate; each is a function of its number
-ReadingReplicates replicate_readings(std::span<const TestRecord> records, const FittedModel& model,
-                                     const FitSetting& setting, const std::vector<double>& noise,
+ReadingReplicates replicate_readings(std::span<const TestRecord> records, const Fit& fit,
                                      std::size_t replicates, std::size_t first = 0);
 
 /// A range of frequencies, Hz.
@@ -123,6 +119,14 @@ struct ResidualChecks {
 
 ResidualChecks check_residuals(const ResidualStatistics& residuals,
                                const std::vector<ResidualStatistics>& replicates);
+
+/// The errors of a fit, by replicates of the readings, and the checks of its residuals.
+struct FitErrors {
+  Eigen::MatrixXd errors;  ///< see ReadingReplicates
+  ResidualChecks checks;
+};
+
+FitErrors errors_of(Records records, const Fit& fit, std::size_t replicates);
 
 /// A clause that names the part of the residuals that encoder and noise do not explain. Empty if the checks
 /// passed.

@@ -59,10 +59,10 @@ class JointResiduals : public ceres::CostFunction {
  public:
   JointResiduals(Records records, const Observations& observations, const FitSetting& setting)
       : records_(records), observations_(observations), setting_(setting) {
-    std::size_t residuals = setting.model.coordinates.size();
+    std::size_t residuals = setting.model.ranges.size();
     for (const std::vector<AngleObservation>& of_record : observations) residuals += of_record.size();
     set_num_residuals(static_cast<int>(residuals));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(setting.model.coordinates.size()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(setting.model.ranges.size()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(records.size()));
   }
 
@@ -125,7 +125,7 @@ class JointResiduals : public ceres::CostFunction {
   }
 
   void simulate(bool with_slopes) const {
-    AxisModel model = setting_.model;
+    FitModel model = setting_.model;
     model.simulated = std::make_shared<std::atomic<std::int64_t>>(0);
     FreeCoordinates free = setting_.free;
     if (!with_slopes) std::fill(free.begin(), free.end() - 1, false);
@@ -234,7 +234,7 @@ std::vector<FitResult> fits_from(Records records, const Observations& observatio
   return by_squares(std::move(starts), all);
 }
 
-FitResult with_mean_offsets(Records records, const AxisModel& model, const Point& point) {
+FitResult with_mean_offsets(Records records, const FitModel& model, const Point& point) {
   FitResult result{{point, Eigen::VectorXd(static_cast<Eigen::Index>(records.size()))}, 0.0};
   for (std::size_t r = 0; r < records.size(); ++r) {
     const TestRecord& record = records[r];
@@ -277,6 +277,16 @@ FittedModel model_at(Records records, const FitPoint& point, const FitSetting& s
     model.motions[r].path.array() += point.offset[static_cast<Eigen::Index>(r)];
   }
   return model;
+}
+
+void observe_again(Records records, Fit& fit) {
+  fit.noise = noise_along(records, fit.model);
+  fit.observations = observations_along(records, fit.model, fit.noise);
+}
+
+void observe_at(Records records, const FitPoint& at, Fit& fit) {
+  fit.model = model_at(records, at, fit.setting);
+  observe_again(records, fit);
 }
 
 bool is_finite(const RecordMotion& motion) {

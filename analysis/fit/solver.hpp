@@ -49,7 +49,7 @@ struct FitPoint {
 
 /// Settings of a fit.
 struct FitSetting {
-  AxisModel model;
+  FitModel model;
   FreeCoordinates free{};
   /// Mean of a weak normal prior on the free coordinates, which keeps undetermined coordinates finite. Its
   /// standard deviation `prior_spread` corresponds to a parameter known to a factor of 400.
@@ -57,7 +57,7 @@ struct FitSetting {
   double prior_spread{3.0};
   double tolerance{1e-6};  ///< relative change of the sum of squares at which the fit ends
   int max_steps{50};
-  /// Simulated samples (AxisModel::simulated) at which the fit ends after its present step.
+  /// Simulated samples (FitModel::simulated) at which the fit ends after its present step.
   double max_simulated{std::numeric_limits<double>::infinity()};
 };
 
@@ -91,7 +91,7 @@ std::vector<FitResult> fits_from(Records records, const Observations& observatio
 /// A point with the offsets for which the residuals of all readings have the mean 0, and their sum of squares
 /// over the variance of a count; infinite where the motion cannot be simulated, or is too fast for the
 /// sampling.
-FitResult with_mean_offsets(Records records, const AxisModel& model, const Point& point);
+FitResult with_mean_offsets(Records records, const FitModel& model, const Point& point);
 
 /// How many starting points are tried.
 struct SearchWidth {
@@ -120,6 +120,20 @@ Observations observations_along(Records records, const FittedModel& model, const
 
 /// False if the simulation did not follow the record.
 bool is_finite(const RecordMotion& motion);
+
+/// A model fitted to records.
+struct Fit {
+  FitSetting setting;
+  FittedModel model;
+  std::vector<double> noise;  ///< [record] of the readings, in the record's unit; 0: counts without noise
+  Observations observations;  ///< along the paths of a model at which the readings were last observed
+};
+
+/// The model at a point, and the readings as observations along it.
+void observe_at(Records records, const FitPoint& at, Fit& fit);
+
+/// The same at the point of the fit's model.
+void observe_again(Records records, Fit& fit);
 
 /// Textbook covariance of the errors of a fit, valid for independent observations: the inverse of the normal
 /// matrix, including the prior.

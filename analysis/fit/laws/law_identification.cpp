@@ -34,11 +34,8 @@ bool is_explained(Records records, const FitResult& minimum, const Observations&
   return minimum.squares < tolerated * static_cast<double>(count);
 }
 
-FitSetting setting_of(const LawModel& model) {
-  FitSetting setting;
-  setting.model = model.axis;
-  setting.free = model.free;
-  return setting;
+FitSetting setting_of(const FitModel& model) {
+  return {.model = model, .free = model.free, .prior = {}};
 }
 
 FitSetting without_time_offset(FitSetting setting) {
@@ -52,7 +49,7 @@ FitSetting with_steps(FitSetting setting, int steps) {
 }
 
 /// The minimum, or a smaller one that is found from its neighbours.
-FitResult with_neighbours(Records records, const LawModel& model, const Observations& readings,
+FitResult with_neighbours(Records records, const FitModel& model, const Observations& readings,
                           const FitSetting& setting, FitResult best) {
   if (!model.neighbours) return best;
   constexpr int rounds = 4;
@@ -69,13 +66,13 @@ FitResult with_neighbours(Records records, const LawModel& model, const Observat
 /// Points about `centres`, in turns: of the free coordinates but the time offset about half move far at
 /// random, the others little. Most are logarithms of a parameter. Where the slow parts of the records have
 /// fixed the stiffness, such points try inertia and damping of other orders of magnitude beside it.
-std::vector<LawPoint> scattered(const LawModel& model, const std::vector<LawPoint>& centres) {
+std::vector<Point> scattered(const FitModel& model, const std::vector<Point>& centres) {
   constexpr std::size_t points = 96;
   constexpr double near = 0.1;
   constexpr double far = 2.5;
-  std::vector<LawPoint> found;
+  std::vector<Point> found;
   for (std::size_t i = 0; i < points; ++i) {
-    LawPoint point = centres[i % centres.size()];
+    Point point = centres[i % centres.size()];
     ReplicateNoise random(i);
     for (Eigen::Index j = 0; j + 1 < point.size(); ++j) {
       const double moved = random.next();
@@ -92,7 +89,7 @@ constexpr SearchWidth wide_search{12, 12, 3};
 
 /// The best fits from the law's starting points, or from points scattered about them where none of those can
 /// be simulated.
-std::vector<FitResult> first_minima(Records records, const LawModel& model, const Observations& readings,
+std::vector<FitResult> first_minima(Records records, const FitModel& model, const Observations& readings,
                                     const FitSetting& setting) {
   std::vector<FitResult> minima = promising_fits(records, readings, model.starts, setting);
   if (minima.empty())
@@ -107,7 +104,7 @@ std::vector<FitResult> first_minima(Records records, const LawModel& model, cons
 
 /// The fit to all readings from `minima`. The time offset is left free in the last steps only: far from a
 /// minimum it would make up for a wrong inertia.
-FitResult fit_all_readings(Records records, const LawModel& model, const Observations& readings,
+FitResult fit_all_readings(Records records, const FitModel& model, const Observations& readings,
                            std::vector<FitResult> minima, double least_squares) {
   const FitSetting setting = setting_of(model);
   const FitSetting undelayed = without_time_offset(setting);
@@ -120,15 +117,8 @@ FitResult fit_all_readings(Records records, const LawModel& model, const Observa
   return std::isfinite(delayed.squares) ? delayed : found;
 }
 
-/// Computes the motions and the observations at a point.
-void observe_at(Records records, const FitPoint& at, LawFit& fit) {
-  fit.model = model_at(records, at, fit.setting);
-  fit.noise = noise_along(records, fit.model);
-  fit.observations = observations_along(records, fit.model, fit.noise);
-}
-
 /// The fit to the observations, from a fit to all readings.
-LawFit refined(Records records, const LawModel& model, const FitResult& rough) {
+LawFit refined(Records records, const FitModel& model, const FitResult& rough) {
   LawFit fit;
   fit.setting = setting_of(model);
   fit.squares = rough.squares;
@@ -155,7 +145,7 @@ LawFit refined(Records records, const LawModel& model, const FitResult& rough) {
 
 }  // namespace
 
-LawFit fit_law(Records records, const LawModel& model, double least_squares) {
+LawFit fit_law(Records records, const FitModel& model, double least_squares) {
   const Observations readings = all_readings(records);
   std::vector<FitResult> minima =
       first_minima(records, model, readings, without_time_offset(setting_of(model)));
@@ -163,11 +153,11 @@ LawFit fit_law(Records records, const LawModel& model, double least_squares) {
                  fit_all_readings(records, model, readings, std::move(minima), least_squares));
 }
 
-LawFit search_again(Records records, const LawModel& model, double least_squares, LawFit found) {
+LawFit search_again(Records records, const FitModel& model, double least_squares, LawFit found) {
   const Observations readings = all_readings(records);
   const FitSetting setting = without_time_offset(setting_of(model));
   std::vector<FitResult> minima;
-  for (const std::vector<LawPoint>& centres : {std::vector{found.model.point.axis}, model.starts}) {
+  for (const std::vector<Point>& centres : {std::vector{found.model.point.axis}, model.starts}) {
     for (const FitResult& fit :
          promising_fits(records, readings, scattered(model, centres), setting, wide_search))
       minima.push_back(fit);
@@ -178,20 +168,15 @@ LawFit search_again(Records records, const LawModel& model, double least_squares
   return best.squares < found.squares ? refined(records, model, best) : std::move(found);
 }
 
-LawErrors errors_of(Records records, const LawFit& fit) {
-  constexpr std::size_t replicates = 300;
-  const ReadingReplicates found = replicate_readings(records, fit.model, fit.setting, fit.noise, replicates);
-  const auto own = residual_statistics(residuals_of(fit.model, fit.observations, {}));
-  return {found.errors, check_residuals(own, found.residuals)};
-}
-
 namespace {
 
 /// Largest half-widths of an interval that was widened because the law does not fit.
 constexpr double max_widened_log_halfwidth = 2.3;  // a factor of 10 to each side
 constexpr double max_widened_halfwidth = 2.0;
 
-ParameterEstimate estimate_of(const Quantity& quantity, const LawErrors& errors) {
+constexpr std::size_t replicates = 300;  ///< of the readings
+
+ParameterEstimate estimate_of(const Quantity& quantity, const FitErrors& errors) {
   const QuantityEstimate found = interval_of_errors(quantity, errors.errors, errors.checks.widening);
   ParameterEstimate estimate{on_parameter_scale(quantity, found), quantity.name, quantity.key, quantity.unit,
                              EstimateStatus::estimated};
@@ -232,9 +217,9 @@ double mean_square(const std::vector<double>& residuals) {
 
 /// A fit with its law.
 struct FittedLaw {
-  LawModel model;
+  FitModel model;
   LawFit fit;
-  LawErrors errors;
+  FitErrors errors;
   IdentifiedLaw law;
 };
 
@@ -299,9 +284,11 @@ std::string law_fragment(Records records, const FittedLaw& fitted) {
   fragment.plant = manifest_lines(law.parameters, "plant");
   const auto slides = std::ranges::find(law.parameters, "sliding_damping", &ParameterEstimate::name);
   if (slides != law.parameters.end() && !is_estimated(*slides)) fragment.plant += fitted.model.plant_lines;
-  fragment.friction = fmt::format(
-      "  model: {}\n{}{}", friction::traits_of(law.law).word, manifest_lines(law.parameters, "friction"),
-      parameters::unit_on(law.axis, fitted.model.fixed_lines(fitted.fit.model.point.axis)));
+  const std::string fixed =
+      fitted.model.fixed_lines ? fitted.model.fixed_lines(fitted.fit.model.point.axis) : "";
+  fragment.friction =
+      fmt::format("  model: {}\n{}{}", friction::traits_of(law.law).word,
+                  manifest_lines(law.parameters, "friction"), parameters::unit_on(law.axis, fixed));
   return fragment_text(fragment, law.axis);
 }
 
@@ -312,7 +299,7 @@ FittedLaw fitted_law(Records records, friction::FrictionModel law, bool series_c
   result.model = law_model(law, scales, records);
   if (series_compliance) result.model = with_series_compliance(result.model, scales);
   result.fit = fit_law(records, result.model, least_squares);
-  result.errors = errors_of(records, result.fit);
+  result.errors = errors_of(records, result.fit, replicates);
   return result;
 }
 
@@ -350,7 +337,7 @@ void search_failed_again(Records records, const StageReport& enter, std::vector<
     enter(fmt::format("another fit of {}", friction::traits_of(one.law.law).word));
     try {
       auto fit = search_again(records, one.model, least_squares, one.fit);
-      one.errors = errors_of(records, fit);
+      one.errors = errors_of(records, fit, replicates);
       one.fit = std::move(fit);
     } catch (const Failure& failure) {
       if (failure.code() != ExitCode::bad_data) throw;  // the first fit stays

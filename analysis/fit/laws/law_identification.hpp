@@ -1,13 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "analysis/document/answer.hpp"
-#include "analysis/fit/laws/law_model.hpp"
+#include "analysis/fit/model.hpp"
 #include "analysis/fit/presliding/contact_fit.hpp"
 #include "analysis/fit/presliding/identification.hpp"
 #include "analysis/fit/record.hpp"
@@ -17,15 +18,37 @@
 
 namespace zerocount::fit {
 
+/// Coordinates that a fit may change by a factor of 1000 each; the last one is the time offset.
+std::vector<CoordinateRange> law_coordinates(std::size_t dimension);
+
+/// Properties of the records from which the starting points follow.
+struct RecordScales {
+  Point contact;                 ///< starting point of the pre-sliding model
+  double creep_torque{1.0};      ///< σ0 of its coordinates, N m
+  double largest_torque{0.0};    ///< N m
+  double secant_stiffness{0.0};  ///< range of the torque over travel, N m/rad
+};
+
+RecordScales scales_of(Records records);
+
+/// The laws that move before they slide, and can be fitted to records without sliding.
+std::span<const friction::FrictionModel> fitted_laws();
+
+/// The model of a law. `law` is one of fitted_laws().
+FitModel law_model(friction::FrictionModel law, const RecordScales& scales, Records records);
+
+/// The model with the compliance of a fixture, whose logarithm becomes the coordinate before the time offset:
+/// the angle that is read is the rotor's plus compliance times torque.
+FitModel with_series_compliance(FitModel model, const RecordScales& scales);
+
+/// Elements that stick or slip, beside the rotor's inertia and damping.
+FitModel maxwell_slip_model(const RecordScales& scales);
+
 /// Squares in multiples of those of another law from which a law is not searched further.
 inline constexpr double hopeless = 100.0;
 
 /// A law fitted to records.
-struct LawFit {
-  FitSetting setting;
-  FittedModel model;
-  std::vector<double> noise;  ///< [record] of the readings, in the record's unit; 0: counts without noise
-  Observations observations;
+struct LawFit : Fit {
   /// [record] residuals of all readings that are not masked, of the fit to them, in the record's unit
   std::vector<std::vector<double>> residuals;
   double squares{0.0};  ///< of the fit to all readings, over the variance of a count
@@ -39,20 +62,11 @@ struct LawFit {
 /// steps, and without a search among its local minima.
 /// @param least_squares of the laws fitted before; infinite without any
 /// @throws Failure (bad_data) if the law cannot be simulated from any of its starting points.
-LawFit fit_law(Records records, const LawModel& model, double least_squares);
+LawFit fit_law(Records records, const FitModel& model, double least_squares);
 
 /// Fits a law whose fit `found` does not explain the records again, from many more starting points, scattered
 /// at random about those of the law and about `found`. @returns the better fit of both.
-LawFit search_again(Records records, const LawModel& model, double least_squares, LawFit found);
-
-/// The errors of a fit.
-struct LawErrors {
-  Eigen::MatrixXd errors;  ///< see ReadingReplicates
-  ResidualChecks checks;
-};
-
-/// 300 replicates of the readings (replicate_readings()).
-LawErrors errors_of(Records records, const LawFit& fit);
+LawFit search_again(Records records, const FitModel& model, double least_squares, LawFit found);
 
 /// A friction law identified from records.
 struct IdentifiedLaw : FitReport {

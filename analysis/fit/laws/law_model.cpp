@@ -1,10 +1,9 @@
-#include "analysis/fit/laws/law_model.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
 
+#include "analysis/fit/laws/law_identification.hpp"
 #include "analysis/fit/presliding/contact.hpp"
 #include "analysis/fit/presliding/contact_fit.hpp"
 #include "analysis/fit/presliding/starting_point.hpp"
@@ -23,11 +22,10 @@ constexpr std::array laws_with_motion{FrictionModel::presliding, FrictionModel::
 
 RecordScales scales_of(Records records) {
   RecordScales scales;
-  scales.axis = records.front().axis;
   scales.creep_torque = creep_torque_for(records, {});
   const FreeCoordinates free(coordinate_count, true);
   // That of closed forms, without a creep that was fitted to slow parts.
-  scales.contact = starting_points(records, scales.creep_torque, ContactPoint::Zero(), free).back();
+  scales.contact = starting_points(records, scales.creep_torque, Point::Zero(coordinate_count), free).back();
   for (const TestRecord& record : records) {
     const Eigen::VectorXd angle = measured_angle(record);
     scales.largest_torque = std::max(scales.largest_torque, largest_torque(record));
@@ -41,25 +39,6 @@ std::span<const FrictionModel> fitted_laws() {
   return laws_with_motion;
 }
 
-LawModel law_model(FrictionModel law, const RecordScales& scales, Records records) {
-  switch (law) {
-    case FrictionModel::presliding:
-      return presliding_model(scales, records);
-    case FrictionModel::spring:
-      return spring_model(scales, records);
-    case FrictionModel::dahl:
-      return dahl_model(scales, records);
-    case FrictionModel::lugre:
-      return lugre_model(scales, records);
-    case FrictionModel::gms:
-      return maxwell_slip_model(scales);
-    case FrictionModel::coulomb:
-    case FrictionModel::none:
-      break;
-  }
-  throw std::invalid_argument("a law without motion before it slides");
-}
-
 std::vector<CoordinateRange> law_coordinates(std::size_t dimension) {
   constexpr double max_change = 6.9;
   std::vector<CoordinateRange> ranges(dimension, {.max_decrease = max_change, .max_increase = max_change});
@@ -69,109 +48,31 @@ std::vector<CoordinateRange> law_coordinates(std::size_t dimension) {
 
 namespace {
 
-/// The pre-sliding model in the coordinates of contact_at().
-LawModel spring_based_model(const RecordScales& scales, Records records, friction::FrictionModel law,
-                            bool creeps) {
-  const double creep_torque = scales.creep_torque;
-  LawModel model;
+/// The pre-sliding model, with creep or without.
+FitModel spring_based_model(const RecordScales& scales, Records records, friction::FrictionModel law) {
+  const bool creeps = friction::has_creep(law);
+  FitModel model = contact_model(scales.creep_torque);
   model.law = law;
-  model.axis.coordinates = law_coordinates(coordinate_count);
-  model.free.assign(coordinate_count, true);
-  if (!creeps) {
-    for (const Coordinate j : {log_alpha, log_limit, creep_exponent}) model.free[j] = false;
-  }
-  model.axis.parameters_at = [=](const LawPoint& point) {
-    const ContactParameters contact = contact_at(point, creep_torque);
-    return LawParameters{contact.plant, {.uniform = contact.friction, .profiled = {}, .model = law}};
+  model.ranges = law_coordinates(coordinate_count);
+  for (const Coordinate j : {log_alpha, log_limit, creep_exponent}) model.free[j] = creeps;
+  model.parameters_at = [law, of_contact = model.parameters_at](const Point& point) {
+    AxisParameters parameters = of_contact(point);
+    parameters.friction.model = law;
+    return parameters;
   };
-  model.quantities_at = [=](const LawPoint& point) {
-    std::vector<Quantity> quantities;
-    for (const Quantity& quantity : fitted_quantities(point, creep_torque)) {
+  model.quantities_at = [creeps, of_contact = model.quantities_at](const Point& point) {
+    std::vector<Quantity> quantities = of_contact(point);
+    std::erase_if(quantities, [&](const Quantity& quantity) {
       const Coordinate coordinate = coordinate_of(quantity);
-      if (quantity.name == "k1_plus_k2") continue;
-      if (!creeps && coordinate >= log_alpha && coordinate != time_offset) continue;
-      quantities.push_back(quantity);
-    }
+      return quantity.name == "k1_plus_k2" ||
+             (!creeps && coordinate >= log_alpha && coordinate <= creep_exponent);
+    });
     return quantities;
   };
-  model.starts.push_back(scales.contact);
-  for (const ContactPoint& other : starts_with_other_softening(records, scales.contact, creep_torque)) {
-    model.starts.push_back(other);
-  }
-  model.fixed_lines = [](const LawPoint&) { return std::string(); };
+  model.starts = starts_with_other_softening(records, scales.contact, scales.creep_torque);
+  model.starts.insert(model.starts.begin(), scales.contact);
   return model;
 }
-
-}  // namespace
-
-LawModel presliding_model(const RecordScales& scales, Records records) {
-  return spring_based_model(scales, records, friction::FrictionModel::presliding, true);
-}
-
-LawModel spring_model(const RecordScales& scales, Records records) {
-  return spring_based_model(scales, records, friction::FrictionModel::spring, false);
-}
-
-namespace {
-
-/// The point of the law alone: without the coordinate before the time offset.
-LawPoint without_compliance(const LawPoint& point) {
-  LawPoint law = point.head(point.size() - 1);
-  law[law.size() - 1] = point[point.size() - 1];
-  return law;
-}
-
-LawPoint with_compliance(const LawPoint& law, double logarithm) {
-  LawPoint point(law.size() + 1);
-  point << law.head(law.size() - 1), logarithm, law[law.size() - 1];
-  return point;
-}
-
-/// The slope of a quantity of the law alone with respect to all coordinates.
-Quantity widened(Quantity quantity) {
-  quantity.slope = with_compliance(quantity.slope, 0.0);
-  return quantity;
-}
-
-}  // namespace
-
-LawModel with_series_compliance(const LawModel& law, const RecordScales& scales) {
-  LawModel model = law;
-  model.free.insert(model.free.end() - 1, true);
-  model.axis.coordinates = law_coordinates(model.free.size());
-  model.axis.parameters_at = [law](const LawPoint& point) {
-    return law.axis.parameters_at(without_compliance(point));
-  };
-  model.fixed_lines = [law](const LawPoint& point) { return law.fixed_lines(without_compliance(point)); };
-  model.axis.series_compliance = [](const LawPoint& point) { return std::exp(point[point.size() - 2]); };
-  model.quantities_at = [law](const LawPoint& point) {
-    std::vector<Quantity> quantities;
-    for (Quantity& quantity : law.quantities_at(without_compliance(point))) {
-      quantities.push_back(widened(std::move(quantity)));
-    }
-    quantities.insert(quantities.end() - 1,
-                      coordinate_quantity("series_compliance", "", "rad/(N m)", point, point.size() - 2));
-    return quantities;
-  };
-  model.starts.clear();
-  for (const double part : {0.02, 0.3}) {  // of the travel
-    for (const LawPoint& start : law.starts) {
-      model.starts.push_back(with_compliance(start, std::log(part / scales.secant_stiffness)));
-    }
-  }
-  if (law.neighbours) {
-    model.neighbours = [law](const LawPoint& point) {
-      std::vector<LawPoint> others;
-      for (const LawPoint& other : law.neighbours(without_compliance(point))) {
-        others.push_back(with_compliance(other, point[point.size() - 2]));
-      }
-      return others;
-    };
-  }
-  return model;
-}
-
-namespace {
 
 /// Coordinates of a bristle with its rotor. Records without sliding show one level, g(0): the laws are fitted
 /// with Fc = Fs.
@@ -191,11 +92,11 @@ constexpr double sliding_damping_scale = 0.1;
 constexpr double start_of_sliding_damping = 0.1;
 
 /// Starting points over stiffness and level, each with the J and the damping that its ring-down shows.
-std::vector<LawPoint> bristle_starts(const RecordScales& scales, Records records) {
-  std::vector<LawPoint> starts;
+std::vector<Point> bristle_starts(const RecordScales& scales, Records records) {
+  std::vector<Point> starts;
   for (const double stiffness : {1.0, 1.4, 2.5}) {
     for (const double level : {1.05, 1.5, 3.0, 10.0}) {
-      LawPoint start(bristle_dimension);
+      Point start(bristle_dimension);
       const double sigma0 = stiffness * scales.secant_stiffness;
       const motion::PlantParameters plant = estimate_ring_down(records, sigma0);
       start << std::log(sigma0), std::log(level - 1.0), std::log(plant.presliding_damping),
@@ -206,7 +107,7 @@ std::vector<LawPoint> bristle_starts(const RecordScales& scales, Records records
   return starts;
 }
 
-Quantity level_quantity(const LawPoint& point, double largest_torque) {
+Quantity level_quantity(const Point& point, double largest_torque) {
   Quantity level = coordinate_quantity("breakaway", "friction.breakaway", "N m", point, bristle_level);
   const double above = std::exp(point[bristle_level]);
   level.value = std::log(largest_torque * (1.0 + above));
@@ -214,11 +115,11 @@ Quantity level_quantity(const LawPoint& point, double largest_torque) {
   return level;
 }
 
-double sliding_damping_at(const LawPoint& point) {
+double sliding_damping_at(const Point& point) {
   return sliding_damping_scale * std::exp(point[bristle_damping]) * point[bristle_sliding_damping];
 }
 
-Quantity sliding_damping_quantity(const LawPoint& point) {
+Quantity sliding_damping_quantity(const Point& point) {
   Quantity damping = coordinate_quantity("sliding_damping", "plant.sliding_damping", "N m s/rad", point,
                                          bristle_sliding_damping);
   damping.value = std::log(sliding_damping_at(point));
@@ -227,18 +128,18 @@ Quantity sliding_damping_quantity(const LawPoint& point) {
   return damping;
 }
 
-LawModel bristle_model(const RecordScales& scales, Records records, friction::FrictionModel law,
-                       bool damped_bristle) {
+FitModel bristle_model(const RecordScales& scales, Records records, friction::FrictionModel law) {
+  const bool damped_bristle = law == FrictionModel::lugre;
   const double largest_torque = scales.largest_torque;
-  LawModel model;
+  FitModel model;
   model.law = law;
-  model.axis.coordinates = law_coordinates(bristle_dimension);
+  model.ranges = law_coordinates(bristle_dimension);
   constexpr double least_sliding_damping = -3.0;  // a little below 0, so that a fit does not end there
-  model.axis.coordinates[bristle_sliding_damping].low = least_sliding_damping;
+  model.ranges[bristle_sliding_damping].low = least_sliding_damping;
   model.free.assign(bristle_dimension, true);
   model.free[bristle_sliding_damping] = damped_bristle;
-  model.axis.parameters_at = [=](const LawPoint& point) {
-    LawParameters parameters;
+  model.parameters_at = [=](const Point& point) {
+    AxisParameters parameters;
     if (damped_bristle) parameters.plant.sliding_damping = sliding_damping_at(point);
     parameters.friction.model = law;
     friction::FrictionParameters& contact = parameters.friction.uniform;
@@ -250,7 +151,7 @@ LawModel bristle_model(const RecordScales& scales, Records records, friction::Fr
     parameters.plant.inertia = std::exp(point[bristle_inertia]);
     return parameters;
   };
-  model.quantities_at = [=](const LawPoint& point) {
+  model.quantities_at = [=](const Point& point) {
     std::vector<Quantity> quantities{
         coordinate_quantity("sigma0", "friction.sigma0", "N m/rad", point, bristle_stiffness),
         level_quantity(point, largest_torque),
@@ -263,7 +164,7 @@ LawModel bristle_model(const RecordScales& scales, Records records, friction::Fr
     return quantities;
   };
   model.starts = bristle_starts(scales, records);
-  model.fixed_lines = [](const LawPoint&) {
+  model.fixed_lines = [](const Point&) {
     return std::string("  coulomb_ratio: 1.0   # given: records without sliding show one level only\n");
   };
   if (damped_bristle)
@@ -273,12 +174,43 @@ LawModel bristle_model(const RecordScales& scales, Records records, friction::Fr
 
 }  // namespace
 
-LawModel dahl_model(const RecordScales& scales, Records records) {
-  return bristle_model(scales, records, friction::FrictionModel::dahl, false);
+FitModel law_model(FrictionModel law, const RecordScales& scales, Records records) {
+  switch (law) {
+    case FrictionModel::presliding:
+    case FrictionModel::spring:
+      return spring_based_model(scales, records, law);
+    case FrictionModel::dahl:
+    case FrictionModel::lugre:
+      return bristle_model(scales, records, law);
+    case FrictionModel::gms:
+      return maxwell_slip_model(scales);
+    case FrictionModel::coulomb:
+    case FrictionModel::none:
+      break;
+  }
+  throw std::invalid_argument("a law without motion before it slides");
 }
 
-LawModel lugre_model(const RecordScales& scales, Records records) {
-  return bristle_model(scales, records, friction::FrictionModel::lugre, true);
+FitModel with_series_compliance(FitModel model, const RecordScales& scales) {
+  const auto before_offset = [](auto& values, const auto& value) { values.insert(values.end() - 1, value); };
+  before_offset(model.free, true);
+  before_offset(model.ranges, model.ranges.front());
+  model.series_compliance = [](const Point& point) { return std::exp(point[point.size() - 2]); };
+  model.quantities_at = [=, of_law = model.quantities_at](const Point& point) {
+    std::vector<Quantity> quantities = of_law(point);
+    before_offset(quantities,
+                  coordinate_quantity("series_compliance", "", "rad/(N m)", point, point.size() - 2));
+    return quantities;
+  };
+  std::vector<Point> starts;
+  for (const double part : {0.02, 0.3}) {  // of the travel
+    for (const Point& start : model.starts) {
+      Point& point = starts.emplace_back(start.size() + 1);
+      point << start.head(start.size() - 1), std::log(part / scales.secant_stiffness), start.tail<1>();
+    }
+  }
+  model.starts = std::move(starts);
+  return model;
 }
 
 }  // namespace zerocount::fit

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/fit/laws/law_model.hpp"
+#include "analysis/fit/laws/law_identification.hpp"
 #include "analysis/fit/presliding/contact.hpp"
 
 namespace zerocount::fit {
@@ -33,7 +33,7 @@ double attraction_at(double largest_torque) {
 }
 
 /// The levels W of the elements, N m.
-std::vector<double> levels_at(const LawPoint& point, double largest_torque) {
+std::vector<double> levels_at(const Point& point, double largest_torque) {
   std::vector<double> levels;
   for (std::size_t i = 0; i < slipping_elements; ++i) {
     const auto at = static_cast<Eigen::Index>(i);
@@ -43,7 +43,7 @@ std::vector<double> levels_at(const LawPoint& point, double largest_torque) {
   return levels;
 }
 
-std::vector<friction::GmsElement> elements_at(const LawPoint& point, const std::vector<double>& levels) {
+std::vector<friction::GmsElement> elements_at(const Point& point, const std::vector<double>& levels) {
   const double all = std::accumulate(levels.begin(), levels.end(), 0.0);
   std::vector<friction::GmsElement> elements;
   for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -58,7 +58,7 @@ double virgin_torque(const friction::FrictionParameters& contact, double u) {
 }
 
 /// Torque of the elements after the travel u from the virgin state, N m.
-double virgin_torque(const LawPoint& point, double u) {
+double virgin_torque(const Point& point, double u) {
   double torque = std::exp(point[slipping_elements]) * u;
   for (Eigen::Index i = 0; i < element_travel - 1; ++i) {
     torque += std::exp(point[i]) * std::min(u, std::exp(point[element_travel + i]));
@@ -77,7 +77,7 @@ using Corners = std::array<double, slipping_elements>;
 /// (rad) and the slope `last` beyond them (N m/rad). Sets their coordinates.
 /// @param least stiffness of an element, as a part of `last`
 template <class Curve>
-void set_polygon(const Curve& virgin, const Corners& corners, double last, double least, LawPoint& point) {
+void set_polygon(const Curve& virgin, const Corners& corners, double last, double least, Point& point) {
   std::array<double, slipping_elements + 1> slope{};
   double u = 0.0;
   for (std::size_t i = 0; i < slipping_elements; ++i) {
@@ -94,8 +94,8 @@ void set_polygon(const Curve& virgin, const Corners& corners, double last, doubl
 
 /// Points with nearly the same virgin curve and one corner elsewhere. The sum of squares has a local minimum
 /// for each assignment of the elements to the corners of the records' loops.
-std::vector<LawPoint> with_other_corners(const LawPoint& point) {
-  std::vector<LawPoint> others;
+std::vector<Point> with_other_corners(const Point& point) {
+  std::vector<Point> others;
   for (std::size_t moved = 0; moved < slipping_elements; ++moved) {
     for (const double factor : {0.15, 0.4, 2.5, 6.0}) {
       Corners corners{};
@@ -114,14 +114,14 @@ std::vector<LawPoint> with_other_corners(const LawPoint& point) {
   return others;
 }
 
-std::vector<LawPoint> polygons(const RecordScales& scales) {
+std::vector<Point> polygons(const RecordScales& scales) {
   const ContactParameters contact = contact_at(scales.contact, scales.creep_torque);
   const double farthest = 0.5 * scales.largest_torque / scales.secant_stiffness;  // travel, rad
-  std::vector<LawPoint> starts;
+  std::vector<Point> starts;
   for (const double last : {0.1, 0.3, 0.6, 0.9}) {
     for (const double ratio : {2.0, 4.0, 8.0}) {
       const double corner = last * farthest;
-      LawPoint start = LawPoint::Zero(element_dimension);
+      Point start = Point::Zero(element_dimension);
       set_polygon([&](double u) { return virgin_torque(contact.friction, u); },
                   {corner / (ratio * ratio), corner / ratio, corner}, contact.friction.k1, faint, start);
       start[element_damping] = std::log(contact.plant.presliding_damping);
@@ -133,7 +133,7 @@ std::vector<LawPoint> polygons(const RecordScales& scales) {
 }
 
 /// The elements in the order of the travels at which they slip, the sticking one last.
-std::vector<Eigen::Index> in_order_of_slip(const LawPoint& point) {
+std::vector<Eigen::Index> in_order_of_slip(const Point& point) {
   std::vector<Eigen::Index> order(slipping_elements + 1);
   std::iota(order.begin(), order.end(), Eigen::Index{0});
   std::sort(order.begin(), order.end() - 1, [&](Eigen::Index one, Eigen::Index other) {
@@ -142,7 +142,7 @@ std::vector<Eigen::Index> in_order_of_slip(const LawPoint& point) {
   return order;
 }
 
-std::string list_lines(const LawPoint& point, double largest_torque) {
+std::string list_lines(const Point& point, double largest_torque) {
   const std::vector<double> levels = levels_at(point, largest_torque);
   const double all = std::accumulate(levels.begin(), levels.end(), 0.0);
   std::vector<std::string> stiffnesses;
@@ -163,14 +163,14 @@ std::string list_lines(const LawPoint& point, double largest_torque) {
 
 }  // namespace
 
-LawModel maxwell_slip_model(const RecordScales& scales) {
+FitModel maxwell_slip_model(const RecordScales& scales) {
   const double largest_torque = scales.largest_torque;
-  LawModel model;
+  FitModel model;
   model.law = friction::FrictionModel::gms;
-  model.axis.coordinates = law_coordinates(element_dimension);
+  model.ranges = law_coordinates(element_dimension);
   model.free.assign(element_dimension, true);
-  model.axis.parameters_at = [=](const LawPoint& point) {
-    LawParameters parameters;
+  model.parameters_at = [=](const Point& point) {
+    AxisParameters parameters;
     const std::vector<double> levels = levels_at(point, largest_torque);
     parameters.friction.model = friction::FrictionModel::gms;
     parameters.friction.gms_elements = elements_at(point, levels);
@@ -181,7 +181,7 @@ LawModel maxwell_slip_model(const RecordScales& scales) {
     parameters.plant.inertia = std::exp(point[element_inertia]);
     return parameters;
   };
-  model.quantities_at = [](const LawPoint& point) {
+  model.quantities_at = [](const Point& point) {
     std::vector<Quantity> quantities;
     const std::vector<Eigen::Index> order = in_order_of_slip(point);
     for (std::size_t i = 0; i <= slipping_elements; ++i) {
@@ -199,7 +199,7 @@ LawModel maxwell_slip_model(const RecordScales& scales) {
   };
   model.starts = polygons(scales);
   model.neighbours = with_other_corners;
-  model.fixed_lines = [=](const LawPoint& point) { return list_lines(point, largest_torque); };
+  model.fixed_lines = [=](const Point& point) { return list_lines(point, largest_torque); };
   return model;
 }
 

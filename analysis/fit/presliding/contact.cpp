@@ -16,7 +16,7 @@ constexpr double breakaway_factor = 1e3;
 
 }  // namespace
 
-ContactParameters contact_at(const ContactPoint& point, double creep_torque) {
+ContactParameters contact_at(const Point& point, double creep_torque) {
   ContactParameters contact;
   contact.friction.k1 = std::exp(point[log_k1]);
   contact.friction.k2 = std::exp(point[log_k2]);
@@ -28,37 +28,6 @@ ContactParameters contact_at(const ContactPoint& point, double creep_torque) {
   contact.friction.lambda = std::exp(contact.friction.n * std::log(creep_torque) - point[log_limit]);
   contact.friction.breakaway = breakaway_factor * creep_torque;
   return contact;
-}
-
-AxisModel contact_model(double creep_torque) {
-  // Far beyond, simulations become very slow. The limit of creep may vanish, which does not slow them.
-  constexpr double max_change = 4.6;  // a factor of 100
-  constexpr double max_creep_decrease = 14.0;
-  constexpr double min_exponent = 0.2;
-  constexpr double max_exponent = 20.0;
-  AxisModel model;
-  model.coordinates.assign(coordinate_count, {.max_decrease = max_change, .max_increase = max_change});
-  model.coordinates[log_limit].max_decrease = max_creep_decrease;
-  model.coordinates[creep_exponent] = {.low = min_exponent, .high = max_exponent};
-  model.coordinates[time_offset] = time_offset_range();
-  model.parameters_at = [creep_torque](const Point& point) {
-    const ContactParameters contact = contact_at(point, creep_torque);
-    return AxisParameters{contact.plant, {contact.friction, {}}};
-  };
-  return model;
-}
-
-ContactPoint point_of(const ContactParameters& contact, double creep_torque) {
-  ContactPoint point = ContactPoint::Zero();
-  point[log_k1] = std::log(contact.friction.k1);
-  point[log_k2] = std::log(contact.friction.k2);
-  point[log_beta] = std::log(contact.friction.beta);
-  point[log_damping] = std::log(contact.plant.presliding_damping);
-  point[log_inertia] = std::log(contact.plant.inertia);
-  point[log_alpha] = std::log(contact.friction.alpha);
-  point[creep_exponent] = contact.friction.n;
-  point[log_limit] = contact.friction.n * std::log(creep_torque) - std::log(contact.friction.lambda);
-  return point;
 }
 
 namespace {
@@ -87,6 +56,58 @@ Quantity hardening_modulus(const Point& point, double creep_torque) {
   quantity.slope[creep_exponent] = logarithm;
   return quantity;
 }
+
+std::vector<Quantity> fitted_quantities(const Point& point, double creep_torque) {
+  Quantity exponent = of_coordinate("n", "1", creep_exponent, point);
+  exponent.logarithmic = false;
+  return {of_coordinate("k1", "N m/rad", log_k1, point),
+          of_coordinate("k2", "N m/rad", log_k2, point),
+          sum_of_stiffnesses(point),
+          of_coordinate("beta", "1/rad", log_beta, point),
+          of_coordinate("presliding_damping", "N m s/rad", log_damping, point),
+          of_coordinate("inertia", "kg m^2", log_inertia, point),
+          of_coordinate("alpha", "1/s", log_alpha, point),
+          hardening_modulus(point, creep_torque),
+          exponent,
+          time_offset_quantity(point)};
+}
+
+}  // namespace
+
+FitModel contact_model(double creep_torque) {
+  // Far beyond, simulations become very slow. The limit of creep may vanish, which does not slow them.
+  constexpr double max_change = 4.6;  // a factor of 100
+  constexpr double max_creep_decrease = 14.0;
+  constexpr double min_exponent = 0.2;
+  constexpr double max_exponent = 20.0;
+  FitModel model;
+  model.free.assign(coordinate_count, true);
+  model.ranges.assign(coordinate_count, {.max_decrease = max_change, .max_increase = max_change});
+  model.ranges[log_limit].max_decrease = max_creep_decrease;
+  model.ranges[creep_exponent] = {.low = min_exponent, .high = max_exponent};
+  model.ranges[time_offset] = time_offset_range();
+  model.parameters_at = [creep_torque](const Point& point) {
+    const ContactParameters contact = contact_at(point, creep_torque);
+    return AxisParameters{contact.plant, {contact.friction, {}}};
+  };
+  model.quantities_at = [creep_torque](const Point& point) { return fitted_quantities(point, creep_torque); };
+  return model;
+}
+
+Point point_of(const ContactParameters& contact, double creep_torque) {
+  Point point = Point::Zero(coordinate_count);
+  point[log_k1] = std::log(contact.friction.k1);
+  point[log_k2] = std::log(contact.friction.k2);
+  point[log_beta] = std::log(contact.friction.beta);
+  point[log_damping] = std::log(contact.plant.presliding_damping);
+  point[log_inertia] = std::log(contact.plant.inertia);
+  point[log_alpha] = std::log(contact.friction.alpha);
+  point[creep_exponent] = contact.friction.n;
+  point[log_limit] = contact.friction.n * std::log(creep_torque) - std::log(contact.friction.lambda);
+  return point;
+}
+
+namespace {
 
 /// The coordinates of the same contact with another σ0.
 Point with_creep_torque(Point point, double before, double after) {
@@ -163,21 +184,6 @@ Coordinate coordinate_of(const Quantity& quantity) {
   Eigen::Index first = 0;
   while (quantity.slope[first] == 0.0) ++first;
   return static_cast<Coordinate>(first);
-}
-
-std::vector<Quantity> fitted_quantities(const Point& point, double creep_torque) {
-  Quantity exponent = of_coordinate("n", "1", creep_exponent, point);
-  exponent.logarithmic = false;
-  return {of_coordinate("k1", "N m/rad", log_k1, point),
-          of_coordinate("k2", "N m/rad", log_k2, point),
-          sum_of_stiffnesses(point),
-          of_coordinate("beta", "1/rad", log_beta, point),
-          of_coordinate("presliding_damping", "N m s/rad", log_damping, point),
-          of_coordinate("inertia", "kg m^2", log_inertia, point),
-          of_coordinate("alpha", "1/s", log_alpha, point),
-          hardening_modulus(point, creep_torque),
-          exponent,
-          time_offset_quantity(point)};
 }
 
 QuantityEstimate interval_by_profile(Records records, const ContactFit& fit, const Quantity& quantity,

@@ -38,9 +38,6 @@ inline constexpr std::size_t coordinate_count = 9;
 /// coordinate_count as an Eigen index.
 inline constexpr auto contact_dimension = static_cast<Eigen::Index>(coordinate_count);
 
-/// A Point of a contact. Not aligned, so that structs that contain it need no special alignment.
-using ContactPoint = Eigen::Matrix<double, coordinate_count, 1, Eigen::DontAlign>;
-
 /// Name of the parameter of each coordinate: its manifest key (for log_limit friction.lambda), and that of
 /// the time offset, which is not a parameter of a manifest.
 inline constexpr std::array<std::string_view, coordinate_count> coordinate_keys{
@@ -50,17 +47,14 @@ inline constexpr std::array<std::string_view, coordinate_count> coordinate_keys{
 
 /// @param creep_torque σ0, N m. It should be near the torques at which creep was observed; otherwise limit
 /// and exponent are strongly correlated. @returns parameters whose breakaway torque is never reached.
-ContactParameters contact_at(const ContactPoint& point, double creep_torque);
+ContactParameters contact_at(const Point& point, double creep_torque);
 
-/// The pre-sliding model in these coordinates.
-AxisModel contact_model(double creep_torque);
+/// The pre-sliding model in these coordinates. Its quantities are those of the report, in its order: k1, k2,
+/// k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda, n, time_offset.
+FitModel contact_model(double creep_torque);
 
 /// The inverse of contact_at, except for the breakaway torque, with a time offset of 0.
-ContactPoint point_of(const ContactParameters& contact, double creep_torque);
-
-/// All reported quantities of a contact, in the order of the report: k1, k2, k1_plus_k2, beta,
-/// presliding_damping, inertia, alpha, lambda, n, time_offset.
-std::vector<Quantity> fitted_quantities(const Point& point, double creep_torque);
+Point point_of(const ContactParameters& contact, double creep_torque);
 
 /// The coordinate that a quantity depends on: the first of several.
 Coordinate coordinate_of(const Quantity& quantity);

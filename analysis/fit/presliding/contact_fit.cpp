@@ -39,7 +39,7 @@ double coordinate_value(Coordinate coordinate, double value) {
 /// The setting of a fit, and the points where it may start.
 struct FitStart {
   FitSetting setting;
-  std::vector<ContactPoint> points;  ///< the best first, which is the mean of the setting's prior
+  std::vector<Point> points;  ///< the best first, which is the mean of the setting's prior
 };
 
 FitStart start_for(Records records, const std::vector<KnownParameter>& known, double creep_torque) {
@@ -49,8 +49,8 @@ FitStart start_for(Records records, const std::vector<KnownParameter>& known, do
   std::size_t samples = 0;
   for (const TestRecord& record : records) samples += sample_count(record);
   setting.max_simulated = std::max(min_fit_samples, fit_paths * static_cast<double>(samples));
-  setting.free.assign(coordinate_count, true);
-  ContactPoint values = ContactPoint::Zero();
+  setting.free = setting.model.free;
+  Point values = Point::Zero(coordinate_count);
   for (const auto& [coordinate, value] : known) {
     setting.free[coordinate] = false;
     values[coordinate] = coordinate_value(coordinate, value);
@@ -60,18 +60,6 @@ FitStart start_for(Records records, const std::vector<KnownParameter>& known, do
   start.points = starting_points(records, creep_torque, values, setting.free);
   setting.prior = start.points.front();
   return start;
-}
-
-void update_misfit(Records records, ContactFit& fit) {
-  fit.misfit.clear();
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    fit.misfit.push_back(misfit_along(records[r], fit.model.motions[r].path));
-  }
-}
-
-void observe_again(Records records, ContactFit& fit) {
-  fit.noise = noise_along(records, fit.model);
-  fit.observations = observations_along(records, fit.model, fit.noise);
 }
 
 bool are_explained(Records records, const FitPoint& point, const FitSetting& setting) {
@@ -97,7 +85,7 @@ FitSetting with_told_coordinates(const FittedModel& model, const Observations& o
   constexpr double untold_logarithm = 0.7;
   constexpr double untold_exponent = 1.0;
   constexpr double untold_offset = 0.5;
-  const ResidualStatistics residuals = residual_statistics(residuals_of(model, observations, {}));
+  const ResidualStatistics residuals = residual_statistics(model, observations);
   const double error =
       std::max(1.0, std::sqrt(residuals.squares /
                               static_cast<double>(std::max<std::size_t>(residuals.observations, 1)) *
@@ -151,14 +139,8 @@ std::vector<FitResult> with_other_inertia(Records records, const Observations& o
   if (!setting.free[log_inertia] || !setting.free[log_damping]) return {};
   FitSetting others = setting;
   others.free[log_inertia] = others.free[log_damping] = false;
-  std::vector<Point> changes;
-  for (const double inertia : {0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0}) {
-    for (const double damping : {0.1, 0.3, 1.0, 3.0, 10.0, 30.0}) {
-      Point& change = changes.emplace_back(ContactPoint::Zero());
-      change[log_inertia] = std::log(inertia);
-      change[log_damping] = std::log(damping);
-    }
-  }
+  std::vector<Point> changes = inertia_changes({0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0},
+                                               {0.1, 0.3, 1.0, 3.0, 10.0, 30.0});
   std::erase_if(changes, [&](const Point& change) {
     return !is_sampled(records, setting.model, model.point.axis + change, max_slow_rate);
   });
@@ -166,7 +148,7 @@ std::vector<FitResult> with_other_inertia(Records records, const Observations& o
 }
 
 /// The starting points with the coordinates that are not free as in the prior.
-std::vector<Point> with_fixed(const std::vector<ContactPoint>& starts, const FitSetting& setting) {
+std::vector<Point> with_fixed(const std::vector<Point>& starts, const FitSetting& setting) {
   std::vector<Point> points(starts.size(), setting.prior);
   for (std::size_t i = 0; i < starts.size(); ++i) {
     for (std::size_t j = 0; j < coordinate_count; ++j) {
@@ -176,7 +158,7 @@ std::vector<Point> with_fixed(const std::vector<ContactPoint>& starts, const Fit
   return points;
 }
 
-/// Simulated samples (AxisModel::simulated) after which a fit of the usual effort 1 tries no more starting
+/// Simulated samples (FitModel::simulated) after which a fit of the usual effort 1 tries no more starting
 /// points: some 20 s on two cores.
 constexpr double usual_effort = 1.5e7;
 
@@ -215,7 +197,7 @@ FitPoint fit_roughly(Records records, const FitStart& start, double creep_torque
     refuse_glitches(records, first->point, setting);
     return are_explained(records, first->point, setting);
   };
-  const auto fit_at = [&](const ContactPoint& point) {
+  const auto fit_at = [&](const Point& point) {
     undelayed.prior = rough.prior = point;
     const FitPoint at = with_mean_offsets(records, setting.model, point).point;
     return with_time_offset(records, observations, first_fit(records, observations, at, undelayed), rough);
@@ -229,7 +211,7 @@ FitPoint fit_roughly(Records records, const FitStart& start, double creep_torque
       break;
     const int shift = offset > 0.0 ? samples : -samples;
     const std::vector<TestRecord> shifted = with_later_torque(records, shift);
-    ContactPoint point = starting_points(shifted, creep_torque, start.points.front(), setting.free).front();
+    Point point = starting_points(shifted, creep_torque, start.points.front(), setting.free).front();
     point[time_offset] = shift;
     if (explains(fit_at(point))) return first->point;
   }
@@ -238,7 +220,7 @@ FitPoint fit_roughly(Records records, const FitStart& start, double creep_torque
   }
   FitResult best = *first;
   // The other starting points vary the one of closed forms, which has no wrong minimum of its own.
-  const ContactPoint& estimated = start.points.back();
+  const Point& estimated = start.points.back();
   undelayed.prior = rough.prior = estimated;
   FitSetting closer = undelayed;
   closer.tolerance = rough.tolerance = setting.tolerance;
@@ -260,7 +242,7 @@ FitPoint fit_roughly(Records records, const FitStart& start, double creep_torque
   if (are_slow_alone(records)) alternatives.push_back(starts_with_other_creep);
   for (const auto& alternative : alternatives) {
     if (has_spent_effort(setting, effort)) return best.point;
-    const std::vector<ContactPoint> starts = alternative(records, estimated, creep_torque);
+    const std::vector<Point> starts = alternative(records, estimated, creep_torque);
     for (const FitResult& other :
          promising_fits(records, observations, with_fixed(starts, setting), undelayed)) {
       if (has_spent_effort(setting, effort)) break;
@@ -306,7 +288,6 @@ Freedom usual_freedom(Records records) {
 /// Alternates observe() and fit, starting at `from`.
 void refine(Records records, const FitPoint& from, int rounds, Freedom freedom, ContactFit& fit) {
   fit.model = followed_model(records, from, fit.setting);
-  update_misfit(records, fit);
   for (int round = 0; round < rounds; ++round) {
     observe_again(records, fit);
     const FitSetting told = freedom == Freedom::told
@@ -315,12 +296,11 @@ void refine(Records records, const FitPoint& from, int rounds, Freedom freedom, 
     if (remaining_step(fit, told) < small_change) break;
     const FitPoint point = fit_jointly(records, fit.observations, fit.model.point, told).point;
     fit.model = followed_model(records, point, fit.setting);
-    update_misfit(records, fit);
   }
 }
 
 double spread(const ContactFit& fit) {
-  const ResidualStatistics statistics = residual_statistics(residuals_of(fit.model, fit.observations, {}));
+  const ResidualStatistics statistics = residual_statistics(fit.model, fit.observations);
   return std::sqrt(statistics.squares / static_cast<double>(statistics.observations));
 }
 
@@ -341,10 +321,10 @@ void improve_inertia(Records records, ContactFit& fit) {
 
 /// A few steps with all coordinates free from the point of `fit` plus each of `changes`, and the best of them
 /// to the end. False if that is not better than `fit`, which then stays as it is.
-bool improve_from(Records records, std::span<const ContactPoint> changes, ContactFit& fit) {
+bool improve_from(Records records, std::span<const Point> changes, ContactFit& fit) {
   if (has_spent_effort(fit.setting, fit.effort)) return false;
   std::vector<Point> starts;
-  for (const ContactPoint& change : changes) {
+  for (const Point& change : changes) {
     Point& start = starts.emplace_back(fit.model.point.axis);
     for (std::size_t j = 0; j < coordinate_count; ++j) {
       if (fit.setting.free[j]) start[static_cast<Eigen::Index>(j)] += change[static_cast<Eigen::Index>(j)];
@@ -367,6 +347,10 @@ bool improve_from(Records records, std::span<const ContactPoint> changes, Contac
 }
 
 }  // namespace
+
+double misfit_of(Records records, const Fit& fit, std::size_t record) {
+  return misfit_along(records[record], fit.model.motions[record].path);
+}
 
 double creep_torque_for(Records records, const std::vector<KnownParameter>& known) {
   const bool limit_known = std::any_of(known.begin(), known.end(), [](const KnownParameter& parameter) {
@@ -392,7 +376,6 @@ ContactFit fit_contact(Records records, const std::vector<KnownParameter>& known
     if (fit.setting.free[j]) fit.setting.prior[j] = point.axis[j];
   }
   fit.model = followed_model(records, point, fit.setting);
-  update_misfit(records, fit);
   refuse_glitches(records, point, fit.setting);
   // The rough fit has the smallest residuals of all; later fits do not reduce them much further.
   constexpr double rough_tolerance = 1.5;
@@ -419,11 +402,9 @@ bool has_ended_early(const ContactFit& fit) {
 bool improve_softening(Records records, ContactFit& fit) {
   if (!fit.setting.free[log_beta] || !fit.setting.free[log_k2]) return false;
   if (are_slow_alone(records)) return false;  // fit_slow_parts() has searched
-  std::vector<ContactPoint> changes;
-  for (const double shift : {-2.0, -4.0, -6.0, -8.0, 2.0, 4.0}) {
-    ContactPoint& change = changes.emplace_back(ContactPoint::Zero());
-    change[log_beta] = change[log_k2] = shift;
-  }
+  std::vector<Point> changes;
+  for (const double shift : {-2.0, -4.0, -6.0, -8.0, 2.0, 4.0})
+    changes.push_back(change_of({{log_beta, shift}, {log_k2, shift}}));
   return improve_from(records, changes, fit);
 }
 
@@ -473,7 +454,8 @@ void refuse_unexplained(Records records, const ContactFit& fit, double tolerance
   for (std::size_t r = 0; r < records.size(); ++r) {
     const auto [low, high] = std::minmax_element(records[r].reading.begin(), records[r].reading.end());
     const double allowed = std::max(records[r].counted ? 2.0 : 0.0, max_unexplained * (*high - *low));
-    if (fit.misfit[r] <= tolerance * allowed) continue;
+    const double misfit = misfit_of(records, fit, r);
+    if (misfit <= tolerance * allowed) continue;
     const std::size_t sample = largest_misfit_growth(records[r], fit.model.motions[r].path);
     refuse(
         records[r],
@@ -481,7 +463,7 @@ void refuse_unexplained(Records records, const ContactFit& fit, double tolerance
                     "mean square) of a travel of {:.3g} $rad, and grow most at {:.4g} s. Did the axis slide, "
                     "was the $torque clipped, is the contact not as it was said to be at the start? --model "
                     "all compares other friction laws{}",
-                    fit.misfit[r] * records[r].unit, (*high - *low) * records[r].unit,
+                    misfit * records[r].unit, (*high - *low) * records[r].unit,
                     static_cast<double>(sample) * records[r].sample_time, early_end_text(fit)));
   }
 }
@@ -489,8 +471,9 @@ void refuse_unexplained(Records records, const ContactFit& fit, double tolerance
 void refuse_gross_misfit(Records records, const ContactFit& fit, const ResidualChecks& checks,
                          const std::string& cause) {
   if (!(checks.spread > max_spread * checks.expected_spread)) return;
-  const auto worst =
-      static_cast<std::size_t>(std::max_element(fit.misfit.begin(), fit.misfit.end()) - fit.misfit.begin());
+  std::size_t worst = 0;
+  for (std::size_t r = 1; r < records.size(); ++r)
+    if (misfit_of(records, fit, r) > misfit_of(records, fit, worst)) worst = r;
   const std::size_t sample = largest_misfit_growth(records[worst], fit.model.motions[worst].path);
   refuse(
       records[worst],

@@ -22,17 +22,14 @@ struct KnownParameter {
 using StageReport = std::function<void(std::string_view)>;
 
 /// A contact fitted to records.
-struct ContactFit {
+struct ContactFit : Fit {
   double creep_torque{1.0};  ///< σ0 of the coordinates, N m
   double effort{1.0};        ///< see fit_contact()
-  FitSetting setting;
-  FittedModel model;
-  Observations observations;  ///< [record]
-  std::vector<double> noise;  ///< [record] of the readings, in the record's unit; 0 for counts without noise
-  /// [record] Root mean square of the residuals of the readings, in the record's unit. Quantisation alone
-  /// gives 0.29.
-  std::vector<double> misfit;
 };
+
+/// Root mean square of the residuals of a record's readings, in the record's unit. Quantisation alone gives
+/// 0.29.
+double misfit_of(Records records, const Fit& fit, std::size_t record);
 
 /// σ0 of the coordinates for these records, N m: 1 N m if λ is known, because the coordinate is then ln(1/λ)
 /// for every n; otherwise 0.7 of the largest torque.

@@ -44,7 +44,8 @@ bool is_same(const motion::TorqueCourse& one, const motion::TorqueCourse& other)
   return one.now == other.now && one.settled == other.settled && one.rate == other.rate;
 }
 
-RecordSummary summary_of(const TestRecord& record, const ContactFit& fit, std::size_t number) {
+RecordSummary summary_of(Records records, const ContactFit& fit, std::size_t number) {
+  const TestRecord& record = records[number];
   RecordSummary summary{extent_of(record)};
   summary.duration = static_cast<double>(summary.samples) * record.sample_time;
   summary.counted = record.counted;
@@ -53,7 +54,7 @@ RecordSummary summary_of(const TestRecord& record, const ContactFit& fit, std::s
   summary.reversals = record.parts.reversals();
   summary.holds = record.parts.holds.size();
   summary.ring_downs = record.parts.ring_downs();
-  summary.misfit = fit.misfit[number];
+  summary.misfit = misfit_of(records, fit, number);
   summary.noise = fit.noise[number];
   return summary;
 }
@@ -92,9 +93,8 @@ ParameterEstimate given(const Quantity& quantity, const IdentificationOptions& o
 struct Estimation {
   Records records;
   const ContactFit& fit;
-  const ReadingReplicates& replicates;
+  const FitErrors& errors;
   const IdentificationOptions& options;
-  double widening;
 
   /// @param jointly collects what is estimated, except for k1 + k2
   ParameterEstimate estimate(const Quantity& quantity, std::vector<EstimatedQuantity>& jointly) const {
@@ -104,9 +104,10 @@ struct Estimation {
       return given(quantity, options);
     }
     if (!fit.setting.free[coordinate]) return kept(quantity);
-    const QuantityEstimate found = interval_of_errors(quantity, replicates.errors, widening);
+    const double widening = errors.checks.widening;
+    const QuantityEstimate found = interval_of_errors(quantity, errors.errors, widening);
     // A lack of fit does not change which parameters the records determine, so this interval is not widened.
-    const QuantityEstimate unwidened = interval_of_errors(quantity, replicates.errors, 1.0);
+    const QuantityEstimate unwidened = interval_of_errors(quantity, errors.errors, 1.0);
     if (is_open(quantity, unwidened)) return open(quantity);
     const bool has_profile = !quantity.key.empty();
     if (has_profile && unwidened.half_width() > max_linear_halfwidth) {
@@ -164,9 +165,9 @@ std::vector<Identification::Correlation> strong_correlations(const JointErrors& 
 }
 
 /// True if the interval of the time offset is too wide for the fit to determine it.
-bool shows_no_time_offset(const ContactFit& fit, const ReadingReplicates& replicates) {
-  const Quantity offset = fitted_quantities(fit.model.point.axis, fit.creep_torque).back();
-  return is_open(offset, interval_of_errors(offset, replicates.errors, 1.0));
+bool shows_no_time_offset(const ContactFit& fit, const FitErrors& errors) {
+  const Quantity offset = time_offset_quantity(fit.model.point.axis);
+  return is_open(offset, interval_of_errors(offset, errors.errors, 1.0));
 }
 
 /// Draws the parameters of a manifest together. Fits beyond n ≥ 1 are replaced by more replicates; a tenth of
@@ -179,29 +180,22 @@ JointDraws draw_jointly(const Estimation& from, std::vector<EstimatedQuantity> e
   constexpr std::size_t max_blocks = 10;
   const std::size_t wanted = from.options.draws;
   for (std::size_t block = 0; block < max_blocks && draws.rows.size() < wanted; ++block) {
-    const ReadingReplicates more = replicate_readings(from.records, from.fit.model, from.fit.setting,
-                                                      from.fit.noise, wanted, block * wanted);
-    append_draws(estimated, more.errors, from.widening, wanted, draws);
+    const ReadingReplicates more = replicate_readings(from.records, from.fit, wanted, block * wanted);
+    append_draws(estimated, more.errors, from.errors.checks.widening, wanted, draws);
   }
   return draws;
 }
 
-/// A fit with its replicates and the checks of its residuals.
+/// A fit and its errors.
 struct CheckedFit {
   ContactFit fit;
-  ReadingReplicates replicates;
-  ResidualChecks checks;
+  FitErrors errors;
 };
 
 CheckedFit checked_fit(Records records, ContactFit fit, const IdentificationOptions& options) {
   if (options.report) options.report("replicates of the readings");
-  CheckedFit checked{std::move(fit), {}, {}};
-  const ContactFit& found = checked.fit;
-  checked.replicates =
-      replicate_readings(records, found.model, found.setting, found.noise, options.replicates);
-  checked.checks = check_residuals(residual_statistics(residuals_of(found.model, found.observations, {})),
-                                   checked.replicates.residuals);
-  return checked;
+  FitErrors errors = errors_of(records, fit, options.replicates);
+  return {std::move(fit), std::move(errors)};
 }
 
 /// The fit, repeated in other ways while encoder and noise do not explain its residuals.
@@ -211,12 +205,12 @@ CheckedFit explained_fit(Records records, const IdentificationOptions& options) 
   };
   CheckedFit best =
       checked_fit(records, fit_contact(records, options.known, options.report, options.effort), options);
-  if (best.fit.setting.free[time_offset] && shows_no_time_offset(best.fit, best.replicates)) {
+  if (best.fit.setting.free[time_offset] && shows_no_time_offset(best.fit, best.errors)) {
     enter("fit with the given delay");
     keep_time_offset(records, best.fit);
     best = checked_fit(records, std::move(best.fit), options);
   }
-  if (best.checks.passed) return best;
+  if (best.errors.checks.passed) return best;
   enter("fit with other values of beta");
   if (improve_softening(records, best.fit)) best = checked_fit(records, std::move(best.fit), options);
   return best;
@@ -271,12 +265,13 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
     if (options.report) options.report(stage);
   };
   Identification result;
-  const auto& [fit, replicates, checks] = explained_fit(records, options);
+  const auto [fit, errors] = explained_fit(records, options);
+  const ResidualChecks& checks = errors.checks;
   result.checks = checks;
   result.effort = fit.effort;
   result.search_ended = !checks.passed && has_ended_early(fit);
   for (std::size_t r = 0; r < records.size(); ++r) {
-    result.records.push_back(summary_of(records[r], fit, r));
+    result.records.push_back(summary_of(records, fit, r));
     result.fitted.push_back(fitted_record(records[r], fit.model.motions[r].path));
   }
   result.own_ringing = own_ringing_of(fit);
@@ -285,8 +280,8 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
     result.residual_line = line_beside(records, fit, result.own_ringing);
   }
   refuse_gross_misfit(records, fit, checks, second_mass_text(result));
-  const std::vector<Quantity> quantities = fitted_quantities(fit.model.point.axis, fit.creep_torque);
-  const Estimation estimation{records, fit, replicates, options, checks.widening};
+  const std::vector<Quantity> quantities = fit.setting.model.quantities_at(fit.model.point.axis);
+  const Estimation estimation{records, fit, errors, options};
   std::vector<EstimatedQuantity> estimated;
   for (const Quantity& quantity : quantities) {
     enter(fmt::format("interval of {}", quantity.name));
@@ -295,7 +290,7 @@ Identification identify(std::vector<TestRecord> records, const IdentificationOpt
   result.axis = records.front().axis;
   for (ParameterEstimate& one : result.parameters) one.unit = parameters::unit_on(result.axis, one.unit);
   result.sample_time = records.front().sample_time;
-  result.errors = joint_errors(estimated, replicates.errors, checks.widening);
+  result.errors = joint_errors(estimated, errors.errors, checks.widening);
   result.correlations = strong_correlations(result.errors);
   if (options.draws > 0) {
     enter("joint draws");

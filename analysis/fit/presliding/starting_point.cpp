@@ -41,7 +41,7 @@ RingDown largest_ring_down(Records records) {
 }
 
 /// Sum of squares of the residuals about their mean, in units of the readings.
-double misfit(const TestRecord& record, const ContactPoint& point, double creep_torque) {
+double misfit(const TestRecord& record, const Point& point, double creep_torque) {
   const Eigen::VectorXd path = modelled_path(record, contact_model(creep_torque), point);
   const Eigen::VectorXd residual = readings_of(record) - path;
   const double sum = (residual.array() - residual.mean()).square().sum();
@@ -50,7 +50,7 @@ double misfit(const TestRecord& record, const ContactPoint& point, double creep_
 
 using ChosenRecords = std::vector<const TestRecord*>;
 
-double misfit(const ChosenRecords& records, const ContactPoint& point, double creep_torque) {
+double misfit(const ChosenRecords& records, const Point& point, double creep_torque) {
   double sum = 0.0;
   for (const TestRecord* record : records) sum += misfit(*record, point, creep_torque);
   return sum;
@@ -58,14 +58,14 @@ double misfit(const ChosenRecords& records, const ContactPoint& point, double cr
 
 /// The best of the point and its variations by `changes`. A variation must reduce the sum of squares below
 /// the fraction `proportion`.
-ContactPoint best_of(const ChosenRecords& records, const ContactPoint& point, double creep_torque,
-                     std::span<const ContactPoint> changes, double proportion = 1.0) {
+Point best_of(const ChosenRecords& records, const Point& point, double creep_torque,
+              std::span<const Point> changes, double proportion = 1.0) {
   const std::size_t unchanged = changes.size();
   std::vector<double> left(unchanged + 1);
   parallel::for_each_index(left.size(), [&](std::size_t i) {
     left[i] = misfit(records, i == unchanged ? point : point + changes[i], creep_torque);
   });
-  ContactPoint best = point;
+  Point best = point;
   double least = proportion * left[unchanged];
   for (std::size_t i = 0; i < changes.size(); ++i) {
     if (left[i] >= least) continue;
@@ -76,27 +76,10 @@ ContactPoint best_of(const ChosenRecords& records, const ContactPoint& point, do
 }
 
 /// Variations of β with constant k2/β: the chord determines β least.
-std::vector<ContactPoint> softening_changes() {
-  std::vector<ContactPoint> changes;
-  for (const double factor : {0.3, 0.55, 1.8, 3.3}) {
-    ContactPoint change = ContactPoint::Zero();
-    change[log_beta] = change[log_k2] = std::log(factor);
-    changes.push_back(change);
-  }
-  return changes;
-}
-
-std::vector<ContactPoint> changes_of(std::initializer_list<double> inertias,
-                                     std::initializer_list<double> dampings) {
-  std::vector<ContactPoint> changes;
-  for (const double inertia : inertias) {
-    for (const double damping : dampings) {
-      ContactPoint change = ContactPoint::Zero();
-      change[log_inertia] = std::log(inertia);
-      change[log_damping] = std::log(damping);
-      changes.push_back(change);
-    }
-  }
+std::vector<Point> softening_changes() {
+  std::vector<Point> changes;
+  for (const double factor : {0.3, 0.55, 1.8, 3.3})
+    changes.push_back(change_of({{log_beta, std::log(factor)}, {log_k2, std::log(factor)}}));
   return changes;
 }
 
@@ -118,23 +101,24 @@ ChosenRecords ringing_records(Records records) {
 /// Searches J and c around those of the point, far and then near, with the records that have a ring-down.
 /// Without a ring-down it searches a wider range with all records, because the response to DAC steps may show
 /// the inertia.
-ContactPoint with_best_ringing(Records records, const ContactPoint& point, double creep_torque) {
+Point with_best_ringing(Records records, const Point& point, double creep_torque) {
   constexpr double much = 0.8;
   const ChosenRecords ringing = ringing_records(records);
   if (!ringing.empty()) {
-    std::vector<ContactPoint> changes = changes_of({0.01, 0.1, 1.0, 10.0, 100.0}, {0.15, 1.0, 7.0});
-    std::erase_if(changes, [&](const ContactPoint& change) {
+    std::vector<Point> changes = inertia_changes({0.01, 0.1, 1.0, 10.0, 100.0}, {0.15, 1.0, 7.0});
+    std::erase_if(changes, [&](const Point& change) {
       return !is_sampled(records, contact_model(creep_torque), point + change);
     });
-    const ContactPoint far = best_of(ringing, point, creep_torque, changes, much);
-    return best_of(ringing, far, creep_torque, changes_of({0.4, 0.63, 1.0, 1.6, 2.5}, {0.2, 0.45, 1.0, 2.2}));
+    const Point far = best_of(ringing, point, creep_torque, changes, much);
+    return best_of(ringing, far, creep_torque,
+                   inertia_changes({0.4, 0.63, 1.0, 1.6, 2.5}, {0.2, 0.45, 1.0, 2.2}));
   }
   return best_of(all_of(records), point, creep_torque,
-                 changes_of({1.0, 10.0, 100.0, 1e3, 1e4}, {0.5, 2.0, 8.0}), much);
+                 inertia_changes({1.0, 10.0, 100.0, 1e3, 1e4}, {0.5, 2.0, 8.0}), much);
 }
 
 /// Estimates the spring, J and c for a given creep law, without simulating.
-ContactPoint point_with_creep(Records records, const CreepEstimate& creep, double creep_torque) {
+Point point_with_creep(Records records, const CreepEstimate& creep, double creep_torque) {
   const SpringEstimate spring = estimate_spring(records, creep, creep_torque);
   ContactParameters contact;
   contact.plant = estimate_ring_down(records, spring.k1);
@@ -147,7 +131,7 @@ ContactPoint point_with_creep(Records records, const CreepEstimate& creep, doubl
   return point_of(contact, creep_torque);
 }
 
-ContactPoint with_known(ContactPoint point, const ContactPoint& known, const FreeCoordinates& free) {
+Point with_known(Point point, const Point& known, const FreeCoordinates& free) {
   for (std::size_t j = 0; j < coordinate_count; ++j) {
     if (!free[j]) point[j] = known[j];
   }
@@ -155,6 +139,22 @@ ContactPoint with_known(ContactPoint point, const ContactPoint& known, const Fre
 }
 
 }  // namespace
+
+Point change_of(std::initializer_list<std::pair<Coordinate, double>> changes) {
+  Point change = Point::Zero(coordinate_count);
+  for (const auto& [coordinate, value] : changes) change[coordinate] = value;
+  return change;
+}
+
+std::vector<Point> inertia_changes(std::initializer_list<double> inertias,
+                                   std::initializer_list<double> dampings) {
+  std::vector<Point> changes;
+  for (const double inertia : inertias) {
+    for (const double damping : dampings)
+      changes.push_back(change_of({{log_inertia, std::log(inertia)}, {log_damping, std::log(damping)}}));
+  }
+  return changes;
+}
 
 FirstOvershoot first_overshoot(const TestRecord& record, const TorqueHold& ring_down) {
   const Eigen::VectorXd angle = measured_angle(record);
@@ -203,19 +203,19 @@ motion::PlantParameters estimate_ring_down(Records records, double k1) {
   return plant;
 }
 
-std::vector<ContactPoint> starting_points(Records records, double creep_torque, const ContactPoint& known,
-                                          const FreeCoordinates& free) {
+std::vector<Point> starting_points(Records records, double creep_torque, const Point& known,
+                                   const FreeCoordinates& free) {
   const auto start_with = [&](const CreepEstimate& creep) {
     return with_known(point_with_creep(records, creep, creep_torque), known, free);
   };
-  const auto with_ringing = [&](const ContactPoint& point) {
+  const auto with_ringing = [&](const Point& point) {
     return with_known(with_best_ringing(records, point, creep_torque), known, free);
   };
   CreepEstimate creep = estimate_creep(records, creep_torque);
   const bool creep_seen = creep.limit > 0.0;
-  std::vector<ContactPoint> starts;
+  std::vector<Point> starts;
   if (creep_seen) {
-    const ContactPoint start = start_with(creep);
+    const Point start = start_with(creep);
     starts.push_back(best_of(all_of(records), start, creep_torque, softening_changes()));
     if (!has_slow_branches(records)) return {with_ringing(with_known(starts.front(), known, free))};
   }
@@ -228,9 +228,9 @@ std::vector<ContactPoint> starting_points(Records records, double creep_torque, 
   }
   SlowFit slow = fit_slow_parts(records, starts, creep_torque, free,
                                 creep_seen || are_slow_alone(records) ? SlowCreep::fitted : SlowCreep::kept);
-  const ContactPoint estimated = starts.front();
-  std::vector<ContactPoint> changes = softening_changes();
-  for (const ContactPoint& start : starts) changes.push_back(start - estimated);
+  const Point estimated = starts.front();
+  std::vector<Point> changes = softening_changes();
+  for (const Point& start : starts) changes.push_back(start - estimated);
   if (std::isfinite(slow.squares)) {
     // The inertia and the damping of the same frequency and damping ratio.
     const double softer = slow.point[log_k1] - estimated[log_k1];
@@ -238,39 +238,35 @@ std::vector<ContactPoint> starting_points(Records records, double creep_torque, 
     if (free[log_damping]) slow.point[log_damping] += softer;
     changes.push_back(slow.point - estimated);
   }
-  const ContactPoint point = with_ringing(best_of(all_of(records), estimated, creep_torque, changes));
+  const Point point = with_ringing(best_of(all_of(records), estimated, creep_torque, changes));
   if (!creep_seen) return {point};
   // Creep that was fitted to slow parts may stand for the softening of the spring.
-  const std::array<ContactPoint, 1> other{with_ringing(estimated) - point};
-  const ContactPoint first = best_of(all_of(records), point, creep_torque, other);
-  return {first, first == point ? ContactPoint(point + other[0]) : point};
+  const std::array<Point, 1> other{with_ringing(estimated) - point};
+  const Point first = best_of(all_of(records), point, creep_torque, other);
+  return {first, first == point ? Point(point + other[0]) : point};
 }
 
-std::vector<ContactPoint> starts_with_other_softening(Records records, const ContactPoint& start,
-                                                      double creep_torque) {
+std::vector<Point> starts_with_other_softening(Records records, const Point& start, double creep_torque) {
   // Slow parts alone hardly show inertia and damping.
   const bool ringing = !ringing_records(records).empty() || !has_slow_branches(records);
-  std::vector<ContactPoint> points;
+  std::vector<Point> points;
   for (const double rate : {0.1, 1.0, 5.0, 20.0, 80.0}) {
     for (const double offset : {0.3, 1.0}) {
-      ContactPoint point = start;
-      point[log_beta] += std::log(rate);
-      point[log_k2] += std::log(rate * offset);
+      const Point point = start + change_of({{log_beta, std::log(rate)}, {log_k2, std::log(rate * offset)}});
       points.push_back(ringing ? with_best_ringing(records, point, creep_torque) : point);
     }
   }
   return points;
 }
 
-std::vector<ContactPoint> starts_with_other_creep(Records records, const ContactPoint& start,
-                                                  double creep_torque) {
+std::vector<Point> starts_with_other_creep(Records records, const Point& start, double creep_torque) {
   CreepEstimate creep{std::exp(start[log_alpha]), start[creep_exponent], 0.0};
   const double travel = creep_torque / estimate_spring(records, creep, creep_torque).k1;
-  std::vector<ContactPoint> points;
+  std::vector<Point> points;
   for (const double proportion : {1e-3, 0.1, 1.0}) {
     creep.limit = proportion * travel;
-    const ContactPoint base = point_with_creep(records, creep, creep_torque);
-    for (const ContactPoint& point : starts_with_other_softening(records, base, creep_torque)) {
+    const Point base = point_with_creep(records, creep, creep_torque);
+    for (const Point& point : starts_with_other_softening(records, base, creep_torque)) {
       points.push_back(point);
     }
   }
@@ -339,7 +335,7 @@ SlowParts slow_parts_of(const TestRecord& record) {
 }
 
 /// Residuals (measured − modelled)/unit of all samples read, about the mean of each record, as a function of
-/// a ContactPoint.
+/// a Point.
 class SlowPartsResiduals {
  public:
   SlowPartsResiduals(Records records, double creep_torque) : records_(records), creep_torque_(creep_torque) {
@@ -353,7 +349,7 @@ class SlowPartsResiduals {
   std::size_t size() const { return read_; }
 
   bool operator()(double const* const* coordinates, double* residuals) const {
-    const ContactPoint point = Eigen::Map<const ContactPoint>(coordinates[0]);
+    const Point point = Eigen::Map<const Point>(coordinates[0], contact_dimension);
     const friction::FrictionParameters friction = contact_at(point, creep_torque_).friction;
     const CreepEstimate creep{std::exp(point[log_alpha]), point[creep_exponent], std::exp(point[log_limit])};
     // Its own memory: the order of a sum depends on the alignment.
@@ -389,10 +385,9 @@ class SlowPartsResiduals {
 };
 
 /// Levenberg–Marquardt over the coordinates `moved` that are `free`.
-SlowFit fit_coordinates(const SlowPartsResiduals& residuals, const ContactPoint& start,
-                        const FreeCoordinates& free, std::span<const Coordinate> moved, double max_log_beta,
-                        int steps) {
-  ContactPoint point = start;
+SlowFit fit_coordinates(const SlowPartsResiduals& residuals, const Point& start, const FreeCoordinates& free,
+                        std::span<const Coordinate> moved, double max_log_beta, int steps) {
+  Point point = start;
   ceres::NumericDiffOptions differences;
   differences.relative_step_size = slope_step;
   auto* const cost = new ceres::DynamicNumericDiffCostFunction<SlowPartsResiduals, ceres::FORWARD>(
@@ -425,7 +420,7 @@ SlowFit fit_coordinates(const SlowPartsResiduals& residuals, const ContactPoint&
   return {point, found.squares};
 }
 
-double squares_at(const SlowPartsResiduals& residuals, const ContactPoint& point) {
+double squares_at(const SlowPartsResiduals& residuals, const Point& point) {
   Eigen::VectorXd all(static_cast<Eigen::Index>(residuals.size()));
   const double* const coordinates = point.data();
   return residuals(&coordinates, all.data()) ? all.squaredNorm() : std::numeric_limits<double>::infinity();
@@ -433,7 +428,7 @@ double squares_at(const SlowPartsResiduals& residuals, const ContactPoint& point
 
 /// Fits all starts, in parallel; the best of them, at most `most`.
 std::vector<SlowFit> best_fits(std::vector<SlowFit> fits, std::size_t most,
-                               const std::function<SlowFit(const ContactPoint&)>& fit) {
+                               const std::function<SlowFit(const Point&)>& fit) {
   parallel::for_each_index(fits.size(), [&](std::size_t i) { fits[i] = fit(fits[i].point); });
   std::stable_sort(fits.begin(), fits.end(),
                    [](const SlowFit& one, const SlowFit& other) { return one.squares < other.squares; });
@@ -443,7 +438,7 @@ std::vector<SlowFit> best_fits(std::vector<SlowFit> fits, std::size_t most,
 
 }  // namespace
 
-SlowFit fit_slow_parts(Records records, std::span<const ContactPoint> starts, double creep_torque,
+SlowFit fit_slow_parts(Records records, std::span<const Point> starts, double creep_torque,
                        const FreeCoordinates& free, SlowCreep creep) {
   const SlowPartsResiduals residuals(records, creep_torque);
   if (!has_slow_branches(records) || residuals.size() == 0) {
@@ -454,7 +449,7 @@ SlowFit fit_slow_parts(Records records, std::span<const ContactPoint> starts, do
     max_log_beta = std::max(max_log_beta, -std::log(min_slow_travel * record.unit));
   }
   std::vector<SlowFit> fits;
-  for (const ContactPoint& start : starts) {
+  for (const Point& start : starts) {
     for (const double rate : {1.0, 0.003, 0.01, 0.03, 0.1, 0.3, 3.0, 10.0, 30.0}) {
       SlowFit& fit = fits.emplace_back(SlowFit{start, 0.0});
       if (free[log_beta]) fit.point[log_beta] += std::log(rate);
@@ -463,15 +458,15 @@ SlowFit fit_slow_parts(Records records, std::span<const ContactPoint> starts, do
   }
   constexpr std::array spring{log_k1, log_k2, log_beta};
   constexpr std::array spring_and_creep{log_k1, log_k2, log_beta, log_alpha, log_limit, creep_exponent};
-  fits = best_fits(std::move(fits), 9, [&](const ContactPoint& point) {
+  fits = best_fits(std::move(fits), 9, [&](const Point& point) {
     return SlowFit{point, squares_at(residuals, point)};
   });
-  fits = best_fits(std::move(fits), 2, [&](const ContactPoint& point) {
+  fits = best_fits(std::move(fits), 2, [&](const Point& point) {
     return fit_coordinates(residuals, point, free, spring, max_log_beta, 8);
   });
   const std::span<const Coordinate> moved =
       creep == SlowCreep::fitted ? std::span<const Coordinate>(spring_and_creep) : spring;
-  fits = best_fits(std::move(fits), 1, [&](const ContactPoint& point) {
+  fits = best_fits(std::move(fits), 1, [&](const Point& point) {
     return fit_coordinates(residuals, point, free, moved, max_log_beta, 40);
   });
   return fits.front();

@@ -57,22 +57,27 @@ motion::PlantParameters estimate_ring_down(Records records, double k1);
 /// creep are those of the law without inertia and damping (see fit_slow_parts()); with visible creep both are
 /// returned.
 /// @param known values of the coordinates that are not `free`
-std::vector<ContactPoint> starting_points(Records records, double creep_torque, const ContactPoint& known,
-                                          const FreeCoordinates& free);
+std::vector<Point> starting_points(Records records, double creep_torque, const Point& known,
+                                   const FreeCoordinates& free);
 
 /// Other starting points: springs with much larger or smaller β and with other values of k2/β, each with its
 /// best J and c of the grid.
-std::vector<ContactPoint> starts_with_other_softening(Records records, const ContactPoint& start,
-                                                      double creep_torque);
+std::vector<Point> starts_with_other_softening(Records records, const Point& start, double creep_torque);
 
 /// Other starting points: springs estimated for little, some and much creep instead of that of the holds,
 /// each with other softening. The holds of a closed loop are short and show its motion rather than creep.
-std::vector<ContactPoint> starts_with_other_creep(Records records, const ContactPoint& start,
-                                                  double creep_torque);
+std::vector<Point> starts_with_other_creep(Records records, const Point& start, double creep_torque);
+
+/// A change of a point: of these coordinates by so much.
+Point change_of(std::initializer_list<std::pair<Coordinate, double>> changes);
+
+/// Changes of J and c by each pair of factors.
+std::vector<Point> inertia_changes(std::initializer_list<double> inertias,
+                                   std::initializer_list<double> dampings);
 
 /// A point fitted to slow parts.
 struct SlowFit {
-  ContactPoint point;
+  Point point;
   double squares{std::numeric_limits<double>::infinity()};  ///< sum of squares, in units of the readings
 };
 
@@ -87,7 +92,7 @@ enum class SlowCreep { kept, fitted };
 /// @param free coordinates that may change
 /// @returns the first start with the fitted coordinates; it itself and infinity if there are no slow
 /// branches.
-SlowFit fit_slow_parts(Records records, std::span<const ContactPoint> starts, double creep_torque,
+SlowFit fit_slow_parts(Records records, std::span<const Point> starts, double creep_torque,
                        const FreeCoordinates& free, SlowCreep creep);
 
 }  // namespace zerocount::fit

@@ -31,7 +31,7 @@ std::vector<fit::EstimatedQuantity> estimated_quantities(const fit::ContactParam
                                                          const Eigen::MatrixXd& errors, double widening) {
   const fit::Point point = fit::point_of(contact, creep_torque);
   std::vector<fit::EstimatedQuantity> quantities;
-  for (const fit::Quantity& quantity : fit::fitted_quantities(point, creep_torque)) {
+  for (const fit::Quantity& quantity : fit::contact_model(creep_torque).quantities_at(point)) {
     if (quantity.key.empty()) continue;
     const auto linear = fit::interval_of_errors(quantity, errors, widening);
     fit::QuantityEstimate profiled = linear;

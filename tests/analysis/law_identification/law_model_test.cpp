@@ -1,10 +1,9 @@
 // The models of the laws: their paths and derivatives.
-#include "analysis/fit/laws/law_model.hpp"
-
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "analysis/fit/laws/law_identification.hpp"
 #include "analysis/fit/model.hpp"
 #include "core/friction/law.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
@@ -12,8 +11,7 @@
 namespace zerocount::testing {
 namespace {
 
-using fit::LawModel;
-using fit::LawPoint;
+using fit::FitModel;
 
 fit::TestRecord short_record() {
   std::mt19937_64 random(3);
@@ -31,21 +29,20 @@ TEST(LawModel, HasDerivativesOfItsFreeCoordinatesAlone) {
   const fit::TestRecord record = short_record();
   const auto scales = fit::scales_of(std::span(&record, 1));
   for (const friction::FrictionModel law : fit::fitted_laws()) {
-    const LawModel model = fit::law_model(law, scales, std::span(&record, 1));
-    const LawPoint& point = model.starts.front();
-    const fit::RecordMotion motion =
-        fit::modelled_motions({&record, 1}, model.axis, point, model.free).front();
+    const FitModel model = fit::law_model(law, scales, std::span(&record, 1));
+    const fit::Point& point = model.starts.front();
+    const fit::RecordMotion motion = fit::modelled_motions({&record, 1}, model, point, model.free).front();
     for (Eigen::Index j = 0; j < point.size(); ++j) {
       if (!model.free[static_cast<std::size_t>(j)]) {
         EXPECT_EQ(motion.sensitivity.col(j).norm(), 0.0);
         continue;
       }
       constexpr double step = 1e-3;
-      LawPoint moved = point;
+      fit::Point moved = point;
       moved[j] += step;
-      const Eigen::VectorXd there = fit::modelled_path(record, model.axis, moved);
+      const Eigen::VectorXd there = fit::modelled_path(record, model, moved);
       moved[j] -= 2.0 * step;
-      const Eigen::VectorXd back = fit::modelled_path(record, model.axis, moved);
+      const Eigen::VectorXd back = fit::modelled_path(record, model, moved);
       const Eigen::VectorXd slope = (there - back) / (2.0 * step);
       EXPECT_LT((slope - motion.sensitivity.col(j)).norm(), 0.05 * slope.norm() + 1e-2)
           << friction::traits_of(law).word << " coordinate " << j;

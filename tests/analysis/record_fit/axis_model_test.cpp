@@ -129,7 +129,7 @@ TEST(RecordMotion, DerivativesAreThoseOfThePath) {
   const fit::ContactParameters contact = random_contact(random);
   constexpr double creep_torque = 0.1;
   const fit::Point point = fit::point_of(contact, creep_torque);
-  const fit::AxisModel model = fit::contact_model(creep_torque);
+  const fit::FitModel model = fit::contact_model(creep_torque);
   for (const TorqueProgramme& programme : three_tests()) {
     const fit::TestRecord record = simulated_test(contact, programme, {}, random);
     fit::FreeCoordinates free(fit::coordinate_count, true);
@@ -166,7 +166,7 @@ TEST(RecordMotion, DerivativesBesideKnownPathsAreTheSameAndCountTheRest) {
     free[fit::time_offset] = with_offset;
     fit::FreeCoordinates offset_alone(fit::coordinate_count, false);
     offset_alone[fit::time_offset] = with_offset;
-    const fit::AxisModel model = fit::contact_model(creep_torque);
+    const fit::FitModel model = fit::contact_model(creep_torque);
     const std::vector<fit::RecordMotion> all = fit::modelled_motions({&record, 1}, model, point, free);
     const std::int64_t samples_of_all = model.simulated->exchange(0);
     std::vector<fit::RecordMotion> paths = fit::modelled_motions({&record, 1}, model, point, offset_alone);

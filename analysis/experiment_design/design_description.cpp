@@ -112,10 +112,6 @@ document::Description<ExpectedParameter> expected_description() {
   using document::in_data;
   using Of = const ExpectedParameter&;
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const auto to_people = [](const char* key, const char* heading) {
-    return document::Item{
-        .key = key, .heading = heading, .shown = document::Shown::to_people, .numeric = true};
-  };
   return document::Description<ExpectedParameter>()
       .value({"key", "parameter", "dotted path in a manifest"}, &ExpectedParameter::key)
       .value({"guess", "guess", "value of the median machine, in the unit"}, &ExpectedParameter::guess)
@@ -125,9 +121,9 @@ document::Description<ExpectedParameter> expected_description() {
              [](Of p) { return is_estimated(p.found) ? "estimated" : "not_identifiable"; })
       .value(in_data("low", "lower end of the 95 % interval to expect"), [](Of p) { return p.found.low; })
       .value(in_data("high", "its upper end"), [](Of p) { return p.found.high; })
-      .value(to_people("interval", "expected 95 % interval"),
+      .value(fit::for_people("interval", "expected 95 % interval"),
              [](Of p) { return fit::interval_text(p.found); })
-      .value(to_people("width", "±"),
+      .value(fit::for_people("width", "±"),
              [](Of p) -> std::optional<std::string> {
                if (!is_estimated(p.found)) return {};
                return percent(p.found.half_width() / p.guess);
@@ -137,7 +133,7 @@ document::Description<ExpectedParameter> expected_description() {
              [=](Of p) { return p.told > 0 ? p.narrowest : unknown; })
       .value(in_data("widest", "largest half-width of the interval over the machines, relative", "1"),
              [=](Of p) { return p.told > 0 ? p.widest : unknown; })
-      .value(to_people("widths", "± over the machines"),
+      .value(fit::for_people("widths", "± over the machines"),
              [](Of p) -> std::optional<std::string> {
                if (p.told == 0) return {};
                return fmt::format("{} to {}", percent(p.narrowest), percent(p.widest));

@@ -26,10 +26,6 @@ std::string_view to_string(EstimateStatus status) {
   return "not_identifiable";
 }
 
-document::Item for_people(const char* key, const char* heading, bool numeric) {
-  return {.key = key, .heading = heading, .shown = document::Shown::to_people, .numeric = numeric};
-}
-
 std::optional<std::string> value_text(const ParameterEstimate& estimate) {
   if (estimate.status == EstimateStatus::not_identifiable) return {};
   return with_digits(estimate.value, estimate);
@@ -79,7 +75,7 @@ document::Description<ParameterEstimate> estimate_description() {
       .value({"name", "parameter", "name of the parameter"}, &ParameterEstimate::name)
       .value(in_data("key", "dotted path in a manifest; null: it has none"),
              [](Of p) { return p.key.empty() ? Text() : p.key; })
-      .value(for_people("value_text", "value", true), value_text)
+      .value(for_people("value_text", "value"), value_text)
       .value({"unit", "unit", "unit of its numbers"}, &ParameterEstimate::unit)
       .value(with_words(in_data("status", "whether the records determine it"),
                         {"estimated", "given", "kept", "not_identifiable"}),
@@ -88,8 +84,8 @@ document::Description<ParameterEstimate> estimate_description() {
       .value(in_data("standard_error", "its standard error, in the unit"), &ParameterEstimate::standard_error)
       .value(in_data("low", "lower end of its 95 % interval, in the unit"), &ParameterEstimate::low)
       .value(in_data("high", "upper end of its 95 % interval, in the unit"), &ParameterEstimate::high)
-      .value(for_people("interval", "95 % interval", true), interval_text)
-      .value(for_people("half_width", "±", true), half_width_text)
+      .value(for_people("interval", "95 % interval"), interval_text)
+      .value(for_people("half_width", "±"), half_width_text)
       .value(for_people("status_text", "status", false),
              [](Of p) {
                return p.status == EstimateStatus::not_identifiable ? "not identifiable" : to_string(p.status);
@@ -113,6 +109,10 @@ std::string missing_parameters_text(std::span<const ParameterEstimate> parameter
     text += fmt::format("{} is not identifiable from this, because {}.\n", parameter.name, parameter.reason);
   }
   return text;
+}
+
+std::string length_text(double length, parameters::AxisKind axis) {
+  return fmt::format("{:.3g} {}", length, parameters::unit_on(axis, "rad"));
 }
 
 document::Item axis_item() {

@@ -69,6 +69,14 @@ std::optional<std::string> interval_text(const ParameterEstimate& estimate);
 /// A sentence on each parameter that is not identifiable, on a line of its own.
 std::string missing_parameters_text(std::span<const ParameterEstimate> parameters);
 
+/// An item that data do not have.
+inline document::Item for_people(const char* key, const char* heading, bool numeric = true) {
+  return {.key = key, .heading = heading, .shown = document::Shown::to_people, .numeric = numeric};
+}
+
+/// "1.23e-06 m", a length on an axis.
+std::string length_text(double length, parameters::AxisKind axis);
+
 /// The item of the kind of axis; the words of parameters::axis_labels.
 document::Item axis_item();
 

@@ -10,7 +10,9 @@
 namespace zerocount::sliding_identification {
 namespace {
 
+using fit::for_people;
 using fit::is_estimated;
+using fit::length_text;
 
 std::size_t used_samples(const SlidingRecord& record) {
   std::size_t used = 0;
@@ -21,25 +23,19 @@ std::size_t used_samples(const SlidingRecord& record) {
 document::Description<SlidingRecord> record_description() {
   using document::in_data;
   using Of = const SlidingRecord&;
-  const auto for_people = [](const char* key, const char* heading) {
-    return document::Item{
-        .key = key, .heading = heading, .shown = document::Shown::to_people, .numeric = true};
-  };
   return document::Description<SlidingRecord>()
       .value({"name", "record", "file, and part of it"}, [](Of r) { return text::printable(r.name); })
       .value({"samples", "samples", "samples of the record"}, [](Of r) { return r.time.size(); })
       .value({"duration", "duration", "its duration", "s"}, [](Of r) { return r.time.back(); })
       .value(in_data("resolution", "step of the readings, rad or m"), &SlidingRecord::resolution)
       .value(for_people("resolution_text", "read in steps of"),
-             [](Of r) { return fmt::format("{:.3g} {}", r.resolution, parameters::unit_on(r.axis, "rad")); })
+             [](Of r) { return length_text(r.resolution, r.axis); })
       .value(in_data("presliding_travel",
                      "travel after a standstill or a reversal in which the friction is below its level of "
                      "sliding, which was left out, rad or m"),
              &SlidingRecord::presliding_travel)
       .value(for_people("presliding_text", "left out after each reversal"),
-             [](Of r) {
-               return fmt::format("{:.3g} {}", r.presliding_travel, parameters::unit_on(r.axis, "rad"));
-             })
+             [](Of r) { return length_text(r.presliding_travel, r.axis); })
       .value({"strokes", "strokes", "strokes of the record"}, [](Of r) { return r.strokes.size(); })
       .value({"windows", "windows", "windows of the fit"}, [](Of r) { return r.windows.size(); })
       .value({"used", "samples used", "samples in the windows"}, used_samples)
@@ -54,22 +50,15 @@ document::Description<SlidingRecord> record_description() {
 document::Description<FreeRun> run_description() {
   using document::in_data;
   using Of = const FreeRun&;
-  const auto for_people = [](const char* key, const char* heading) {
-    return document::Item{
-        .key = key, .heading = heading, .shown = document::Shown::to_people, .numeric = true};
-  };
-  const auto length_text = [](Of r, double length) {
-    return fmt::format("{:.3g} {}", length, parameters::unit_on(r.axis, "rad"));
-  };
   return document::Description<FreeRun>()
       .value({"name", "record", "file, and part of it"}, [](Of r) { return text::printable(r.name); })
       .value({"start", "from", "time at which the simulation begins with the measured state", "s"},
              &FreeRun::start)
       .value({"duration", "duration", "simulated time without a restart", "s"}, &FreeRun::duration)
       .value(in_data("rms", "root mean square of simulated less read positions, rad or m"), &FreeRun::rms)
-      .value(for_people("rms_text", "error rms"), [=](Of r) { return length_text(r, r.rms); })
+      .value(for_people("rms_text", "error rms"), [](Of r) { return length_text(r.rms, r.axis); })
       .value(in_data("max", "largest difference, rad or m"), &FreeRun::max)
-      .value(for_people("max_text", "largest"), [=](Of r) { return length_text(r, r.max); })
+      .value(for_people("max_text", "largest"), [](Of r) { return length_text(r.max, r.axis); })
       .value(in_data("stroke", "largest less smallest reading, rad or m"), &FreeRun::stroke)
       .value({.key = "proportion",
               .heading = "of the stroke",

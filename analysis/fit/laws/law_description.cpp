@@ -74,52 +74,32 @@ std::string missing_text(const LawComparison& comparison) {
          (best.converged ? "" : "The fit to all readings did not converge within its steps.");
 }
 
-/// A law, and the unit of its residual.
-struct LawReading {
-  const IdentifiedLaw& law;
-  std::string unit;
-};
-
-std::vector<LawReading> laws_of(const LawComparison& comparison) {
-  std::vector<LawReading> readings;
-  for (const IdentifiedLaw& law : comparison.laws)
-    readings.push_back({law, parameters::unit_on(comparison.axis, "rad")});
-  return readings;
-}
-
-document::Description<LawReading> law_description() {
-  using Of = const LawReading&;
-  const auto for_people = [](const char* key, const char* heading) {
-    return document::Item{
-        .key = key, .heading = heading, .shown = document::Shown::to_people, .numeric = true};
-  };
-  return document::Description<LawReading>()
-      .value({"law", "law", "word of the friction law"}, [](Of r) { return to_string(r.law); })
-      .value({"fitted", "fitted", "fitted numbers, with the time offset"}, [](Of r) { return r.law.fitted; })
-      .value(for_people("residual", "residual"),
-             [](Of r) { return fmt::format("{:.3g} {}", r.law.misfit, r.unit); })
+document::Description<IdentifiedLaw> law_description() {
+  using Of = const IdentifiedLaw&;
+  return document::Description<IdentifiedLaw>()
+      .value({"law", "law", "word of the friction law"}, [](Of r) { return to_string(r); })
+      .value({"fitted", "fitted", "fitted numbers, with the time offset"}, &IdentifiedLaw::fitted)
+      .value(for_people("residual", "residual"), [](Of r) { return length_text(r.misfit, r.axis); })
       .value(for_people("of_travel", "of the travel"),
-             [](Of r) { return fmt::format("{:.3g} %", 100.0 * r.law.misfit_over_travel); })
-      .value(in_data("misfit", "root mean square of the residuals, rad or m"),
-             [](Of r) { return r.law.misfit; })
+             [](Of r) { return fmt::format("{:.3g} %", 100.0 * r.misfit_over_travel); })
+      .value(in_data("misfit", "root mean square of the residuals, rad or m"), &IdentifiedLaw::misfit)
       .value(in_data("misfit_over_travel", "the same over the travel of the records", "1"),
-             [](Of r) { return r.law.misfit_over_travel; })
+             &IdentifiedLaw::misfit_over_travel)
       .value({"bic_above_least", "BIC − best",
               "Schwarz's criterion less that of the best law, the first one; negative for one that does not "
               "explain the records"},
-             [](Of r) { return r.law.information_criterion; })
+             &IdentifiedLaw::information_criterion)
       .value({"explained", "encoder and noise explain it", "whether they explain the residuals"},
-             [](Of r) { return r.law.checks.passed; })
+             [](Of r) { return r.checks.passed; })
       .value(in_data("spread", "root mean square of the residuals over their standard deviations", "1"),
-             [](Of r) { return r.law.checks.spread; })
+             [](Of r) { return r.checks.spread; })
       .value(in_data("expected_spread", "its mean over replicates", "1"),
-             [](Of r) { return r.law.checks.expected_spread; })
+             [](Of r) { return r.checks.expected_spread; })
       .value(in_data("widening", "factor that widened the intervals", "1"),
-             [](Of r) { return r.law.checks.widening; })
-      .value(in_data("converged", "whether the fit converged"), [](Of r) { return r.law.converged; })
-      .table(in_data("parameters", "its parameters"), estimate_description(),
-             [](Of r) { return r.law.parameters; })
-      .value(in_data("manifest", "the law as a fragment of a manifest"), [](Of r) { return r.law.fragment; });
+             [](Of r) { return r.checks.widening; })
+      .value(in_data("converged", "whether the fit converged"), &IdentifiedLaw::converged)
+      .table(in_data("parameters", "its parameters"), estimate_description(), &IdentifiedLaw::parameters)
+      .value(in_data("manifest", "the law as a fragment of a manifest"), &IdentifiedLaw::fragment);
 }
 
 document::Description<LawLeftOut> left_out_description() {
@@ -149,7 +129,8 @@ document::AnswerDescription<LawComparison> laws_answer() {
   answer.items.headline(laws_headline)
       .value(in_data("kind", "always laws"), [](Of) { return "laws"; })
       .value(axis_item(), [](Of c) { return parameters::axis_labels.at(static_cast<std::size_t>(c.axis)); })
-      .table({.key = "laws", .meaning = "the laws, the best one first"}, law_description(), laws_of)
+      .table({.key = "laws", .meaning = "the laws, the best one first"}, law_description(),
+             &LawComparison::laws)
       .table(in_data("left_out", "laws that could not be fitted"), left_out_description(),
              &LawComparison::left_out)
       .sentence(laws_left_out_text)

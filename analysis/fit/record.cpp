@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/failure/failure.hpp"
+
 namespace zerocount::fit {
 
 namespace {
@@ -231,6 +233,10 @@ std::vector<TorqueHold> holds_of(const TestRecord& record, double range) {
 }
 
 }  // namespace
+
+void refuse(parameters::AxisKind axis, const std::string& place, const std::string& reason) {
+  throw Failure(ExitCode::bad_data, place + ": " + parameters::text_on(axis, reason));
+}
 
 double torque_range(const TestRecord& record) {
   double low = 0.0;  // the torque before the first sample

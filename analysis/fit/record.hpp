@@ -111,6 +111,12 @@ bool has_slow_branches(std::span<const TestRecord> records);
 /// True if the records have gradual branches and no ring-downs.
 bool are_slow_alone(std::span<const TestRecord> records);
 
+/// Refuses a record.
+/// @param place of the reason: the record's name, or a line of its file
+/// @param reason with the words and units of any axis (parameters::text_on())
+/// @throws Failure (bad_data)
+[[noreturn]] void refuse(parameters::AxisKind axis, const std::string& place, const std::string& reason);
+
 /// Maximum − minimum torque, N m.
 double torque_range(const TestRecord& record);
 

@@ -7,11 +7,10 @@
 #include <ceres/cost_function.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
-#include <fmt/format.h>
 
+#include "analysis/fit/record.hpp"
 #include "analysis/fit/solver.hpp"
 #include "analysis/sliding_identification/torque_balance.hpp"
-#include "core/failure/failure.hpp"
 #include "core/numerics/dense.hpp"
 
 namespace zerocount::sliding_identification {
@@ -49,11 +48,10 @@ double solve(SlidingFit& fit) {
   search.many_blocks = true;
   const fit::SearchResult found = fit::search_least_squares(problem, search);
   if (!found.found) {
-    throw Failure(
-        ExitCode::bad_data,
-        fmt::format("{}: the simulated motion cannot be fitted to the positions; expected torque and "
-                    "position in the units that --column gives",
-                    fit.windows.front().record->name));
+    const SlidingRecord& record = *fit.windows.front().record;
+    fit::refuse(record.axis, record.name,
+                "the simulated motion cannot be fitted to the positions; expected torque and position in the "
+                "units that --column gives");
   }
   return found.squares;
 }
@@ -134,18 +132,13 @@ SlidingPoint starting_point(std::span<const SlidingRecord> records, bool both_di
     }
   }
   const Eigen::VectorXd found = numerics::least_squares(normal, right);
-  if (!(found[0] > 0.0) && found[direction_term] > 0.0) {
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: shows no sliding: it accelerates against the {}, as on a spring; material "
-                              "tests within the pre-sliding range are identified without --sliding",
-                              records.front().name, parameters::text_on(records.front().axis, "$torque")));
-  }
   if (!(found[0] > 0.0)) {
-    throw Failure(
-        ExitCode::bad_data,
-        fmt::format("{}: the axis accelerates against the torque; is one of them of the wrong sign? "
-                    "--column turns it with the factor -1",
-                    records.front().name));
+    fit::refuse(records.front().axis, records.front().name,
+                found[direction_term] > 0.0
+                    ? "shows no sliding: it accelerates against the $torque, as on a spring; material tests "
+                      "within the pre-sliding range are identified without --sliding"
+                    : "the axis accelerates against the torque; is one of them of the wrong sign? --column "
+                      "turns it with the factor -1");
   }
   SlidingPoint point = SlidingPoint::Zero();
   point.head<4>() << std::log(found[0]), found[1], found[2], found[3];

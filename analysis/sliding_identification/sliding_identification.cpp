@@ -158,13 +158,13 @@ void set_correlation(const SlidingFit& fit, SlidingIdentification& result) {
 void refuse_unexplained(const SlidingIdentification& result) {
   if (result.unexplained_torque <= max_unexplained * result.torque) return;
   const SlidingRecord& record = result.records.front();
-  throw Failure(
-      ExitCode::bad_data,
-      fmt::format("{}: inertia and sliding friction do not explain the motion: they leave {:.3g} of {:.3g} "
-                  "{} (root mean square). Are the units right, is there another mass or a spring, was the "
-                  "torque limited, does the axis move long before it slides? --exclude leaves parts out.",
-                  record.name, result.unexplained_torque, result.torque,
-                  parameters::unit_on(record.axis, "N m")));
+  fit::refuse(
+      record.axis, record.name,
+      fmt::format("inertia and sliding friction do not explain the motion: they leave {:.3g} of {:.3g} "
+                  "$Nm (root mean square). Are the units right, is there another mass or a spring, was "
+                  "the torque limited, does the axis move long before it slides? --exclude leaves parts "
+                  "out.",
+                  result.unexplained_torque, result.torque));
 }
 
 }  // namespace

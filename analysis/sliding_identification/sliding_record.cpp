@@ -13,7 +13,6 @@
 #include "analysis/fit/records/checked_record.hpp"
 #include "analysis/sliding_identification/sliding_fit.hpp"
 #include "analysis/statistics/quantile.hpp"
-#include "core/failure/failure.hpp"
 #include "core/friction/sliding/sliding.hpp"
 #include "core/numerics/dense.hpp"
 
@@ -25,10 +24,6 @@ constexpr std::size_t smoothing_samples = 5;
 constexpr double min_steps_per_span = 3.0;
 constexpr double min_window_steps = 50.0;
 constexpr std::size_t min_stroke_samples = 20;
-
-[[noreturn]] void refuse(const records::RawSeries& series, const std::string& reason) {
-  throw Failure(ExitCode::bad_data, fmt::format("{}: {}", series.name, reason));
-}
 
 /// Smallest difference of the readings that is not 0: the step of an encoder.
 double min_step(const std::vector<double>& position) {
@@ -129,7 +124,7 @@ SlidingRecord sliding_record(const records::RawSeries& series, double pitch) {
   fit::check_jumps(series);
   SlidingRecord record;
   record.name = series.name;
-  record.axis = series.linear ? parameters::AxisKind::linear : parameters::AxisKind::rotary;
+  record.axis = fit::axis_of(series);
   record.torque = fit::courses_of(series, sampled);
   record.smoothing = smoothing_samples;
   const double unit = series.count_size > 0.0 ? series.count_size : 1.0;
@@ -142,7 +137,7 @@ SlidingRecord sliding_record(const records::RawSeries& series, double pitch) {
     record.position.push_back(unit * (series.angle[k] - series.angle.front()));
   }
   if (std::ranges::count(series.torque, series.torque.front()) == std::ssize(series.torque))
-    refuse(series, "the torque or force is constant");
+    fit::refuse(record.axis, series.name, "the torque or force is constant");
   record.resolution = std::max(min_step(record.position), 3.0 * noise_of(record.position));
   if (!(record.resolution > 0.0)) record.resolution = std::numeric_limits<double>::min();
   const auto [lowest, highest] = std::ranges::minmax_element(record.position);
@@ -153,11 +148,12 @@ SlidingRecord sliding_record(const records::RawSeries& series, double pitch) {
   if (series.sliding.empty()) record.presliding_travel = presliding_travel(record, runs);
   find_strokes(record, runs);
   if (record.strokes.empty()) {
-    refuse(series,
-           fmt::format("shows no sliding: nowhere does it move on by {:g} steps of its readings ({:.3g} {}) "
-                       "in one direction; material tests within the pre-sliding range are identified "
-                       "without --sliding",
-                       min_window_steps, record.resolution, parameters::unit_on(record.axis, "rad")));
+    fit::refuse(
+        record.axis, series.name,
+        fmt::format("shows no sliding: nowhere does it move on by {:g} steps of its readings ({:.3g} {}) "
+                    "in one direction; material tests within the pre-sliding range are identified "
+                    "without --sliding",
+                    min_window_steps, record.resolution, parameters::unit_on(record.axis, "rad")));
   }
   record.min_velocity = record.max_velocity;
   for (const Window& stroke : record.strokes) {

@@ -95,11 +95,11 @@ std::vector<FitResult> first_minima(Records records, const FitModel& model, cons
   if (minima.empty())
     minima = promising_fits(records, readings, scattered(model, model.starts), setting, wide_search);
   if (!minima.empty()) return minima;
-  throw Failure(
-      ExitCode::bad_data,
-      fmt::format("{}: no starting point of the friction model {} can be simulated along the records, "
-                  "the rotor is too fast for their sampling; are the units right?",
-                  records.front().name, friction::traits_of(model.law).word));
+  refuse(
+      records.front().axis, records.front().name,
+      fmt::format("no starting point of the friction model {} can be simulated along the records, the rotor "
+                  "is too fast for their sampling; are the units right?",
+                  friction::traits_of(model.law).word));
 }
 
 /// The fit to all readings from `minima`. The time offset is left free in the last steps only: far from a
@@ -256,9 +256,9 @@ void require_start(Records records, friction::FrictionModel law) {
     const bool loaded = record.start.preload != 0.0 || !record.start.history.empty();
     const bool hardened = record.start.hardening != 0.0;
     if (!(loaded && !traits.remembers_loading) && !(hardened && !friction::has_creep(law))) continue;
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: the record begins {}, which the friction model {} does not remember",
-                              record.name, hardened ? "work-hardened" : "after a preload", traits.word));
+    refuse(record.axis, record.name,
+           fmt::format("the record begins {}, which the friction model {} does not remember",
+                       hardened ? "work-hardened" : "after a preload", traits.word));
   }
 }
 

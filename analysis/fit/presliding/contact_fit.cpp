@@ -262,11 +262,10 @@ FittedModel followed_model(Records records, const FitPoint& point, const FitSett
   FittedModel model = model_at(records, point, setting);
   for (std::size_t r = 0; r < records.size(); ++r) {
     if (is_finite(model.motions[r])) continue;
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: the axis that comes nearest to this record cannot be simulated: it is too "
-                              "stiff, too light or too strongly damped beside the sampling interval. Are the "
-                              "units right?",
-                              records[r].name));
+    refuse(
+        records[r].axis, records[r].name,
+        "the axis that comes nearest to this record cannot be simulated: it is too stiff, too light or too "
+        "strongly damped beside the sampling interval. Are the units right?");
   }
   return model;
 }
@@ -422,11 +421,6 @@ std::string early_end_text(const ContactFit& fit) {
   return ". " + left_out_text(fit.effort);
 }
 
-/// @throws Failure (bad_data) with the words and units of the record's axis.
-[[noreturn]] void refuse(const TestRecord& record, const std::string& reason) {
-  throw Failure(ExitCode::bad_data, record.name + ": " + parameters::text_on(record.axis, reason));
-}
-
 }  // namespace
 
 std::string left_out_text(double effort) {
@@ -441,7 +435,7 @@ void refuse_glitches(Records records, const FitPoint& point, const FitSetting& s
     path.array() += point.offset[static_cast<Eigen::Index>(r)];
     const std::optional<std::size_t> glitch = find_glitch(record, path);
     if (!glitch) continue;
-    refuse(record,
+    refuse(record.axis, record.name,
            fmt::format(
                "the reading at sample {} ({:.6g} s) is off by {:.3g} $rad, those before and after it are "
                "not, probably a read error. Replace it by a neighbouring value, or shorten the record",
@@ -458,7 +452,7 @@ void refuse_unexplained(Records records, const ContactFit& fit, double tolerance
     if (misfit <= tolerance * allowed) continue;
     const std::size_t sample = largest_misfit_growth(records[r], fit.model.motions[r].path);
     refuse(
-        records[r],
+        records[r].axis, records[r].name,
         fmt::format("the pre-sliding model does not explain this record: its residuals are {:.3g} $rad (root "
                     "mean square) of a travel of {:.3g} $rad, and grow most at {:.4g} s. Did the axis slide, "
                     "was the $torque clipped, is the contact not as it was said to be at the start? --model "
@@ -476,7 +470,7 @@ void refuse_gross_misfit(Records records, const ContactFit& fit, const ResidualC
     if (misfit_of(records, fit, r) > misfit_of(records, fit, worst)) worst = r;
   const std::size_t sample = largest_misfit_growth(records[worst], fit.model.motions[worst].path);
   refuse(
-      records[worst],
+      records[worst].axis, records[worst].name,
       fmt::format(
           "the pre-sliding model does not explain the records: the residuals are {:.0f} times those that "
           "the encoder's steps and noise give, and grow most at {:.4g} s of this record. Does a record "

@@ -249,10 +249,9 @@ void check_different(Records records) {
           !std::equal(one.torque.begin(), one.torque.end(), other.torque.begin(), is_same)) {
         continue;
       }
-      throw Failure(ExitCode::bad_data,
-                    fmt::format("{}: is {} once more, equal in every sample; expected records of different "
-                                "tests",
-                                other.name, one.name));
+      refuse(other.axis, other.name,
+             fmt::format("is {} once more, equal in every sample; expected records of different tests",
+                         one.name));
     }
   }
 }

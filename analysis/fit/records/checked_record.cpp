@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "core/failure/failure.hpp"
-
 namespace zerocount::fit {
 
 namespace {
@@ -52,10 +50,9 @@ void set_readings(const RawSeries& series, TestRecord& record) {
     record.unit = series.count_size;
     record.counted = true;
     for (std::size_t k = 0; k < series.angle.size(); ++k) {
-      if (series.angle[k] != std::round(series.angle[k])) {
-        throw Failure(ExitCode::bad_data, fmt::format("{}: the count {} is not a whole number",
-                                                      place_of(series, k), series.angle[k]));
-      }
+      if (series.angle[k] != std::round(series.angle[k]))
+        refuse(record.axis, place_of(series, k),
+               fmt::format("the count {} is not a whole number", series.angle[k]));
     }
     record.reading = series.angle;
     return;
@@ -135,11 +132,11 @@ RawSeries first_samples(RawSeries part, std::size_t samples) {
 /// @throws Failure (bad_data) if too little is left before the cut.
 void check_cut(const RawSeries& series, const SlidingCut& cut) {
   if (cut.sample >= min_samples_before_sliding) return;
-  throw Failure(ExitCode::bad_data,
-                fmt::format("{}: the axis breaks away and slides at {:.6g} s, after {} samples; expected {} "
-                            "before it at least. Test with less {}, or take --sliding for the slides",
-                            place_of(series, cut.sample), series.time[cut.sample], cut.sample,
-                            min_samples_before_sliding, parameters::text_on(axis_of(series), "$torque")));
+  refuse(
+      axis_of(series), place_of(series, cut.sample),
+      fmt::format("the axis breaks away and slides at {:.6g} s, after {} samples; expected {} before it at "
+                  "least. Test with less $torque, or take --sliding for the slides",
+                  series.time[cut.sample], cut.sample, min_samples_before_sliding));
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 
 #include "analysis/fit/records/checked_record.hpp"
 #include "analysis/statistics/quantile.hpp"
-#include "core/failure/failure.hpp"
 
 namespace zerocount::fit {
 
@@ -17,15 +16,6 @@ constexpr std::size_t min_record_samples = 100;
 constexpr double jitter_allowed = 0.25;  // of the sampling interval
 constexpr double min_counts = 5.0;       // of travel
 constexpr std::size_t clipped_samples = 3;
-
-[[noreturn]] void refuse(const std::string& place, const std::string& reason) {
-  throw Failure(ExitCode::bad_data, fmt::format("{}: {}", place, reason));
-}
-
-/// A message with the words and units of the axis (parameters::text_on()).
-[[noreturn]] void refuse(const RawSeries& series, const std::string& place, const std::string& reason) {
-  refuse(place, parameters::text_on(axis_of(series), reason));
-}
 
 /// Plausible range of a quantity, and the question in the message for values outside.
 struct Plausible {
@@ -38,7 +28,7 @@ struct Plausible {
 
 void check_plausible(const RawSeries& series, const Plausible& plausible, double value) {
   if (value >= plausible.low && value <= plausible.high) return;
-  refuse(series, series.name,
+  refuse(axis_of(series), series.name,
          fmt::format("{} is {:.4g} {}, {} what is plausible for an axis on its friction ({:g} to {:g} "
                      "{}): {} If it is right, give --any-magnitude",
                      plausible.quantity, value, plausible.unit, value < plausible.low ? "below" : "above",
@@ -67,16 +57,17 @@ void check_gaps(const RawSeries& series) {
     const double waited = series.time[k] - series.time[k - 1];
     if (waited < min_interval * interval) {
       refuse(
-          place_of(series, k),
+          axis_of(series), place_of(series, k),
           fmt::format("{} s comes {:.2g} sampling intervals ({:.6g} s) after the sample before; expected {} "
                       "at least",
                       series.time[k], waited / interval, interval, min_interval));
     }
     if (waited <= gap * interval) continue;
-    refuse(place_of(series, k), fmt::format("the samples are not equally spaced: {} s come {:.3g} sampling "
-                                            "intervals ({:.6g} s) after the sample before. Are samples "
-                                            "missing?",
-                                            series.time[k], waited / interval, interval));
+    refuse(axis_of(series), place_of(series, k),
+           fmt::format("the samples are not equally spaced: {} s come {:.3g} sampling "
+                       "intervals ({:.6g} s) after the sample before. Are samples "
+                       "missing?",
+                       series.time[k], waited / interval, interval));
   }
 }
 
@@ -120,7 +111,7 @@ void check_codes(const RawSeries& series) {
   const int bits = series.dac_bits > 0 ? series.dac_bits : shortest_word(*low, *high);
   for (const auto extreme : {low, high}) {
     if (*extreme >= last_code(bits, -1.0) && *extreme <= last_code(bits, 1.0)) continue;
-    refuse(place_of(series, static_cast<std::size_t>(extreme - series.code.begin())),
+    refuse(axis_of(series), place_of(series, static_cast<std::size_t>(extreme - series.code.begin())),
            fmt::format("the code {:.0f} is beyond the DAC's {} bits", *extreme, bits));
   }
   const std::string doubt =
@@ -131,7 +122,7 @@ void check_codes(const RawSeries& series) {
   for (std::size_t k = 0; k < series.code.size(); ++k) {
     repeated = series.code[k] == last_code(bits, series.code[k]) ? repeated + 1 : 0;
     if (repeated < clipped_samples) continue;
-    refuse(series, place_of(series, k),
+    refuse(axis_of(series), place_of(series, k),
            fmt::format("the $torque is clipped: the DAC's code stays at {:.0f}, the end "
                        "of its range{}",
                        series.code[k], doubt));
@@ -180,7 +171,7 @@ void check_flat_top(const RawSeries& series, const TestRecord& record, const Tor
   const double fall = sign * (record.reading[peak] - record.reading[hold.last]);
   const bool swings = peak - hold.first < (hold.last - hold.first) / 20;
   if (rise < noticeable || fall < noticeable || swings) return;
-  refuse(series, place_of(series, hold.first),
+  refuse(axis_of(series), place_of(series, hold.first),
          fmt::format(
              "the $torque is clipped: it stays at {:.4g} $Nm for {:.3g} s, and meanwhile the $angle goes on "
              "by {:.3g} $rad and comes back by {:.3g} $rad",
@@ -193,12 +184,13 @@ void check_flat_top(const RawSeries& series, const TestRecord& record, const Tor
 double checked_sample_time(const RawSeries& series) {
   const std::vector<double>& time = series.time;
   if (time.size() < min_record_samples) {
-    refuse(series.name,
+    refuse(axis_of(series), series.name,
            fmt::format("is too short: {} samples; expected {} at least", time.size(), min_record_samples));
   }
   for (std::size_t k = 1; k < time.size(); ++k) {
     if (time[k] > time[k - 1]) continue;
-    refuse(place_of(series, k), fmt::format("the time {} s does not come after {} s", time[k], time[k - 1]));
+    refuse(axis_of(series), place_of(series, k),
+           fmt::format("the time {} s does not come after {} s", time[k], time[k - 1]));
   }
   check_gaps(series);
   return nearest_grid(time).interval;
@@ -244,16 +236,16 @@ void check_magnitudes(const RawSeries& series, const TestRecord& record) {
 }
 
 void check_change(const RawSeries& series, const TestRecord& record) {
-  if (!(torque_range(record) > 0.0)) refuse(series, series.name, "the $torque is 0 throughout");
+  if (!(torque_range(record) > 0.0)) refuse(axis_of(series), series.name, "the $torque is 0 throughout");
   if (!(travel(record) > 0.0)) {
-    refuse(series, series.name, "the $angle is constant: the encoder does not see the axis move");
+    refuse(axis_of(series), series.name, "the $angle is constant: the encoder does not see the axis move");
   }
 }
 
 void check_motion(const RawSeries& series, const TestRecord& record) {
   const double counts = travel(record);
   if (record.counted && counts < min_counts) {
-    refuse(series.name,
+    refuse(axis_of(series), series.name,
            fmt::format("the axis moves by {:.0f} counts only; expected {:.0f} at least", counts, min_counts));
   }
   if (!series.sliding.empty())
@@ -270,10 +262,11 @@ void check_motion(const RawSeries& series, const TestRecord& record) {
     energy += record.torque[k - 1].now * (record.reading[k] - record.reading[k - 1]);
   }
   if (energy < 0.0) {
-    refuse(series, series.name, "the $angle falls where the $torque rises: one of them has the wrong sign");
+    refuse(axis_of(series), series.name,
+           "the $angle falls where the $torque rises: one of them has the wrong sign");
   }
   refuse(
-      series, series.name,
+      axis_of(series), series.name,
       "the $angle does not follow the $torque as it does on a spring, although the $torque drives the "
       "motion: the "
       "axis slides. Material tests stay within the pre-sliding range; --sliding identifies a sliding axis");
@@ -297,7 +290,7 @@ void check_jumps(const RawSeries& series) {
     if (!stays || std::abs(jump) < times_the_motion * moving ||
         about.torque_range > small_torque * (most - least))
       continue;
-    refuse(series, place_of(series, k),
+    refuse(axis_of(series), place_of(series, k),
            fmt::format(
                "the $angle jumps by {:.6g} {}, and moves by at most {:.6g} a sample before and after: was "
                "the counter set, or does it wrap? Continue it, or cut the record there",
@@ -321,7 +314,7 @@ void check_glitches(const RawSeries& series, const TestRecord& record) {
     if (at != highest) next = std::max(next, *at);
   }
   if (!(*highest > beyond_all * next)) return;
-  refuse(series, place_of(series, static_cast<std::size_t>(highest - height.begin())),
+  refuse(axis_of(series), place_of(series, static_cast<std::size_t>(highest - height.begin())),
          fmt::format("this one $angle is {:.3g} $rad off those before and after it, probably a read error. "
                      "Replace it by a neighbouring value, or shorten the record",
                      *highest * record.unit));

@@ -48,8 +48,8 @@ Budget budget_option(const Arguments& arguments) {
   if (error != std::errc() || !(number > 0.0) || !(number < 1e12) || !whole ||
       (!unit.empty() && unit != "s" && unit != "min" && unit != "h"))
     arguments.refuse(
-        fmt::format("option '--budget': '{}' is no budget; expected a whole number of trials, or a "
-                    "time such as 60s, 5min or 2h",
+        fmt::format("option '--budget': '{}' is no budget; expected a whole number, or a time such as "
+                    "60s, 5min or 2h",
                     *text));
   if (unit.empty()) return {static_cast<std::int64_t>(number), std::nullopt};
   return {std::nullopt, number * (unit == "s" ? 1.0 : unit == "min" ? 60.0 : 3600.0)};

@@ -60,29 +60,14 @@ double positive_option(const command_line::Arguments& arguments, const std::stri
   return *number;
 }
 
-/// "40", a number of protocols, or "30s", "2min".
+/// A number of protocols, or a time.
 void read_budget(const command_line::Arguments& arguments, experiment_design::SearchSettings& search) {
-  const std::optional<std::string> text = arguments.value("budget");
-  if (!text) return;
-  if (const auto protocols = text::parse_number<int>(*text); protocols && *protocols > 0) {
-    search.max_protocols = *protocols;
-    return;
-  }
-  double seconds = 0.0;
-  for (const auto& [unit, factor] : {std::pair{"min", 60.0}, std::pair{"s", 1.0}}) {
-    const std::string_view whole = *text;
-    if (seconds > 0.0 || !whole.ends_with(unit)) continue;
-    const auto number =
-        text::parse_number<double>(whole.substr(0, whole.size() - std::string_view(unit).size()));
-    if (number && std::isfinite(*number)) seconds = *number * factor;
-  }
-  if (!(seconds > 0.0))
-    arguments.refuse(
-        fmt::format("option '--budget': '{}' is no budget; expected a number of protocols, or a "
-                    "time such as 30s or 2min",
-                    *text));
-  search.max_protocols = std::numeric_limits<int>::max();
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  const command_line::Budget budget = command_line::budget_option(arguments);
+  constexpr std::int64_t most = std::numeric_limits<int>::max();
+  if (budget.trials) search.max_protocols = static_cast<int>(std::min(*budget.trials, most));
+  if (!budget.seconds) return;
+  search.max_protocols = static_cast<int>(most);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(*budget.seconds);
   search.go_on = [end](int) { return std::chrono::steady_clock::now() < end; };
 }
 

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,12 +13,10 @@
 #include "analysis/fit/laws/law_identification.hpp"
 #include "analysis/fit/presliding/identification.hpp"
 #include "analysis/fit/records/checked_record.hpp"
-#include "analysis/records/raw_series.hpp"
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/page.hpp"
 #include "analysis/sliding_identification/sliding_identification.hpp"
 #include "experiments/yaml/text_file.hpp"
-#include "results/reading/all_trials_file.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
@@ -28,7 +25,6 @@
 #include "runners/commands/stage_progress.hpp"
 #include "runners/commands/timeline_option.hpp"
 #include "runners/identification_commands/identification_commands.hpp"
-#include "runners/identification_commands/identify_laws.hpp"
 #include "runners/identification_commands/record_options.hpp"
 #include "runners/status/status.hpp"
 
@@ -86,69 +82,6 @@ constexpr const char* identify_help =
     "          zerocount identify log.txt --column time=t[ms] --column 'torque=I[A]*0.87' \\\n"
     "            --column 'angle=pos[mm]/10'\n";
 
-std::optional<std::string> column_option(const command_line::Arguments& arguments, const char* name,
-                                         const std::vector<std::string>& columns) {
-  if (!arguments.has(name)) return std::nullopt;
-  return arguments.one_of(name, columns);
-}
-
-/// A lower bandwidth is implausible for a positioning drive, and not identifiable from the samples.
-std::optional<double> bandwidth_option(const command_line::Arguments& arguments) {
-  constexpr double least = 0.01;
-  const std::optional<double> bandwidth = command_line::number_option(arguments, "amplifier-bandwidth", 0.0);
-  if (bandwidth && *bandwidth > 0.0 && *bandwidth < least) {
-    arguments.refuse(fmt::format(
-        "option '--amplifier-bandwidth': {:g} Hz; expected 0 (ideal amplifier), or {} Hz at least",
-        *bandwidth, least));
-  }
-  return bandwidth;
-}
-
-std::optional<double> delay_option(const command_line::Arguments& arguments) {
-  constexpr double most = 1e6;
-  const std::optional<double> delay = command_line::number_option(arguments, "delay", 0.0);
-  if (delay && *delay > most)
-    arguments.refuse(fmt::format("option '--delay': {:g} samples; expected up to {:g}", *delay, most));
-  return delay;
-}
-
-/// The size of a count (rad or m), by the option of the kind of axis.
-std::optional<double> count_size_option(const command_line::Arguments& arguments,
-                                        const records::SeriesChoice& choice) {
-  const auto counts = command_line::number_option(arguments, "counts-per-revolution", 1.0);
-  const auto resolution =
-      command_line::number_option(arguments, "resolution", std::numeric_limits<double>::min());
-  if (counts && resolution) {
-    arguments.refuse("options '--counts-per-revolution' and '--resolution' exclude each other");
-  }
-  if (counts && choice.linear) {
-    arguments.refuse("option '--counts-per-revolution' is of a rotary axis; expected '--resolution'");
-  }
-  return counts ? std::optional(2.0 * std::numbers::pi / *counts) : resolution;
-}
-
-records::SeriesChoice series_choice(const command_line::Arguments& arguments) {
-  constexpr double any = -std::numeric_limits<double>::infinity();
-  records::SeriesChoice choice;
-  choice.torque = column_option(arguments, "torque", {"torque", "drive_torque", "force", "drive_force"});
-  choice.angle = column_option(arguments, "angle", {"count", "theta", "position"});
-  choice.bandwidth = bandwidth_option(arguments);
-  choice.delay = delay_option(arguments);
-  choice.dac_bits = arguments.whole_number("dac-bits", 2, 32);
-  choice.preload = command_line::number_option(arguments, "preload", any);
-  choice.hardening = command_line::number_option(arguments, "hardening", 0.0);
-  set_columns(arguments, choice);
-  choice.linear =
-      arguments.choice("axis") == "linear" ||
-      std::any_of(choice.columns.begin(), choice.columns.end(),
-                  [](const records::ColumnMapping& one) { return records::is_linear(one.quantity); });
-  if (arguments.has("axis") && arguments.choice("axis") == "rotary" && choice.linear)
-    arguments.refuse("'--axis rotary' has a torque and an angle, '--column' gives a force or a position");
-  choice.rotary = (arguments.has("axis") && !choice.linear) || arguments.has("counts-per-revolution");
-  choice.count_size = count_size_option(arguments, choice);
-  return choice;
-}
-
 /// The least value of a known parameter.
 double min_known(fit::Coordinate coordinate) {
   if (coordinate == fit::time_offset) return -fit::max_time_offset;
@@ -196,84 +129,6 @@ fit::IdentificationOptions identification_options(const command_line::Arguments&
   return options;
 }
 
-/// The chosen points, or all that keep the trace of the trial and are of one axis.
-std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, const std::string& path,
-                                    std::int64_t index) {
-  if (arguments.has("point")) {
-    return command_line::point_options(arguments, reading::AllTrialsFile(path).point_labels());
-  }
-  const records::TracedPoints traced = records::traced_points(path, index);
-  if (!traced.left_out.empty()) {
-    status::tell("zerocount identify: {}: left out, because plant or friction has other values there: {}\n",
-                 path, fmt::join(traced.left_out, ", "));
-  }
-  return traced.points;
-}
-
-/// Refuses options that no record is read by.
-void refuse_options_without_file(const command_line::Arguments& arguments,
-                                 const std::vector<RecordFile>& files) {
-  const auto any = [&](RecordFile kind) { return std::ranges::find(files, kind) != files.end(); };
-  const auto require = [&](bool there, std::initializer_list<const char*> options, const char* what) {
-    for (const char* option : options) {
-      if (!there && arguments.has(option))
-        arguments.refuse(fmt::format("option '--{}' needs {}", option, what));
-    }
-  };
-  require(any(RecordFile::results), {"point", "trial"}, "a results file");
-  require(any(RecordFile::table), {"separator"}, "a text table");
-  require(any(RecordFile::table) || any(RecordFile::datasets), {"sample-time", "axis", "any-magnitude"},
-          "a table; a results file says this itself");
-}
-
-/// Refuses options of which no record that was read has anything.
-void refuse_options_without_effect(const command_line::Arguments& arguments,
-                                   const std::vector<records::RawSeries>& series) {
-  const auto counted = [](const records::RawSeries& one) { return one.count_size > 0.0; };
-  if (std::ranges::none_of(series, counted)) {
-    for (const char* option : {"counts-per-revolution", "resolution"}) {
-      if (!arguments.has(option)) continue;
-      arguments.refuse(fmt::format(
-          "option '--{}' has no effect, because the {} is not in counts; expected a column count, or "
-          "--column '{}=COLUMN[count]'",
-          option, series.front().linear ? "position" : "angle",
-          series.front().linear ? "position" : "angle"));
-    }
-  }
-  const auto coded = [](const records::RawSeries& one) { return !one.code.empty(); };
-  if (arguments.has("dac-bits") && std::ranges::none_of(series, coded))
-    arguments.refuse("option '--dac-bits' has no effect without a column code");
-}
-
-std::vector<records::RawSeries> read_all_series(const command_line::Arguments& arguments) {
-  const records::SeriesChoice choice = series_choice(arguments);
-  const std::vector<std::string>& paths = arguments.operands();
-  std::vector<RecordFile> files;
-  files.reserve(paths.size());
-  for (const std::string& path : paths) files.push_back(record_file(path, choice));
-  refuse_options_without_file(arguments, files);
-  std::vector<records::RawSeries> found;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    const std::string& path = paths[i];
-    if (files[i] != RecordFile::results) {
-      for (records::RawSeries& series : read_series(path, choice)) found.push_back(std::move(series));
-      continue;
-    }
-    constexpr std::int64_t most = std::int64_t{1} << 53;
-    const std::int64_t index = arguments.whole_number("trial", 0, most).value_or(0);
-    for (const std::int64_t point : points_of(arguments, path, index)) {
-      found.push_back(records::read_study_series(path, point, index, choice));
-    }
-  }
-  for (const records::RawSeries& series : found) {
-    for (const std::string& note : series.notes)
-      status::tell("zerocount identify: {}: {}\n", series.name, note);
-  }
-  refuse_options_without_effect(arguments, found);
-  exclude_times(arguments, found);
-  return found;
-}
-
 /// Windows of sliding begin at samples, and so must their torque.
 void refuse_fractional_delay(const command_line::Arguments& arguments) {
   const std::optional<double> delay = delay_option(arguments);
@@ -306,6 +161,65 @@ std::vector<fit::TestRecord> read_records(const command_line::Arguments& argumen
     found.push_back(fit::checked_record(series, arguments.has("any-magnitude")));
   }
   return found;
+}
+
+std::vector<command_line::OptionSpec> law_options() {
+  return {
+      {"model", "LAW",
+       fmt::format("friction law to fit, {} (default presliding), or all; may be repeated, to compare laws",
+                   fmt::join(fit::law_words(), ", ")),
+       true},
+      {"series-compliance", "", "fit the compliance of a fixture in series with the contact, too"}};
+}
+
+/// The laws to compare. None without these options, and for the pre-sliding model alone, which has a fit of
+/// its own.
+fit::LawChoice chosen_laws(const command_line::Arguments& arguments) {
+  const std::vector<std::string> words = fit::law_words();
+  std::vector<std::string> wanted;
+  for (const std::string& word : arguments.values("model")) {
+    if (word == "all") {
+      wanted = words;
+    } else if (std::find(words.begin(), words.end(), word) != words.end()) {
+      wanted.push_back(word);
+    } else {
+      arguments.refuse(
+          fmt::format("option '--model': '{}' is not one of {}, all", word, fmt::join(words, ", ")));
+    }
+  }
+  fit::LawChoice choice{{}, arguments.has("series-compliance")};
+  const std::string& usual = words.front();
+  if (wanted.empty() && choice.series_compliance) wanted.push_back(usual);
+  for (const std::string& word : words) {
+    if (std::find(wanted.begin(), wanted.end(), word) != wanted.end())
+      choice.laws.push_back(fit::law_of(word));
+  }
+  const bool presliding_alone = choice.laws.size() == 1 && wanted.front() == usual;
+  if (presliding_alone && !choice.series_compliance) choice.laws.clear();
+  return choice;
+}
+
+/// Refuses options that the comparison of laws does not have.
+void refuse_options_beside_laws(const command_line::Arguments& arguments) {
+  for (const char* option : {"fix", "effort", "posterior", "plot"}) {
+    if (!arguments.has(option)) continue;
+    arguments.refuse(fmt::format(
+        "option '--{}' is only for the pre-sliding model, without '--model' and '--series-compliance'",
+        option));
+  }
+}
+
+/// Success, or inconclusive with a message if no parameter is estimated or the fit does not explain the
+/// records.
+ExitCode identification_verdict(std::span<const fit::ParameterEstimate> parameters,
+                                const fit::ResidualChecks& checks) {
+  if (!checks.passed) {
+    status::tell("zerocount identify: the result must not be trusted: {}\n", fit::reason_of_misfit(checks));
+    return ExitCode::inconclusive;
+  }
+  if (std::ranges::any_of(parameters, fit::is_estimated)) return ExitCode::success;
+  status::tell("zerocount identify: no parameter is identifiable from these records\n");
+  return ExitCode::inconclusive;
 }
 
 fit::Identification identify_with_progress(const command_line::Arguments& arguments,
@@ -396,7 +310,10 @@ ExitCode identify_records(const command_line::Arguments& arguments, const Identi
   const fit::LawChoice choice = chosen_laws(arguments);
   if (!choice.laws.empty()) {
     refuse_options_beside_laws(arguments);
-    const auto compared = identify_laws(arguments, choice, read_records(arguments));
+    std::vector<fit::TestRecord> records = read_records(arguments);
+    commands::StageProgress progress("zerocount identify", arguments.has("quiet"));
+    const auto compared =
+        fit::compare_laws(std::move(records), choice, [&](std::string_view stage) { progress.enter(stage); });
     const fit::IdentifiedLaw& best = compared.laws.front();
     return write_answer(arguments, outputs,
                         fit::laws_answer().of(compared, identification_verdict(best.parameters, best.checks)),

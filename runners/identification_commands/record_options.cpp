@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <numbers>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/records/dataset_file.hpp"
 #include "analysis/records/text_table.hpp"
@@ -13,7 +17,10 @@
 #include "core/text/number_text.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/hdf5/array_file.hpp"
+#include "results/reading/all_trials_file.hpp"
 #include "results/storage/file_contents.hpp"
+#include "runners/command_line/option_values.hpp"
+#include "runners/status/status.hpp"
 
 namespace zerocount::identification_commands {
 namespace {
@@ -24,7 +31,154 @@ bool is_old_mat_file(const std::string& path) {
   return storage::bytes_at(path, 0, beginning.size()) == beginning;
 }
 
+/// The kind of a file with records.
+enum class RecordFile { table, datasets, results };
+
+/// By its signature, or by its name (the signature may be damaged). An HDF5 file holds datasets if columns
+/// are chosen, and is a results file otherwise.
+/// @throws Failure (bad_input) for a MAT file before version 7.3.
+RecordFile record_file(const std::string& path, const records::SeriesChoice& choice) {
+  const std::filesystem::path extension = std::filesystem::path(path).extension();
+  if (extension != ".h5" && yaml::is_stream(path)) return RecordFile::table;
+  const bool is_hdf5 = hdf5::is_hdf5_with_user_block(path);
+  if (!is_hdf5 && is_old_mat_file(path)) {
+    throw Failure(ExitCode::bad_input,
+                  path + ": a MAT file before version 7.3; expected version 7.3: save('-v7.3', …)");
+  }
+  if (!is_hdf5 && extension != ".h5") return RecordFile::table;
+  return choice.columns.empty() ? RecordFile::results : RecordFile::datasets;
+}
+
+/// The intervals of `--exclude`. Refuses anything but "FROM:TO".
+std::vector<records::ExcludedTime> excluded_times(const command_line::Arguments& arguments) {
+  std::vector<records::ExcludedTime> times;
+  for (const std::string& text : arguments.values("exclude")) {
+    const std::size_t colon = text.find(':');
+    const auto from = text::parse_number<double>(std::string_view(text).substr(0, colon));
+    const auto to = colon == std::string::npos
+                        ? std::nullopt
+                        : text::parse_number<double>(std::string_view(text).substr(colon + 1));
+    if (!from || !to || !std::isfinite(*from) || !std::isfinite(*to) || *from > *to) {
+      arguments.refuse(fmt::format("option '--exclude': '{}' is not FROM:TO, such as 1.2:3.4 (s)", text));
+    }
+    times.push_back({*from, *to});
+  }
+  return times;
+}
+
+std::optional<std::string> column_option(const command_line::Arguments& arguments, const char* name,
+                                         const std::vector<std::string>& columns) {
+  if (!arguments.has(name)) return std::nullopt;
+  return arguments.one_of(name, columns);
+}
+
+/// A lower bandwidth is implausible for a positioning drive, and not identifiable from the samples.
+std::optional<double> bandwidth_option(const command_line::Arguments& arguments) {
+  constexpr double least = 0.01;
+  const std::optional<double> bandwidth = command_line::number_option(arguments, "amplifier-bandwidth", 0.0);
+  if (bandwidth && *bandwidth > 0.0 && *bandwidth < least) {
+    arguments.refuse(fmt::format(
+        "option '--amplifier-bandwidth': {:g} Hz; expected 0 (ideal amplifier), or {} Hz at least",
+        *bandwidth, least));
+  }
+  return bandwidth;
+}
+
+/// The size of a count (rad or m), by the option of the kind of axis.
+std::optional<double> count_size_option(const command_line::Arguments& arguments,
+                                        const records::SeriesChoice& choice) {
+  const auto counts = command_line::number_option(arguments, "counts-per-revolution", 1.0);
+  const auto resolution =
+      command_line::number_option(arguments, "resolution", std::numeric_limits<double>::min());
+  if (counts && resolution) {
+    arguments.refuse("options '--counts-per-revolution' and '--resolution' exclude each other");
+  }
+  if (counts && choice.linear) {
+    arguments.refuse("option '--counts-per-revolution' is of a rotary axis; expected '--resolution'");
+  }
+  return counts ? std::optional(2.0 * std::numbers::pi / *counts) : resolution;
+}
+
+records::SeriesChoice series_choice(const command_line::Arguments& arguments) {
+  constexpr double any = -std::numeric_limits<double>::infinity();
+  records::SeriesChoice choice;
+  choice.torque = column_option(arguments, "torque", {"torque", "drive_torque", "force", "drive_force"});
+  choice.angle = column_option(arguments, "angle", {"count", "theta", "position"});
+  choice.bandwidth = bandwidth_option(arguments);
+  choice.delay = delay_option(arguments);
+  choice.dac_bits = arguments.whole_number("dac-bits", 2, 32);
+  choice.preload = command_line::number_option(arguments, "preload", any);
+  choice.hardening = command_line::number_option(arguments, "hardening", 0.0);
+  set_columns(arguments, choice);
+  choice.linear =
+      arguments.choice("axis") == "linear" ||
+      std::any_of(choice.columns.begin(), choice.columns.end(),
+                  [](const records::ColumnMapping& one) { return records::is_linear(one.quantity); });
+  if (arguments.has("axis") && arguments.choice("axis") == "rotary" && choice.linear)
+    arguments.refuse("'--axis rotary' has a torque and an angle, '--column' gives a force or a position");
+  choice.rotary = (arguments.has("axis") && !choice.linear) || arguments.has("counts-per-revolution");
+  choice.count_size = count_size_option(arguments, choice);
+  return choice;
+}
+
+/// The chosen points, or all that keep the trace of the trial and are of one axis.
+std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, const std::string& path,
+                                    std::int64_t index) {
+  if (arguments.has("point")) {
+    return command_line::point_options(arguments, reading::AllTrialsFile(path).point_labels());
+  }
+  const records::TracedPoints traced = records::traced_points(path, index);
+  if (!traced.left_out.empty()) {
+    status::tell("zerocount identify: {}: left out, because plant or friction has other values there: {}\n",
+                 path, fmt::join(traced.left_out, ", "));
+  }
+  return traced.points;
+}
+
+/// Refuses options that no record is read by.
+void refuse_options_without_file(const command_line::Arguments& arguments,
+                                 const std::vector<RecordFile>& files) {
+  const auto any = [&](RecordFile kind) { return std::ranges::find(files, kind) != files.end(); };
+  const auto require = [&](bool there, std::initializer_list<const char*> options, const char* what) {
+    for (const char* option : options) {
+      if (!there && arguments.has(option))
+        arguments.refuse(fmt::format("option '--{}' needs {}", option, what));
+    }
+  };
+  require(any(RecordFile::results), {"point", "trial"}, "a results file");
+  require(any(RecordFile::table), {"separator"}, "a text table");
+  require(any(RecordFile::table) || any(RecordFile::datasets), {"sample-time", "axis", "any-magnitude"},
+          "a table; a results file says this itself");
+}
+
+/// Refuses options of which no record that was read has anything.
+void refuse_options_without_effect(const command_line::Arguments& arguments,
+                                   const std::vector<records::RawSeries>& series) {
+  const auto counted = [](const records::RawSeries& one) { return one.count_size > 0.0; };
+  if (std::ranges::none_of(series, counted)) {
+    for (const char* option : {"counts-per-revolution", "resolution"}) {
+      if (!arguments.has(option)) continue;
+      arguments.refuse(fmt::format(
+          "option '--{}' has no effect, because the {} is not in counts; expected a column count, or "
+          "--column '{}=COLUMN[count]'",
+          option, series.front().linear ? "position" : "angle",
+          series.front().linear ? "position" : "angle"));
+    }
+  }
+  const auto coded = [](const records::RawSeries& one) { return !one.code.empty(); };
+  if (arguments.has("dac-bits") && std::ranges::none_of(series, coded))
+    arguments.refuse("option '--dac-bits' has no effect without a column code");
+}
+
 }  // namespace
+
+std::optional<double> delay_option(const command_line::Arguments& arguments) {
+  constexpr double most = 1e6;
+  const std::optional<double> delay = command_line::number_option(arguments, "delay", 0.0);
+  if (delay && *delay > most)
+    arguments.refuse(fmt::format("option '--delay': {:g} samples; expected up to {:g}", *delay, most));
+  return delay;
+}
 
 std::vector<command_line::OptionSpec> column_options() {
   return {{"column", "QUANTITY=COLUMN",
@@ -57,22 +211,6 @@ void set_columns(const command_line::Arguments& arguments, records::SeriesChoice
   if (const std::string reason = records::contradiction_in(choice); !reason.empty()) arguments.refuse(reason);
 }
 
-std::vector<records::ExcludedTime> excluded_times(const command_line::Arguments& arguments) {
-  std::vector<records::ExcludedTime> times;
-  for (const std::string& text : arguments.values("exclude")) {
-    const std::size_t colon = text.find(':');
-    const auto from = text::parse_number<double>(std::string_view(text).substr(0, colon));
-    const auto to = colon == std::string::npos
-                        ? std::nullopt
-                        : text::parse_number<double>(std::string_view(text).substr(colon + 1));
-    if (!from || !to || !std::isfinite(*from) || !std::isfinite(*to) || *from > *to) {
-      arguments.refuse(fmt::format("option '--exclude': '{}' is not FROM:TO, such as 1.2:3.4 (s)", text));
-    }
-    times.push_back({*from, *to});
-  }
-  return times;
-}
-
 void exclude_times(const command_line::Arguments& arguments, std::vector<records::RawSeries>& series) {
   for (const records::ExcludedTime& times : excluded_times(arguments)) {
     bool any = false;
@@ -83,23 +221,37 @@ void exclude_times(const command_line::Arguments& arguments, std::vector<records
   }
 }
 
-RecordFile record_file(const std::string& path, const records::SeriesChoice& choice) {
-  const std::filesystem::path extension = std::filesystem::path(path).extension();
-  if (extension != ".h5" && yaml::is_stream(path)) return RecordFile::table;
-  const bool is_hdf5 = hdf5::is_hdf5_with_user_block(path);
-  if (!is_hdf5 && is_old_mat_file(path)) {
-    throw Failure(ExitCode::bad_input,
-                  path + ": a MAT file before version 7.3; expected version 7.3: save('-v7.3', …)");
+std::vector<records::RawSeries> read_all_series(const command_line::Arguments& arguments) {
+  const records::SeriesChoice choice = series_choice(arguments);
+  const std::vector<std::string>& paths = arguments.operands();
+  std::vector<RecordFile> files;
+  files.reserve(paths.size());
+  for (const std::string& path : paths) files.push_back(record_file(path, choice));
+  refuse_options_without_file(arguments, files);
+  std::vector<records::RawSeries> found;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::string& path = paths[i];
+    if (files[i] != RecordFile::results) {
+      for (records::RawSeries& series :
+           files[i] == RecordFile::datasets
+               ? records::read_columns(records::DatasetFile(path), choice)
+               : records::read_columns(records::TextTable(path, choice.separator), choice))
+        found.push_back(std::move(series));
+      continue;
+    }
+    constexpr std::int64_t most = std::int64_t{1} << 53;
+    const std::int64_t index = arguments.whole_number("trial", 0, most).value_or(0);
+    for (const std::int64_t point : points_of(arguments, path, index)) {
+      found.push_back(records::read_study_series(path, point, index, choice));
+    }
   }
-  if (!is_hdf5 && extension != ".h5") return RecordFile::table;
-  return choice.columns.empty() ? RecordFile::results : RecordFile::datasets;
-}
-
-std::vector<records::RawSeries> read_series(const std::string& path, const records::SeriesChoice& choice) {
-  if (record_file(path, choice) == RecordFile::datasets) {
-    return records::read_columns(records::DatasetFile(path), choice);
+  for (const records::RawSeries& series : found) {
+    for (const std::string& note : series.notes)
+      status::tell("zerocount identify: {}: {}\n", series.name, note);
   }
-  return records::read_columns(records::TextTable(path, choice.separator), choice);
+  refuse_options_without_effect(arguments, found);
+  exclude_times(arguments, found);
+  return found;
 }
 
 }  // namespace zerocount::identification_commands

@@ -104,7 +104,7 @@ TEST_F(Experiment, RefusesWhatItDoesNotUnderstand) {
     EXPECT_EQ(result.code, 2);
     return result.err;
   };
-  EXPECT_NE(refusal({"--budget", "ten"}).find("30s"), std::string::npos);
+  EXPECT_NE(refusal({"--budget", "ten"}).find("60s"), std::string::npos);
   EXPECT_NE(refusal({"--travel", "-1"}).find("positive travel"), std::string::npos);
   EXPECT_NE(refusal({"--max-torque", "1"}).find("0.95"), std::string::npos);
   EXPECT_NE(refusal({"--duration", "0"}).find("3600"), std::string::npos);

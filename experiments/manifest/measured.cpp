@@ -173,6 +173,7 @@ class MeasuredDraws {
 };
 
 std::string_view name_of(study::DrawLevel level) {
+  if (level == study::DrawLevel::rig) return "machine";
   return keys::draw_level_labels[static_cast<std::size_t>(level)];
 }
 

@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"encoder: {fine: 0}", "6:17: encoder.fine | from 1 to 1000000000000"},
         Case{"retain: {trials: [10]}", "6:19: retain.trials.0 | from 0 to 9"},
         Case{"retain: {trials: [1, 1]}", "6:18: retain.trials | duplicate"},
-        Case{"rigs: 1", "6:7: machines | from 2 to 4294967296"},
+        Case{"rigs: 1", "6:7: rigs | from 2 to 4294967296"},
         Case{"rigs: 4", "4:9: trials | cannot be divided equally"},
         Case{"friction: {k1: {uniform: [1, 2], per: rig}}", "6:39: friction.k1.per | has no machines"},
         Case{"friction: {k1: {uniform: [1, 2], per: move}}", "6:39: friction.k1.per | 'move'"},

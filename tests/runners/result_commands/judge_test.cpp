@@ -203,8 +203,8 @@ const std::vector<Answer> answers{
      {"a move does not end at zero counts"}},
     {{"report", "@.h5", "-o", "@.html"},
      {"whether the goal is met", "machines in goal", "machines w/o miss",
-      "Which design points meet the goal?", "Which parameters decide the goal?"},
-     {"machines without failure", "How many trials succeed?", "Which parameters decide success?"}},
+      "Which design points meet the goal?"},
+     {"machines w/o failure", "How many trials succeed?"}},
 };
 
 /// The first place of any of these in the text.

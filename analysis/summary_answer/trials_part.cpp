@@ -108,7 +108,7 @@ std::string note_on_assurance(const summary::StudySummary& summary) {
       "tolerance limit is later than the quantile of the trials at hand, and – where these are too few, or "
       "too many never arrive",
       summary.features.rigs ? "Korn and Graubard" : "Clopper and Pearson",
-      shows_rigs(summary) ? "; of rigs: their moves that end at zero error" : "");
+      shows_rigs(summary) ? "; of machines: their moves that end at zero error" : "");
 }
 
 /// "settling_within_95", "settling_within_99_9".
@@ -259,14 +259,14 @@ void add_assurance(PointDescription& point, const summary::StudySummary& summary
   object
       .value({.key = "success_at_least",
               .heading = "success ≥",
-              .meaning = "proportion of axes (with rigs: of trials) that succeed at least",
+              .meaning = "proportion of axes (with machines: of trials) that succeed at least",
               .unit = "1",
               .numeric = true,
               .column = "success_at_least"},
              [](Point p) { return p.statistics().claim.success_at_least; })
       .shown_as([](Point p) { return shown_at_least(p.statistics().claim.success_at_least); })
       .value({.key = "failure_at_most",
-              .meaning = "proportion of axes (with rigs: of trials) that fail at most",
+              .meaning = "proportion of axes (with machines: of trials) that fail at most",
               .unit = "1",
               .column = "failure_at_most"},
              [](Point p) { return p.statistics().claim.failure_at_most; })

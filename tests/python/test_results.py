@@ -325,7 +325,7 @@ def test_an_open_loop_has_levels(name: str, results_of: ResultsOf, tmp_path: pat
     assert_same_table(r.moves().reset_index(), tables["outcomes"])
     assert set(r.trials()["outcome"]) == {"open_loop"} and not r.trials()["success"].any()
     assert len(r.table) == len(tables["points"]) and r.table["success_rate"].isna().all()
-    with pytest.raises(zc.DataError, match="jerks|rigs"):
+    with pytest.raises(zc.DataError, match="jerks|machines"):
         r.rigs()
 
 

@@ -98,6 +98,38 @@ TEST_F(Claims, OfATuningAreThoseOfPlainRunsAtTheTunedValues) {
   EXPECT_EQ(tuned["proof"]["rate"], judged["rate"]);
 }
 
+// Gains for one condition fail the other; those for both are met wherever some are.
+TEST_F(Claims, TuningForAllConditionsIsNotWorseThanTuningForOne) {
+  const std::vector<Condition> apart{
+      {"light", "{}", "3.0e-4", "1"},
+      {"heavy", "{plant.inertia: 2.4e-3, controller.delay: 2}", "2.4e-3", "2"}};
+  const std::string goal =
+      "goal: {band: 1, within: 0.06, moves: 0.9, limits: {overshoot: 14}}\n" + std::string(three_gains);
+  const auto status_at = [&](const Json& gains) {
+    std::vector<std::string> words{"run",   "both.yaml", "-o",    "at.h5",       "--force", "--quiet",
+                                   "--set", "seed=99",   "--set", "trials=3200", "--set",   "rigs=800"};
+    for (const auto& [name, value] : gains.items())
+      words.insert(words.end(), {"--set", name + "=" + value.dump()});
+    EXPECT_EQ(program(words).code, 0);
+    return Json::parse(program({"judge", "at.h5", "--format", "json"}).out);
+  };
+  const auto tune = [&](const std::string& manifest) {
+    const ProgramResult result =
+        program({"tune", manifest, "-o", "tuned.h5", "--force", "--budget", "40000", "--format", "json"});
+    EXPECT_NE(result.code, 2) << result.err;
+    return Json::parse(result.out)["gains"];
+  };
+  folder_.write("both.yaml", study(apart, 80, goal));
+  double worst = 1.0;
+  for (const Condition& condition : apart) {
+    folder_.write("alone.yaml", study({condition}, 80, goal));
+    worst = std::min(worst, status_at(tune("alone.yaml"))["rate"].get<double>());
+  }
+  const Json both = status_at(tune("both.yaml"));
+  EXPECT_EQ(both["status"], "met") << both;
+  EXPECT_LT(worst, 0.9) << "one condition alone is not enough";
+}
+
 TEST_F(Claims, OfLimitsAreThoseOfEachConditionAlone) {
   folder_.write("both.yaml", study(two_conditions, 80, std::string(two_goals)));
   const Json both = answer({"limits", "both.yaml"})["limits"];

@@ -339,6 +339,21 @@ TEST(SearchSize, FirstGenerationTakesHalfOfTheEffortAtMost) {
   }
 }
 
+TEST(SearchSize, GrowsWithTheEffort) {
+  const SearchScope scope{3, 3, 2048, 0};
+  SearchSize last = smallest_search(scope);
+  int sizes = 1;
+  for (std::int64_t units = 500; units < 500'000; units = units * 6 / 5) {
+    const SearchSize size = search_size(scope, units);
+    EXPECT_GE(size.first_candidates, last.first_candidates);
+    EXPECT_GE(size.max_units, last.max_units);
+    sizes += size.first_candidates > last.first_candidates ? 1 : 0;
+    last = size;
+  }
+  EXPECT_GT(sizes, 8) << "small efforts differ too";
+  EXPECT_EQ(last.max_units, 2048);
+}
+
 // The frontier between success and speed. Rates that led a search show that a goal is out of reach; a rate of
 // 0 nearly everywhere does not.
 

@@ -37,6 +37,12 @@ TEST(Search, FindsTheFastestPointThatMeetsTheGoal) {
   EXPECT_GE(found, 7);
 }
 
+TEST(Search, RunsMostTrialsWhereTheDecisionIsOpen) {
+  const MadeUpProblem truth;
+  const SearchResult result = search(truth.problem(2048), {.seed = 1});
+  EXPECT_LT(result.trials, result.points * 2048 / 2);
+}
+
 // An effort of any size is kept to the trial, and a smaller one makes a smaller search.
 TEST(Search, SpendsNoMoreThanItsEffort) {
   const MadeUpProblem truth;
@@ -53,6 +59,19 @@ TEST(Search, SpendsNoMoreThanItsEffort) {
     ASSERT_FALSE(result.finalists.empty()) << trials;
     for (const Candidate& one : result.finalists)
       EXPECT_EQ(one.units.size(), result.finalists.front().units.size()) << "compared on equal units";
+  }
+}
+
+// Trials that end within a race: the candidates are judged by the units that all of them had.
+TEST(Search, WithTooFewTrialsForARaceKeepsThoseWithTheMostUnits) {
+  const MadeUpProblem truth;
+  for (std::int64_t trials = 64; trials < 40'000; trials = 2 * trials + 1) {
+    const SearchResult result = search(truth.problem(2048), {.seed = 4, .effort = effort_of(trials)});
+    EXPECT_LE(result.trials, trials);
+    ASSERT_FALSE(result.finalists.empty());
+    EXPECT_TRUE(result.cut);
+    for (const Candidate& one : result.finalists)
+      EXPECT_EQ(one.units.size(), result.finalists.front().units.size());
   }
 }
 
@@ -330,6 +349,16 @@ TEST(Search, SaysWhetherItEndedOnTheWayToTheGoal) {
   EXPECT_GE(approaching, 0.7 * missed) << missed;
   EXPECT_EQ(beyond, 10);
   EXPECT_LE(hopeful, 2);
+}
+
+TEST(Search, DependsOnTheSeedAlone) {
+  const MadeUpProblem truth;
+  const SearchResult a = search(truth.problem(512), {.seed = 5, .effort = effort_of(50'000)});
+  const SearchResult b = search(truth.problem(512), {.seed = 5, .effort = effort_of(50'000)});
+  const SearchResult c = search(truth.problem(512), {.seed = 6, .effort = effort_of(50'000)});
+  EXPECT_EQ(a.finalists.front().values, b.finalists.front().values);
+  EXPECT_EQ(a.trials, b.trials);
+  EXPECT_NE(a.finalists.front().values, c.finalists.front().values);
 }
 
 // A condition that only the leading candidates are held against, as the margins of all machines are.

@@ -137,7 +137,7 @@ Eigen::VectorXd modelled_path(const TestRecord& record, const FitModel& model, c
 std::vector<RecordMotion> modelled_motions(Records records, const FitModel& model, const Point& point,
                                            const FreeCoordinates& free, std::vector<RecordMotion> known = {});
 
-/// What the paths of all records at a point add to FitModel::simulated.
+/// Samples that simulating all records at a point adds to FitModel::simulated.
 std::int64_t samples_of_paths(Records records, const FitModel& model, const Point& point);
 
 /// True if a fit whose prior has the mean `prior` may try the point: all coordinates within their ranges, and

@@ -132,7 +132,7 @@ struct Fit {
 /// The model at a point, and the readings as observations along it.
 void observe_at(Records records, const FitPoint& at, Fit& fit);
 
-/// The same at the point of the fit's model.
+/// Observes the readings again, along the path of the fit's model.
 void observe_again(Records records, Fit& fit);
 
 /// Textbook covariance of the errors of a fit, valid for independent observations: the inverse of the normal

@@ -186,8 +186,7 @@ class ProgramWriter {
   Term variable(const Variable& variable);
 
   void remark(const std::string& text);
-  /// What the value has in common with one that was assigned before, and still stands, is read from that
-  /// variable.
+  /// Reads a part of the value from the variable that already has it.
   void assign(const Term& variable, const Term& value);
   void branch(const Term& condition, const std::function<void()>& holds,
               const std::function<void()>& otherwise = {});

@@ -79,12 +79,9 @@ struct Work {
 
 /// Without a budget: what the search may take on this machine.
 void tell_default(Work& work) {
-  if (work.space.has_budget()) return;
-  work.answer.default_seconds = default_search_seconds(work.space.study, work.space.effort);
-  if (!work.settings.quiet)
-    status::tell(
-        "no --budget: the search takes at most {}, as measured here, then the proof and the extras\n",
-        status::duration_text(*work.answer.default_seconds));
+  if (work.space.has_budget() || work.settings.quiet) return;
+  status::tell("no --budget: the search takes at most {}, as measured here, then the proof and the extras\n",
+               status::duration_text(default_search_seconds(work.space.study, work.space.effort)));
 }
 
 void find_values(Work& work, const SearchPlan& plan) {

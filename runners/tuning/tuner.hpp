@@ -25,8 +25,6 @@ struct TuneAnswer {
   double seconds{0.0};
   std::int64_t spent_trials{0};
   bool interrupted{false};  ///< after the proof: the extras that are left out wait for the same command
-  /// That the search may take without a budget, as measured here, s.
-  std::optional<double> default_seconds{};
 
   bool is_met() const { return status == goal::Status::met; }
 

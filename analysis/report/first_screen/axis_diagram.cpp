@@ -39,7 +39,7 @@ std::string moves_text(const PointValues& values) {
   return fmt::format("{}, {}", text::counted(plan.list.count, "move"), range_text(all.low, all.high, unit));
 }
 
-/// What axis.html names beside parameters: values that are computed, and as empty texts what is on.
+/// Names in axis.html that are not parameters: computed values, and an empty text for each part that is on.
 using Facts = std::map<std::string, std::string, std::less<>>;
 
 void add(Facts& facts, const std::string& name, bool is_on) {
@@ -126,15 +126,17 @@ class AxisTemplate {
   AxisTemplate(const PointValues& values, Facts facts) : values_(values), facts_(std::move(facts)) {}
 
   std::string filled(const std::string& pattern) const {
-    constexpr int max_elements = 16;
     std::string html, of_elements;
     for (const std::string& line : divided(pattern + "\n", "\n")) {
       if (line.find('#') != std::string::npos) {
         of_elements += line + "\n";
         continue;
       }
-      for (int i = 0; i < max_elements && !of_elements.empty(); ++i)
-        html += filled(replace_all_copy(of_elements, "#", std::to_string(i)));
+      std::string element = of_elements;
+      for (int i = 0; !element.empty(); ++i) {
+        element = filled(replace_all_copy(of_elements, "#", std::to_string(i)));
+        html += element;
+      }
       of_elements.clear();
       html += line_html(line);
     }

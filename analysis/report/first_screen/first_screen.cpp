@@ -218,7 +218,7 @@ std::string peak_cell(const MoveBehaviour& moves, std::string_view unit) {
 /// The head of a column and what a row has there, HTML.
 using Cell = std::pair<std::string, std::string>;
 
-/// The same columns for all rows.
+/// The columns that all rows have.
 std::vector<Cell> cells_of(const RequirementRow& row, const ReportedStudy& reported) {
   const parameters::AxisKind axis = reported.study.units.axis;
   std::vector<Cell> cells;

@@ -94,6 +94,12 @@ std::vector<std::string> parts_left_out(Of tuning) {
   return parts;
 }
 
+std::string unfinished_sentence(Of tuning) {
+  const tuning::SearchResult& search = tuning.answer.searched.result;
+  const bool may_improve = !search.converged && search.points > 0 && !tuning.is_of_file;
+  return may_improve ? "the last generation still improved, a larger --budget may find better values" : "";
+}
+
 /// Names the extras that were left out, and the command that makes them.
 std::string left_out_sentence(Of tuning) {
   const TuneAnswer& answer = tuning.answer;
@@ -217,6 +223,7 @@ void add_closing(Description<Tuning>& items) {
       .value(in_data("left_out", "parts of the answer for which the budget was not enough"), parts_left_out)
       .value(in_data("interrupted", "whether Ctrl-C ended it after the proof"),
              [](Of t) { return t.answer.interrupted; })
+      .sentence(unfinished_sentence)
       .sentence(left_out_sentence)
       .figures(frontier_figures);
 }

@@ -3,6 +3,7 @@
 
 #include "analysis/summary/move_behaviour.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/sections/plugin_loader.hpp"
 #include "tests/analysis/report/run_studies.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
@@ -175,6 +176,20 @@ TEST(Diagram, HasTheCoarsePhaseAfterTheFineOne) {
   EXPECT_LT(html.find("ki 2e-5"), html.find("coarse phase beyond 300"));
   EXPECT_LT(html.find("coarse phase beyond"), html.find("kp 0.0002"));
   EXPECT_TRUE(says(html, "biquad b 1, 0, 0; a 0.5, 0"));
+}
+
+TEST(Diagram, EscapesTheNameOfAPluginAndHasAllItsParameters) {
+  plugin::ControllerPlugin law{.description = {"</div><script>", "1", "", {}}};
+  for (int i = 0; i < 40; ++i)
+    law.description.parameters.push_back({fmt::format("own{}", i), "1", "any", 0.5, 0.0, 1.0});
+  const study::Study study = manifest::parse_study(
+      "zerocount: 1\nname: a\nseed: 3\ntrials: 1\ncommand: {targets: [3], hold: 0.15}\n"
+      "controller: {plugin: own.so}\n",
+      "a.yaml", {},
+      {.plugin = sections::known_plugin(std::make_shared<const plugin::ControllerPlugin>(law))});
+  const std::string html = diagram_html(study, 0);
+  EXPECT_TRUE(says(html, "plugin &lt;/div&gt;&lt;script&gt;", "own0 0.5", "own39 0.5")) << html;
+  EXPECT_FALSE(says(html, "<script"));
 }
 
 TEST(Diagram, AnOpenLoopHasNoController) {

@@ -15,7 +15,7 @@ import code_pages
 import notebook_page
 import program_pages
 
-SKIPPED = {"node_modules", "build", "out", ".git", "site"}
+SKIPPED = {"node_modules", "build", "out", ".git", ".github", "site"}
 HERE = pathlib.Path(__file__).parent
 LINK = re.compile(r"(!?\[(?:[^\[\]]|\[[^\]]*\])*\])\(([^)\s]+)\)")
 FENCED = re.compile(r"(^```.*?^```$)", re.MULTILINE | re.DOTALL)

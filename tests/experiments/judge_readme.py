@@ -1,4 +1,4 @@
-"""The Python code of docs/manifest/random-numbers.md reproduces the draws of studies, and prints the number that it says."""
+"""docs/manifest/random_numbers.py reproduces the draws of studies, and prints one of the first manifest in that folder."""
 
 import contextlib
 import io
@@ -11,10 +11,8 @@ import sys
 
 def main():
     answers, pages = sys.argv[1], pathlib.Path(sys.argv[2]).parents[1] / "docs" / "manifest"
-    text = "".join((pages / name).read_text(encoding="utf-8") for name in ("README.md", "random-numbers.md"))
-    blocks = re.findall(r"^```(\w+)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-    manifest = next(text for language, text in blocks if language == "yaml")
-    code = next(text for language, text in blocks if language == "python")
+    manifest = re.search(r"^```yaml\n(.*?)^```$", (pages / "README.md").read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)[1]
+    code = (pages / "random_numbers.py").read_text(encoding="utf-8")
 
     printed = io.StringIO()
     shown = {}

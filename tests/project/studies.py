@@ -1,7 +1,6 @@
-"""The lists of shipped studies, docs/studies.md: generated from the manifests, the pages and the claims.
+"""The lists of shipped studies that the site adds to docs/studies.md, from the manifests, the pages and the claims.
 
-    studies.py ROOT            fails where the lists are not up to date, or where no page answers a study
-    studies.py ROOT --write    writes them
+usage: studies.py ROOT         prints them; fails where no page answers a study
 
 A study of which tests/claims/claims.yaml runs a result again has a row: the question of the manifest's first comment (its description where
 that asks none), and the result. Others are links. Each leads to the first heading of docs that names the study, or to the one above a
@@ -18,7 +17,6 @@ import yaml
 from links import FENCED, HEADING, anchor_of
 
 PAGE = "docs/studies.md"
-WRITTEN = re.compile(r"(?<=<!-- studies: written by tests/project/studies.py -->\n).*(?=<!-- end of studies -->)", re.DOTALL)
 
 
 def question_of(text, manifest):
@@ -63,18 +61,12 @@ def lists(root):
     return rows, links
 
 
-def main(root, options):
+def table(root):
+    """The page's part that the site adds."""
     rows, links = lists(root)
-    text = (page := root / PAGE).read_text(encoding="utf-8")
     others = textwrap.fill(f"Others: {', '.join(links)}.", 150, break_long_words=False, break_on_hyphens=False)
-    written = "\n".join(["| study | question | result |\n| --- | --- | --- |", *rows, "", others, ""])
-    if "--write" in options:
-        page.write_text(WRITTEN.sub(lambda _: written, text), encoding="utf-8")
-    elif written not in text:
-        print(f"{PAGE} is not up to date: run tests/project/studies.py . --write")
-        return 1
-    return 0
+    return "\n".join(["| study | question | result |\n| --- | --- | --- |", *rows, "", others, ""])
 
 
 if __name__ == "__main__":
-    sys.exit(main(pathlib.Path(sys.argv[1]).resolve(), sys.argv[2:]))
+    print(table(pathlib.Path(sys.argv[1]).resolve()))

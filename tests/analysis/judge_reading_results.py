@@ -1,7 +1,6 @@
-"""The Python code of docs/reading-results.md redoes the table that `zerocount summary` prints, and what its MATLAB code
-reads is there.
+"""The Python programs of examples/reading redo the table that `zerocount summary` prints, and what the MATLAB program reads is there.
 
-usage: judge_reading_results.py ZEROCOUNT README
+usage: judge_reading_results.py ZEROCOUNT FOLDER
 """
 
 import contextlib
@@ -72,9 +71,7 @@ def judge_matlab(code):
 
 
 def main():
-    zerocount, readme = (os.path.abspath(path) for path in sys.argv[1:3])
-    text = pathlib.Path(readme).read_text(encoding="utf-8")
-    blocks = re.findall(r"^```(\w+)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+    zerocount, programs = (pathlib.Path(path).resolve() for path in sys.argv[1:3])
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         pathlib.Path("study.yaml").write_text(manifest, encoding="utf-8")
@@ -82,13 +79,11 @@ def main():
             subprocess.run([zerocount, *words], check=True, stderr=subprocess.DEVNULL)
         expected = expected_rows(zerocount)
         assert 0 < expected[1][1][1] < 1 and expected[2][1][1] == 0, expected
-        python = [code for language, code in blocks if language == "python"]
-        assert len(python) == 2
-        for code in python:
-            judge_python(code, expected)
-        judge_matlab(next(code for language, code in blocks if language == "matlab"))
+        for name in ("trials.py", "points.py"):
+            judge_python((programs / name).read_text(encoding="utf-8"), expected)
+        judge_matlab((programs / "trials.m").read_text(encoding="utf-8"))
         os.chdir("/")
-    print(f"{len(python)} programs agree on {len(expected)} points")
+    print(f"the programs agree on {len(expected)} points")
 
 
 main()

@@ -88,7 +88,7 @@ struct Forecast {
 /// - the effects seen, but each is zero with the probability that the effects of all measures together give
 ///   it (a two-group mixture: Efron et al., Journal of the American Statistical Association 96 (2001), 1151).
 /// The first by itself promises decisions by regressions that are not there; the second misses small
-/// changes. Its measured accuracy: accuracy.md.
+/// changes. Its measured accuracy: README.md.
 ///
 /// The result does not depend on the number of threads.
 Forecast forecast_decision(const ForecastSamples& samples, const ForecastOptions& options);

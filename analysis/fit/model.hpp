@@ -96,8 +96,6 @@ struct FitModel {
   std::function<double(const Point&)> series_compliance{};
   std::function<std::vector<Quantity>(const Point&)> quantities_at;
   std::vector<Point> starts{};  ///< starting points of the fit
-  /// Other starting points near a local minimum; may be empty.
-  std::function<std::vector<Point>(const Point&)> neighbours{};
   /// Lines below `friction:` in a manifest for what is not fitted, with the units of a rotary axis; may be
   /// empty.
   std::function<std::string(const Point&)> fixed_lines{};

@@ -225,13 +225,17 @@ FitResult fit_from(Records records, const Observations& observations, const FitP
   return fit_jointly(records, observations, start, setting);
 }
 
-std::vector<FitResult> fits_from(Records records, const Observations& observations,
-                                 std::vector<FitResult> starts, const FitSetting& setting) {
-  parallel::for_each_index(starts.size(), [&](std::size_t i) {
-    starts[i] = fit_from(records, observations, starts[i].point, setting);
-  });
-  const std::size_t all = starts.size();
-  return by_squares(std::move(starts), all);
+std::vector<FitResult> follow_best(Records records, const Observations& observations,
+                                   std::vector<FitResult> fits, FitSetting setting, SearchRounds rounds) {
+  for (const SearchRound& round : rounds) {
+    fits = by_squares(std::move(fits), round.points);
+    setting.max_steps = round.steps;
+    parallel::for_each_index(fits.size(), [&](std::size_t i) {
+      fits[i] = fit_from(records, observations, fits[i].point, setting);
+    });
+  }
+  const std::size_t all = fits.size();
+  return by_squares(std::move(fits), all);
 }
 
 FitResult with_mean_offsets(Records records, const FitModel& model, const Point& point) {
@@ -256,18 +260,16 @@ FitResult with_mean_offsets(Records records, const FitModel& model, const Point&
 }
 
 std::vector<FitResult> promising_fits(Records records, const Observations& observations,
-                                      const std::vector<Point>& starts, FitSetting setting,
-                                      const SearchWidth& width) {
+                                      const std::vector<Point>& starts, const FitSetting& setting,
+                                      SearchRounds rounds) {
   constexpr double hopeless = 4.0;
   std::vector<FitResult> fits(starts.size());
   parallel::for_each_index(
       starts.size(), [&](std::size_t i) { fits[i] = with_mean_offsets(records, setting.model, starts[i]); });
-  fits = by_squares(std::move(fits), width.tried);
-  setting.max_steps = width.steps;
-  fits = by_squares(fits_from(records, observations, std::move(fits), setting), width.continued);
-  if (fits.empty()) return fits;
-  const double least = fits.front().squares;
-  std::erase_if(fits, [&](const FitResult& fit) { return fit.squares > hopeless * least; });
+  fits = follow_best(records, observations, std::move(fits), setting, rounds);
+  std::erase_if(fits, [least = fits.empty() ? 0.0 : fits.front().squares](const FitResult& fit) {
+    return fit.squares > hopeless * least;
+  });
   return fits;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <limits>
 #include <span>
 #include <vector>
@@ -84,27 +85,29 @@ FitResult fit_jointly(Records records, const Observations& observations, const F
 FitResult fit_from(Records records, const Observations& observations, const FitPoint& start,
                    FitSetting setting);
 
-/// fit_from() each of the results, in parallel; by their sums of squares.
-std::vector<FitResult> fits_from(Records records, const Observations& observations,
-                                 std::vector<FitResult> starts, const FitSetting& setting);
-
 /// A point with the offsets for which the residuals of all readings have the mean 0, and their sum of squares
 /// over the variance of a count; infinite where the motion cannot be simulated, or is too fast for the
 /// sampling.
 FitResult with_mean_offsets(Records records, const FitModel& model, const Point& point);
 
-/// How many starting points are tried.
-struct SearchWidth {
-  std::size_t tried{6};  ///< the best of them, each for `steps` steps
-  int steps{12};
-  std::size_t continued{3};  ///< the best of these fits are results
+/// A round of a search from many points: the best of them, each followed for so many steps.
+struct SearchRound {
+  std::size_t points{0};
+  int steps{0};
 };
 
-/// A few steps from the best of the starting points, in parallel. @returns the fits, by their sums of
-/// squares, those within four times the smallest.
+using SearchRounds = std::initializer_list<SearchRound>;
+
+/// Follows the best of the fits, in each round fewer of them for more steps (successive halving: Jamieson &
+/// Talwalkar, AISTATS 2016), in parallel. @returns the fits of the last round that are finite, by their sums
+/// of squares.
+std::vector<FitResult> follow_best(Records records, const Observations& observations,
+                                   std::vector<FitResult> fits, FitSetting setting, SearchRounds rounds);
+
+/// follow_best() from the starting points. @returns those within four times the smallest sum of squares.
 std::vector<FitResult> promising_fits(Records records, const Observations& observations,
-                                      const std::vector<Point>& starts, FitSetting setting,
-                                      const SearchWidth& width = {});
+                                      const std::vector<Point>& starts, const FitSetting& setting,
+                                      SearchRounds rounds = {{6, 4}, {3, 8}});
 
 /// The model at a point, with its linearisation.
 struct FittedModel {

@@ -23,17 +23,6 @@ constexpr int last_steps = 60;
 /// Steps that a hopeless law still takes.
 constexpr int hopeless_steps = 15;
 
-/// True if the readings are counts and the residuals are about those of their rounding.
-bool is_explained(Records records, const FitResult& minimum, const Observations& readings) {
-  if (!std::all_of(records.begin(), records.end(), [](const TestRecord& record) { return record.counted; })) {
-    return false;
-  }
-  constexpr double tolerated = 1.2;
-  std::size_t count = 0;
-  for (const std::vector<AngleObservation>& of_record : readings) count += of_record.size();
-  return minimum.squares < tolerated * static_cast<double>(count);
-}
-
 FitSetting setting_of(const FitModel& model) {
   return {.model = model, .free = model.free, .prior = {}};
 }
@@ -46,21 +35,6 @@ FitSetting without_time_offset(FitSetting setting) {
 FitSetting with_steps(FitSetting setting, int steps) {
   setting.max_steps = steps;
   return setting;
-}
-
-/// The minimum, or a smaller one that is found from its neighbours.
-FitResult with_neighbours(Records records, const FitModel& model, const Observations& readings,
-                          const FitSetting& setting, FitResult best) {
-  if (!model.neighbours) return best;
-  constexpr int rounds = 4;
-  constexpr double better = 0.98;
-  for (int round = 0; round < rounds && !is_explained(records, best, readings); ++round) {
-    const std::vector<FitResult> tried =
-        promising_fits(records, readings, model.neighbours(best.point.axis), setting, {3, 8, 1});
-    if (tried.empty() || !(tried.front().squares < better * best.squares)) break;
-    best = fit_from(records, readings, tried.front().point, with_steps(setting, last_steps));
-  }
-  return best;
 }
 
 /// Points about `centres`, in turns: of the free coordinates but the time offset about half move far at
@@ -84,8 +58,8 @@ std::vector<Point> scattered(const FitModel& model, const std::vector<Point>& ce
   return found;
 }
 
-/// How many of the scattered points are followed.
-constexpr SearchWidth wide_search{12, 12, 3};
+/// Rounds in which scattered points are followed.
+constexpr SearchRounds wide_search{{12, 3}, {6, 4}};
 
 /// The best fits from the law's starting points, or from points scattered about them where none of those can
 /// be simulated.
@@ -111,21 +85,26 @@ FitResult fit_all_readings(Records records, const FitModel& model, const Observa
   if (minima.front().squares > hopeless * least_squares) {
     return fit_from(records, readings, minima.front().point, with_steps(setting, hopeless_steps));
   }
-  minima = fits_from(records, readings, std::move(minima), with_steps(undelayed, last_steps));
-  const FitResult found = with_neighbours(records, model, readings, undelayed, minima.front());
+  FitResult found = minima.front();
+  minima = follow_best(records, readings, std::move(minima), undelayed, {{3, 20}, {1, last_steps}});
+  if (!minima.empty()) found = minima.front();
   const FitResult delayed = fit_from(records, readings, found.point, with_steps(setting, last_steps));
   return std::isfinite(delayed.squares) ? delayed : found;
 }
 
-/// The fit to the observations, from a fit to all readings.
+/// The fit to the observations, from a fit to all readings. One that leaves more than the rounding of the
+/// readings stays as it is: what it leaves is the law's, and finer observations cost most of the time.
 LawFit refined(Records records, const FitModel& model, const FitResult& rough) {
   LawFit fit;
   fit.setting = setting_of(model);
   fit.squares = rough.squares;
   fit.converged = rough.converged;
   observe_at(records, rough.point, fit);
+  bool explained = true;
   for (std::size_t r = 0; r < records.size(); ++r) {
-    const Eigen::VectorXd left = residuals_along(records[r], fit.model.motions[r].path);
+    const Eigen::VectorXd& path = fit.model.motions[r].path;
+    explained = explained && is_explained(records[r], path);
+    const Eigen::VectorXd left = residuals_along(records[r], path);
     std::vector<double>& used = fit.residuals.emplace_back();
     for (std::size_t k = 0; k < sample_count(records[r]); ++k) {
       if (!is_excluded(records[r], k)) used.push_back(left[static_cast<Eigen::Index>(k)]);
@@ -133,7 +112,7 @@ LawFit refined(Records records, const FitModel& model, const FitResult& rough) {
   }
   constexpr int rounds = 3;
   constexpr int steps = 15;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; explained && round < rounds; ++round) {
     const FitResult finer =
         fit_from(records, fit.observations, fit.model.point, with_steps(fit.setting, steps));
     if (!std::isfinite(finer.squares)) break;

@@ -42,7 +42,7 @@ FitModel law_model(friction::FrictionModel law, const RecordScales& scales, Reco
 FitModel with_series_compliance(FitModel model, const RecordScales& scales);
 
 /// Elements that stick or slip, beside the rotor's inertia and damping.
-FitModel maxwell_slip_model(const RecordScales& scales);
+FitModel maxwell_slip_model(const RecordScales& scales, Records records);
 
 /// Squares in multiples of those of another law from which a law is not searched further.
 inline constexpr double hopeless = 100.0;
@@ -55,11 +55,10 @@ struct LawFit : Fit {
   bool converged{false};
 };
 
-/// Fits a law by non-linear least squares: first to all readings with equal weights, a few steps from the
-/// best of the starting points and to the end from the best of these; then to the observations
-/// (observe()), in three rounds.
-/// A law whose best starting points leave a hundred times the squares of another one is fitted with fewer
-/// steps, and without a search among its local minima.
+/// Fits a law by non-linear least squares: first to all readings with equal weights, from the best of the
+/// starting points (follow_best()); then, where the law explains the readings, to the observations
+/// (observe()), in three rounds. A law whose best starting points leave a hundred times the squares of
+/// another one is fitted with fewer steps.
 /// @param least_squares of the laws fitted before; infinite without any
 /// @throws Failure (bad_data) if the law cannot be simulated from any of its starting points.
 LawFit fit_law(Records records, const FitModel& model, double least_squares);

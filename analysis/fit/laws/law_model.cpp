@@ -183,7 +183,7 @@ FitModel law_model(FrictionModel law, const RecordScales& scales, Records record
     case FrictionModel::lugre:
       return bristle_model(scales, records, law);
     case FrictionModel::gms:
-      return maxwell_slip_model(scales);
+      return maxwell_slip_model(scales, records);
     case FrictionModel::coulomb:
     case FrictionModel::none:
       break;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -8,6 +9,8 @@
 
 #include "analysis/fit/laws/law_identification.hpp"
 #include "analysis/fit/presliding/contact.hpp"
+#include "analysis/fit/presliding/starting_point.hpp"
+#include "core/numerics/dense.hpp"
 
 namespace zerocount::fit {
 
@@ -52,82 +55,78 @@ std::vector<friction::GmsElement> elements_at(const Point& point, const std::vec
   return elements;
 }
 
-/// Torque of a branch of the pre-sliding spring after the travel u from the virgin state, N m.
-double virgin_torque(const friction::FrictionParameters& contact, double u) {
-  return contact.k1 * u - contact.k2 / contact.beta * std::expm1(-contact.beta * u);
+/// Travels at which elements may slip, from a thousandth of the records' range to half of it, rad.
+Eigen::VectorXd possible_travels(Records records) {
+  constexpr Eigen::Index count = 24;
+  constexpr double smallest = 1e-3;
+  double range = 0.0;
+  for (const TestRecord& record : records) {
+    const auto [low, high] = std::ranges::minmax(record.reading);
+    range = std::max(range, record.unit * (high - low));
+  }
+  return range * Eigen::ArrayXd::LinSpaced(count, std::log(smallest), std::log(0.5)).exp();
 }
 
-/// Torque of the elements after the travel u from the virgin state, N m.
-double virgin_torque(const Point& point, double u) {
-  double torque = std::exp(point[slipping_elements]) * u;
-  for (Eigen::Index i = 0; i < element_travel - 1; ++i) {
-    torque += std::exp(point[i]) * std::min(u, std::exp(point[element_travel + i]));
-  }
-  return torque;
-}
+/// Normal equations of the torque along the measured path: J·d²θ/dt² + c·dθ/dt + Σ κ_i·z_i, in which the
+/// strain z_i of an element follows the axis within ± its slip travel. With the travels, J and c given, it is
+/// linear in κ (equation error; Rizos & Fassois, Chaos 14, 2004, 431).
+struct TorqueAlongPath {
+  Eigen::MatrixXd
+      strains;  ///< products of the strains of all possible elements, and of the sticking one, last
+  Eigen::VectorXd torque;  ///< their products with the torque that the elements carry
+};
 
-/// Stiffness of an element where the curve has no corner, as a part of the sticking one's: almost none, or
-/// enough for a slope of the sum of squares.
-constexpr double faint = 1e-3;
-constexpr double visible = 0.2;
-
-using Corners = std::array<double, slipping_elements>;
-
-/// Elements whose virgin curve is a polygon through `virgin` (N m over rad), with corners at rising travels
-/// (rad) and the slope `last` beyond them (N m/rad). Sets their coordinates.
-/// @param least stiffness of an element, as a part of `last`
-template <class Curve>
-void set_polygon(const Curve& virgin, const Corners& corners, double last, double least, Point& point) {
-  std::array<double, slipping_elements + 1> slope{};
-  double u = 0.0;
-  for (std::size_t i = 0; i < slipping_elements; ++i) {
-    slope[i] = (virgin(corners[i]) - virgin(u)) / (corners[i] - u);
-    u = corners[i];
-    point[element_travel + static_cast<Eigen::Index>(i)] = std::log(u);
-  }
-  slope.back() = last;
-  for (std::size_t i = 0; i < slipping_elements; ++i) {
-    point[static_cast<Eigen::Index>(i)] = std::log(std::max(slope[i] - slope[i + 1], least * last));
-  }
-  point[slipping_elements] = std::log(last);
-}
-
-/// Points with nearly the same virgin curve and one corner elsewhere. The sum of squares has a local minimum
-/// for each assignment of the elements to the corners of the records' loops.
-std::vector<Point> with_other_corners(const Point& point) {
-  std::vector<Point> others;
-  for (std::size_t moved = 0; moved < slipping_elements; ++moved) {
-    for (const double factor : {0.15, 0.4, 2.5, 6.0}) {
-      Corners corners{};
-      for (std::size_t i = 0; i < slipping_elements; ++i) {
-        corners[i] = std::exp(point[element_travel + static_cast<Eigen::Index>(i)]);
-      }
-      corners[moved] *= factor;
-      std::sort(corners.begin(), corners.end());
-      for (const double least : {faint, visible}) {
-        others.push_back(point);
-        set_polygon([&](double u) { return virgin_torque(point, u); }, corners,
-                    std::exp(point[slipping_elements]), least, others.back());
-      }
+TorqueAlongPath torque_along_path(Records records, const Eigen::VectorXd& travels,
+                                  const motion::PlantParameters& plant) {
+  const auto elements = travels.size() + 1;
+  TorqueAlongPath sums{Eigen::MatrixXd::Zero(elements, elements), Eigen::VectorXd::Zero(elements)};
+  for (const TestRecord& record : records) {
+    const Eigen::VectorXd angle = measured_angle(record);
+    Eigen::VectorXd strain = Eigen::VectorXd::Zero(elements);
+    for (Eigen::Index k = 1; k + 1 < angle.size(); ++k) {
+      const auto sample = static_cast<std::size_t>(k);
+      const double moved = angle[k] - angle[k - 1];
+      strain.array() += moved;
+      strain.head(travels.size()) = strain.head(travels.size()).cwiseMin(travels).cwiseMax(-travels);
+      const double interval = interval_after(record, sample);
+      const double velocity = 0.5 * (angle[k + 1] - angle[k - 1]) / interval;
+      const double acceleration = (angle[k + 1] - 2.0 * angle[k] + angle[k - 1]) / (interval * interval);
+      const double applied = 0.5 * (record.torque[sample - 1].now + record.torque[sample].now);
+      const double carried = applied - plant.presliding_damping * velocity - plant.inertia * acceleration;
+      sums.strains += strain * strain.transpose();
+      sums.torque += carried * strain;
     }
   }
-  return others;
+  return sums;
 }
 
-std::vector<Point> polygons(const RecordScales& scales) {
-  const ContactParameters contact = contact_at(scales.contact, scales.creep_torque);
-  const double farthest = 0.5 * scales.largest_torque / scales.secant_stiffness;  // travel, rad
+/// For each smallest slip travel, the elements whose torque along the measured path is nearest to the applied
+/// one. None is softer than a thousandth of the stiffest: a fit could not bring it back.
+std::vector<Point> nearest_elements(const RecordScales& scales, Records records) {
+  constexpr double faint = 1e-3;
+  const motion::PlantParameters plant = contact_at(scales.contact, scales.creep_torque).plant;
+  const Eigen::VectorXd travels = possible_travels(records);
+  const TorqueAlongPath path = torque_along_path(records, travels, plant);
+  const Eigen::Index count = travels.size();
   std::vector<Point> starts;
-  for (const double last : {0.1, 0.3, 0.6, 0.9}) {
-    for (const double ratio : {2.0, 4.0, 8.0}) {
-      const double corner = last * farthest;
-      Point start = Point::Zero(element_dimension);
-      set_polygon([&](double u) { return virgin_torque(contact.friction, u); },
-                  {corner / (ratio * ratio), corner / ratio, corner}, contact.friction.k1, faint, start);
-      start[element_damping] = std::log(contact.plant.presliding_damping);
-      start[element_inertia] = std::log(contact.plant.inertia);
-      starts.push_back(start);
+  for (Eigen::Index first = 0; first + 2 < count; ++first) {
+    double most = -std::numeric_limits<double>::infinity();  // that the elements take from the squares
+    Point nearest(element_dimension);
+    for (Eigen::Index second = first + 1; second + 1 < count; ++second) {
+      for (Eigen::Index third = second + 1; third < count; ++third) {
+        const std::array<Eigen::Index, slipping_elements + 1> chosen{first, second, third, count};
+        const Eigen::MatrixXd strains = path.strains(chosen, chosen);
+        const Eigen::VectorXd torque = path.torque(chosen);
+        const Eigen::VectorXd free = numerics::solve_positive_definite(strains, torque);
+        const Eigen::VectorXd stiffness = free.cwiseMax(faint * free.maxCoeff());
+        const double taken = stiffness.dot(2.0 * torque - strains * stiffness);
+        if (!(taken > most)) continue;
+        most = taken;
+        nearest << stiffness.array().log(), std::log(travels[first]), std::log(travels[second]),
+            std::log(travels[third]), std::log(plant.presliding_damping), std::log(plant.inertia), 0.0;
+      }
     }
+    if (std::isfinite(most)) starts.push_back(nearest);
   }
   return starts;
 }
@@ -163,7 +162,7 @@ std::string list_lines(const Point& point, double largest_torque) {
 
 }  // namespace
 
-FitModel maxwell_slip_model(const RecordScales& scales) {
+FitModel maxwell_slip_model(const RecordScales& scales, Records records) {
   const double largest_torque = scales.largest_torque;
   FitModel model;
   model.law = friction::FrictionModel::gms;
@@ -197,8 +196,7 @@ FitModel maxwell_slip_model(const RecordScales& scales) {
     quantities.push_back(time_offset_quantity(point));
     return quantities;
   };
-  model.starts = polygons(scales);
-  model.neighbours = with_other_corners;
+  model.starts = nearest_elements(scales, records);
   model.fixed_lines = [=](const Point& point) { return list_lines(point, largest_torque); };
   return model;
 }

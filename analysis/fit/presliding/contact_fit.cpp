@@ -330,7 +330,7 @@ bool improve_from(Records records, std::span<const Point> changes, ContactFit& f
     }
   }
   const std::vector<FitResult> found =
-      promising_fits(records, fit.observations, starts, fit.setting, {3, 8, 1});
+      promising_fits(records, fit.observations, starts, fit.setting, {{3, 8}});
   if (found.empty()) return false;
   ContactFit other = fit;
   other.setting.prior = found.front().point.axis;

@@ -7,11 +7,6 @@
 /// The torque on the rotor as a series in the fraction of a step.
 namespace zerocount::batch {
 
-/// A constant torque. Its only coefficient is MotionLanes::torque.
-struct ConstantTorque {
-  static constexpr bool varies = false;
-};
-
 /// A torque that varies (CourseLanes). With s = sin(q·θ + φ) and c its cosine a ripple obeys
 ///
 ///   ds/dt = q·ω·c,   dc/dt = −q·ω·s.
@@ -20,10 +15,8 @@ struct ConstantTorque {
 template <class P>
 struct VaryingTorque {
   using Mask = typename P::Mask;
-  static constexpr bool varies = true;
   P fixed[batch_order];     ///< without the ripples; [0] is the whole torque
   P velocity[batch_order];  ///< coefficients of ω·h, in the unit of the motion's series
-  P change;  ///< Σ k·|coefficient k|: bound of the rate of the torque, in its unit by the step
   int ripples;
   P amplitude[max_lane_ripples];
   P per_travel[max_lane_ripples];  ///< q by the unit of `velocity`
@@ -62,9 +55,7 @@ struct VaryingTorque {
     P on_parabola = torque;
     if (has_parabolas) on_parabola = torque + coefficient_of_parabolas(k);
     if (has_waves) torque = torque_with_waves(k);
-    torque = select(parabolic, on_parabola, torque);
-    change = change + P(static_cast<double>(k)) * abs(torque);
-    return torque;
+    return select(parabolic, on_parabola, torque);
   }
 
  private:
@@ -113,7 +104,6 @@ ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, 
     power = power * ratio;
     torque.fixed[k] = at.load(c.applied[k]) * power;
   }
-  torque.change = P(0.0);
   torque.ripples = 0;
   const P count = at.load(c.ripple_count);
   while (torque.ripples < max_lane_ripples &&

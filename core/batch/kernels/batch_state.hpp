@@ -340,6 +340,21 @@ enum class Decider {
   lane_loop  ///< LaneLoop, before the sampling kernel
 };
 
+/// What acts on the rotors of the lanes of a kernel's call, beside a torque that stays.
+struct Forcing {
+  static constexpr bool forced = true;
+  bool varies;  ///< the torque is that of course_kernel
+  bool loaded;  ///< a second mass is coupled to the rotor
+  bool any() const { return varies || loaded; }
+};
+/// Neither, which is known when a kernel is compiled.
+struct Unforced {
+  static constexpr bool forced = false;
+  static constexpr bool varies = false;
+  static constexpr bool loaded = false;
+  static constexpr bool any() { return false; }
+};
+
 /// All numbers of the lanes except those of blocks, as one array of Lanes.
 struct LaneNumbers {
   MotionLanes motion;

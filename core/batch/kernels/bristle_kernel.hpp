@@ -22,8 +22,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask rests_on_bristle(const BatchState& batc
 }
 
 /// Moves the lanes that are at rest to their next stop. @returns the others.
-template <class P, bool Loaded>
-LaneSet bristle_rest_kernel(BatchState& batch, const LaneSet& lanes) {
+template <class P>
+LaneSet bristle_rest_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   MotionLanes& m = batch.motion;
   LaneSet moving = lanes;
   for (int base = 0; base < max_lanes; base += P::lanes) {
@@ -31,7 +31,7 @@ LaneSet bristle_rest_kernel(BatchState& batch, const LaneSet& lanes) {
     if (here == 0) continue;
     const LaneStretch<P> all(base, here);
     typename P::Mask rests = rests_on_bristle<P>(batch, all);
-    if constexpr (Loaded) {
+    if (forcing.loaded) {
       const P quiet = all.load(batch.contact.bristle_stiffness) * all.load(batch.time.rest);
       rests = rests & load_is_quiet(batch, all, all.load(m.omega), quiet, P(0.0));
     }
@@ -40,14 +40,14 @@ LaneSet bristle_rest_kernel(BatchState& batch, const LaneSet& lanes) {
     moving.erase_stretch(base, resting);
     const LaneStretch<P> at(base, resting);
     at.store(m.elongation, at.load(m.torque) / at.load(batch.contact.bristle_stiffness));
-    halt_to_next_stop<Loaded>(batch, at);
+    halt_to_next_stop(batch, at, forcing);
   }
   return moving;
 }
 
 /// The step of one vector; see bristle_kernel.
-template <bool Fast, bool Varies, bool Loaded, class At>
-__attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
+template <bool Fast, class At>
+__attribute__((noinline)) void bristle(BatchState& batch, const At& at, Forcing forcing) {
   using P = typename At::Vector;
   using Mask = typename P::Mask;
   MotionLanes& m = batch.motion;
@@ -58,7 +58,7 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   const P time_to_stop = at.load(time.time_to_stop);
   const P omega = at.load(m.omega);
   const P deflection_start = at.load(m.elongation);
-  const P torque = torque_on_rotor<Loaded>(batch, at, omega);
+  const P torque = torque_on_rotor(batch, at, forcing, omega);
   const P stiffness = at.load(c.bristle_stiffness);
   const P bristle_damping = at.load(c.bristle_damping);
   const P damping = at.load(c.sliding_damping);
@@ -69,7 +69,7 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
 
   const Mask from_zero = omega == zero;
   P direction = sign(select(from_zero, torque - stiffness * deflection_start, omega));
-  if constexpr (Varies) {
+  if (forcing.varies) {
     direction = select(direction == zero, sign(torque_rate(batch, at, omega)), direction);
   }
   const P speed = abs(omega);
@@ -78,7 +78,7 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   P h = min(at.load(time.next_step), time_to_stop);
   if constexpr (Fast) {
     P max_torque = max(stiffness * abs(deflection_start), coulomb + excess) + abs(torque);
-    if constexpr (Varies) max_torque = max_torque + torque_range(batch, at, h);
+    if (forcing.varies) max_torque = max_torque + torque_range(batch, at, h);
     const P slowing = (max_torque + (damping + P(2.0) * bristle_damping) * speed) * per_inertia;
     h = select(excess > zero, fast_step(speed, stribeck_velocity, slowing, h), h);
   } else {
@@ -108,9 +108,8 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   velocity[0] = omega * h;
   deflection[0] = Fast ? select(saturated, end_of_bristle, deflection_start) : deflection_start;
   curve.decay[0] = decay_start;
-  typename TorqueOf<P, Varies, Loaded>::Type applied;
-  constexpr bool varies = Varies || Loaded;
-  load_torque(batch, at, h, one, one, applied);
+  ForcedTorque<P> applied;
+  load_torque(batch, at, forcing, h, one, one, applied);
 #pragma GCC unroll 1
   for (int k = 0; k < batch_order; ++k) {
     const auto order = static_cast<std::size_t>(k);
@@ -124,20 +123,16 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
     }
     if constexpr (Fast) rate = select(saturated, zero, rate);
     const P per_order = P(numerics::reciprocal.of[k + 1]);
-    P torque_k = k == 0 ? torque : zero;
-    if constexpr (varies) {
-      const P coefficient = applied.coefficient(k, velocity[k]);
-      if (k > 0) torque_k = coefficient;
-    }
-    const P force = torque_k - stiffness * deflection[k];
+    const P varying = applied.coefficient(k, velocity[k]);
+    const P force = (k == 0 ? torque : varying) - stiffness * deflection[k];
     travel[k + 1] = velocity[k] * per_order;
     deflection[k + 1] = rate * per_order;
     velocity[k + 1] =
         (force_scale * force - damping_scale * (bristle_damping * rate + damping * velocity[k])) * per_order;
   }
 
-  P last_terms = (last_terms_of(travel) + last_terms_of(velocity)) + last_terms_of(deflection);
-  if constexpr (Loaded) last_terms = last_terms + last_terms_of_load(applied);
+  const P of_rotor = (last_terms_of(travel) + last_terms_of(velocity)) + last_terms_of(deflection);
+  const P last_terms = of_rotor + last_terms_of_load(applied);
   VelocityStep<P> step = velocity_step(batch, at, time_to_stop, h, last_terms);
   const P velocity_start = select(from_zero, velocity[1], velocity[0]);
   const P velocity_end = sum_of(velocity, batch_order);
@@ -148,14 +143,13 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   signed_part[batch_order] = select(from_zero, zero, velocity[batch_order]);
   Mask unfit = ~step.halts & ~keeps_sign(signed_part[0], velocity_end, signed_part[1],
                                          curvature_bound(signed_part, batch_order));
-  if constexpr (varies) {
+  if (forcing.any()) {
     unfit = unfit | (step.halts & ~crosses_once(signed_part, batch_order));
     // A rotor that nothing moves keeps still.
     unfit = unfit & ((curvature_bound(signed_part, batch_order) > zero) | (signed_part[1] != zero));
   }
   if constexpr (!Fast) unfit = unfit | grows_too_much(curve.exponent);
-  if constexpr (Fast && Loaded)
-    unfit = unfit | ((excess > zero) & ~stays_fast(velocity, stribeck_velocity, h));
+  if (Fast && forcing.loaded) unfit = unfit | ((excess > zero) & ~stays_fast(velocity, stribeck_velocity, h));
   step.too_long = step.inexact | unfit;
   step.done = ~step.too_long;
   const Mask seeks = at.taking_part() & step.halts & step.done;
@@ -173,7 +167,7 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
   at.store(m.elongation, deflection_end);
   at.store(m.gradual_slide, to_number<P>(friction::bristle_slides(deflection_end, omega_end, stiffness,
                                                                   bristle_damping, level_end)));
-  if constexpr (Loaded) store_load(batch, at, applied, step.x, step.h, step.done);
+  store_load(batch, at, applied, step.x, step.h, step.done);
   add_events(batch, at, events_where<P>(at.load(time.steps) > P(max_steps_to_stop), beyond_kernel));
 }
 
@@ -181,12 +175,12 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at) {
 /// Reports beyond_kernel. See friction::Bristle.
 ///
 /// `Fast` is for lanes whose level is that of Coulomb to the last bit: with Dahl's law, and far above the
-/// Stribeck velocity, where (ω/ωs)² > 64. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19. With `Loaded`
-/// see slide_kernel.
-template <class V, bool Fast, bool Varies, bool Loaded>
-void bristle_kernel(BatchState& batch, const LaneSet& lanes) {
+/// Stribeck velocity, where (ω/ωs)² > 64. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19. With a
+/// second mass see slide_kernel.
+template <class V, bool Fast>
+void bristle_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;
-  for_each_vector<V>(lanes, [&](const auto& at) { bristle<Fast, Varies, Loaded>(batch, at); });
+  for_each_group<typename V::Wide>(lanes, [&](const auto& at) { bristle<Fast>(batch, at, forcing); });
 }
 
 }  // namespace zerocount::batch

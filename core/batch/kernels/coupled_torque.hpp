@@ -2,78 +2,72 @@
 
 #include "core/batch/kernels/applied_torque.hpp"
 
-/// The torque on a rotor with a second mass.
+/// The torque on a rotor where it varies or a second mass is coupled to it.
 namespace zerocount::batch {
 
-/// The torque of the motor and of a disturbance, less that of the coupling to the load, which the series of
-/// the load gives order by order (motion::expand):
+/// The torque of lanes with a Forcing. A second mass takes up the torque of its coupling, which its series
+/// gives order by order (motion::expand):
 ///
 ///   dδ/dt = ω − ωL,   JL·dωL/dt = Ts,   Ts = kL·δ + dL·(ω − ωL).
-///
-/// @tparam Alone the torque without the load: ConstantTorque or VaryingTorque.
-template <class P, class Alone>
-struct CoupledTorque {
-  static constexpr bool varies = true;
-  Alone alone;
+template <class P>
+struct ForcedTorque {
+  static constexpr bool forced = true;
+  Forcing forcing;
+  VaryingTorque<P> alone;    ///< without the load, where that varies
   P twist[batch_order + 1];  ///< δ, rad
   P omega[batch_order + 1];  ///< ωL·h, rad
-  P change;                  ///< as VaryingTorque::change
-  P unit;                    ///< of the torque's coefficients, 1/(N m)
-  P travel_unit;             ///< of the rotor's ω·h, rad
-  P stiffness;               ///< kL, N m/rad
-  P damping;                 ///< dL/h, N m/rad
-  P acceleration;            ///< h²/JL, rad/(N m)
+  P change;        ///< Σ k·|coefficient k|: bound of the rate of the torque, in its unit by the step
+  P unit;          ///< of the torque's coefficients, 1/(N m)
+  P travel_unit;   ///< of the rotor's ω·h, rad
+  P stiffness;     ///< kL, N m/rad
+  P damping;       ///< dL/h, N m/rad
+  P acceleration;  ///< h²/JL, rad/(N m)
 
-  /// Coefficient k of the torque, in ascending order; that of order 0 without the torque of `alone`, if that
-  /// is constant. @param velocity_k that of the rotor's ω·h
+  /// Coefficient k of the torque, in ascending order; that of order 0 without a torque that stays. @param
+  /// velocity_k that of the rotor's ω·h
   ZEROCOUNT_ALWAYS_INLINE P coefficient(int k, const P& velocity_k) {
-    const P per_order(numerics::reciprocal.of[k + 1]);
-    const P relative = travel_unit * velocity_k - omega[k];
-    const P coupling = stiffness * twist[k] + damping * relative;
-    twist[k + 1] = relative * per_order;
-    omega[k + 1] = acceleration * coupling * per_order;
-    P torque = -(unit * coupling);
-    if constexpr (Alone::varies) torque = torque + alone.coefficient(k, velocity_k);
+    P torque(0.0);
+    if (forcing.varies) torque = alone.coefficient(k, velocity_k);
+    if (forcing.loaded) {
+      const P per_order(numerics::reciprocal.of[k + 1]);
+      const P relative = travel_unit * velocity_k - omega[k];
+      const P coupling = stiffness * twist[k] + damping * relative;
+      twist[k + 1] = relative * per_order;
+      omega[k + 1] = acceleration * coupling * per_order;
+      torque = forcing.varies ? torque - unit * coupling : -(unit * coupling);
+    }
     change = change + P(static_cast<double>(k)) * abs(torque);
     return torque;
   }
 };
 
-/// Whether a torque may have ripples.
-template <class Torque>
-inline constexpr bool has_ripples = false;
-template <class P>
-inline constexpr bool has_ripples<VaryingTorque<P>> = true;
-template <class P>
-inline constexpr bool has_ripples<CoupledTorque<P, VaryingTorque<P>>> = true;
+/// The torque of lanes without a Forcing, which is MotionLanes::torque.
+struct ConstantTorque {
+  static constexpr bool forced = false;
+};
 
-/// The torque on the rotors of the lanes. @tparam Varies without a load it varies. @tparam Loaded there is a
-/// load.
-template <class P, bool Varies, bool Loaded>
-struct TorqueOf {
-  using Type = ConstantTorque;
-};
+/// Their types tell that of the torque.
 template <class P>
-struct TorqueOf<P, true, false> {
-  using Type = VaryingTorque<P>;
-};
-template <class P, bool Varies>
-struct TorqueOf<P, Varies, true> {
-  using Type = CoupledTorque<P, typename TorqueOf<P, Varies, false>::Type>;
-};
+ForcedTorque<P> torque_with(Forcing);
+template <class P>
+ConstantTorque torque_with(Unforced);
 
 template <class P, class At>
-ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState&, const At&, const P&, const P&, const P&,
+ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState&, const At&, Unforced, const P&, const P&, const P&,
                                          ConstantTorque&) {}
 
-template <class P, class At, class Alone>
-ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, const P& h, const P& unit,
-                                         const P& travel_unit, CoupledTorque<P, Alone>& torque) {
+/// Loads the torque for a step of h (s). @param unit of the torque's coefficients, 1/(N m). @param
+/// travel_unit of the rotor's ω·h, rad.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, Forcing forcing, const P& h,
+                                         const P& unit, const P& travel_unit, ForcedTorque<P>& torque) {
+  torque.forcing = forcing;
+  torque.change = P(0.0);
+  if (forcing.varies) load_torque(batch, at, h, unit, travel_unit, torque.alone);
+  if (!forcing.loaded) return;
   const LoadLanes& l = batch.load;
-  load_torque(batch, at, h, unit, travel_unit, torque.alone);
   torque.twist[0] = at.load(l.twist);
   torque.omega[0] = at.load(l.omega) * h;
-  torque.change = P(0.0);
   torque.unit = unit;
   torque.travel_unit = travel_unit;
   torque.stiffness = at.load(l.stiffness);
@@ -82,11 +76,10 @@ ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, 
 }
 
 /// The torque on the rotor at this instant, N m. @param omega ω of the rotor, rad/s.
-template <bool Loaded, class P, class At>
-ZEROCOUNT_ALWAYS_INLINE P torque_on_rotor(const BatchState& batch, const At& at,
-                                          [[maybe_unused]] const P& omega) {
+template <class P, class At, class F>
+ZEROCOUNT_ALWAYS_INLINE P torque_on_rotor(const BatchState& batch, const At& at, F forcing, const P& omega) {
   const P torque = at.load(batch.motion.torque);
-  if constexpr (!Loaded) return torque;
+  if (!forcing.loaded) return torque;
   const LoadLanes& l = batch.load;
   return torque - (at.load(l.stiffness) * at.load(l.twist) + at.load(l.damping) * (omega - at.load(l.omega)));
 }
@@ -102,12 +95,12 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask load_is_quiet(const BatchState& batch, 
 }
 
 /// Lets lanes rest, with their loads, up to the next stop.
-template <bool Loaded, class At, class P = typename At::Vector>
-ZEROCOUNT_ALWAYS_INLINE void halt_to_next_stop(BatchState& batch, const At& at) {
+template <class At, class P = typename At::Vector>
+ZEROCOUNT_ALWAYS_INLINE void halt_to_next_stop(BatchState& batch, const At& at, Forcing forcing) {
   const P zero(0.0);
   at.store(batch.motion.omega, zero);
   at.store(batch.motion.gradual_slide, zero);
-  if constexpr (Loaded) {
+  if (forcing.loaded) {
     at.store(batch.load.twist, zero);
     at.store(batch.load.omega, zero);
     at.store(batch.loop.read_twist, zero);
@@ -115,17 +108,19 @@ ZEROCOUNT_ALWAYS_INLINE void halt_to_next_stop(BatchState& batch, const At& at) 
   at.store(batch.time.time_to_stop, zero);
 }
 
-/// The last two terms of the series of the load at the end of a step, rad.
-template <class P, class Alone>
-ZEROCOUNT_ALWAYS_INLINE P last_terms_of_load(const CoupledTorque<P, Alone>& t) {
+/// The last two terms of the series of the load at the end of a step, rad; 0 without a load.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P last_terms_of_load(const ForcedTorque<P>& t) {
   constexpr int last = batch_order;
+  if (!t.forcing.loaded) return P(0.0);
   return (abs(t.twist[last - 1]) + abs(t.twist[last])) + (abs(t.omega[last - 1]) + abs(t.omega[last]));
 }
 
-/// Stores the load at the fraction x of a step of h (s), in the lanes of `done`.
-template <class P, class At, class Alone>
-ZEROCOUNT_ALWAYS_INLINE void store_load(BatchState& batch, const At& at, const CoupledTorque<P, Alone>& t,
-                                        const P& x, const P& h, const typename P::Mask& done) {
+/// Stores the load, if any, at the fraction x of a step of h (s), in the lanes of `done`.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void store_load(BatchState& batch, const At& at, const ForcedTorque<P>& t, const P& x,
+                                        const P& h, const typename P::Mask& done) {
+  if (!t.forcing.loaded) return;
   LoadLanes& l = batch.load;
   const P twist = select(done, value_of(t.twist, batch_order, x), t.twist[0]);
   at.store(l.twist, twist);

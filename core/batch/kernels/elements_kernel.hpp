@@ -31,8 +31,9 @@ ZEROCOUNT_ALWAYS_INLINE typename At::Vector torque_of_elements(const BatchState&
 
 /// The rest rule of GmsFriction, of one vector: the elements that carry a rotor at rest take over what the
 /// torque exceeds theirs by. @returns the lanes at rest.
-template <bool Loaded, class At>
-ZEROCOUNT_ALWAYS_INLINE typename At::Vector::Mask rest_on_elements(BatchState& batch, const At& at) {
+template <class At>
+ZEROCOUNT_ALWAYS_INLINE typename At::Vector::Mask rest_on_elements(BatchState& batch, const At& at,
+                                                                   Forcing forcing) {
   using P = typename At::Vector;
   using Mask = typename P::Mask;
   ElementLanes& e = batch.elements;
@@ -53,7 +54,7 @@ ZEROCOUNT_ALWAYS_INLINE typename At::Vector::Mask rest_on_elements(BatchState& b
   const P shift = (torque - torque_of_elements(batch, at)) / stiffness;
   Mask rests = sticks & (stiffness > zero) &
                (abs(shift) + abs(omega) * sqrt(at.load(batch.contact.inertia) / stiffness) < rest);
-  if constexpr (Loaded) rests = rests & load_is_quiet(batch, at, omega, at.load(e.softest) * rest, zero);
+  if (forcing.loaded) rests = rests & load_is_quiet(batch, at, omega, at.load(e.softest) * rest, zero);
   for_each_element(batch, at, [&](int i) {
     const P carried = at.load(e.torque[i]);
     at.store(e.torque[i], select(rests & holds(i), carried + at.load(e.stiffness[i]) * shift, carried));
@@ -62,8 +63,8 @@ ZEROCOUNT_ALWAYS_INLINE typename At::Vector::Mask rest_on_elements(BatchState& b
 }
 
 /// Moves the lanes that are at rest under their torque, which stays, to their next stop. @returns the others.
-template <class P, bool Loaded>
-LaneSet elements_rest_kernel(BatchState& batch, const LaneSet& lanes) {
+template <class P>
+LaneSet elements_rest_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   MotionLanes& m = batch.motion;
   LaneSet moving = lanes;
   for (int base = 0; base < max_lanes; base += P::lanes) {
@@ -74,12 +75,12 @@ LaneSet elements_rest_kernel(BatchState& batch, const LaneSet& lanes) {
     unsigned resting = rested;
     if (rested != here)
       resting |=
-          rest_on_elements<Loaded>(batch, LaneStretch<P>(base, here & ~rested)).bits() & here & ~rested;
+          rest_on_elements(batch, LaneStretch<P>(base, here & ~rested), forcing).bits() & here & ~rested;
     if (resting == 0) continue;
     moving.erase_stretch(base, resting);
     const LaneStretch<P> at(base, resting);
     at.store(m.rest_torque, at.load(m.torque));
-    halt_to_next_stop<Loaded>(batch, at);
+    halt_to_next_stop(batch, at, forcing);
   }
   return moving;
 }
@@ -198,8 +199,8 @@ ZEROCOUNT_ALWAYS_INLINE void store_elements(BatchState& batch, const At& at, con
 }
 
 /// The step of one vector; see elements_kernel.
-template <bool Varies, bool Loaded, class At>
-__attribute__((noinline)) void move_elements(BatchState& batch, const At& at) {
+template <class At>
+__attribute__((noinline)) void move_elements(BatchState& batch, const At& at, Forcing forcing) {
   using P = typename At::Vector;
   using Mask = typename P::Mask;
   MotionLanes& m = batch.motion;
@@ -209,7 +210,7 @@ __attribute__((noinline)) void move_elements(BatchState& batch, const At& at) {
   const P one(1.0);
   const P time_to_stop = at.load(time.time_to_stop);
   const P omega = at.load(m.omega);
-  const P torque = torque_on_rotor<Loaded>(batch, at, omega);
+  const P torque = torque_on_rotor(batch, at, forcing, omega);
   const P damping = at.load(c.sliding_damping);
   const P coulomb = at.load(c.coulomb);
   const P excess = at.load(c.breakaway) - coulomb;
@@ -220,7 +221,7 @@ __attribute__((noinline)) void move_elements(BatchState& batch, const At& at) {
   const Mask from_zero = omega == zero;
   const P all_torque = torque_of_elements(batch, at);
   P direction = sign(select(from_zero, torque - all_torque, omega));
-  if constexpr (Varies) {
+  if (forcing.varies) {
     direction = select(direction == zero, sign(torque_rate(batch, at, omega)), direction);
   }
   const P decay_start = exp(-per_velocity_squared * omega * omega);
@@ -249,9 +250,8 @@ __attribute__((noinline)) void move_elements(BatchState& batch, const At& at) {
   s.slipping[0] = sums.slipping_torque;
   s.fading[0] = one;
   curve.decay[0] = decay_start;
-  typename TorqueOf<P, Varies, Loaded>::Type applied;
-  constexpr bool varies = Varies || Loaded;
-  load_torque(batch, at, h, one, one, applied);
+  ForcedTorque<P> applied;
+  load_torque(batch, at, forcing, h, one, one, applied);
 #pragma GCC unroll 1
   for (int k = 0; k < batch_order; ++k) {
     const auto order = static_cast<std::size_t>(k);
@@ -266,11 +266,8 @@ __attribute__((noinline)) void move_elements(BatchState& batch, const At& at) {
       s.slipping[k + 1] = attraction * per_order * (driven - slipping_ratio[k]);
       s.fading[k + 1] = -(attraction * per_order * fading_ratio[k]);
     }
-    P torque_k = k == 0 ? torque - sums.sticking_torque : zero;
-    if constexpr (varies) {
-      const P coefficient = applied.coefficient(k, s.velocity[k]);
-      if (k > 0) torque_k = coefficient;
-    }
+    const P varying = applied.coefficient(k, s.velocity[k]);
+    const P torque_k = k == 0 ? torque - sums.sticking_torque : varying;
     const P force = torque_k - sums.sticking_stiffness * s.travel[k] - s.slipping[k];
     s.travel[k + 1] = s.velocity[k] * per_order;
     s.velocity[k + 1] = (force_scale * force - damping_scale * s.velocity[k]) * per_order;
@@ -279,8 +276,8 @@ __attribute__((noinline)) void move_elements(BatchState& batch, const At& at) {
   s.level[batch_order] = excess * curve.decay[batch_order];
 
   const P of_torques = last_terms_of(s.slipping) + last_terms_of(s.fading) * (coulomb + excess);
-  P last_terms = last_terms_of(s.travel) + last_terms_of(s.velocity) + of_torques / stiffest;
-  if constexpr (Loaded) last_terms = last_terms + last_terms_of_load(applied);
+  const P of_rotor = last_terms_of(s.travel) + last_terms_of(s.velocity) + of_torques / stiffest;
+  const P last_terms = of_rotor + last_terms_of_load(applied);
   VelocityStep<P> step = velocity_step(batch, at, time_to_stop, h, last_terms);
 
   const P velocity_start = select(from_zero, s.velocity[1], s.velocity[0]);
@@ -313,16 +310,16 @@ __attribute__((noinline)) void move_elements(BatchState& batch, const At& at) {
   at.store(m.omega, omega_after(step, s.velocity, omega));
   at.store(m.rest_torque, P(__builtin_nan("")));
   store_elements(batch, at, s, sums, step);
-  if constexpr (Loaded) store_load(batch, at, applied, step.x, step.h, step.done);
+  store_load(batch, at, applied, step.x, step.h, step.done);
   add_events(batch, at, events_where<P>(at.load(time.steps) > P(max_steps_to_stop), beyond_kernel));
 }
 
 /// One step of each moving lane with elements: to the next stop, to ω = 0, to the slip of an element, or as
 /// far as the series converge. Reports beyond_kernel. See friction::GmsMotion.
-template <class V, bool Varies, bool Loaded>
-void elements_kernel(BatchState& batch, const LaneSet& lanes) {
+template <class V>
+void elements_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;
-  for_each_vector<V>(lanes, [&](const auto& at) { move_elements<Varies, Loaded>(batch, at); });
+  for_each_group<typename V::Wide>(lanes, [&](const auto& at) { move_elements(batch, at, forcing); });
 }
 
 }  // namespace zerocount::batch

@@ -6,18 +6,18 @@
 namespace zerocount::batch {
 
 /// Moves each lane without friction to its next stop, one sample ahead, by the linear map of
-/// friction::free_motion. With `Varies` the torque is CourseLanes::settled and a lag.
-template <class V, bool Varies>
-void free_kernel(BatchState& batch, const LaneSet& lanes) {
+/// friction::free_motion. If it `varies` the torque is CourseLanes::settled and a lag.
+template <class V>
+void free_kernel(BatchState& batch, const LaneSet& lanes, bool varies) {
   for_each_stretch<V>(lanes, [&]<class At>(const At& at) {
     using P = typename At::Vector;
     MotionLanes& m = batch.motion;
     const FreeLanes& f = batch.free;
     const P omega = at.load(m.omega);
-    const P torque = at.load(Varies ? batch.course.settled : m.torque);
+    const P torque = at.load(varies ? batch.course.settled : m.torque);
     P theta = at.load(m.theta) + (omega * at.load(f.travel) + torque * at.load(f.push));
     P velocity = omega * at.load(f.decay) + torque * at.load(f.gain);
-    if constexpr (Varies) {
+    if (varies) {
       const P lag = at.load(batch.course.lag);
       theta = theta + lag * at.load(f.lag_push);
       velocity = velocity + lag * at.load(f.lag_gain);
@@ -29,8 +29,8 @@ void free_kernel(BatchState& batch, const LaneSet& lanes) {
 }
 
 /// The step of one vector; see loaded_free_kernel.
-template <bool Varies, class At>
-__attribute__((noinline)) void move_free_with_load(BatchState& batch, const At& at) {
+template <class At>
+__attribute__((noinline)) void move_free_with_load(BatchState& batch, const At& at, Forcing forcing) {
   using P = typename At::Vector;
   MotionLanes& m = batch.motion;
   const P zero(0.0);
@@ -41,13 +41,13 @@ __attribute__((noinline)) void move_free_with_load(BatchState& batch, const At& 
   const P h = without_short_remainder(min(at.load(batch.time.next_step), time_to_stop), time_to_stop);
   const P force_scale = h * h * per_inertia;
   const P damping_scale = at.load(batch.contact.damping) * h * per_inertia;
-  CoupledTorque<P, typename TorqueOf<P, Varies, false>::Type> applied;
-  load_torque(batch, at, h, one, one, applied);
+  ForcedTorque<P> applied;
+  load_torque(batch, at, forcing, h, one, one, applied);
   P travel[batch_order + 1];
   P velocity[batch_order + 1];
   travel[0] = zero;
   velocity[0] = omega * h;
-  P force = torque_on_rotor<true>(batch, at, omega);
+  P force = torque_on_rotor(batch, at, forcing, omega);
 #pragma GCC unroll 1
   for (int k = 0; k < batch_order; ++k) {
     const P coefficient = applied.coefficient(k, velocity[k]);
@@ -71,10 +71,10 @@ __attribute__((noinline)) void move_free_with_load(BatchState& batch, const At& 
 
 /// One step of each lane without friction and with a second mass: to the next stop, or as far as the series
 /// converge. Reports beyond_kernel. See friction::NoFriction::step_coupled.
-template <class V, bool Varies>
-void loaded_free_kernel(BatchState& batch, const LaneSet& lanes) {
+template <class V>
+void loaded_free_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;
-  for_each_vector<V>(lanes, [&](const auto& at) { move_free_with_load<Varies>(batch, at); });
+  for_each_group<typename V::Wide>(lanes, [&](const auto& at) { move_free_with_load(batch, at, forcing); });
 }
 
 }  // namespace zerocount::batch

@@ -2,6 +2,6 @@
 
 namespace zerocount::batch {
 
-const Kernels avx2_kernels = kernels_with<Vectors<4, 2>, Vectors<4, 1>, Simd<4, 1>>;
+const Kernels avx2_kernels = kernels_with<4, 1>;
 
 }  // namespace zerocount::batch

@@ -2,6 +2,6 @@
 
 namespace zerocount::batch {
 
-const Kernels avx512_kernels = kernels_with<Vectors<8, 2>, Vectors<8, 2>, Simd<8, 1>>;
+const Kernels avx512_kernels = kernels_with<8, 2>;
 
 }  // namespace zerocount::batch

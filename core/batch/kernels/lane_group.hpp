@@ -82,6 +82,28 @@ class LaneCollection {
   int lane_[P::lanes];
 };
 
+/// Lanes of either kind: one function serves both, which costs half to compile and a branch at each access.
+template <class P>
+class LaneGroup : public LaneStretch<P> {
+ public:
+  explicit LaneGroup(const LaneStretch<P>& stretch) : LaneStretch<P>(stretch) {}
+  explicit LaneGroup(const LaneCollection<P>& collection)
+      : LaneStretch<P>(0, collection.taking_part().bits()), collection_(&collection) {}
+
+  ZEROCOUNT_ALWAYS_INLINE int lane(int i) const {
+    return collection_ == nullptr ? LaneStretch<P>::lane(i) : collection_->lane(i);
+  }
+  ZEROCOUNT_ALWAYS_INLINE P load(const double* of) const {
+    return collection_ == nullptr ? LaneStretch<P>::load(of) : collection_->load(of);
+  }
+  ZEROCOUNT_ALWAYS_INLINE void store(double* to, const P& value) const {
+    collection_ == nullptr ? LaneStretch<P>::store(to, value) : collection_->store(to, value);
+  }
+
+ private:
+  const LaneCollection<P>* collection_ = nullptr;  ///< null: the lanes of the stretch
+};
+
 /// The vectors of a kernel: with `Chains` chains of operations where there are enough lanes, else with one.
 template <int Width, int Chains>
 struct Vectors {
@@ -127,6 +149,35 @@ ZEROCOUNT_ALWAYS_INLINE void for_each_vector(LaneSet lanes, Work work) {
   if (lanes.empty()) return;
   dense.template operator()<Narrow>(lanes.first() / Narrow::lanes * Narrow::lanes);
   if (!lanes.empty()) work(LaneCollection<Narrow>(lanes));
+}
+
+/// Passes the lanes to `work` as LaneGroup: as stretches where at least half of one takes part, the others
+/// collected.
+template <class P, class Work>
+ZEROCOUNT_ALWAYS_INLINE void for_each_group(LaneSet lanes, Work work) {
+  int base = 0;
+  while (!lanes.empty()) {
+    unsigned here = 0;
+    while (base < max_lanes && 2 * __builtin_popcount(here = lanes.stretch(base, P::lanes)) < P::lanes)
+      base += P::lanes;
+    if (base < max_lanes) {
+      lanes.erase_stretch(base, here);
+      work(LaneGroup<P>(LaneStretch<P>(base, here)));
+    } else {
+      work(LaneGroup<P>(LaneCollection<P>(lanes)));
+    }
+  }
+}
+
+/// Passes the lanes with what acts on them to `work`: lanes without a forcing as for_each_vector does with
+/// Unforced, others as LaneGroup.
+template <class V, class Work>
+ZEROCOUNT_ALWAYS_INLINE void for_each_vector(const LaneSet& lanes, Forcing forcing, Work work) {
+  if (forcing.any()) {
+    for_each_group<typename V::Wide>(lanes, [&](const auto& at) { work(at, forcing); });
+  } else {
+    for_each_vector<V>(lanes, [&](const auto& at) { work(at, Unforced{}); });
+  }
 }
 
 template <class P, class At>

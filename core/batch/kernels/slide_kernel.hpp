@@ -6,8 +6,8 @@
 namespace zerocount::batch {
 
 /// The step of one vector; see slide_kernel.
-template <bool Fast, bool Varies, bool Loaded, class At>
-__attribute__((noinline)) void slide(BatchState& batch, const At& at) {
+template <bool Fast, class At, class F>
+__attribute__((noinline)) void slide(BatchState& batch, const At& at, F forcing) {
   using P = typename At::Vector;
   using Mask = typename P::Mask;
   MotionLanes& m = batch.motion;
@@ -24,7 +24,7 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   const P per_inertia = at.load(c.per_inertia);
   const P damping = at.load(c.sliding_damping);
   const P per_velocity_squared = at.load(c.per_velocity_squared);
-  const P torque = torque_on_rotor<Loaded>(batch, at, omega);
+  const P torque = torque_on_rotor(batch, at, forcing, omega);
   const P driving = torque - direction * coulomb;
 
   const P stribeck_velocity = one / sqrt(per_velocity_squared);
@@ -33,8 +33,8 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   P h = time_to_stop;
   if constexpr (Fast) {
     P resisting = breakaway_torque - direction * torque + damping * speed;
-    if constexpr (Varies || Loaded) h = min(at.load(time.next_step), time_to_stop);
-    if constexpr (Varies) resisting = resisting + torque_range(batch, at, h);
+    if (forcing.any()) h = min(at.load(time.next_step), time_to_stop);
+    if (forcing.varies) resisting = resisting + torque_range(batch, at, h);
     h = fast_step(speed, stribeck_velocity, max(resisting, zero) * per_inertia, h);
   } else {
     decay_start = exp(-per_velocity_squared * omega * omega);
@@ -53,14 +53,13 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   friction::StribeckSeriesOf<P[batch_order + 1]> curve;
   theta[0] = at.load(m.theta);
   velocity[0] = omega * h;
-  typename TorqueOf<P, Varies, Loaded>::Type applied;
-  constexpr bool varies = Varies || Loaded;
-  load_torque(batch, at, h, one, one, applied);
+  decltype(torque_with<P>(forcing)) applied;
+  load_torque(batch, at, forcing, h, one, one, applied);
   curve.decay[0] = decay_start;
 #pragma GCC unroll 1
   for (int k = 0; k < batch_order; ++k) {
     P force = k == 0 ? driving : zero;
-    if constexpr (varies) {
+    if constexpr (F::forced) {
       const P torque_k = applied.coefficient(k, velocity[k]);
       if (k > 0) force = torque_k;
     }
@@ -73,7 +72,7 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   }
 
   P last_terms = last_terms_of(theta) + last_terms_of(velocity);
-  if constexpr (Loaded) last_terms = last_terms + last_terms_of_load(applied);
+  if constexpr (F::forced) last_terms = last_terms + last_terms_of_load(applied);
   VelocityStep<P> step = velocity_step(batch, at, time_to_stop, h, last_terms);
   const P velocity_end = sum_of(velocity, batch_order);
   step.halts = velocity[0] * velocity_end < zero;
@@ -82,8 +81,8 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
     const P curvature = curvature_bound(velocity, batch_order);
     unfit = grows_too_much(curve.exponent) |
             (~step.halts & ~keeps_sign(velocity[0], velocity_end, velocity[1], curvature));
-    if constexpr (varies) unfit = unfit | (step.halts & ~crosses_once(velocity, batch_order));
-  } else if constexpr (Loaded) {
+    if (forcing.any()) unfit = unfit | (step.halts & ~crosses_once(velocity, batch_order));
+  } else if (forcing.loaded) {
     unfit = ~stays_fast(velocity, stribeck_velocity, h);
   }
   const Mask beyond = omega * direction <= zero;
@@ -97,7 +96,7 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
   store_time(batch, at, step);
   at.store(m.theta, select(step.done, value_of(theta, batch_order, step.x), theta[0]));
   at.store(m.omega, omega_after(step, velocity, omega));
-  if constexpr (Loaded) store_load(batch, at, applied, step.x, step.h, step.done);
+  if constexpr (F::forced) store_load(batch, at, applied, step.x, step.h, step.done);
   add_events(batch, at,
              events_where<P>(step.done & step.halts, velocity_zero) +
                  events_where<P>(beyond | (at.load(time.steps) > P(max_steps_to_stop)), beyond_kernel));
@@ -107,12 +106,12 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at) {
 /// Reports velocity_zero, and beyond_kernel where the slide starts at ω = 0. See PreslidingFriction::slide.
 ///
 /// `Fast` is for lanes far above the Stribeck velocity, where (ω/ωs)² > 64 and friction is that of Coulomb to
-/// the last bit. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19. With `Loaded` there is a second mass,
-/// whose torque has no bound ahead: a step at whose end, or within which, ω is less is too long.
-template <class V, bool Fast, bool Varies, bool Loaded>
-void slide_kernel(BatchState& batch, const LaneSet& lanes) {
+/// the last bit. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19. A second mass has a torque that
+/// has has no bound ahead: a step at whose end, or within which, ω is less is too long.
+template <class V, bool Fast>
+void slide_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;
-  for_each_vector<V>(lanes, [&](const auto& at) { slide<Fast, Varies, Loaded>(batch, at); });
+  for_each_vector<V>(lanes, forcing, [&](const auto& at, auto of) { slide<Fast>(batch, at, of); });
 }
 
 }  // namespace zerocount::batch

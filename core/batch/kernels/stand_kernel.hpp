@@ -36,9 +36,9 @@ void stand_kernel(BatchState& batch, const LaneSet& lanes) {
   for_each_stretch<V>(lanes, [&](const auto& at) { stand(batch, at); });
 }
 
-/// The step of one vector; see stand_coupled_kernel.
-template <bool Varies, bool Loaded, class At>
-__attribute__((noinline)) void stand_coupled(BatchState& batch, const At& at) {
+/// The step of one vector; see stand_forced_kernel.
+template <class At>
+__attribute__((noinline)) void stand_forced(BatchState& batch, const At& at, Forcing forcing) {
   using P = typename At::Vector;
   using Mask = typename P::Mask;
   TimeLanes& time = batch.time;
@@ -46,10 +46,10 @@ __attribute__((noinline)) void stand_coupled(BatchState& batch, const At& at) {
   const P one(1.0);
   const P time_to_stop = at.load(time.time_to_stop);
   P h = time_to_stop;
-  if constexpr (Loaded) h = without_short_remainder(min(at.load(time.next_step), h), time_to_stop);
-  typename TorqueOf<P, Varies, Loaded>::Type applied;
-  load_torque(batch, at, h, one, one, applied);
-  P bound = abs(torque_on_rotor<Loaded>(batch, at, zero));
+  if (forcing.loaded) h = without_short_remainder(min(at.load(time.next_step), h), time_to_stop);
+  ForcedTorque<P> applied;
+  load_torque(batch, at, forcing, h, one, one, applied);
+  P bound = abs(torque_on_rotor(batch, at, forcing, zero));
   applied.coefficient(0, zero);
   for (int k = 1; k < batch_order; ++k) {
     const P coefficient = abs(applied.coefficient(k, zero));
@@ -57,11 +57,11 @@ __attribute__((noinline)) void stand_coupled(BatchState& batch, const At& at) {
     bound = bound + (k < batch_order - 2 ? coefficient : P(2.0) * coefficient);
   }
   // Lines may cancel in any orders, but not in this bound.
-  if constexpr (Varies) bound = bound + at.load(batch.course.left_out);
+  if (forcing.varies) bound = bound + at.load(batch.course.left_out);
   ContactLanes& c = batch.contact;
   Mask held = bound < P(1.0 - 1e-12) * at.load(c.breakaway);
   at.store(c.spent, select(held, zero, at.load(c.spent)));
-  if constexpr (Loaded) {
+  if (forcing.loaded) {
     VelocityStep<P> step = velocity_step(batch, at, time_to_stop, h, last_terms_of_load(applied));
     step.too_long = step.inexact;
     step.halts = zero < zero;
@@ -77,13 +77,12 @@ __attribute__((noinline)) void stand_coupled(BatchState& batch, const At& at) {
   add_events(batch, at, events_where<P>(~held, breakaway));
 }
 
-/// One step of lanes that Coulomb's friction holds under a torque that varies, or with a second mass
-/// (`Loaded`), one sample ahead. Reports breakaway where a bound of the torque is beyond that of breakaway;
-/// such a lane stays where it is.
-template <class V, bool Varies, bool Loaded>
-void stand_coupled_kernel(BatchState& batch, const LaneSet& lanes) {
+/// One step of lanes that Coulomb's friction holds under a forcing, one sample ahead. Reports breakaway where
+/// a bound of the torque is beyond that of breakaway; such a lane stays where it is.
+template <class V>
+void stand_forced_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;
-  for_each_stretch<V>(lanes, [&](const auto& at) { stand_coupled<Varies, Loaded>(batch, at); });
+  for_each_group<typename V::Wide>(lanes, [&](const auto& at) { stand_forced(batch, at, forcing); });
 }
 
 }  // namespace zerocount::batch

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/batch/kernels/applied_torque.hpp"
+#include "core/batch/kernels/coupled_torque.hpp"
 #include "core/batch/kernels/torque_power.hpp"
 
 namespace zerocount::batch {
@@ -56,7 +56,7 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask other_powers(const StickLaw<P>& law, co
 /// by memory accesses, so it stores only what cannot be derived, and it is not unrolled, because the code
 /// would not fit the instruction cache.
 /// @tparam AnyPower some lane creeps with an exponent other than 2.
-/// @param applied ConstantTorque, or a VaryingTorque in the units of the series.
+/// @param applied ConstantTorque, or a ForcedTorque in the units of the series.
 template <bool AnyPower, class P, class Applied>
 ZEROCOUNT_ALWAYS_INLINE void expand_orders(const StickLaw<P>& law, const StickStart<P>& start,
                                            [[maybe_unused]] Applied& applied, StickSeries<P>& s) {
@@ -115,13 +115,12 @@ ZEROCOUNT_ALWAYS_INLINE void expand_orders(const StickLaw<P>& law, const StickSt
   };
   // Coefficient k ≥ 1 of u − σ, given that of σ.
   const auto unbalanced = [&]([[maybe_unused]] int k, const P& of_spring) __attribute__((always_inline)) {
-    if constexpr (Applied::varies) {
-      return applied.coefficient(k, velocity) - of_spring;
-    } else {
-      return -of_spring;
+    if constexpr (Applied::forced) {
+      if (applied.forcing.any()) return applied.coefficient(k, velocity) - of_spring;
     }
+    return -of_spring;
   };
-  if constexpr (Applied::varies) applied.coefficient(0, velocity);
+  if constexpr (Applied::forced) applied.coefficient(0, velocity);
   next_order(0, start.scaled_torque * start.scaled_torque, law.applied - start.scaled_torque);
 #pragma GCC unroll 1
   for (int k = 1; k < batch_order; k += 2) {

@@ -7,8 +7,8 @@
 namespace zerocount::batch {
 
 /// The start of a step of one vector; see stick_start_kernel.
-template <bool Varies, bool Loaded, class At>
-__attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
+template <class At>
+__attribute__((noinline)) void start_step(BatchState& batch, const At& at, Forcing forcing) {
   using P = typename At::Vector;
   using Mask = typename P::Mask;
   MotionLanes& m = batch.motion;
@@ -44,7 +44,7 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
   const P extension_rate = select(creeping, torque_sign * rate, zero);
   const P omega = select(to_mask(at.load(m.at_reversal)), extension_rate, at.load(m.omega));
   const P elongation_rate = omega - extension_rate;
-  const P applied = torque_on_rotor<Loaded>(batch, at, omega);
+  const P applied = torque_on_rotor(batch, at, forcing, omega);
   const P unbalanced = applied - damping * omega - spring_torque;
   const P acceleration = unbalanced * per_inertia + alpha * extension_rate;
 
@@ -52,7 +52,7 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
   const Mask at_reversal = elongation_rate == zero;
   Mask at_rest = zero < zero;
   Mask rests = at_rest;
-  if constexpr (Varies) {
+  if (forcing.varies) {
     // PreslidingFriction::at_rest. A disturbance that varies allows no rest.
     const P tolerance = at.load(batch.course.tolerance);
     rests = (abs(elongation_rate) < tolerance * sqrt(per_time_squared)) &
@@ -72,16 +72,16 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
     const P velocity_excess = torque_sign * omega - slow_rate * (P(1.0) + alpha * damping / stiffest);
     const P acceleration_excess = (torque_excess + damping * velocity_excess) * per_inertia;
     P amplitude = at.load(batch.time.rest);
-    if constexpr (!Loaded) amplitude = select(at_reversal, at.load(c.max_oscillation), amplitude);
+    if (!forcing.loaded) amplitude = select(at_reversal, at.load(c.max_oscillation), amplitude);
     P limit = P(2.0) * amplitude * per_time_squared;
-    if constexpr (Loaded) {
+    if (forcing.loaded) {
       // What the leading terms leave out of quasi-static creep: the inertia of both masses.
       limit = limit + P(2.0) * alpha * slow_rate * (P(1.0) + at.load(batch.load.inertia) * per_inertia);
     }
     at_rest = torque == at.load(m.rest_torque);
     rests = acceleration_excess * acceleration_excess + per_time_squared * velocity_excess * velocity_excess <
             limit * limit;
-    if constexpr (Loaded) {
+    if (forcing.loaded) {
       const P steady = -at.load(batch.load.inertia) * alpha * extension_rate;
       const P quiet = P(0.5) * at.load(c.k1) * at.load(batch.time.rest) + P(0.1) * abs(steady);
       rests = rests & load_is_quiet(batch, at, omega, P(2.0) * quiet, steady);
@@ -94,7 +94,7 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
   const Mask breaks_away =
       ~rests & (abs(hook_torque) >= at.load(c.breakaway)) & (hook_torque * motion > zero);
   P direction = sign(select(elongation_rate != zero, elongation_rate, acceleration));
-  if constexpr (Varies) {
+  if (forcing.varies) {
     direction = select(direction == zero, sign(torque_rate(batch, at, omega)), direction);
     direction = select(direction == zero, at.load(m.direction), direction);
   }
@@ -116,12 +116,11 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at) {
 
 /// Prepares the step of a lane whose hook sticks: evaluates the branch, and reports the events at its start:
 /// creep_off, and one of may_rest, breakaway and reversal. See PreslidingFriction::stick.
-/// With `Varies` the torque is that of course_kernel, and may_rest is that of the reference under such a
-/// torque. With `Loaded` there is a second mass.
-template <class V, bool Varies, bool Loaded>
-void stick_start_kernel(BatchState& batch, const LaneSet& lanes) {
+/// Under a torque that varies may_rest is that of the reference under such a torque.
+template <class V>
+void stick_start_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;
-  for_each_stretch<V>(lanes, [&](const auto& at) { start_step<Varies, Loaded>(batch, at); });
+  for_each_group<typename V::Wide>(lanes, [&](const auto& at) { start_step(batch, at, forcing); });
 }
 
 }  // namespace zerocount::batch

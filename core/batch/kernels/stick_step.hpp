@@ -112,28 +112,19 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask is_parabolic(const StickStep<P>& step,
   return ripples.cubic * (reach * reach * reach) * abs(step.length) <= P(0.1) * allowed * step.law.stiffness;
 }
 
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE VaryingTorque<P>& ripples_of(VaryingTorque<P>& torque) {
-  return torque;
-}
-template <class P>
-ZEROCOUNT_ALWAYS_INLINE VaryingTorque<P>& ripples_of(CoupledTorque<P, VaryingTorque<P>>& torque) {
-  return torque.alone;
-}
-
-/// The series under a torque with ripples: parabolas of them, where the travel is short enough.
-template <class P, class At, class Applied>
-ZEROCOUNT_ALWAYS_INLINE void expand_with_ripples(const BatchState& batch, const At& at,
-                                                 const StickStart<P>& start, const P& per_torque,
-                                                 Applied& applied, StickStep<P>& step) {
+/// The series under a torque that may have ripples: parabolas of them, where the travel is short enough.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void expand_forced(const BatchState& batch, const At& at, Forcing forcing,
+                                           const StickStart<P>& start, const P& per_torque,
+                                           ForcedTorque<P>& applied, StickStep<P>& step) {
   using Mask = typename P::Mask;
-  VaryingTorque<P>& ripples = ripples_of(applied);
+  VaryingTorque<P>& ripples = applied.alone;
   Mask parabolic = P(0.0) < P(1.0);
   for (;;) {
-    load_torque(batch, at, step.h, per_torque, step.length, applied);
-    ripples.set_parabolic(parabolic);
+    load_torque(batch, at, forcing, step.h, per_torque, step.length, applied);
+    if (forcing.varies) ripples.set_parabolic(parabolic);
     expand(step.law, start, applied, step.series);
-    if (!ripples.has_parabolas) return;
+    if (!forcing.varies || !ripples.has_parabolas) return;
     const Mask accurate = is_parabolic(step, ripples, ripples.reach, allowed_error(batch, at, step));
     const Mask failed = step.here & parabolic & ~accurate;
     if (!failed.any()) return;
@@ -141,8 +132,8 @@ ZEROCOUNT_ALWAYS_INLINE void expand_with_ripples(const BatchState& batch, const 
   }
 }
 
-template <bool Loaded, class P, class At, class Applied>
-ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, StickStep<P>& step,
+template <class P, class At, class F, class Applied>
+ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, F forcing, StickStep<P>& step,
                                          Applied& applied) {
   const MotionLanes& m = batch.motion;
   const ContactLanes& c = batch.contact;
@@ -163,7 +154,7 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, 
   const P acceleration = h * h * per_inertia;
   const P per_torque = exponent * acceleration;
   law.damping = damping * h * per_inertia;
-  law.applied = per_torque * torque_on_rotor<Loaded>(batch, at, at.load(m.omega));
+  law.applied = per_torque * torque_on_rotor(batch, at, forcing, at.load(m.omega));
   law.stiffness = acceleration * at.load(c.k1);
   law.softening = per_torque * (branch_sign * at.load(m.branch_softening_torque));
   law.creep_recovery = select(step.creeping, at.load(c.alpha) * h, zero);
@@ -183,13 +174,12 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, 
   start.torque_power = at.load(m.torque_power);
   start.at_reversal = step.at_reversal;
   start.creeping = step.creeping & step.here;
-  if constexpr (has_ripples<Applied>) {
-    expand_with_ripples(batch, at, start, per_torque, applied, step);
+  if constexpr (F::forced) {
+    expand_forced(batch, at, forcing, start, per_torque, applied, step);
+    step.forced_rate = P(4.0) * applied.change / law.stiffness;
   } else {
-    load_torque(batch, at, h, per_torque, step.length, applied);
     expand(law, start, applied, step.series);
   }
-  if constexpr (Applied::varies) step.forced_rate = P(4.0) * applied.change / law.stiffness;
 
   step.breakaway_torque = at.load(c.breakaway);
   step.per_step = damping * step.per_h;
@@ -231,30 +221,30 @@ ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, c
 /// The lanes in which dxs/dt may have more zeros within the step than the signs at its ends show. Creep may
 /// cause two where dxs/dt is as small as the contribution of creep, and a varying torque where it is as small
 /// as what that adds.
-template <bool Varies, class P, class At>
-ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_reverse_twice(const BatchState& batch, const At& at,
+template <class P, class At, class F>
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_reverse_twice(const BatchState& batch, const At& at, F forcing,
                                                            const StickStep<P>& step) {
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
   // Order 1 of creep is order 0 of its rate.
   P added = at.load(batch.contact.max_creep_ratio) * abs(s.scaled_creep[1]);
-  if constexpr (Varies) added = added + step.forced_rate;
+  if (forcing.any()) added = added + step.forced_rate;
   Mask small = min(abs(step.rate_start), abs(step.rate_end)) <= added;
-  if constexpr (Varies) small = small & (added > P(0.0));  // not in a rotor that nothing moves
+  if (forcing.any()) small = small & (added > P(0.0));  // not in a rotor that nothing moves
   Mask unsure = step.here & small;
-  if constexpr (!Varies) unsure = unsure & ~step.reverses;
+  if (!forcing.any()) unsure = unsure & ~step.reverses;
   if (!unsure.any()) return unsure;
   P g[batch_order + 1];
   for (int k = 0; k < batch_order; ++k) g[k] = select(step.at_reversal, s.rate[k + 1], s.rate[k]);
   g[batch_order] = select(step.at_reversal, P(0.0), s.rate[batch_order]);
   const Mask may_reverse = ~keeps_sign(g[0], step.rate_end, g[1], curvature_bound(g, batch_order));
-  if constexpr (!Varies) return unsure & may_reverse;
+  if (!forcing.any()) return unsure & may_reverse;
   return unsure & ((step.reverses & ~crosses_once(g, batch_order)) | (~step.reverses & may_reverse));
 }
 
 /// Locates the reversal, if any, and decides whether the step is short enough.
-template <bool Loaded, class P, class At, class Applied>
-ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at,
+template <class P, class At, class F, class Applied>
+ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at, F forcing,
                                            [[maybe_unused]] const Applied& applied, StickStep<P>& step) {
   using Mask = typename P::Mask;
   const StickSeries<P>& s = step.series;
@@ -263,9 +253,9 @@ ZEROCOUNT_ALWAYS_INLINE void find_reversal(const BatchState& batch, const At& at
   step.rate_start = select(step.at_reversal, s.rate[1], s.rate[0]);
   step.reverses = step.rate_start * step.rate_end < P(0.0);
   step.last_terms = abs(step.length) * s.last_terms;
-  if constexpr (Loaded) step.last_terms = step.last_terms + last_terms_of_load(applied);
+  if constexpr (F::forced) step.last_terms = step.last_terms + last_terms_of_load(applied);
   step.allowed = allowed_error(batch, at, step);
-  step.too_long = grows_too_much(batch, at, step) | may_reverse_twice<Applied::varies>(batch, at, step);
+  step.too_long = grows_too_much(batch, at, step) | may_reverse_twice(batch, at, forcing, step);
   const Mask seeks = step.here & step.reverses & ~step.too_long;
   step.x = P(1.0);
   // The series must be accurate only up to the reversal.

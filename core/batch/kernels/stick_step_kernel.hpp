@@ -122,15 +122,15 @@ ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const At& at, cons
 }
 
 /// The step of one vector; see stick_step_kernel. Not inlined: a function of its own for each kind of vector.
-template <bool Events, bool Varies, bool Loaded, class At>
-__attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
+template <bool Events, class At, class F>
+__attribute__((noinline)) void step_of(BatchState& batch, const At& at, F forcing) {
   using P = typename At::Vector;
   const P zero(0.0);
   StickStep<P> step;
   begin_step(batch, at, step);
-  typename TorqueOf<P, Varies, Loaded>::Type applied;
-  expand_step<Loaded>(batch, at, step, applied);
-  find_reversal<Loaded>(batch, at, applied, step);
+  decltype(torque_with<P>(forcing)) applied;
+  expand_step(batch, at, forcing, step, applied);
+  find_reversal(batch, at, forcing, applied, step);
   evaluate_end(step);
   step.event = events_where<P>(step.reverses, reversal);
   if constexpr (Events) {
@@ -143,7 +143,7 @@ __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
   const P passed = select(done, timing.passed, zero);
   store_time(batch, at, step, timing, done);
   store_motion_of(batch, at, step, timing, done);
-  if constexpr (Loaded) store_load(batch, at, applied, step.x, step.h, done);
+  if constexpr (F::forced) store_load(batch, at, applied, step.x, step.h, done);
   measure_passed(batch, at, passed);
   const typename P::Mask lost = step.beyond | (at.load(batch.time.steps) > P(max_steps_to_stop));
   const P event = select(done & (step.event != P(reversal)), step.event, zero);
@@ -155,13 +155,16 @@ __attribute__((noinline)) void step_of(BatchState& batch, const At& at) {
 /// One step of each lane whose hook sticks, after stick_start_kernel and its events: to the next stop, to the
 /// first event, or as far as the series converge. Where the step was too long, only TimeLanes::next_step
 /// changes. Reports events other than a reversal. With `Events` the step ends at the first of them; without,
-/// a step that has one is not made but reported as meets_event. With `Varies` the torque is that of
-/// course_kernel. With `Loaded` there is a second mass.
-template <class V, bool Events, bool Varies, bool Loaded>
-void stick_step_kernel(BatchState& batch, const LaneSet& lanes) {
+/// a step that has one is not made but reported as meets_event.
+template <class V, bool Events>
+void stick_step_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;
   batch.passed_count = 0;
-  for_each_vector<V>(lanes, [&](const auto& at) { step_of<Events, Varies, Loaded>(batch, at); });
+  if constexpr (Events) {
+    for_each_group<V>(lanes, [&](const auto& at) { step_of<Events>(batch, at, forcing); });
+  } else {
+    for_each_vector<V>(lanes, forcing, [&](const auto& at, auto of) { step_of<Events>(batch, at, of); });
+  }
 }
 
 }  // namespace zerocount::batch

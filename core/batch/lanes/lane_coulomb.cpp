@@ -148,9 +148,9 @@ void stand_by_reference(RunningBatch& run, int lane) {
 void stand_coupled(RunningBatch& run, const LaneSet& lanes) {
   for_each_lane(lanes.in_both(run.lanes.loaded), [&](int lane) { stop_at_next_sample(run.state, lane); });
   follow_torques_of(run, lanes);
-  for (const auto& [kernels, some] : by_kernels(run, lanes)) {
+  for (const auto& [forcing, some] : by_forcing(run, lanes)) {
     if (some.empty()) continue;
-    kernels.stand(run.state, some);
+    run.kernels.stand_forced(run.state, some, forcing);
     for (int i = 0; i < run.state.event_count; ++i) stand_by_reference(run, run.state.event_lanes[i]);
   }
 }
@@ -160,7 +160,7 @@ void stand_under_constant_torque(RunningBatch& run, const LaneSet& lanes) {
   BatchState& batch = run.state;
   double before[max_lanes];
   for_each_lane(lanes, [&](int lane) { before[lane] = batch.measures.samples[lane]; });
-  run.kernels.constant.stand(batch, lanes);
+  run.kernels.stand(batch, lanes);
   if (run.observers->sample) {
     for_each_lane(lanes, [&](int lane) {
       const double passed = batch.measures.samples[lane] - before[lane];

@@ -84,19 +84,17 @@ void end_sticking_steps(RunningBatch& run) {
 }
 
 /// @returns the number of lanes that took a step.
-int step_sticking(RunningBatch& run, LaneSet lanes, const MotionKernels& kernels) {
+int step_sticking(RunningBatch& run, LaneSet lanes, Forcing forcing) {
   const LaneSet varying = lanes.in_both(run.lanes.varying);
-  if (const LaneSet steady = lanes.without(varying); !steady.empty()) {
-    kernels.stick_start(run.state, steady);
-    start_sticking_steps(run, lanes);
-  }
-  if (!varying.empty()) {
-    kernels.stick_start_varying(run.state, varying);
+  for (const bool varies : {false, true}) {
+    const LaneSet starting = varies ? varying : lanes.without(varying);
+    if (starting.empty()) continue;
+    run.kernels.stick_start(run.state, starting, {varies, forcing.loaded});
     start_sticking_steps(run, lanes);
   }
   // The path of a load between samples is not monotonic.
   for_each_lane(lanes.in_both(run.lanes.loaded), [&](int lane) { stop_at_next_sample(run.state, lane); });
-  kernels.stick_step(run.state, lanes);
+  run.kernels.stick_step(run.state, lanes, forcing);
   end_sticking_steps(run);
   return lanes.count();
 }
@@ -105,9 +103,9 @@ int step_sticking(RunningBatch& run, LaneSet lanes, const MotionKernels& kernels
 void locate_events(RunningBatch& run) {
   const LaneSet waiting = std::exchange(run.lanes.waiting, {});
   for_each_lane(waiting, [&](int lane) { run.lanes.sticking.insert(lane); });
-  for (const auto& [kernels, lanes] : by_kernels(run, waiting)) {
+  for (const auto& [forcing, lanes] : by_forcing(run, waiting)) {
     if (lanes.empty()) continue;
-    kernels.stick_event(run.state, lanes);
+    run.kernels.stick_event(run.state, lanes, forcing);
     end_sticking_steps(run);
   }
 }
@@ -130,11 +128,11 @@ void end_sliding_steps(RunningBatch& run) {
   }
 }
 
-void step_sliding(RunningBatch& run, const LaneSet& lanes, const MotionKernels& kernels) {
+void step_sliding(RunningBatch& run, const LaneSet& lanes, Forcing forcing) {
   const LaneSet fast = lanes.in_both(run.kernels.fast_lanes(run.state));
-  kernels.slide_fast(run.state, fast);
+  run.kernels.slide_fast(run.state, fast, forcing);
   end_sliding_steps(run);
-  kernels.slide_slow(run.state, lanes.without(fast));
+  run.kernels.slide_slow(run.state, lanes.without(fast), forcing);
   end_sliding_steps(run);
 }
 
@@ -143,24 +141,23 @@ void rerun_lost_lanes(RunningBatch& run) {
   for (int i = 0; i < run.state.event_count; ++i) fall_back_to_scalar(run, run.state.event_lanes[i]);
 }
 
-void step_bristles(RunningBatch& run, const LaneSet& lanes, const MotionKernels& kernels) {
+void step_bristles(RunningBatch& run, const LaneSet& lanes, Forcing forcing) {
   const LaneSet fast = lanes.in_both(run.kernels.fast_lanes(run.state));
-  kernels.bristle_fast(run.state, fast);
+  run.kernels.bristle_fast(run.state, fast, forcing);
   rerun_lost_lanes(run);
-  kernels.bristle_slow(run.state, lanes.without(fast));
+  run.kernels.bristle_slow(run.state, lanes.without(fast), forcing);
   rerun_lost_lanes(run);
 }
 
-void step_elements(RunningBatch& run, const LaneSet& lanes, const MotionKernels& kernels) {
-  kernels.elements(run.state, lanes);
+void step_elements(RunningBatch& run, const LaneSet& lanes, Forcing forcing) {
+  run.kernels.elements(run.state, lanes, forcing);
   rerun_lost_lanes(run);
 }
 
 /// Moves those lanes on whose torque stays and which are at rest. @returns the others.
-LaneSet without_resting(RunningBatch& run, const LaneSet& lanes,
-                        LaneSet (*rest)(BatchState&, const LaneSet&)) {
+LaneSet without_resting(RunningBatch& run, const LaneSet& lanes, Forcing forcing, Kernels::Rest rest) {
   const LaneSet steady = lanes.without(run.lanes.varying);
-  return steady.empty() ? lanes : lanes.without(steady.without(rest(run.state, steady)));
+  return steady.empty() ? lanes : lanes.without(steady.without(rest(run.state, steady, forcing)));
 }
 
 LaneSet between_stops(const RunningBatch& run, const LaneSet& lanes) {
@@ -184,9 +181,9 @@ void move_free_part(RunningBatch& run, const LaneSet& lanes) {
 /// Moves lanes without friction and with a second mass.
 void move_loaded_free(RunningBatch& run, const LaneSet& lanes) {
   follow_torques_of(run, lanes);
-  for (const auto& [kernels, some] : by_kernels(run, lanes)) {
+  for (const auto& [forcing, some] : by_forcing(run, lanes)) {
     if (some.empty()) continue;
-    kernels.free(run.state, some);
+    run.kernels.free_loaded(run.state, some, forcing);
     rerun_lost_lanes(run);
   }
 }
@@ -218,16 +215,15 @@ LaneSet follow_descriptions(RunningBatch& run, const LaneSet& ahead) {
 
 }  // namespace
 
-std::array<KernelLanes, 4> by_kernels(const RunningBatch& run, const LaneSet& lanes) {
-  const Kernels& k = run.kernels;
+std::array<std::pair<Forcing, LaneSet>, 4> by_forcing(const RunningBatch& run, const LaneSet& lanes) {
   const LaneSet loaded = lanes.in_both(run.lanes.loaded);
   const LaneSet alone = lanes.without(loaded);
   const LaneSet& varying = run.lanes.varying;
   const LaneSet& driven = run.lanes.loaded_driven;
-  return {{{k.constant, alone.without(varying)},
-           {k.varying, alone.in_both(varying)},
-           {k.loaded, loaded.without(driven)},
-           {k.loaded_driven, loaded.in_both(driven)}}};
+  return {{{{.varies = false, .loaded = false}, alone.without(varying)},
+           {{.varies = true, .loaded = false}, alone.in_both(varying)},
+           {{.varies = false, .loaded = true}, loaded.without(driven)},
+           {{.varies = true, .loaded = true}, loaded.in_both(driven)}}};
 }
 
 void follow_torques_of(RunningBatch& run, const LaneSet& lanes) {
@@ -245,8 +241,8 @@ void move_sticking(RunningBatch& run) {
   wake_ahead(run, lanes);
   follow_torques_of(run, lanes);
   int stepped = 0;
-  for (const auto& [kernels, some] : by_kernels(run, lanes)) {
-    if (!some.empty()) stepped += step_sticking(run, some, kernels);
+  for (const auto& [forcing, some] : by_forcing(run, lanes)) {
+    if (!some.empty()) stepped += step_sticking(run, some, forcing);
   }
   // Few lanes at a time meet an event: they wait until there are enough of them, or no others to move.
   constexpr int enough = 16;
@@ -258,8 +254,8 @@ void move_sliding(RunningBatch& run) {
   const LaneSet lanes = between_stops(run, run.lanes.sliding);
   if (lanes.empty()) return;
   follow_torques_of(run, lanes);
-  for (const auto& [kernels, some] : by_kernels(run, lanes)) {
-    if (!some.empty()) step_sliding(run, some, kernels);
+  for (const auto& [forcing, some] : by_forcing(run, lanes)) {
+    if (!some.empty()) step_sliding(run, some, forcing);
   }
 }
 
@@ -267,11 +263,13 @@ void move_bristles(RunningBatch& run) {
   if (run.lanes.bristles.empty()) return;
   const LaneSet lanes = between_stops(run, run.lanes.bristles);
   follow_torques_of(run, lanes);
-  for (const auto& [kernels, some] : by_kernels(run, lanes)) {
+  for (const auto& [forcing, some] : by_forcing(run, lanes)) {
     const LaneSet elements = some.in_both(run.lanes.elements);
     const LaneSet bristles = some.without(elements);
-    if (!bristles.empty()) step_bristles(run, without_resting(run, bristles, kernels.bristle_rest), kernels);
-    if (!elements.empty()) step_elements(run, without_resting(run, elements, kernels.elements_rest), kernels);
+    if (!bristles.empty())
+      step_bristles(run, without_resting(run, bristles, forcing, run.kernels.bristle_rest), forcing);
+    if (!elements.empty())
+      step_elements(run, without_resting(run, elements, forcing, run.kernels.elements_rest), forcing);
   }
 }
 
@@ -281,8 +279,8 @@ void move_free(RunningBatch& run) {
   const LaneSet loaded = lanes.in_both(run.lanes.loaded);
   const LaneSet part = lanes.in_both(run.lanes.part).without(loaded);
   const LaneSet varying = lanes.in_both(run.lanes.varying).without(part).without(loaded);
-  run.kernels.constant.free(run.state, lanes.without(loaded).without(part).without(varying));
-  if (!varying.empty()) run.kernels.varying.free(run.state, varying);
+  run.kernels.free(run.state, lanes.without(loaded).without(part).without(varying), false);
+  if (!varying.empty()) run.kernels.free(run.state, varying, true);
   move_free_part(run, part);
   if (!loaded.empty()) move_loaded_free(run, loaded);
 }

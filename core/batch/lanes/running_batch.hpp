@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/batch/batch.hpp"
@@ -120,14 +121,8 @@ void move_free(RunningBatch& run);
 /// Inserts the lane, which has a trial, into the set of its motion. (lane_steps.cpp)
 void set_motion(RunningBatch& run, int lane);
 
-/// Lanes that a kind of kernels moves.
-struct KernelLanes {
-  const MotionKernels& kernels;
-  LaneSet lanes;
-};
-
-/// Divides lanes by the kernels that move them. (lane_steps.cpp)
-std::array<KernelLanes, 4> by_kernels(const RunningBatch& run, const LaneSet& lanes);
+/// Divides lanes by what acts on them. (lane_steps.cpp)
+std::array<std::pair<Forcing, LaneSet>, 4> by_forcing(const RunningBatch& run, const LaneSet& lanes);
 /// Computes the torques whose series the steps of these lanes follow. (lane_steps.cpp)
 void follow_torques_of(RunningBatch& run, const LaneSet& lanes);
 

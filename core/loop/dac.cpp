@@ -1,5 +1,7 @@
 #include "core/loop/dac.hpp"
 
+#include <algorithm>
+
 #include "core/loop/formulas.hpp"
 
 namespace zerocount::loop {
@@ -12,10 +14,10 @@ std::int64_t highest_code(const DacParameters& dac) {
 }
 
 double lowest_torque(const DacParameters& dac) {
-  return static_cast<double>(lowest_code(dac)) * dac.resolution;
+  return std::max(static_cast<double>(lowest_code(dac)) * dac.resolution, -dac.limit);
 }
 double highest_torque(const DacParameters& dac) {
-  return static_cast<double>(highest_code(dac)) * dac.resolution;
+  return std::min(static_cast<double>(highest_code(dac)) * dac.resolution, dac.limit);
 }
 
 DacOutput convert(const DacParameters& dac, double torque) {
@@ -26,7 +28,8 @@ DacOutput convert(const DacParameters& dac, double torque) {
 }
 
 bool has_errors(const DacParameters& dac) {
-  [[maybe_unused]] const auto& [bits, resolution, offset, gain_error, nonlinearity, noise, sigma_delta] = dac;
+  [[maybe_unused]] const auto& [bits, resolution, offset, gain_error, nonlinearity, noise, sigma_delta,
+                                limit] = dac;
   return offset != 0.0 || gain_error != 0.0 || nonlinearity != 0.0 || noise != 0.0;
 }
 

@@ -10,21 +10,23 @@ namespace zerocount::loop {
 std::int64_t lowest_code(const DacParameters& dac);   ///< −2^(bits−1)
 std::int64_t highest_code(const DacParameters& dac);  ///< 2^(bits−1) − 1
 
-double lowest_torque(const DacParameters& dac);   ///< of the lowest code, lowest_code·Δu, N m
-double highest_torque(const DacParameters& dac);  ///< of the highest code, highest_code·Δu, N m
+/// The least torque that is wanted of the motor, N m: that of the lowest code, lowest_code·Δu, or −limit.
+double lowest_torque(const DacParameters& dac);
+double highest_torque(const DacParameters& dac);  ///< the largest, N m: highest_code·Δu, or limit
 
 /// The converter's output for a wanted torque.
 struct DacOutput {
   std::int64_t code{0};
   double torque{0.0};   ///< code·Δu, N m
-  bool clipped{false};  ///< the wanted code was out of range
+  bool clipped{false};  ///< the wanted code was out of range, or the wanted torque beyond the limit
 };
 
 /// code = round-half-even(torque/Δu), clipped to the converter's range.
 /// @param torque wanted, N m.
 DacOutput convert(const DacParameters& dac, double torque);
 
-/// A converter from sample to sample. With sigma-delta it converts v = u + r, u the wanted torque, and
+/// A converter from sample to sample, which clips the wanted torque to ± the limit of the amplifier before it
+/// rounds. With sigma-delta it converts v = u + r, u the torque so clipped, and
 ///
 ///   r ← v − code·Δu, or 0 where the code was clipped,   r = 0 at first.
 class Converter {
@@ -32,16 +34,20 @@ class Converter {
   explicit Converter(const DacParameters& dac) : dac_(dac) {}
 
   DacOutput convert(double torque) {
-    if (!dac_.sigma_delta) return loop::convert(dac_, torque);
-    const double with_remainder = torque + remainder_;
-    const DacOutput output = loop::convert(dac_, with_remainder);
-    remainder_ = rounding_remainder(with_remainder, output.torque, output.clipped);
+    const double limited = within_limit(torque);
+    const double with_remainder = limited + remainder_;
+    DacOutput output = loop::convert(dac_, with_remainder);
+    if (dac_.sigma_delta) remainder_ = rounding_remainder(with_remainder, output.torque, output.clipped);
+    output.clipped = output.clipped || limited != torque;
     return output;
   }
 
+  /// The torque (N m), clipped to ± the limit.
+  double within_limit(double torque) const { return clamped(torque, -dac_.limit, dac_.limit); }
+
  private:
   DacParameters dac_;
-  double remainder_{0.0};  ///< r, N m
+  double remainder_{0.0};  ///< r, N m; 0 without sigma-delta
 };
 
 /// Whether the output differs from code·Δu.

@@ -44,6 +44,8 @@ struct DacParameters {
       0.0};  ///< integral non-linearity: largest deviation from the straight line between the ends, codes
   double noise{0.0};        ///< standard deviation of the torque, drawn anew at each sample, N m
   bool sigma_delta{false};  ///< the rounding error of a sample is added to the next torque (Converter)
+  /// Of the amplifier's torque, to which the wanted torque is clipped, N m.
+  double limit{std::numeric_limits<double>::infinity()};
 };
 
 /// The amplifier between converter and motor.
@@ -129,23 +131,29 @@ enum class ControlStructure {
   cascade  ///< a position loop around a velocity loop (cascade.hpp)
 };
 
-/// Gains of the cascade.
-struct CascadeGains {
-  double kv{150.0};  ///< of the position loop: velocity command per error, 1/s
-  double kp{0.4};    ///< of the velocity loop, N m s/rad
-  double ki{60.0};   ///< of the velocity loop, N m/rad
+/// The cascade, and the way of its velocity command from the position loop to the velocity loop.
+struct CascadeParameters {
+  double kv{150.0};         ///< of the position loop: velocity command per error, 1/s
+  double kp{0.4};           ///< of the velocity loop, N m s/rad
+  double ki{60.0};          ///< of the velocity loop, N m/rad
+  double feedforward{0.0};  ///< of the reference's velocity into the command, dimensionless
+  int divider{1};           ///< samples of the velocity loop in one of the position loop
+  int latency{0};           ///< after which a command acts, samples of the velocity loop
+  double resolution{0.0};   ///< of the command, rad/s; 0: none
+  double limit{std::numeric_limits<double>::infinity()};  ///< of |command|, rad/s
 };
 
 /// Blocks of the controller besides the PID gains. By default none acts.
 struct ControlBlocks {
   ControlStructure structure{ControlStructure::pid};
-  CascadeGains cascade{};
+  CascadeParameters cascade{};
   Deadband deadband{};
   /// The integral changes only where |e| is not larger, counts.
   double integrator_zone{std::numeric_limits<double>::infinity()};
   /// Time constant with which the integral decays, s.
   double integrator_leak{std::numeric_limits<double>::infinity()};
-  /// Cutoff of the low-pass filter on the difference of successive counts, Hz.
+  int derivative_window{1};  ///< samples between the counts whose difference is taken
+  /// Cutoff of the low-pass filter on the difference of counts, Hz.
   double derivative_cutoff{std::numeric_limits<double>::infinity()};
   std::vector<Filter> filters{};  ///< in the order in which they act
   FeedforwardParameters feedforward{};

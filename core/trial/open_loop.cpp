@@ -17,7 +17,10 @@ OpenLoop::Decision OpenLoop::decide(std::int64_t i) {
       command.record ? torque_at(*command.record, static_cast<double>(i) * sample_time) : torque_at(ramp_, i);
   const bool exact = command.through == TorquePath::exact;
   const bool held = !command.record && i >= ramp_.samples;
-  if (exact) return {{0, torque, false}, true, held};
+  if (exact) {
+    const double limited = converter_.within_limit(torque);
+    return {{0, limited, limited != torque}, true, held};
+  }
   return {converter_.convert(torque), false, held && !p_.dac.sigma_delta};
 }
 

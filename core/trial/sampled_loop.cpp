@@ -38,7 +38,7 @@ SampledLoop::Decision SampledLoop::decide(std::int64_t k, std::int64_t i, const 
     const bool new_target = last_target_ && *last_target_ != target_;
     last_target_ = target_;
     const loop::Dither& dither = p_.controller.dither;
-    const double torque = controller_.update(reference, reading, output_.torque, motion, new_target) +
+    const double torque = controller_.update(reference, reading, output_.torque, motion, new_target, k) +
                           loop::dither_torque(dither.amplitude, dither.frequency, p_.controller.sample_rate,
                                               static_cast<double>(k));
     failed_ = !std::isfinite(torque);

@@ -7,27 +7,37 @@
 namespace zerocount::parameters {
 namespace {
 
-/// The rows of the blocks of one phase. `Blocks` is a function from TrialParameters to its ControlBlocks.
+/// The Sobol dimension of row i of the blocks of one phase; those of the coarse phase are apart from 14 on.
+template <Phase phase>
+constexpr std::size_t dimension(std::size_t i) {
+  if (phase == Phase::fine) return beyond_moves(32 + i);
+  return beyond_moves(i < 14 ? 64 + i : 17 + (i - 14));
+}
+
+/// The rows of the structure of the control of one phase. `Blocks` is a function from TrialParameters to its
+/// ControlBlocks.
 template <Phase phase, class Blocks>
-std::vector<Parameter> block_rows(Blocks /*blocks*/) {
-  // The Sobol dimensions of the coarse phase are apart from 14 on.
-  const auto dimension = [](std::size_t i) {
-    if (phase == Phase::fine) return beyond_moves(32 + i);
-    return beyond_moves(i < 14 ? 64 + i : 17 + (i - 14));
-  };
+std::vector<Parameter> structure_rows(Blocks /*blocks*/) {
   return {
-      word_row(phase_path<phase, "structure">, dimension(0),
+      word_row(phase_path<phase, "structure">, dimension<phase>(0),
                "control law: PID on the error, or a velocity loop inside a position loop", assumed,
                {"pid", "cascade"}, [](auto& p) { return &Blocks{}(p).structure; }),
-      real_row(phase_path<phase, "cascade.kv">, dimension(1), "1/s",
+      real_row(phase_path<phase, "cascade.kv">, dimension<phase>(1), "1/s",
                "cascade: gain of the position loop, velocity command per error", assumed, gain_range,
                [](auto& p) { return &Blocks{}(p).cascade.kv; }),
-      real_row(phase_path<phase, "cascade.kp">, dimension(2), "N m s/rad",
+      real_row(phase_path<phase, "cascade.kp">, dimension<phase>(2), "N m s/rad",
                "cascade: proportional gain of the velocity loop", assumed, gain_range,
                [](auto& p) { return &Blocks{}(p).cascade.kp; }),
-      real_row(phase_path<phase, "cascade.ki">, dimension(3), "N m/rad",
+      real_row(phase_path<phase, "cascade.ki">, dimension<phase>(3), "N m/rad",
                "cascade: integral gain of the velocity loop", assumed, gain_range,
                [](auto& p) { return &Blocks{}(p).cascade.ki; }),
+  };
+}
+
+/// The rows of the other blocks of one phase.
+template <Phase phase, class Blocks>
+std::vector<Parameter> block_rows(Blocks /*blocks*/) {
+  return {
       short_for(
           phase_path<phase, "deadband">,
           none_is(
@@ -35,87 +45,119 @@ std::vector<Parameter> block_rows(Blocks /*blocks*/) {
               ideal_at(
                   -1, "no dead band of the integral",
                   real_row(
-                      phase_path<phase, "deadband.enter">, dimension(4), "count",
+                      phase_path<phase, "deadband.enter">, dimension<phase>(4), "count",
                       "largest |error| at which the integral is frozen; none (-1 as a number): never frozen",
                       assumed, numerics::closed(0, max_count),
                       [](auto& p) { return &Blocks{}(p).deadband.enter; })))),
       none_is(
           -1,
           real_row(
-              phase_path<phase, "deadband.leave">, dimension(5), "count",
+              phase_path<phase, "deadband.leave">, dimension<phase>(5), "count",
               "|error| above which the integral changes again; none (-1 as a number): the value of enter",
               assumed, numerics::closed(0, max_count), [](auto& p) { return &Blocks{}(p).deadband.leave; })),
       or_none(ideal_at(max_count, "no zone of the integral",
-                       real_row(phase_path<phase, "integrator_zone">, dimension(6), "count",
+                       real_row(phase_path<phase, "integrator_zone">, dimension<phase>(6), "count",
                                 "largest |error| at which the integral changes; none: no limit", assumed,
                                 numerics::closed(0, max_count))),
               [](auto& p) { return &Blocks{}(p).integrator_zone; }),
       or_none(ideal_at(max_count, "no leak of the integral",
-                       real_row(phase_path<phase, "integrator_leak">, dimension(7), "s",
+                       real_row(phase_path<phase, "integrator_leak">, dimension<phase>(7), "s",
                                 "time constant of the decay of the integral; none: no decay", assumed,
                                 numerics::Interval{.low = 0, .high = max_count, .high_included = true})),
               [](auto& p) { return &Blocks{}(p).integrator_leak; }),
       or_none(ideal_at(
                   max_count, "no derivative filter",
                   real_row(
-                      phase_path<phase, "derivative_cutoff">, dimension(8), "Hz",
+                      phase_path<phase, "derivative_cutoff">, dimension<phase>(8), "Hz",
                       "cutoff of the low-pass filter on the difference of successive counts; none: no filter",
                       assumed, numerics::Interval{.low = 0, .high = max_count, .high_included = true})),
               [](auto& p) { return &Blocks{}(p).derivative_cutoff; }),
-      real_row(phase_path<phase, "feedforward.velocity">, dimension(9), "N m s/rad",
+      real_row(phase_path<phase, "feedforward.velocity">, dimension<phase>(9), "N m s/rad",
                "$torque per velocity of the reference", assumed, gain_range,
                [](auto& p) { return &Blocks{}(p).feedforward.velocity; }),
-      real_row(phase_path<phase, "feedforward.acceleration">, dimension(10), "N m s^2/rad",
+      real_row(phase_path<phase, "feedforward.acceleration">, dimension<phase>(10), "N m s^2/rad",
                "$torque per acceleration of the reference", assumed, gain_range,
                [](auto& p) { return &Blocks{}(p).feedforward.acceleration; }),
-      real_row(phase_path<phase, "feedforward.friction">, dimension(11), "N m",
+      real_row(phase_path<phase, "feedforward.friction">, dimension<phase>(11), "N m",
                "$torque in the direction in which the reference moves", assumed, gain_range,
                [](auto& p) { return &Blocks{}(p).feedforward.friction; }),
-      real_row(phase_path<phase, "observer.bandwidth">, dimension(12), "Hz",
+      real_row(phase_path<phase, "observer.bandwidth">, dimension<phase>(12), "Hz",
                "bandwidth of the disturbance observer; 0: no observer", assumed, numerics::at_least(0),
                [](auto& p) { return &Blocks{}(p).observer.bandwidth; }),
-      real_row(phase_path<phase, "observer.inertia">, dimension(13), "kg m^2",
+      real_row(phase_path<phase, "observer.inertia">, dimension<phase>(13), "kg m^2",
                "inertia Jn in the model of the disturbance observer", "paper, section 4", numerics::above(0),
                [](auto& p) { return &Blocks{}(p).observer.inertia; }),
       none_is(-1, ideal_at(
                       -1, "no dead band of the error",
-                      real_row(phase_path<phase, "error_deadband.band">, dimension(14), "count",
+                      real_row(phase_path<phase, "error_deadband.band">, dimension<phase>(14), "count",
                                "largest |error| that counts as 0 in the control law; none (-1): no dead zone",
                                assumed, numerics::closed(0, max_count),
                                [](auto& p) { return &Blocks{}(p).error_deadband.band; }))),
-      word_row(phase_path<phase, "error_deadband.form">, dimension(15),
+      word_row(phase_path<phase, "error_deadband.form">, dimension<phase>(15),
                "beyond the dead zone: the error itself, or less by the band", assumed, {"zero", "subtract"},
                [](auto& p) { return &Blocks{}(p).error_deadband.form; }),
       none_is(-1, ideal_at(-1, "no hold of the integral",
-                           real_row(phase_path<phase, "hold.enter">, dimension(16), "count",
+                           real_row(phase_path<phase, "hold.enter">, dimension<phase>(16), "count",
                                     "|error| within which the wanted $torque is held; none (-1): never held",
                                     assumed, numerics::closed(0, max_count),
                                     [](auto& p) { return &Blocks{}(p).hold.enter; }))),
-      none_is(-1, real_row(phase_path<phase, "hold.leave">, dimension(17), "count",
+      none_is(-1, real_row(phase_path<phase, "hold.leave">, dimension<phase>(17), "count",
                            "|error| above which the hold ends; none (-1): the value of enter", assumed,
                            numerics::closed(0, max_count), [](auto& p) { return &Blocks{}(p).hold.leave; })),
-      real_row(phase_path<phase, "hold.dwell">, dimension(18), "s",
+      real_row(phase_path<phase, "hold.dwell">, dimension<phase>(18), "s",
                "time within `enter` after which the hold begins, at least one sample", assumed,
                numerics::at_least(0), [](auto& p) { return &Blocks{}(p).hold.dwell; }),
       none_is(-1,
-              real_row(phase_path<phase, "standstill.band">, dimension(19), "count",
+              real_row(phase_path<phase, "standstill.band">, dimension<phase>(19), "count",
                        "largest |error| at which the gains of standstill act; none (-1): never", assumed,
                        numerics::closed(0, max_count), [](auto& p) { return &Blocks{}(p).standstill.band; })),
-      real_row(phase_path<phase, "standstill.dwell">, dimension(20), "s",
+      real_row(phase_path<phase, "standstill.dwell">, dimension<phase>(20), "s",
                "time within the band after which they act, at least one sample", assumed,
                numerics::at_least(0), [](auto& p) { return &Blocks{}(p).standstill.dwell; }),
-      in_si(real_row(phase_path<phase, "standstill.kp">, dimension(21), "N m/count",
+      in_si(real_row(phase_path<phase, "standstill.kp">, dimension<phase>(21), "N m/count",
                      "proportional gain at standstill", assumed, gain_range,
                      [](auto& p) { return &Blocks{}(p).standstill.kp; }),
             "N m/rad", "proportional gain at standstill"),
-      in_si(real_row(phase_path<phase, "standstill.ki">, dimension(22), "N m/count",
+      in_si(real_row(phase_path<phase, "standstill.ki">, dimension<phase>(22), "N m/count",
                      "integral gain at standstill", assumed, gain_range,
                      [](auto& p) { return &Blocks{}(p).standstill.ki; }),
             "N m/(rad s)", "integral gain at standstill"),
-      in_si(real_row(phase_path<phase, "standstill.kd">, dimension(23), "N m/count",
+      in_si(real_row(phase_path<phase, "standstill.kd">, dimension<phase>(23), "N m/count",
                      "gain on the difference of successive counts at standstill", assumed, gain_range,
                      [](auto& p) { return &Blocks{}(p).standstill.kd; }),
             "N m s/rad", "derivative gain at standstill"),
+  };
+}
+
+/// What the control without a coarse phase, or its fine phase, has alone.
+std::vector<Parameter> rows_of_the_drive() {
+  const numerics::Interval samples = numerics::closed(1, 1000);
+  return {
+      real_row("controller.cascade.feedforward", beyond_moves(279), "1",
+               "cascade: proportion of the reference's velocity in the velocity command", assumed, gain_range,
+               [](auto& p) { return &p.controller.blocks.cascade.feedforward; }),
+      ideal_at(1, "a position loop at every sample",
+               whole_row("controller.cascade.divider", beyond_moves(280), "sample",
+                         "cascade: samples of the velocity loop in one of the position loop", assumed,
+                         samples, [](auto& p) { return &p.controller.blocks.cascade.divider; })),
+      ideal_at(
+          0, "no latency of the velocity command",
+          whole_row("controller.cascade.latency", beyond_moves(281), "sample",
+                    "cascade: samples of the velocity loop after which a velocity command acts", assumed,
+                    numerics::closed(0, 1000), [](auto& p) { return &p.controller.blocks.cascade.latency; })),
+      none_is(0, ideal_at(0, "a velocity command without steps",
+                          real_row("controller.cascade.resolution", beyond_moves(282), "rad/s",
+                                   "cascade: step of the velocity command; none: not rounded", assumed,
+                                   numerics::above(0),
+                                   [](auto& p) { return &p.controller.blocks.cascade.resolution; }))),
+      or_none(ideal_at(max_count, "no limit of the velocity command",
+                       real_row("controller.cascade.limit", beyond_moves(283), "rad/s",
+                                "cascade: largest velocity command, in both directions; none: no limit",
+                                assumed, numerics::above(0))),
+              [](auto& p) { return &p.controller.blocks.cascade.limit; }),
+      whole_row("controller.derivative_window", beyond_moves(278), "sample",
+                "samples between the counts whose difference, per sample, is the velocity", assumed, samples,
+                [](auto& p) { return &p.controller.blocks.derivative_window; }),
   };
 }
 
@@ -198,9 +240,18 @@ std::vector<Parameter> controller_rows() {
   const auto add = [&rows](std::vector<Parameter> more) {
     std::move(more.begin(), more.end(), std::back_inserter(rows));
   };
-  add(block_rows<Phase::fine>([](auto& p) -> auto& { return p.controller.blocks; }));
+  const auto fine = [](auto& p) -> auto& {
+    return p.controller.blocks;
+  };
+  const auto coarse = [](auto& p) -> auto& {
+    return p.controller.coarse.blocks;
+  };
+  add(structure_rows<Phase::fine>(fine));
+  add(rows_of_the_drive());
+  add(block_rows<Phase::fine>(fine));
   add(rows_of_the_coarse_phase());
-  add(block_rows<Phase::coarse>([](auto& p) -> auto& { return p.controller.coarse.blocks; }));
+  add(structure_rows<Phase::coarse>(coarse));
+  add(block_rows<Phase::coarse>(coarse));
   return rows;
 }
 

@@ -134,6 +134,12 @@ std::vector<Parameter> drive_rows() {
                real_row("amplifier.bandwidth", 45, "Hz",
                         "bandwidth (-3 dB) of the amplifier's first-order response; 0: ideal amplifier",
                         assumed, numerics::at_least(0), [](auto& p) { return &p.amplifier.bandwidth; })),
+      or_none(
+          idealised_by(wider_torque_range,
+                       real_row("amplifier.limit", beyond_moves(284), "N m",
+                                "largest $torque wanted of the amplifier, in both directions; none: no limit",
+                                assumed, numerics::above(0))),
+          [](auto& p) { return &p.dac.limit; }),
   };
 }
 

@@ -124,7 +124,8 @@ std::string meaning_of(const Parameter& parameter, const StudyUnits& units) {
 
 bool default_holds(const Parameter& parameter, const StudyUnits& units) {
   if (!has_default(parameter) || has_labels(parameter)) return has_default(parameter);
-  return default_value(parameter) == 0.0 || unit_of(parameter, units) == parameter.unit;
+  const double value = default_value(parameter);
+  return value == 0.0 || value == parameter.none || unit_of(parameter, units) == parameter.unit;
 }
 
 std::string number_text(const Parameter& parameter, double number) {

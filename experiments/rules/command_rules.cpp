@@ -125,13 +125,14 @@ ValueRule samples_of_torque_levels() {
       }};
 }
 
-// Warns about torques beyond the converter's range, which are clipped.
+// Warns about torques beyond the range of the converter or the amplifier, which are clipped.
 ValueRule range_of_the_converter(const std::string& unit) {
-  return {{"command.torque.through", "dac.bits", "dac.resolution", "dac.range"},
+  return {{"command.torque.through", "dac.bits", "dac.resolution", "dac.range", "amplifier.limit"},
           true,
           [unit](Limits l, Limits levels) -> Faults {
             if (l[0].low != static_cast<double>(trial::TorquePath::dac)) return {};
             loop::DacParameters dac{.bits = static_cast<int>(l[1].low), .resolution = l[2].low};
+            dac.limit = l[4].low;
             if (l[3].low > 0.0) dac.resolution = std::ldexp(l[3].low, 1 - dac.bits);
             const double lowest = loop::lowest_torque(dac);
             const double highest = loop::highest_torque(dac);

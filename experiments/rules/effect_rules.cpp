@@ -102,7 +102,7 @@ EffectRule rule_of_the_plugin(const study::StudyPlan& plan) {
   return {.keys = {"controller.kp", "controller.ki", "controller.kd", "controller.anti_windup",
                    "controller.structure", "controller.cascade", "controller.deadband",
                    "controller.integrator_zone", "controller.integrator_leak", "controller.derivative_cutoff",
-                   "controller.error_deadband", "controller.standstill"},
+                   "controller.derivative_window", "controller.error_deadband", "controller.standstill"},
           .has_effect = plugin ? never : always,
           .what = "it has no effect: the controller is a plugin",
           .expected = "controller.parameters, or the key left out"};
@@ -214,6 +214,26 @@ std::vector<EffectRule> rules_of_the_blocks() {
        .has_effect = [is_cascade](Limits l) { return is_cascade(l[0]) || can_be_positive(l[1]); },
        .what = "it has no effect: the control never uses the difference of counts",
        .off_at_zero = true,
+       .warn_only = true},
+  };
+}
+
+std::vector<EffectRule> rules_of_the_drive() {
+  return {
+      {.keys = {"controller.cascade.feedforward"},
+       .depends_on = {"command.profile.shape"},
+       .has_effect = [](Limits l) { return !is_word<loop::ReferenceShape::step>(l[0]); },
+       .what = "it has no effect: the reference is a step at every point",
+       .expected = "command.profile.shape: trapezoidal, s_curve or sine, or the key left out",
+       .off_at_zero = true},
+      {.keys = {"controller.derivative_window"},
+       .depends_on = {"controller.structure", "controller.kd", "controller.standstill.kd"},
+       .has_effect =
+           [](Limits l) {
+             return is_word<loop::ControlStructure::cascade>(l[0]) || can_be_positive(l[1]) ||
+                    can_be_positive(l[2]);
+           },
+       .what = "it has no effect: the control never uses the difference of counts",
        .warn_only = true},
   };
 }
@@ -379,9 +399,9 @@ std::vector<EffectRule> effect_rules(const study::StudyPlan& plan) {
   rules.push_back(rule_of_the_load());
   rules.push_back(rule_of_the_resolution());
   rules.push_back(rule_of_the_plugin(plan));
-  for (const auto& more :
-       {rules_of_the_loop(), rules_of_the_blocks<Phase::fine>(), rules_of_the_blocks<Phase::coarse>(),
-        rules_of_the_contact(), rules_of_the_model(), rules_of_vanished_terms()}) {
+  for (const auto& more : {rules_of_the_loop(), rules_of_the_drive(), rules_of_the_blocks<Phase::fine>(),
+                           rules_of_the_blocks<Phase::coarse>(), rules_of_the_contact(), rules_of_the_model(),
+                           rules_of_vanished_terms()}) {
     rules.insert(rules.end(), more.begin(), more.end());
   }
   return rules;

@@ -24,6 +24,7 @@ Notation c_notation(Precision precision) {
                     {Operation::count_difference, "(float)({0} - {1})"},
                     {Operation::magnitude, "magnitude({0})"},
                     {Operation::limited, "limited({0}, {1}, {2})"},
+                    {Operation::nearest, "whole({0})"},
                     {Operation::is_even, "((int64_t)({0}) % 2 == 0)"},
                     {Operation::choice, "({0} ? {1} : {2})"}},
           .lines = {.assignment = "{} = {};",
@@ -71,6 +72,11 @@ std::string functions(std::string_view statements, std::string_view type, std::s
         "  return highest < above ? highest : above;\n"
         "}}\n",
         type);
+  }
+  if (statements.find("whole(") != std::string_view::npos) {
+    // At this size a number has no digit behind the point.
+    text += fmt::format("static inline {0} whole({0} x) {{ return (x + {1}) - {1}; }}\n", type,
+                        type == "float" ? "12582912.0F" : "6755399441055744.0");
   }
   return text.empty() ? text : "\n" + text;
 }
@@ -216,17 +222,19 @@ std::string linuxcnc_component(const ControllerToWrite& chain, const Program& pr
   const loop::DacParameters& dac = chain.dac;
   const Notation in_double = c_notation(Precision::double_precision);
   const std::string unit = parameters::unit_on(chain.axis, "N m");
+  const auto torque_of = [&](std::int64_t code) {
+    return decimal(static_cast<double>(code) * dac.resolution, in_double);
+  };
   return fmt::format(linuxcnc_head, component, fmt::arg("torque", parameters::text_on(chain.axis, "$torque")),
                      fmt::arg("angle", parameters::unit_on(chain.axis, "rad")), fmt::arg("unit", unit)) +
          chain_code(chain, program) +
-         fmt::format(
-             linuxcnc_function, fmt::arg("resolution", decimal(dac.resolution, in_double)),
-             fmt::arg("lowest", decimal(loop::lowest_torque(dac), in_double)),
-             fmt::arg("highest", decimal(loop::highest_torque(dac), in_double)), fmt::arg("unit", unit),
-             fmt::arg("inputs",
-                      converted(program, {"nearest(command_counts) - feedback_counts", "feedback_counts",
-                                          "command_velocity", "command_acceleration", "memory->given",
-                                          "memory->target != target_counts"})));
+         fmt::format(linuxcnc_function, fmt::arg("resolution", decimal(dac.resolution, in_double)),
+                     fmt::arg("lowest", torque_of(loop::lowest_code(dac))),
+                     fmt::arg("highest", torque_of(loop::highest_code(dac))), fmt::arg("unit", unit),
+                     fmt::arg("inputs", converted(program, {"nearest(command_counts) - feedback_counts",
+                                                            "feedback_counts", "command_velocity",
+                                                            "command_acceleration", "memory->given",
+                                                            "memory->target != target_counts"})));
 }
 
 }  // namespace zerocount::controller_code

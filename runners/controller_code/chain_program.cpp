@@ -1,5 +1,6 @@
 #include "runners/controller_code/chain_program.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -18,6 +19,9 @@
 namespace zerocount::controller_code {
 namespace {
 
+/// Longest window of counts, and latency of a command, samples: each is a variable of its own.
+constexpr int max_queue = 64;
+
 /// Writes the chain block by block: a block's constants and states become names, and the formulas of
 /// core/loop, with terms for numbers, its statements.
 class ChainWriter {
@@ -34,15 +38,24 @@ class ChainWriter {
   Program program() {
     start();
     write_error();
-    if (!cascade_) write_standstill();
+    if (cascade_) {
+      write_command();
+    } else {
+      write_standstill();
+    }
     if (blocks_.hold.enter < 0.0) {
       write_chain();
     } else {
       write_hold();
     }
-    if (last_count_) write_.assign(*last_count_, count_);
+    shift(last_counts_, count_);
     write_.assign(started_, Term(1.0));
     write_dither();
+    const double limit = of_.dac.limit;
+    if (limit < unbounded) {
+      const Term most = write_.constant("torque_limit", limit, "of the amplifier, " + torque_unit_);
+      write_.assign(u_, loop::clamped<Term>(u_, -most, most));
+    }
     return write_.finished(u_);
   }
 
@@ -50,6 +63,20 @@ class ChainWriter {
   Term state(const std::string& name, const std::string& meaning, Type type = Type::number,
              double initial = 0.0) {
     return write_.variable({name, Role::state, type, meaning, initial});
+  }
+  /// States of the last samples, the oldest first.
+  std::vector<Term> queue(const std::string& name, int length, const std::string& unit,
+                          Type type = Type::number) {
+    if (length == 1) return {state(name, "at the sample before, " + unit, type)};
+    std::vector<Term> states;
+    for (int i = length; i > 0; --i)
+      states.push_back(
+          state(fmt::format("{}_{}", name, i), fmt::format("{} samples before, {}", i, unit), type));
+    return states;
+  }
+  void shift(const std::vector<Term>& queue, const Term& newest) {
+    for (std::size_t i = 0; i < queue.size(); ++i)
+      write_.assign(queue[i], i + 1 < queue.size() ? queue[i + 1] : newest);
   }
   Term local(const std::string& name, Type type = Type::number) {
     return write_.variable({name, Role::local, type});
@@ -71,12 +98,12 @@ class ChainWriter {
   /// Writes the variables that keep values of the first sample.
   void start() {
     const bool differs = cascade_ || of_.controller.kd != 0.0 || (stands_ && blocks_.standstill.kd != 0.0);
-    if (differs) last_count_ = state("last_count", "at the sample before, counts", Type::count);
+    if (differs) last_counts_ = queue("last_count", blocks_.derivative_window, "counts", Type::count);
     if (blocks_.observer.bandwidth > 0.0)
       first_count_ = state("first_count", "at the first sample, counts", Type::count);
-    if (!last_count_ && !first_count_) return;
+    if (last_counts_.empty() && !first_count_) return;
     write_.branch(!started_, [&] {
-      if (last_count_) write_.assign(*last_count_, count_);
+      for (const Term& last : last_counts_) write_.assign(last, count_);
       if (first_count_) write_.assign(*first_count_, count_);
     });
   }
@@ -154,8 +181,10 @@ class ChainWriter {
     difference_ =
         remembered ? state("difference", "of successive counts, filtered, counts") : local("difference");
     const Term a = coefficient("derivative_pole", pole, "of the filter of the difference of counts");
-    write_.assign(*difference_,
-                  loop::filtered_difference(a, *difference_, difference_of_counts(count_, *last_count_)));
+    Term change = difference_of_counts(count_, last_counts_.front());
+    if (last_counts_.size() > 1)
+      change = change / write_.constant("derivative_window", blocks_.derivative_window, "samples");
+    write_.assign(*difference_, loop::filtered_difference(a, *difference_, change));
   }
 
   /// I, changed by the increment under its conditions.
@@ -221,22 +250,57 @@ class ChainWriter {
     const Term kp = gain("kp", "proportional gain", c.kp, still.kp, {per_radian, "N m/rad"});
     const Term kd = gain("kd", "gain of the difference of successive counts", c.kd, still.kd,
                          {per_radian / sample_rate_, "N m s/rad"});
-    if (last_count_) write_difference();
+    if (!last_counts_.empty()) write_difference();
     const Term integral = write_trapezoid(ki, e_, last_error_, "last_error", "of the sample before, counts");
     write_.assign(u_, loop::pid_torque(integral, kp, e_, kd, difference_.value_or(0.0)));
     if (last_error_) write_.assign(*last_error_, e_);
   }
 
   Term velocity_error() const {
-    return loop::velocity_error<Term>({*kv_, *velocity_, 0.0, 0.0}, e_, *difference_);
+    return loop::velocity_error<Term>({0.0, *velocity_, 0.0, 0.0}, command_, *difference_);
+  }
+
+  /// v* (VelocityCommand), also at samples whose torque is held.
+  void write_command() {
+    const loop::CascadeParameters& cascade = blocks_.cascade;
+    const loop::CascadeConstants<double> c = loop::cascade_constants(cascade, sample_rate_, of_.resolution);
+    const std::string per_second = angle_unit_ + "/s";
+    const Term kv =
+        write_.constant("kv", c.kv, fmt::format("{} per count ({:.6g} 1/s)", per_second, cascade.kv));
+    Term wanted = kv * e_;
+    if (cascade.feedforward != 0.0) {
+      const Term forward = write_.constant("command_feedforward", cascade.feedforward, "of the velocity");
+      wanted = wanted + forward * write_.input(Input::velocity);
+    }
+    if (cascade.resolution > 0.0) {
+      wanted = loop::rounded_command(wanted, write_.constant("command_step", cascade.resolution, per_second));
+    }
+    if (cascade.limit < unbounded) {
+      const Term limit = write_.constant("command_limit", cascade.limit, per_second);
+      wanted = loop::clamped<Term>(wanted, -limit, limit);
+    }
+    command_ = wanted;
+    if (cascade.divider > 1) {
+      write_.remark("the position loop runs at one of several samples of the velocity loop");
+      command_ = state("command", "of the velocity, " + per_second);
+      const Term waits = state("waits", "samples since the position loop ran");
+      const Term divider = write_.constant("divider", cascade.divider, "samples of the velocity loop");
+      write_.branch(waits < 1.0, [&] { write_.assign(command_, wanted); });
+      write_.assign(waits, waits + 1.0);
+      write_.branch(waits >= divider, [&] { write_.assign(waits, 0.0); });
+    }
+    if (cascade.latency == 0) return;
+    const std::vector<Term> sent = queue("sent", cascade.latency, per_second);
+    const Term arrived = local("arrived");
+    write_.assign(arrived, sent.front());
+    shift(sent, command_);
+    command_ = arrived;
   }
 
   void write_cascade() {
     write_.remark("position loop around a velocity loop");
     const loop::CascadeConstants<double> c =
         loop::cascade_constants(blocks_.cascade, sample_rate_, of_.resolution);
-    kv_ = write_.constant("kv", c.kv,
-                          fmt::format("{0}/s per count ({1:.6g} 1/s)", angle_unit_, blocks_.cascade.kv));
     velocity_ = write_.constant("velocity_per_count", c.velocity,
                                 angle_unit_ + "/s per count of difference between samples");
     const std::string unit = parameters::unit_on(of_.axis, "N m s/rad");
@@ -353,9 +417,11 @@ class ChainWriter {
   Term e_{error_};  ///< e′
   Term u_{local("wanted")};
   Term started_{state("started", "there has been a sample", Type::flag)};
-  std::optional<Term> last_count_, first_count_, difference_, stands_now_;
-  std::optional<Term> last_error_;                           ///< of the PID law
-  std::optional<Term> kv_, velocity_, last_velocity_error_;  ///< of the cascade
+  std::vector<Term> last_counts_;  ///< the oldest first
+  std::optional<Term> first_count_, difference_, stands_now_;
+  std::optional<Term> last_error_;  ///< of the PID law
+  Term command_{0.0};               ///< of the cascade, as the others
+  std::optional<Term> velocity_, last_velocity_error_;
 };
 
 }  // namespace
@@ -363,6 +429,8 @@ class ChainWriter {
 std::string_view why_not_writable(const loop::ControllerParameters& controller, Precision precision) {
   if (controller.user.plugin) return "the controller is a plugin, whose code is its own";
   if (loop::has_coarse_phase(controller)) return "a control with two phases cannot be written yet";
+  if (std::max(controller.blocks.derivative_window, controller.blocks.cascade.latency) > max_queue)
+    return "a derivative_window or a cascade.latency of more than 64 samples cannot be written yet";
   if (precision == Precision::single_precision && controller.encoder == loop::EncoderChoice::coarse)
     return "a loop closed by the coarse encoder, whose counts are parts of fine ones, cannot be written in "
            "single precision";

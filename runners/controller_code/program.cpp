@@ -96,6 +96,8 @@ class RunningProgram {
         return std::abs(value(0));
       case Operation::limited:
         return std::min(std::max(value(0), value(1)), value(2));
+      case Operation::nearest:
+        return std::nearbyint(value(0));
       case Operation::is_even:
         return truth(static_cast<std::int64_t>(value(0)) % 2 == 0);
       case Operation::choice:

@@ -29,6 +29,7 @@ enum class Operation {
   count_difference,  ///< of two counts, as a number
   magnitude,
   limited,   ///< of x, lowest and highest
+  nearest,   ///< whole number, a tie to the even one
   is_even,   ///< whether ⌊x⌋ is even, x ≥ 0
   choice,    ///< of a condition, the value where it holds, and the other
   at_most,   ///< ≤
@@ -105,6 +106,7 @@ class Term {
     if (is_literal(where_it_holds, 1.0) && is_zero(otherwise)) return condition;
     return {Operation::choice, {condition, where_it_holds, otherwise}};
   }
+  friend Term rint(const Term& x) { return {Operation::nearest, {x}}; }
   friend Term abs(const Term& x) { return {Operation::magnitude, {x}}; }
   friend Term sign(const Term& x) { return select(x > 0.0, 1.0, select(x < 0.0, -1.0, 0.0)); }
   // Only one of the other: a range.

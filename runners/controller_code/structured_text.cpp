@@ -19,6 +19,9 @@ Notation st_notation(Precision precision) {
                 {Operation::magnitude, "ABS({0})"},
                 {Operation::limited, "LIMIT({1}, {0}, {2})"},
                 // The conversion to a whole number rounds to the nearest.
+                {Operation::nearest, precision == Precision::single_precision
+                                         ? "LINT_TO_REAL(REAL_TO_LINT({0}))"
+                                         : "LINT_TO_LREAL(LREAL_TO_LINT({0}))"},
                 {Operation::is_even,
                  "((LREAL_TO_LINT({0}) - BOOL_TO_LINT(LINT_TO_LREAL(LREAL_TO_LINT({0})) > {0})) MOD 2 = 0)"},
                 {Operation::choice, "SEL({0}, {2}, {1})"}},

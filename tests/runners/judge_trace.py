@@ -27,6 +27,7 @@ DEFAULTS = {
                               "fine_dwell": 0.01, "coarse_beyond": None, **OFF}},
     "command": {"profile": {"shape": "step", "velocity_limit": 2.0, "acceleration_limit": 100.0, "jerk_limit": 1e4}},
     "initial": {"integral": 0},
+    "amplifier": {"limit": None},
 }
 draw = random.Random(15)
 
@@ -64,6 +65,14 @@ def block(kind):
     }[kind]()
 
 
+def drive():
+    """A host that commands a velocity over a bus."""
+    return {"structure": "cascade", "derivative_window": draw.randint(1, 6),
+            "cascade": {"kv": log_uniform(10, 200), "kp": log_uniform(0.02, 0.3), "ki": log_uniform(0.5, 20),
+                        "feedforward": draw.uniform(0, 1.2), "divider": draw.randint(1, 5), "latency": draw.randint(0, 7),
+                        "resolution": log_uniform(1e-5, 1e-2), "limit": log_uniform(1e-3, 1.0)}}
+
+
 FILTERS = ["lowpass", "notch", "lead", "biquad"]
 KINDS = ["deadband", "zone", "leak", "derivative", "filters", "feedforward", "observer", "cascade"]
 
@@ -87,7 +96,9 @@ def merged(base, keys):
 
 
 def manifest_of(kinds, two_phases):
-    controller = phase(kinds)
+    controller = {**phase(kinds), **(drive() if "cascade" in kinds else {})}
+    if "cascade" in kinds:
+        controller.pop("kd", None)
     if "cascade" not in kinds:
         controller.setdefault("ki", log_uniform(1e-5, 1e-4))
     command = {"targets": [draw.randint(-60, 60) for _ in range(2)], "hold": 0.2}
@@ -98,14 +109,14 @@ def manifest_of(kinds, two_phases):
         coarse = phase(kinds)
         controller["coarse"] = {**coarse, "coarse_beyond": 80, "fine_within": 40, "fine_rate": 5, "fine_dwell": 0.002}
         command["targets"] = [draw.randint(-400, 400) for _ in range(2)]
-    if "feedforward" in kinds:
+    if "feedforward" in kinds or "cascade" in kinds:
         command["hold"] = 0.6
         command["profile"] = {"shape": draw.choice(["trapezoidal", "s_curve"]), "velocity_limit": log_uniform(1e-2, 5e-2),
                               "acceleration_limit": log_uniform(0.5, 10.0)}
         if command["profile"]["shape"] == "s_curve":
             command["profile"]["jerk_limit"] = log_uniform(50, 1000)
     return {"zerocount": 1, "name": "judged", "seed": draw.randrange(2**32), "trials": 1, "controller": controller,
-            "command": command, "verdict": {"dwell": 0.01, "window": 0.01}}
+            "amplifier": {"limit": log_uniform(1e-2, 1.0)}, "command": command, "verdict": {"dwell": 0.01, "window": 0.01}}
 
 
 def judge(manifest, folder):
@@ -117,7 +128,7 @@ def judge(manifest, folder):
         sys.exit(f"{json.dumps(manifest)}\n{ran.stderr}")
     rows = list(csv.DictReader(ran.stdout.splitlines()))
     samples = [tuple(int(row[key]) for key in ("target", "count", "coarse_count")) for row in rows]
-    given = {key: manifest[key] for key in ("controller", "command")}
+    given = {key: manifest[key] for key in ("controller", "command", "amplifier")}
     judged = codes_of(merged(DEFAULTS, given), samples)
     for row, (code, _, margin) in zip(rows, judged):
         if int(row["code"]) != code or float(row["torque"]) != code * DEFAULTS["dac"]["resolution"]:

@@ -111,8 +111,11 @@ class Chain:
         self.p, self.T, self.dx = phase, T, dx
         self.integral, self.range = integral, integral_range
         self.inside = False
-        self.first = self.last_count = None
+        self.first = None
+        self.window = phase.get("derivative_window", 1)
+        self.last_counts = []  # of the last samples, at most the window, the oldest first
         self.last_e = self.last_w = self.d = self.added = self.estimate = 0.0
+        self.command, self.bus = 0.0, [0.0] * phase["cascade"].get("latency", 0)
         self.fresh = True  # the next sample is the chain's first
         self.holding, self.hold_run, self.still_run, self.wanted = False, 0, 0, 0.0
         cutoff = phase["derivative_cutoff"]
@@ -129,9 +132,10 @@ class Chain:
     def watch(self, count, e, in_force, velocity, acceleration):
         """What goes on at every sample, whichever chain decides. Returns whether the integral may change."""
         if self.first is None:
-            self.first = self.last_count = count
-        self.d = self.a * self.d + (1 - self.a) * (count - self.last_count)
-        self.last_count = count
+            self.first = count
+            self.last_counts = [count] * self.window
+        self.d = self.a * self.d + (1 - self.a) * (count - self.last_counts[0]) / self.window
+        self.pass_count(count)
         band = self.p["deadband"]
         enter = band["enter"]
         if enter is not None:
@@ -144,6 +148,21 @@ class Chain:
             self.estimate = self.accelerates((count - self.first) * self.dx) - self.drives(in_force)
         zone = self.p["integrator_zone"]
         return not self.inside and (zone is None or abs(e) <= zone)
+
+    def pass_count(self, count):
+        self.last_counts = self.last_counts[1:] + [count]
+
+    def run_position_loop(self, k, e, velocity):
+        """The velocity command that acts at sample k, also while the torque is held."""
+        c = self.p["cascade"]
+        if k % c.get("divider", 1) == 0:
+            wanted = c["kv"] * self.dx * self.acting(e) + c.get("feedforward", 0.0) * velocity
+            step, limit = c.get("resolution"), c.get("limit")
+            if step:
+                wanted = step * np.rint(wanted / step)
+            self.command = wanted if limit is None else min(max(wanted, -limit), limit)
+        self.bus.append(self.command)
+        self.acts = self.bus.pop(0)
 
     def acting(self, e):
         """The error with its dead zone."""
@@ -176,13 +195,14 @@ class Chain:
         self.holding = not fresh and (goes_on or self.hold_run >= self.dwell(rule["dwell"]))
         return self.holding
 
-    def velocity_error(self, e):
-        return self.p["cascade"]["kv"] * self.dx * e - self.d * self.dx / self.T
+    def velocity_error(self):
+        return self.acts - self.d * self.dx / self.T
 
     def remember(self, e):
-        self.last_e, self.last_w = e, self.velocity_error(e)
+        self.last_e, self.last_w = e, self.velocity_error()
 
-    def rest(self, count, e, in_force, velocity, acceleration):
+    def rest(self, k, count, e, in_force, velocity, acceleration):
+        self.run_position_loop(k, e, velocity)
         self.watch(count, e, in_force, velocity, acceleration)
         self.remember(self.acting(e))
         self.fresh, self.still_run = True, 0
@@ -193,10 +213,11 @@ class Chain:
             torque = each.settle(torque)
         self.integral = torque
 
-    def decide(self, count, e, in_force, velocity, acceleration, new_target):
+    def decide(self, k, count, e, in_force, velocity, acceleration, new_target):
+        self.run_position_loop(k, e, velocity)
         still = self.stands_still(e, new_target)
         if self.holds(e, new_target):
-            self.last_count = count
+            self.pass_count(count)
             self.remember(self.acting(e))
             return self.wanted
         changes = self.watch(count, e, in_force, velocity, acceleration)
@@ -205,7 +226,7 @@ class Chain:
         gains = p["standstill"] if still else p
         kp, ki, kd = gains["kp"], gains["ki"], gains["kd"]
         cascade = p["structure"] == "cascade"
-        w = self.velocity_error(e)
+        w = self.velocity_error()
         increment = (p["cascade"]["ki"] * self.T / 2 * (w + self.last_w) if cascade else ki * (e + self.last_e))
         if changes:
             tau = p["integrator_leak"]
@@ -228,7 +249,9 @@ class Controller:
         self.fine_per_coarse = parameters["encoder"]["fine"] / parameters["encoder"]["coarse"]
         bits, self.du = parameters["dac"]["bits"], parameters["dac"]["resolution"]
         self.low, self.high = -2**(bits - 1), 2**(bits - 1) - 1
-        limits = (self.low * self.du, self.high * self.du) if c["anti_windup"] == "clamp" else (-math.inf, math.inf)
+        self.limit = parameters.get("amplifier", {}).get("limit")
+        most = math.inf if self.limit is None else self.limit
+        limits = (max(self.low * self.du, -most), min(self.high * self.du, most)) if c["anti_windup"] == "clamp" else (-math.inf, math.inf)
         integral = parameters["initial"]["integral"]
         self.beyond = c["coarse"]["coarse_beyond"]
         fine = dict(c, kd=0.0) if self.beyond is not None else c
@@ -237,6 +260,7 @@ class Controller:
         self.phase, self.settled, self.last_coarse, self.in_force = "fine", 0, None, 0.0
         self.started = False
         self.last_target = None
+        self.k = 0
 
     def change_phase(self, errors, counts):
         rule = self.p["controller"]["coarse"]
@@ -265,11 +289,13 @@ class Controller:
         self.started = True
         for phase, chain in self.chains.items():
             if phase != self.phase:
-                chain.rest(counts[phase], errors[phase], self.in_force, velocity, acceleration)
+                chain.rest(self.k, counts[phase], errors[phase], self.in_force, velocity, acceleration)
         new_target = self.last_target is not None and self.last_target != target
         self.last_target = target
-        return self.chains[self.phase].decide(counts[self.phase], errors[self.phase], self.in_force, velocity,
-                                              acceleration, new_target)
+        wanted = self.chains[self.phase].decide(self.k, counts[self.phase], errors[self.phase], self.in_force,
+                                                velocity, acceleration, new_target)
+        self.k += 1
+        return wanted if self.limit is None else min(max(wanted, -self.limit), self.limit)
 
 
 def codes_of(parameters, samples):

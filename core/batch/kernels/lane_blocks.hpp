@@ -69,7 +69,7 @@ ZEROCOUNT_ALWAYS_INLINE P law_torque(BatchState& batch, const At& at, const Cont
   const typename P::Mask is_cascade = to_mask(at.load(b.is_cascade));
   const P last_d = at.load(b.difference);
   const P d = select(now.held, last_d, loop::filtered_difference(at.load(b.pole), last_d, in.change));
-  const P w = loop::velocity_error(cascade, now.acting_error, d);
+  const P w = loop::velocity_error(cascade, cascade.kv * now.acting_error, d);
   const P increment = select(is_cascade, cascade.ki * (w + at.load(b.last_velocity_error)),
                              ki * (now.acting_error + at.load(b.last_acting_error)));
   loop::IntegralState<P> state{at.load(l.integral), at.load(b.inside)};

@@ -22,10 +22,20 @@ bool never_settles(const trial::TrialParameters& p) {
   return p.controller.dither.amplitude != 0.0 || p.dac.sigma_delta;
 }
 
+/// Whether the loop needs the scalar control law: a window of counts or a velocity command on its way would
+/// be a queue in every lane.
+bool has_queues(const loop::ControlBlocks& blocks) {
+  const loop::CascadeParameters& c = blocks.cascade;
+  return blocks.derivative_window > 1 || (blocks.structure == loop::ControlStructure::cascade &&
+                                          (c.feedforward != 0.0 || c.divider > 1 || c.latency > 0 ||
+                                           c.resolution > 0.0 || std::isfinite(c.limit)));
+}
+
 bool blocks_remember(const loop::ControlBlocks& blocks) {
   // At zero error and without motion, only memory other than the integral can change the torque.
   return blocks.observer.bandwidth > 0.0 || !blocks.filters.empty() ||
-         std::isfinite(blocks.derivative_cutoff) || std::isfinite(blocks.integrator_leak);
+         std::isfinite(blocks.derivative_cutoff) || std::isfinite(blocks.integrator_leak) ||
+         has_queues(blocks);
 }
 
 /// Whether noise of the fine encoder is the only error of encoders and converter that is drawn.
@@ -50,8 +60,8 @@ bool lanes_have(loop::ControlStructure structure) {
 }
 
 std::string_view lacking(const loop::ControlBlocks& blocks) {
-  [[maybe_unused]] const auto& [structure, cascade, deadband, zone, leak, cutoff, filters, feedforward,
-                                observer, error_deadband, hold, standstill] = blocks;
+  [[maybe_unused]] const auto& [structure, cascade, deadband, zone, leak, window, cutoff, filters,
+                                feedforward, observer, error_deadband, hold, standstill] = blocks;
   return lanes_have(structure) ? "" : "the controller's structure";
 }
 
@@ -181,7 +191,8 @@ bool needs_lane_loop(const trial::TrialParameters& p) {
          loop::has_errors(p.dac) || loop::has_coarse_phase(p.controller) ||
          p.controller.encoder != loop::EncoderChoice::fine ||
          p.command.profile.shape != loop::ReferenceShape::step || p.controller.user.plugin ||
-         !p.command.torque.levels.empty() || p.controller.blocks.filters.size() > max_lane_filters;
+         !p.command.torque.levels.empty() || p.controller.blocks.filters.size() > max_lane_filters ||
+         has_queues(p.controller.blocks) || std::isfinite(p.dac.limit);
 }
 
 bool is_steady_at_zero(const trial::TrialParameters& p) {

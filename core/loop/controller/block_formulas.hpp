@@ -170,11 +170,17 @@ struct CascadeConstants {
   Number ki;        ///< ki·T/2, N m s/rad
 };
 
-/// v* − v = kv·Δx·e_k − (Δx/T)·d_k, rad/s.
+/// v* − v = v* − (Δx/T)·d_k, rad/s. @param command v*, rad/s: kv·Δx·e_k by way of VelocityCommand.
 template <class Number>
-ZEROCOUNT_ALWAYS_INLINE Number velocity_error(const CascadeConstants<Number>& c, const Number& error,
+ZEROCOUNT_ALWAYS_INLINE Number velocity_error(const CascadeConstants<Number>& c, const Number& command,
                                               const Number& d) {
-  return c.kv * error - c.velocity * d;
+  return command - c.velocity * d;
+}
+
+/// v* rounded half to even to multiples of the resolution (rad/s), rad/s.
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE Number rounded_command(const Number& command, const Number& resolution) {
+  return resolution * rint(command / resolution);
 }
 
 /// kp·w + I, N m. @param w v* − v, rad/s.

@@ -1,25 +1,74 @@
 #pragma once
 
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 #include "core/loop/controller/count_difference.hpp"
 #include "core/loop/controller/integrator.hpp"
 
 namespace zerocount::loop {
 
-inline CascadeConstants<double> cascade_constants(const CascadeGains& gains, double sample_rate,
+inline CascadeConstants<double> cascade_constants(const CascadeParameters& gains, double sample_rate,
                                                   double resolution) {
   return {gains.kv * resolution, sample_rate * resolution, gains.kp, 0.5 * gains.ki / sample_rate};
 }
 
+/// The velocity command of a position loop that may run in a host of its own: slower than the velocity loop,
+/// and sent to it as a number of few digits over a bus. With m = divider and q = latency, at sample k
+///
+///   where k is a multiple of m:  v*_k = kv·Δx·e_k + feedforward·ṙ_k, rounded half to even to multiples of
+///   the
+///                                resolution and clipped to ± the limit; elsewhere v*_k = v*_{k−1}   (rad/s)
+///   what acts:                   v*_{k−q}, 0 before the first
+///
+///   V*(z) = z^−q·(1/m)·(1 + z⁻¹ + … + z^−(m−1))·kv·Δx·E(z), the images of the slower sampling left out.
+///
+/// The delay counts the samples at which the controller runs.
+class VelocityCommand {
+ public:
+  explicit VelocityCommand(const CascadeParameters& parameters)
+      : parameters_(parameters), sent_(static_cast<std::size_t>(parameters.latency), 0.0) {}
+
+  /// The command that acts at this sample, rad/s. @param wanted kv·Δx·e_k, rad/s.
+  double step(const Feedback& now, double wanted) {
+    if (now.sample % parameters_.divider == 0) {
+      const auto& [kv, kp, ki, feedforward, divider, latency, resolution, limit] = parameters_;
+      if (feedforward != 0.0) wanted += feedforward * now.reference.velocity;
+      if (resolution > 0.0) wanted = rounded_command(wanted, resolution);
+      command_ = clamped(wanted, -limit, limit);
+    }
+    if (sent_.empty()) return command_;
+    const double arrived = std::exchange(sent_[oldest_], command_);
+    oldest_ = (oldest_ + 1) % sent_.size();
+    return arrived;
+  }
+
+  /// `gain`·V*(z)/(kv·Δx·E(z)), between the steps of the resolution.
+  TransferFunction transfer(double gain) const {
+    const auto divider = static_cast<std::size_t>(parameters_.divider);
+    std::vector<double> b(sent_.size(), 0.0);
+    b.insert(b.end(), divider, gain / static_cast<double>(divider));
+    return {b};
+  }
+
+ private:
+  CascadeParameters parameters_;
+  double command_{0.0};       // of the last sample of the position loop, rad/s
+  std::vector<double> sent_;  // commands on their way, in a ring, rad/s
+  std::size_t oldest_{0};
+};
+
 /// The usual cascade of a drive, a proportional position loop around a PI velocity loop:
 ///
-///   v*_k = kv·Δx·e_k,   v_k = (Δx/T)·d_k,   w_k = v*_k − v_k                                 (rad/s)
+///   v*_k by VelocityCommand,   v_k = (Δx/T)·d_k,   w_k = v*_k − v_k                          (rad/s)
 ///   I ← I + (ki·T/2)·(w_k + w_{k−1}),   u = kp·w_k + I                                       (N m)
 ///
-///   U(z) = [kp + (ki·T/2)·(1 + z⁻¹)/(1 − z⁻¹)]·[kv·Δx·E(z) − (Δx/T)·D(z)],
+///   U(z) = [kp + (ki·T/2)·(1 + z⁻¹)/(1 − z⁻¹)]·[V*(z) − (Δx/T)·D(z)],
 ///
 /// with e′ of the dead zone (acting_error) in place of e, the conditions on I, by the position error e, and
-/// its leak by Integrator, and d the difference of successive counts by CountDifference. Before the first
-/// sample w was 0. Source: Groß, Hamann, Wiegärtner, "Electrical Feed Drives in Automation", Siemens/MCD
+/// its leak by Integrator, and d the difference of counts by CountDifference. Before the first sample w
+/// was 0. Source: Groß, Hamann, Wiegärtner, "Electrical Feed Drives in Automation", Siemens/MCD
 /// 2001, chapter 3.
 class Cascade {
  public:
@@ -28,26 +77,25 @@ class Cascade {
         deadband_(error_deadband_constants(parameters.blocks.error_deadband)),
         integral_(integral_constants(parameters.blocks, parameters.sample_rate, start.integral_range),
                   start.integral),
-        difference_(derivative_pole(parameters.blocks, parameters.sample_rate)) {}
+        command_(parameters.blocks.cascade),
+        difference_(derivative_pole(parameters.blocks, parameters.sample_rate),
+                    parameters.blocks.derivative_window) {}
 
   double step(const Feedback& now, double /*torque*/ = 0.0) {
-    const double error = acting_error(deadband_, now.error);
-    const double w = velocity_error(constants_, error, difference_.step(now.count));
+    const double w = velocity_error(constants_, command(now), difference_.step(now.count));
     const double integral = integral_.add(now.error, constants_.ki * (w + last_velocity_error_));
     last_velocity_error_ = w;
     return cascade_torque(integral, constants_.kp, w);
   }
 
   void observe(const Feedback& now) {
-    const double error = acting_error(deadband_, now.error);
-    last_velocity_error_ = velocity_error(constants_, error, difference_.step(now.count));
+    last_velocity_error_ = velocity_error(constants_, command(now), difference_.step(now.count));
     integral_.observe(now.error);
   }
 
   void pause(const Feedback& now) {
     difference_.pass(now.count);
-    last_velocity_error_ =
-        velocity_error(constants_, acting_error(deadband_, now.error), difference_.value());
+    last_velocity_error_ = velocity_error(constants_, command(now), difference_.value());
   }
 
   /// I := torque. @returns 0, because the law is the first block.
@@ -57,7 +105,7 @@ class Cascade {
   }
 
   LinearChain linear() const {
-    const LinearBlock position_loop{{LoopSignal::error, {{constants_.kv}}},
+    const LinearBlock position_loop{{LoopSignal::error, command_.transfer(constants_.kv)},
                                     {LoopSignal::count, difference_.transfer(-constants_.velocity)}};
     LinearBlock velocity_loop{{LoopSignal::torque, {{constants_.kp}}}};
     if (constants_.ki != 0.0) {
@@ -69,9 +117,15 @@ class Cascade {
   double integral() const { return integral_.value(); }  ///< I, N m
 
  private:
+  /// v* that acts, rad/s.
+  double command(const Feedback& now) {
+    return command_.step(now, constants_.kv * acting_error(deadband_, now.error));
+  }
+
   CascadeConstants<double> constants_;
   ErrorDeadbandConstants<double> deadband_;
   Integrator integral_;
+  VelocityCommand command_;
   CountDifference difference_;
   double last_velocity_error_{0.0};
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 
 #include "core/loop/controller/transfer_function.hpp"
 #include "core/loop/parameters.hpp"
@@ -28,6 +29,7 @@ struct Feedback {
   double torque_in_force{0.0};  ///< decided at the last sample, N m; 0 before the first
   ReferenceMotion reference{};
   bool new_target{false};  ///< the target is not that of the last sample
+  std::int64_t sample{0};  ///< its number, from the trial's start
 };
 
 /// Range and resolution of the converter.

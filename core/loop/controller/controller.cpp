@@ -65,10 +65,10 @@ Controller::Controller(const ControllerParameters& parameters, const CountScale&
       switch_(parameters.coarse, parameters.sample_rate) {}
 
 double Controller::update(std::int64_t reference, const EncoderReading& reading, double torque_in_force,
-                          const ReferenceMotion& motion, bool new_target) {
+                          const ReferenceMotion& motion, bool new_target, std::int64_t sample) {
   const auto feedback = [&](EncoderChoice encoder) -> Feedback {
     const double count = count_of(encoder, reading);
-    return {static_cast<double>(reference) - count, count, torque_in_force, motion, new_target};
+    return {static_cast<double>(reference) - count, count, torque_in_force, motion, new_target, sample};
   };
   const Feedback fine = feedback(fine_encoder_);
   if (!two_phases_) return fine_.step(fine);

@@ -51,8 +51,9 @@ class Controller {
   /// @param torque_in_force the torque decided at the last sample, N m; 0 before the first. A torque of the
   /// DAC, hence within its range.
   /// @param new_target the target is not that of the last update.
+  /// @param sample its number, from the trial's start.
   double update(std::int64_t reference, const EncoderReading& reading, double torque_in_force,
-                const ReferenceMotion& motion = {}, bool new_target = false);
+                const ReferenceMotion& motion = {}, bool new_target = false, std::int64_t sample = 0);
 
   ControlPhase phase() const { return switch_.phase(); }            ///< of the last sample
   std::int64_t phase_changes() const { return switch_.changes(); }  ///< so far

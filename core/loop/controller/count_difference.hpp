@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <numbers>
+#include <vector>
 
 #include "core/loop/controller/block_formulas.hpp"
 #include "core/loop/controller/control_block.hpp"
@@ -13,42 +15,51 @@ inline double derivative_pole(const ControlBlocks& blocks, double sample_rate) {
   return numerics::exp(-2.0 * std::numbers::pi * blocks.derivative_cutoff / sample_rate);
 }
 
-/// The difference of successive counts, through a first-order low-pass filter:
+/// The mean difference of successive counts over a window of N samples, through a first-order low-pass
+/// filter:
 ///
-///   d_k = a·d_{k−1} + (1 − a)·(count_k − count_{k−1}),   a = exp(−2π·f·T),
+///   d_k = a·d_{k−1} + (1 − a)·(count_k − count_{k−N})/N,   a = exp(−2π·f·T),
 ///
-///   D(z) = (1 − a)·(1 − z⁻¹)/(1 − a·z⁻¹)·Count(z).
+///   D(z) = (1 − a)·(1 − z⁻ᴺ)/(N·(1 − a·z⁻¹))·Count(z).
 ///
-/// The count before the first is the first, d before it is 0.
+/// The counts before the first are the first, d before it is 0.
 class CountDifference {
  public:
-  explicit CountDifference(double pole) : pole_(pole) {}
+  explicit CountDifference(double pole, int window = 1)
+      : pole_(pole), window_(static_cast<std::size_t>(window)) {}
 
   /// d at this sample, counts.
   double step(double count) {
-    if (!started_) last_count_ = count;
-    started_ = true;
-    difference_ = filtered_difference(pole_, difference_, count - last_count_);
-    last_count_ = count;
+    if (last_counts_.empty()) last_counts_.assign(window_, count);
+    const double change = (count - last_counts_[oldest_]) / static_cast<double>(window_);
+    difference_ = filtered_difference(pole_, difference_, change);
+    pass(count);
     return difference_;
   }
 
   /// A sample that leaves d as it is.
-  void pass(double count) { last_count_ = count; }
+  void pass(double count) {
+    last_counts_[oldest_] = count;
+    oldest_ = (oldest_ + 1) % window_;
+  }
   double value() const { return difference_; }  ///< d of the last step, counts
 
   /// `gain`·D(z).
   TransferFunction transfer(double gain) const {
-    const double b = gain * (1.0 - pole_);
-    if (pole_ == 0.0) return {{b, -b}};
-    return {{b, -b}, {1.0, -pole_}};
+    const double b = gain * (1.0 - pole_) / static_cast<double>(window_);
+    std::vector<double> of_counts(window_ + 1);
+    of_counts.front() = b;
+    of_counts.back() = -b;
+    if (pole_ == 0.0) return {of_counts};
+    return {of_counts, {1.0, -pole_}};
   }
 
  private:
   double pole_;
+  std::size_t window_;               // N
+  std::vector<double> last_counts_;  // of the last N samples, in a ring; empty before the first
+  std::size_t oldest_{0};            // count_{k−N} in it
   double difference_{0.0};
-  double last_count_{0.0};
-  bool started_{false};
 };
 
 }  // namespace zerocount::loop

@@ -24,7 +24,7 @@ inline StandstillConstants<double> standstill_constants(const Standstill& stands
 ///   U(z) = [kp + ki·(1 + z⁻¹)/(1 − z⁻¹)]·E(z) − kd·D(z),
 ///
 /// with e′ of the dead zone (acting_error) in place of e, the conditions on I and its leak by Integrator, and
-/// d the difference of successive counts by CountDifference. Before the first sample e was 0. Where the axis
+/// d the difference of counts by CountDifference. Before the first sample e was 0. Where the axis
 /// stands still (stands_still) the gains are those of Standstill, and I goes on.
 class Pid {
  public:
@@ -32,7 +32,8 @@ class Pid {
       : Pid({parameters.kp, parameters.ki, parameters.kd},
             Integrator(integral_constants(parameters.blocks, parameters.sample_rate, start.integral_range),
                        start.integral),
-            CountDifference(derivative_pole(parameters.blocks, parameters.sample_rate))) {
+            CountDifference(derivative_pole(parameters.blocks, parameters.sample_rate),
+                            parameters.blocks.derivative_window)) {
     deadband_ = error_deadband_constants(parameters.blocks.error_deadband);
     standstill_ = standstill_constants(parameters.blocks.standstill, parameters.sample_rate);
   }

@@ -181,6 +181,7 @@ constexpr std::array<int, 3> wider_ranges{2, 10, 50};
 void with_wider_torque_range(PointEdit& at, int ratio) {
   const auto more_bits = static_cast<std::int64_t>(std::floor(std::log2(ratio)));
   at.add("dac.bits", more_bits);
+  at.scale("amplifier.limit", ratio);
   at.scale("dac.range", ratio);  // where it is given, the resolution follows from it
   at.scale("dac.resolution", ratio / std::exp2(more_bits));
 }

@@ -30,6 +30,8 @@ class RandomTrials {
     if (draw_.chance(0.3)) p.controller.anti_windup = loop::AntiWindup::none;
     if (draw_.chance(0.1)) p.controller.encoder = loop::EncoderChoice::coarse;
     p.controller.blocks = draw_.blocks(kind, p.controller.sample_rate);
+    draw_.add_drive(p.controller.blocks);
+    if (draw_.chance(0.2)) p.dac.limit = draw_.log_uniform(1e-2, 1.0);
     if (two_phases) {
       loop::CoarsePhaseParameters& c = p.controller.coarse;
       c.kp = draw_.log_uniform(1e-4, 5e-4);
@@ -64,7 +66,8 @@ class RandomTrials {
 Json parameters_json(const trial::TrialParameters& p) {
   const loop::ReferenceProfile& profile = p.command.profile;
   constexpr const char* shapes[] = {"step", "trapezoidal", "s_curve"};
-  return {{"encoder", {{"fine", p.encoder.fine}, {"coarse", p.encoder.coarse}}},
+  return {{"amplifier", {{"limit", testing::limit_json(p.dac.limit)}}},
+          {"encoder", {{"fine", p.encoder.fine}, {"coarse", p.encoder.coarse}}},
           {"dac", {{"bits", p.dac.bits}, {"resolution", p.dac.resolution}}},
           {"controller", testing::controller_json(p.controller)},
           {"command",

@@ -30,7 +30,16 @@ inline nlohmann::ordered_json filter_json(const loop::Filter& f) {
 
 inline void add_blocks(nlohmann::ordered_json& to, const loop::ControlBlocks& b) {
   to["structure"] = b.structure == loop::ControlStructure::cascade ? "cascade" : "pid";
-  to["cascade"] = {{"kv", b.cascade.kv}, {"kp", b.cascade.kp}, {"ki", b.cascade.ki}};
+  const loop::CascadeParameters& c = b.cascade;
+  to["cascade"] = {{"kv", c.kv},
+                   {"kp", c.kp},
+                   {"ki", c.ki},
+                   {"feedforward", c.feedforward},
+                   {"divider", c.divider},
+                   {"latency", c.latency},
+                   {"resolution", c.resolution},
+                   {"limit", limit_json(c.limit)}};
+  to["derivative_window"] = b.derivative_window;
   to["deadband"] = {{"enter", limit_json(b.deadband.enter)}, {"leave", limit_json(b.deadband.leave)}};
   to["integrator_zone"] = limit_json(b.integrator_zone);
   to["integrator_leak"] = limit_json(b.integrator_leak);

@@ -75,7 +75,8 @@ class RandomBlocks {
     if (has(BlockKind::observer)) b.observer = {log_uniform(2.0, 40.0), 5.54e-4 * log_uniform(0.5, 2.0)};
     if (has(BlockKind::cascade)) {
       b.structure = loop::ControlStructure::cascade;
-      b.cascade = {log_uniform(10.0, 200.0), log_uniform(0.02, 0.3), some(log_uniform(0.5, 20.0))};
+      b.cascade = {
+          .kv = log_uniform(10.0, 200.0), .kp = log_uniform(0.02, 0.3), .ki = some(log_uniform(0.5, 20.0))};
     }
     if (has(BlockKind::error_deadband))
       b.error_deadband = {static_cast<double>(random_() % 4), static_cast<loop::DeadbandForm>(random_() % 2)};
@@ -87,6 +88,18 @@ class RandomBlocks {
       b.standstill = {static_cast<double>(random_() % 3), dwell(sample_rate), some(log_uniform(1e-5, 5e-4)),
                       some(log_uniform(1e-6, 1e-4)), some(log_uniform(1e-5, 1e-3))};
     return b;
+  }
+
+  /// What a fine phase may have besides: a window of counts, and a command on its way between two loops.
+  void add_drive(loop::ControlBlocks& b) {
+    if (chance(0.5)) b.derivative_window = 1 + static_cast<int>(random_() % 6);
+    if (b.structure != loop::ControlStructure::cascade) return;
+    loop::CascadeParameters& c = b.cascade;
+    c.feedforward = some(uniform(0.0, 1.2));
+    if (chance(0.5)) c.divider = 1 + static_cast<int>(random_() % 5);
+    if (chance(0.5)) c.latency = static_cast<int>(random_() % 8);
+    if (chance(0.5)) c.resolution = log_uniform(1e-5, 1e-2);
+    if (chance(0.5)) c.limit = log_uniform(1e-3, 1.0);
   }
 
   /// A few samples, or one.

@@ -55,10 +55,13 @@ def open_loop(case):
 
     def response(z):
         trapezoid = (z + 1) / (z - left)
-        difference = (1 - a) * (z - 1) / (z - a)
+        window = c["derivative_window"]
+        difference = (1 - a) * (1 - z**-float(window)) / window / (1 - a / z)
         if c["structure"] == "cascade":
             g = c["cascade"]
-            u = -(g["kp"] + g["ki"] * T / 2 * trapezoid) * dx * (g["kv"] + difference / T)
+            held = sum(z**-float(j) for j in range(g["divider"])) / g["divider"]
+            command = g["kv"] * held * z**-float(g["latency"])
+            u = -(g["kp"] + g["ki"] * T / 2 * trapezoid) * dx * (command + difference / T)
         else:
             u = -c["kp"] - c["ki"] * trapezoid - c["kd"] * difference
         for element in c["filters"]:

@@ -32,6 +32,7 @@ void print() {
     controller.delay = static_cast<double>(draw.integer() % 13) / 4.0;
     const auto kind = static_cast<testing::BlockKind>(i % testing::block_kinds);
     controller.blocks = draw.blocks(kind, controller.sample_rate);
+    draw.add_drive(controller.blocks);
     const double stiffness = draw.chance(0.3) ? 0.0 : draw.log_uniform(30.0, 2000.0);
     const double damping = draw.log_uniform(1e-3, 0.5);
     const theory::LinearDrive drive{draw.log_uniform(0.8, 1.25), draw.some(draw.log_uniform(100.0, 2000.0))};

@@ -17,7 +17,7 @@ TEST(ParameterTable, DefaultsAreThoseOfThisVersionOfResultsFiles) {
     if (!exists_on(parameter, AxisKind::rotary)) continue;
     defaults += std::string(parameter.name) + "=" + default_text(parameter) + "\n";
   }
-  EXPECT_EQ(hash::sha256_hex(defaults), "96ebbb204e4bd5e83d0019acb4bf873a9408affed4fa0e97ac9f08a46b634197")
+  EXPECT_EQ(hash::sha256_hex(defaults), "7bc8f9bdf0b0d333c2c8185487db86bd413d155c337d30dfe2c4e5f1ac31c627")
       << defaults;
 }
 

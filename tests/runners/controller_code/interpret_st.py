@@ -228,7 +228,7 @@ class Block:
         source, target = name.split("_TO_")
         self.check(operands[0][1], source)
         forms = {("LINT", "REAL"): "single({0})", ("LINT", "LREAL"): "float({0})", ("BOOL", "LINT"): "int({0})",
-                 ("LREAL", "LINT"): "round({0})"}
+                 ("LREAL", "LINT"): "round({0})", ("REAL", "LINT"): "round({0})"}
         return forms[source, target].format(operands[0][0]), target
 
 

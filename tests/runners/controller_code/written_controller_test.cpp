@@ -42,6 +42,7 @@ loop::ControllerParameters random_controller(BlockKind kind, RandomBlocks& draw)
   c.delay = draw.some(1.0);
   if (draw.chance(0.3)) c.anti_windup = loop::AntiWindup::none;
   c.blocks = draw.blocks(kind, c.sample_rate);
+  draw.add_drive(c.blocks);
   if (draw.chance(0.2)) c.dither = {draw.log_uniform(1e-5, 1e-3), draw.log_uniform(50.0, 1000.0)};
   return c;
 }
@@ -111,8 +112,10 @@ TEST_F(WrittenController, DecidesAsItsSimulation) {
   for (int kind = 0; kind < block_kinds; ++kind) {
     for (int i = 0; i < 4; ++i) {
       const loop::ControllerParameters controller = random_controller(static_cast<BlockKind>(kind), draw);
+      loop::DacParameters dac;
+      if (i % 2 == 1) dac.limit = draw.log_uniform(1e-2, 1.0);
       const controller_code::ControllerToWrite chain{
-          controller, loop::fine_resolution(loop::EncoderParameters{}), {}, 0.01, "test"};
+          controller, loop::fine_resolution(loop::EncoderParameters{}), dac, 0.01, "test"};
       for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
         const bool single = precision == Precision::single_precision;
         if (single && i >= 2) continue;
@@ -122,6 +125,7 @@ TEST_F(WrittenController, DecidesAsItsSimulation) {
         trial::TrialParameters p;
         for (int j = 0; j < 3; ++j) {
           p = trial_with(controller, draw);
+          p.dac = dac;
           if (single) p.controller = with_law(controller, controller_code::law_of(program));
           const std::vector<trial::SampleRecord> simulated = samples_of(p);
           p.controller = with_law(controller, library);

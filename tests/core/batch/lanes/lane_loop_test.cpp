@@ -10,10 +10,10 @@
 namespace zerocount::testing {
 namespace {
 
-enum class LoopKind { encoder, converter, missed, phases, profile, motion, all, noise };
-constexpr int loop_kinds = 8;
+enum class LoopKind { encoder, converter, missed, phases, profile, motion, drive, all, noise };
+constexpr int loop_kinds = 9;
 constexpr const char* loop_kind_names[loop_kinds] = {
-    "encoder", "converter", "missed samples", "phases", "profile", "motion", "all", "noise"};
+    "encoder", "converter", "missed samples", "phases", "profile", "motion", "drive", "all", "noise"};
 
 loop::EncoderErrors random_errors(RandomBlocks& draw) {
   loop::EncoderErrors errors;
@@ -76,6 +76,11 @@ std::vector<trial::TrialParameters> trials_of(LoopKind kind, int count) {
       }
     }
     if (kind == LoopKind::all) p.controller.blocks = draw.blocks(BlockKind::all, p.controller.sample_rate);
+    if (has(LoopKind::drive)) {
+      if (draw.chance(0.7)) p.controller.blocks = draw.blocks(BlockKind::cascade, p.controller.sample_rate);
+      draw.add_drive(p.controller.blocks);
+      if (draw.chance(0.3)) p.dac.limit = draw.log_uniform(1e-2, 1.0);
+    }
     if (draw.chance(0.3)) p.controller.delay = draw.uniform(0.0, 3.0);
     p.randomness.fine_noise = {1, 2};
     p.randomness.coarse_noise = {3, 4};

@@ -196,7 +196,11 @@ class RandomControl {
     p.kd = gain();
     ControlBlocks& b = p.blocks;
     if (chance(0.5)) b.structure = ControlStructure::cascade;
-    b.cascade = {log_uniform(1.0, 1e3), log_uniform(1e-2, 1.0), chance(0.2) ? 0.0 : log_uniform(1e-2, 1e2)};
+    b.cascade = {.kv = log_uniform(1.0, 1e3),
+                 .kp = log_uniform(1e-2, 1.0),
+                 .ki = chance(0.2) ? 0.0 : log_uniform(1e-2, 1e2),
+                 .latency = static_cast<int>(random_() % 4)};
+    if (chance(0.5)) b.derivative_window = 1 + static_cast<int>(random_() % 5);
     if (chance(0.5)) b.integrator_leak = log_uniform(1.0, 1e4) / p.sample_rate;
     if (chance(0.5)) b.derivative_cutoff = p.sample_rate * log_uniform(1e-3, 0.5);
     for (std::uint64_t i = random_() % 4; i > 0; --i) b.filters.push_back(filter(p.sample_rate));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "analysis/parallel/parallel.hpp"
@@ -127,19 +128,25 @@ void add_arrivals(Approach& approach, const trial::TrialParameters& p,
   }
 }
 
+/// Whether criteria (6) and (7) speak of this loop.
+bool criteria_apply(const trial::TrialParameters& p) {
+  return left_out_of_criteria(p.plant, p.controller).empty();
+}
+
 /// The lowest k1 of a trial's rotor, and criterion (6) for it.
 struct LowEnd {
-  double k1;            ///< N m/rad
-  double stable_below;  ///< in the unit of the manifest
+  double k1;                           ///< N m/rad
+  std::optional<double> stable_below;  ///< in the unit of the manifest, where the criterion applies
 };
 
 LowEnd low_end_at(const study::Study& study, const trial::TrialParameters& p, double k1) {
+  if (!criteria_apply(p)) return {k1, {}};
   return {k1, as_given(study.units, p, critical_integral_gain(k1, p.plant, p.encoder, p.controller))};
 }
 
 void add(LowestStiffness& lowest, const LowEnd& end) {
   lowest.k1.add(end.k1);
-  lowest.stable_below.add(end.stable_below);
+  if (end.stable_below) lowest.stable_below.add(*end.stable_below);
 }
 
 /// A design point under a condition.
@@ -210,8 +217,10 @@ void add_criteria(const study::Study& study, const trial::TrialParameters& p,
   gain.value.add(as_given(study.units, p, integral_gain(p.controller)));
   gain.observes = gain.observes || acts_by_observer(p.controller);
   if (gain.left_out.empty()) gain.left_out = left_out_of_criteria(p.plant, p.controller);
-  gain.stable_below.add(as_given(study.units, p, bounds.stable_below));
-  gain.unstable_above.add(as_given(study.units, p, bounds.unstable_above));
+  if (criteria_apply(p)) {
+    gain.stable_below.add(as_given(study.units, p, bounds.stable_below));
+    gain.unstable_above.add(as_given(study.units, p, bounds.unstable_above));
+  }
   gain.prediction.add(prediction);
   rules.coarse_feedback = p.controller.encoder == loop::EncoderChoice::coarse;
   rules.dac_resolution.add(p.dac.resolution);

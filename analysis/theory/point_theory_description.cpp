@@ -1,3 +1,4 @@
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -156,8 +157,14 @@ Description<PointTheory> lowest_description() {
       .value(in_data("lowest_k1_source", "where it is from"), [](Of t) { return source_text(t.lowest); })
       .value(everywhere("lowest_stable_below", "at the lowest k1: (6) stable below",
                         "bound of criterion (6) there, in the unit of the gain"),
-             [](Of t) { return t.lowest.stable_below.low; })
-      .shown_as([=](Of t) { return in_unit(t, t.lowest.stable_below.low); })
+             [](Of t) -> optional<double> {
+               if (!std::isfinite(t.lowest.stable_below.low)) return {};  // the criterion does not apply
+               return t.lowest.stable_below.low;
+             })
+      .shown_as([=](Of t) -> optional<string> {
+        if (!std::isfinite(t.lowest.stable_below.low)) return {};
+        return in_unit(t, t.lowest.stable_below.low);
+      })
       .value(everywhere("lowest_sampled_below", "at the lowest k1: sampled loop below",
                         "bound of the sampled loop there, in the unit of the gain"),
              [](Of t) { return t.lowest.sampled_below.low; })

@@ -121,10 +121,11 @@ void require_version(const hdf5::File& file) {
   const std::int64_t version = file.integer("format_version");
   if (version == format_version) return;
   const char* const advice =
-      version > format_version ? "newer than the {} that this program knows; read it with the zerocount that "
-                                 "wrote it or a later one"
+      version > format_version ? "newer than the {} that this program reads; read it with that zerocount or "
+                                 "a later one"
                                : "and this program reads version {}; run its manifest again";
-  throw ForeignFile(file.file_name(), fmt::format("its format version is {}, {}", version,
+  throw ForeignFile(file.file_name(), fmt::format("zerocount {} wrote it in format version {}, {}",
+                                                  file.text("zerocount_version"), version,
                                                   fmt::format(fmt::runtime(advice), format_version)));
 }
 

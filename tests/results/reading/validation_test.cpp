@@ -186,10 +186,10 @@ TEST_F(DamagedFile, OfAnotherFormatIsSaidToBe) {
 
 TEST_F(DamagedFile, OfAnotherVersionIsSaidToBe) {
   replace_attribute(copy("newer.h5"), "format_version", layout::format_version + 1);
-  expect_bad(directory / "newer.h5", "newer.h5: its format version is 5, newer than the 4");
+  expect_bad(directory / "newer.h5", "wrote it in format version 5, newer than the 4");
   replace_attribute(copy("older.h5"), "format_version", 3);
   expect_bad(directory / "older.h5",
-             "its format version is 3, and this program reads version 4; run its manifest again");
+             "wrote it in format version 3, and this program reads version 4; run its manifest again");
 }
 
 TEST_F(DamagedFile, ThatWasNeverFinishedIsSaidToBe) {

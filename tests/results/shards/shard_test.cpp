@@ -96,7 +96,7 @@ TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
   const std::vector<Expected> expected{
       {"commit.h5", "(commit 0000000000000000000000000000000000000000), and this is", Kind::foreign},
       {"earlier.h5", "run by zerocount 0.0.9", Kind::foreign},
-      {"newer.h5", "newer.h5: its format version is 99, newer", Kind::foreign},
+      {"newer.h5", "wrote it in format version 99, newer", Kind::foreign},
       {"other.h5", "of another study", Kind::foreign},
       {"short.h5", "checksum at its end is missing", Kind::damaged},
       {"text.h5", "not in the HDF5 format", Kind::damaged},

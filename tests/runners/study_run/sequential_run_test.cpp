@@ -378,8 +378,8 @@ TEST_F(ExistingOutput, OfAnEarlierFormatIsRefused) {
   folder_.write("study.yaml", small_manifest(4));
   complete("study.yaml", "out.h5", {});
   replace_attribute(at("out.h5"), "format_version", 3);
-  expect_refused({},
-                 {"out.h5", "its format version is 3, and this program reads version 4; run its manifest"});
+  expect_refused(
+      {}, {"out.h5", "wrote it in format version 3, and this program reads version 4; run its manifest"});
 }
 
 }  // namespace

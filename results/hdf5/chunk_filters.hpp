@@ -22,10 +22,9 @@ struct ChunkFilters {
   bool operator==(const ChunkFilters&) const = default;
 };
 
-/// The bytes that the file stores for a chunk with these elements. None if deflate fails, or if they do
-/// not decode to the elements.
-std::optional<std::vector<std::byte>> encode_chunk(const ChunkFilters& filters,
-                                                   std::span<const std::byte> elements);
+/// The bytes that the file stores for a chunk with these elements. Whoever decodes them proves that they are
+/// those: the zlib stream ends with the Adler-32 of what was compressed.
+std::vector<std::byte> encode_chunk(const ChunkFilters& filters, std::span<const std::byte> elements);
 
 /// Whether stored bytes agree with their checksum.
 bool has_valid_checksum(std::span<const std::byte> stored);

@@ -32,7 +32,6 @@ struct ChunkJob {
   StoredChunk found{};
   std::vector<std::byte> stored{};  ///< bytes of the chunk
   bool damaged{false};
-  std::size_t digest{0};  ///< of the stored bytes, to copy them
 };
 
 /// Whether the rows [first, first + rows) of a dataset are whole chunks; otherwise the library must divide
@@ -190,11 +189,10 @@ std::vector<std::byte> Dataset::bytes_of(StoredChunk&& chunk) const {
   return bytes;
 }
 
-void Dataset::store_chunk(std::int64_t first, std::span<const std::byte> stored, std::size_t digest) {
+void Dataset::store_chunk(std::int64_t first, std::span<const std::byte> stored) {
   const LibraryUse use;
   const std::vector<Size> place = place_of(first);
   require(H5Dwrite_chunk(id(), H5P_DEFAULT, 0, place.data(), stored.size(), stored.data()), "its values");
-  written().chunks.push_back({first, digest});
 }
 
 void Dataset::write(std::int64_t first, const EncodedRows& encoded) {
@@ -202,8 +200,7 @@ void Dataset::write(std::int64_t first, const EncodedRows& encoded) {
   if (chunk_shape() != encoded.shape || first % encoded.shape.rows != 0)
     throw std::logic_error("rows are stored in a dataset that they were not encoded for");
   for (const EncodedChunk& chunk : encoded.chunks) {
-    if (!chunk.stored) fail("its values do not decode to what was encoded");
-    store_chunk(first, *chunk.stored, chunk.digest);
+    store_chunk(first, *chunk);
     first += encoded.shape.rows;
   }
 }
@@ -276,13 +273,12 @@ void copy_rows(std::span<const RowsToCopy> all, timeline::Timeline* timeline) {
     const timeline::TimeSpan span(timeline, "copy", timeline::Work::parallel);
     job.stored = all[job.request].source->bytes_of(std::move(job.found));
     job.damaged = !has_valid_checksum(job.stored);
-    job.digest = digest_of(job.stored.data(), job.stored.size());
   };
   const auto store = [&](const ChunkJob& job) {
     const RowsToCopy& request = all[job.request];
     if (job.damaged) request.source->fail(unreadable_values);
     if (!job.stored.empty()) {
-      request.dataset->store_chunk(request.first + job.offset, job.stored, job.digest);
+      request.dataset->store_chunk(request.first + job.offset, job.stored);
       return;
     }
     std::vector<std::byte> elements = chunk_of(job);

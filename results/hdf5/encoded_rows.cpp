@@ -72,11 +72,9 @@ EncodedChunk encoded(const EncodeJob& job) {
     std::ranges::copy(elements, whole.begin());
     elements = whole;
   }
-  std::optional<std::vector<std::byte>> stored = encode_chunk(job.shape->filters, elements);
-  if (!stored) return {};
-  stored->shrink_to_fit();
-  const std::size_t digest = digest_of(stored->data(), stored->size());
-  return {std::make_shared<const std::vector<std::byte>>(std::move(*stored)), digest};
+  std::vector<std::byte> stored = encode_chunk(job.shape->filters, elements);
+  stored.shrink_to_fit();
+  return std::make_shared<const std::vector<std::byte>>(std::move(stored));
 }
 
 }  // namespace

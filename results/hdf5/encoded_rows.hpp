@@ -23,11 +23,8 @@ struct RowsToEncode {
   const void* data;
 };
 
-/// The stored bytes of a chunk.
-struct EncodedChunk {
-  std::shared_ptr<const std::vector<std::byte>> stored;  ///< null if encoding it failed
-  std::size_t digest{0};                                 ///< of the stored bytes
-};
+/// The stored bytes of a chunk, which equal chunks share.
+using EncodedChunk = std::shared_ptr<const std::vector<std::byte>>;
 
 struct EncodedRows {
   ChunkShape shape;

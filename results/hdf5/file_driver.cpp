@@ -95,9 +95,10 @@ herr_t read(H5FD_t* file, H5FD_mem_t kind, hid_t, haddr_t address, std::size_t s
   return success;
 }
 
-herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, const void* buffer) {
+herr_t write(H5FD_t* file, H5FD_mem_t kind, hid_t, haddr_t address, std::size_t size, const void* buffer) {
+  const auto rewritten = kind == H5FD_MEM_DRAW ? storage::Rewritten::as_a_whole : storage::Rewritten::in_part;
   try {
-    own_file(file).bytes->write(address, {static_cast<const std::byte*>(buffer), size});
+    own_file(file).bytes->write(address, {static_cast<const std::byte*>(buffer), size}, rewritten);
     return success;
   } catch (const std::exception&) {
     return failure;  // no memory left to keep the unwritten bytes

@@ -13,8 +13,8 @@
 #include "core/failure/failure.hpp"
 #include "results/hdf5/chunk_filters.hpp"
 #include "results/hdf5/element.hpp"
-#include "results/hdf5/written_values.hpp"
 #include "results/storage/flush.hpp"
+#include "results/storage/written_bytes.hpp"
 
 namespace zerocount::timeline {
 class Timeline;
@@ -26,9 +26,9 @@ class Timeline;
 /// error, bad_data if a file that is read has unexpected contents. Messages contain no text of the library.
 /// All objects of one file must be used by one thread at a time.
 ///
-/// A file is written in three steps: File::create, File::close, require_written. A write that fails is
-/// reported by the call that made it, or by a later one, File::close at the latest. After a failed write the
-/// library is not called again for that file: its handles stay open until the process ends.
+/// A file is written in three steps: File::create, File::close, WrittenBytes::require_in. A write that fails
+/// is reported by the call that made it, or by a later one, File::close at the latest. After a failed write
+/// the library is not called again for that file: its handles stay open until the process ends.
 namespace zerocount::hdf5 {
 
 using Id = std::int64_t;          ///< an identifier of the library, its hid_t
@@ -99,8 +99,7 @@ class Object {
   Handle own(Id id, Handle::Close close, std::string_view problem) const;
   /// Throws the Failure if an operation returned a negative status or a write has failed.
   void require(int status, std::string_view problem) const;
-  WrittenObject& written() const;  ///< record of the values written to this object
-  void release() noexcept;         ///< closes it; a failure is kept for File::close
+  void release() noexcept;  ///< closes it; a failure is kept for File::close
 
  private:
   void write_attribute(const std::string& name, Id file_type, Id memory_type, Id space, const void* data);
@@ -169,19 +168,12 @@ class Dataset : public Object {
 
   void make_scale(const std::string& name);
   void attach_scale(const Dataset& scale, unsigned dimension);
-  bool is_scale() const;
-  /// Places in which the dataset is an axis: the datasets' addresses in the file, and their dimensions.
-  using ScaleUses = std::vector<std::pair<std::uint64_t, int>>;
-  ScaleUses uses_as_scale() const;
-  /// @param uses of the scale
-  bool has_scale(const Dataset& scale, const ScaleUses& uses, unsigned dimension) const;
 
  private:
   friend class Group;
   friend void write_rows(std::span<const RowsToWrite> all, timeline::Timeline* timeline);
   friend void read_rows(std::span<const RowsToRead> all, timeline::Timeline* timeline);
   friend void copy_rows(std::span<const RowsToCopy> all, timeline::Timeline* timeline);
-  friend class ReadBack;
   friend struct DecodeJob;
   Dataset(Handle handle, std::shared_ptr<Origin> origin, std::string path);
   Element stored_element() const;
@@ -199,8 +191,7 @@ class Dataset : public Object {
   StoredChunk find_chunk(std::int64_t first) const;
   /// The stored bytes. Any thread may read them: it does not call the library, while the file stays open.
   std::vector<std::byte> bytes_of(StoredChunk&& chunk) const;
-  /// @param digest of the bytes
-  void store_chunk(std::int64_t first, std::span<const std::byte> stored, std::size_t digest);
+  void store_chunk(std::int64_t first, std::span<const std::byte> stored);
   std::vector<Size> place_of(std::int64_t first) const;  ///< of a row, in all dimensions
   std::optional<ChunkShape> read_chunk_shape() const;
 
@@ -238,28 +229,20 @@ class File : public Group {
   /// A new file at `path`; replaces an existing file.
   static File create(const std::filesystem::path& path);
   static File open_to_read(const std::filesystem::path& path);
-  /// @param so_far values written to the file earlier; close() returns them with the new ones
-  static File open_to_change(const std::filesystem::path& path, WrittenValues so_far = {});
+  /// @param so_far written to the file earlier; close() returns it with what is new
+  static File open_to_change(const std::filesystem::path& path, storage::WrittenBytes so_far = {});
 
   /// Closes the file, and flushes it to the disk unless that is left to the caller. All other objects of the
   /// file must be destroyed.
-  /// @return all written values, for require_written
-  WrittenValues close(storage::Flush flush = storage::Flush::now);
+  /// @return what was written, to find it in the file
+  storage::WrittenBytes close(storage::Flush flush = storage::Flush::now);
 
  private:
-  friend void require_written(const std::filesystem::path& path, const WrittenValues& written,
-                              timeline::Timeline* timeline);
   File(Handle file, Handle root, std::shared_ptr<Origin> origin)
       : Group(std::move(root), std::move(origin), "/"), file_(std::move(file)) {}
   static File open(std::shared_ptr<Origin> origin, bool create);
 
   Handle file_;
 };
-
-/// Reads the file and compares every value, text, attribute and axis with the written ones.
-/// @throws Failure (machine_failed) if anything is missing, differs or cannot be read.
-/// @param timeline gets the spans of the comparison of chunks, which any thread does; null: none
-void require_written(const std::filesystem::path& path, const WrittenValues& written,
-                     timeline::Timeline* timeline = nullptr);
 
 }  // namespace zerocount::hdf5

@@ -7,40 +7,6 @@
 #include "results/hdf5/hdf5_detail.hpp"
 
 namespace zerocount::hdf5 {
-namespace {
-
-/// An entry of the list in which a scale names the datasets that it is attached to.
-struct ScaleUse {
-  hobj_ref_t dataset;
-  int dimension;
-};
-
-/// The list of a scale; empty if it has none that can be read. H5DSis_attached opens every dataset of this
-/// list, for each dataset anew, which takes longer than a small study.
-std::vector<ScaleUse> uses_of_scale(Id scale) {
-  constexpr const char* name = "REFERENCE_LIST";
-  if (H5Aexists(scale, name) <= 0) return {};
-  const Id opened = H5Aopen(scale, name, H5P_DEFAULT);
-  if (opened < 0) return {};
-  const Handle attribute(opened, H5Aclose);
-  const Handle space = made(H5Aget_space(attribute.get()), H5Sclose);
-  const hssize_t size = H5Sget_simple_extent_npoints(space.get());
-  const Handle type = made(H5Tcreate(H5T_COMPOUND, sizeof(ScaleUse)), H5Tclose);
-  demand(H5Tinsert(type.get(), "dataset", HOFFSET(ScaleUse, dataset), H5T_STD_REF_OBJ));
-  demand(H5Tinsert(type.get(), "dimension", HOFFSET(ScaleUse, dimension), H5T_NATIVE_INT));
-  std::vector<ScaleUse> uses(static_cast<std::size_t>(std::max<hssize_t>(size, 0)));
-  if (H5Aread(attribute.get(), type.get(), uses.data()) < 0) return {};
-  return uses;
-}
-
-/// Ends H5DSiterate_scales() with 1 at the scale that `reference` refers to.
-herr_t is_scale_of_reference(Id, unsigned, Id scale, void* reference) {
-  hobj_ref_t found{};
-  if (H5Rcreate(&found, scale, ".", H5R_OBJECT, -1) < 0) return -1;
-  return found == *static_cast<const hobj_ref_t*>(reference) ? 1 : 0;
-}
-
-}  // namespace
 
 Dataset::Dataset(Handle handle, std::shared_ptr<Origin> origin, std::string path)
     : Object(std::move(handle), std::move(origin), std::move(path)), element_(stored_element()) {}
@@ -102,8 +68,6 @@ void Dataset::write_by_library(std::int64_t first, std::int64_t rows, const void
   require(H5Dwrite(id(), types_of(element_).memory, selection.memory.get(), selection.file.get(), H5P_DEFAULT,
                    data),
           "its values");
-  const std::size_t size = static_cast<std::size_t>(rows) * row_size(element_, extent());
-  written().rows.push_back({first, rows, digest_of(data, size)});
 }
 
 void Dataset::read_by_library(std::int64_t first, std::int64_t rows, void* data) const {
@@ -121,7 +85,6 @@ void Dataset::write_texts(std::span<const std::string> texts) {
   std::transform(texts.begin(), texts.end(), data.begin(),
                  [](const std::string& text) { return text.c_str(); });
   require(H5Dwrite(id(), text_type().get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()), "its texts");
-  written().texts.assign(texts.begin(), texts.end());
 }
 
 std::vector<std::string> Dataset::read_texts() const {
@@ -145,40 +108,11 @@ std::vector<std::string> Dataset::read_texts() const {
 void Dataset::make_scale(const std::string& name) {
   const LibraryUse use;
   require(H5DSset_scale(id(), name.c_str()), "its name as an axis");
-  written().is_scale = true;
 }
 
 void Dataset::attach_scale(const Dataset& scale, unsigned dimension) {
   const LibraryUse use;
   require(H5DSattach_scale(id(), scale.id(), dimension), "its axis");
-  written().scales.emplace_back(dimension, scale.path());
-}
-
-bool Dataset::is_scale() const {
-  const LibraryUse use;
-  const htri_t answer = H5DSis_scale(id());
-  require(answer, "whether it is an axis cannot be read");
-  return answer > 0;
-}
-
-Dataset::ScaleUses Dataset::uses_as_scale() const {
-  const LibraryUse use;
-  ScaleUses uses;
-  for (const ScaleUse& one : uses_of_scale(id())) uses.emplace_back(one.dataset, one.dimension);
-  return uses;
-}
-
-bool Dataset::has_scale(const Dataset& scale, const ScaleUses& uses, unsigned dimension) const {
-  const LibraryUse use;
-  constexpr const char* problem = "its axes cannot be read";
-  hobj_ref_t own_reference{};
-  hobj_ref_t scale_reference{};
-  require(H5Rcreate(&own_reference, id(), ".", H5R_OBJECT, -1), problem);
-  require(H5Rcreate(&scale_reference, scale.id(), ".", H5R_OBJECT, -1), problem);
-  const int listed = H5DSiterate_scales(id(), dimension, nullptr, is_scale_of_reference, &scale_reference);
-  require(listed, problem);
-  const ScaleUses::value_type own_use(own_reference, static_cast<int>(dimension));
-  return listed > 0 && std::find(uses.begin(), uses.end(), own_use) != uses.end();
 }
 
 }  // namespace zerocount::hdf5

@@ -21,20 +21,12 @@ namespace zerocount::hdf5 {
 
 static_assert(std::is_same_v<Id, hid_t> && std::is_same_v<Size, hsize_t> && std::is_same_v<int, herr_t>);
 
-enum class Purpose {
-  read,
-  write,
-  read_back  ///< to compare the file with what was written
-};
-
 struct Origin {
-  Purpose purpose{Purpose::read};
   std::shared_ptr<storage::ByteFile> bytes;
-  WrittenValues written;   ///< so far
   bool incomplete{false};  ///< a write operation or the closing of an object has failed
 
   /// The library must not be called again: see file_driver.hpp.
-  bool broken() const { return purpose == Purpose::write && (incomplete || bytes->failure()); }
+  bool broken() const { return bytes->writable() && (incomplete || bytes->failure()); }
 };
 
 /// Throws the Failure for the object `path` of a file after a failed operation.
@@ -68,8 +60,5 @@ std::size_t row_size(Element element, std::span<const Size> extent);
 /// Calls `work` for each index below `count`, several at a time; `timeline` gets their spans as `name`.
 void for_each_job(std::size_t count, timeline::Timeline* timeline, std::string_view name,
                   const std::function<void(std::size_t)>& work);
-
-/// Hash of some bytes, to detect differences.
-std::size_t digest_of(const void* data, std::size_t size);
 
 }  // namespace zerocount::hdf5

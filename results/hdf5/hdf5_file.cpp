@@ -13,14 +13,12 @@
 namespace zerocount::hdf5 {
 namespace {
 
-storage::ByteFile::Mode mode_of(Purpose purpose, bool create) {
-  if (purpose != Purpose::write) return storage::ByteFile::Mode::read;
-  return create ? storage::ByteFile::Mode::create : storage::ByteFile::Mode::change;
-}
+using Mode = storage::ByteFile::Mode;
 
-std::shared_ptr<Origin> origin_of(const std::filesystem::path& path, Purpose purpose, bool create = false) {
-  auto bytes = std::make_shared<storage::ByteFile>(path, mode_of(purpose, create));
-  return std::make_shared<Origin>(Origin{purpose, std::move(bytes), {}, false});
+std::shared_ptr<Origin> origin_of(const std::filesystem::path& path, Mode mode,
+                                  storage::WrittenBytes so_far = {}) {
+  return std::make_shared<Origin>(
+      Origin{std::make_shared<storage::ByteFile>(path, mode, std::move(so_far)), false});
 }
 
 /// True if a file of `bytes` bytes can hold all elements. A reader that trusts a size beyond that runs out of
@@ -46,11 +44,9 @@ std::string Group::path_to(const std::string& name) const {
 Group Group::create_group(const std::string& name) {
   const LibraryUse use;
   const Handle properties = creation_properties(H5P_GROUP_CREATE);
-  Group group(own(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Gclose,
-                  fmt::format("the group '{}'", name)),
-              origin(), path_to(name));
-  group.written();  // registers the group even if it stays empty
-  return group;
+  return Group(own(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Gclose,
+                   fmt::format("the group '{}'", name)),
+               origin(), path_to(name));
 }
 
 Group Group::open_group(const std::string& name) const {
@@ -83,12 +79,10 @@ Dataset Group::create_dataset(const std::string& name, const Storage& storage) {
   }
   const Handle text = text_type();
   const Id type = storage.element == Element::text ? text.get() : types_of(storage.element).file;
-  Dataset dataset(
+  return Dataset(
       own(H5Dcreate2(id(), name.c_str(), type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
           H5Dclose, problem),
       origin(), path_to(name));
-  dataset.written();  // registers the dataset even if it stays empty
-  return dataset;
 }
 
 Dataset Group::open_dataset(const std::string& name) const {
@@ -96,7 +90,7 @@ Dataset Group::open_dataset(const std::string& name) const {
   Dataset dataset(own(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose,
                       fmt::format("the dataset '{}' is missing", name)),
                   origin(), path_to(name));
-  if (origin()->purpose == Purpose::read && !fits(dataset, origin()->bytes->size()))
+  if (!origin()->bytes->writable() && !fits(dataset, origin()->bytes->size()))
     dataset.fail("its size is more than the file can hold");
   return dataset;
 }
@@ -130,7 +124,7 @@ std::vector<std::string> Group::children() const {
 
 bool is_hdf5(const std::filesystem::path& path) {
   constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
-  const std::shared_ptr<Origin> origin = origin_of(path, Purpose::read);
+  const std::shared_ptr<Origin> origin = origin_of(path, Mode::read);
   std::string beginning(signature.size(), '\0');
   if (!origin->bytes->read(0, std::as_writable_bytes(std::span(beginning)))) fail_on(*origin, "/", "");
   return beginning == signature;
@@ -153,17 +147,15 @@ File File::open(std::shared_ptr<Origin> origin, bool create) {
 }
 
 File File::create(const std::filesystem::path& path) {
-  return open(origin_of(path, Purpose::write, true), true);
+  return open(origin_of(path, Mode::create), true);
 }
 
 File File::open_to_read(const std::filesystem::path& path) {
-  return open(origin_of(path, Purpose::read), false);
+  return open(origin_of(path, Mode::read), false);
 }
 
-File File::open_to_change(const std::filesystem::path& path, WrittenValues so_far) {
-  std::shared_ptr<Origin> origin = origin_of(path, Purpose::write);
-  origin->written = std::move(so_far);
-  return open(std::move(origin), false);
+File File::open_to_change(const std::filesystem::path& path, storage::WrittenBytes so_far) {
+  return open(origin_of(path, Mode::change, std::move(so_far)), false);
 }
 
 File::~File() {
@@ -174,15 +166,15 @@ File::~File() {
   }
 }
 
-WrittenValues File::close(storage::Flush flush) {
+storage::WrittenBytes File::close(storage::Flush flush) {
   const LibraryUse use;
   if (origin().use_count() > 1) throw std::logic_error("a file is closed before the objects in it");
   Origin& closing = *origin();
   release();
   if (!closing.broken() && !file_.close()) closing.incomplete = true;
-  if (closing.purpose == Purpose::write) closing.bytes->close(flush);
+  if (closing.bytes->writable()) closing.bytes->close(flush);
   if (closing.broken()) fail("the rest of its contents");
-  return std::move(closing.written);
+  return closing.bytes->take_written();
 }
 
 }  // namespace zerocount::hdf5

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -28,19 +27,14 @@ void fail_on(Origin& origin, const std::string& path, std::string_view problem) 
     origin.incomplete = true;
     storage::fail_with(file, failure->action, failure->error);
   }
-  switch (origin.purpose) {
-    case Purpose::read:
-      throw Failure(ExitCode::bad_data,
-                    text::printable_lines(fmt::format("{}: damaged:{}{} {}", file, place(path),
-                                                      place(path).empty() ? "" : ":", problem)));
-    case Purpose::write:
-      origin.incomplete = true;
-      throw Failure(ExitCode::machine_failed,
-                    fmt::format("{}: cannot write{}: {}", file, place(path), problem));
-    case Purpose::read_back:
-      break;
+  if (origin.bytes->writable()) {
+    origin.incomplete = true;
+    throw Failure(ExitCode::machine_failed,
+                  fmt::format("{}: cannot write{}: {}", file, place(path), problem));
   }
-  storage::fail_read_back(file, fmt::format("{}: {}", path, problem));
+  throw Failure(ExitCode::bad_data,
+                text::printable_lines(fmt::format("{}: damaged:{}{} {}", file, place(path),
+                                                  place(path).empty() ? "" : ":", problem)));
 }
 
 Handle made(Id id, Handle::Close close) {
@@ -95,10 +89,6 @@ std::size_t row_size(Element element, std::span<const Size> extent) {
   return size;
 }
 
-std::size_t digest_of(const void* data, std::size_t size) {
-  return std::hash<std::string_view>{}({static_cast<const char*>(data), size});
-}
-
 Handle::Handle(Handle&& other) noexcept
     : id_(std::exchange(other.id_, none)), close_(std::exchange(other.close_, nullptr)) {}
 
@@ -138,10 +128,6 @@ void Object::release() noexcept {
 
 const std::string& Object::file_name() const {
   return origin_->bytes->path().native();
-}
-
-WrittenObject& Object::written() const {
-  return origin_->written[path_];
 }
 
 void Object::fail(std::string_view problem) const {
@@ -184,17 +170,14 @@ void Object::set_text(const std::string& name, const std::string& value) {
   const Handle type = text_type();
   const char* data = value.c_str();
   write_single(name, type.get(), type.get(), &data);
-  written().attributes[name] = value;
 }
 
 void Object::set_integer(const std::string& name, std::int64_t value) {
   write_single(name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
-  written().attributes[name] = std::vector<std::int64_t>{value};
 }
 
 void Object::set_unsigned(const std::string& name, std::uint64_t value) {
   write_single(name, H5T_STD_U64LE, H5T_NATIVE_UINT64, &value);
-  written().attributes[name] = value;
 }
 
 void Object::set_integers(const std::string& name, Element element, std::span<const std::int64_t> values) {
@@ -202,7 +185,6 @@ void Object::set_integers(const std::string& name, Element element, std::span<co
   const Size size = values.size();
   const Handle space = made(H5Screate_simple(1, &size, nullptr), H5Sclose);
   write_attribute(name, types_of(element).file, H5T_NATIVE_INT64, space.get(), values.data());
-  written().attributes[name] = std::vector<std::int64_t>(values.begin(), values.end());
 }
 
 Handle Object::open_attribute(const std::string& name) const {

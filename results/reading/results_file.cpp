@@ -144,8 +144,7 @@ void read_counts(const hdf5::File& file, const layout::FileHeader& header, const
 ResultsFile::ResultsFile(const std::filesystem::path& path, Require require,
                          const layout::MeasureTable* table)
     : path_(path),
-      file_(layout::open_results(
-          path, require == Require::unfinished ? layout::Checksum::not_yet : layout::Checksum::required)),
+      file_(require == Require::unfinished ? hdf5::File::open_to_read(path) : layout::open_results(path)),
       header_(read_required(file_, path, require)) {
   if (layout::has_trials(header_.retention)) trials_.emplace(file_, header_, table);
   if (layout::has_sums(header_.retention)) sums_.emplace(file_, points());

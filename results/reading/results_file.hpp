@@ -21,7 +21,7 @@ namespace zerocount::reading {
 enum class Require {
   complete,   ///< every trial: what statistics may be made of
   any_part,   ///< also a part or a shard
-  unfinished  ///< also a file that is still being made; neither checksum nor completion mark is checked
+  unfinished  ///< also a file that this process is making, or has checked: its checksum is not read
 };
 
 /// A profile as it stands in a results file.

@@ -134,12 +134,8 @@ void flush_shard(const StoredShard& shard) {
   storage::synchronise(shard.part->path());
 }
 
-void require_stored(const StoredShard& shard, timeline::Timeline* timeline) {
-  hdf5::require_written(shard.part->path(), shard.written, timeline);
-}
-
-void publish_shard(const StoredShard& shard) {
-  storage::publish_compared(shard.path);
+void publish_shard(const StoredShard& shard, timeline::Timeline* timeline) {
+  storage::publish_compared(shard.path, shard.written.require_in(shard.part->path(), timeline));
 }
 
 }  // namespace zerocount::shards

@@ -14,15 +14,15 @@
 #include "results/shards/shard.hpp"
 #include "results/shards/trial_columns.hpp"
 #include "results/storage/durable_file.hpp"
+#include "results/storage/written_bytes.hpp"
 
-/// A shard on its way to the disk. Two of the steps call the HDF5 library, and are for one thread at a time;
+/// A shard on its way to the disk. One of the steps calls the HDF5 library, and is for one thread at a time;
 /// the others are for any.
 ///
 ///     encoded = encode_shard(…)      filters the columns
 ///     stored = store_shard(…)        writes the file (library)
 ///     flush_shard(stored)            brings it to the disk
-///     require_stored(stored)         reads it from there (library)
-///     publish_shard(stored)          appends its checksum, and gives it its name
+///     publish_shard(stored)          reads it from there, appends its checksum, and gives it its name
 namespace zerocount::shards {
 
 struct EncodedTable {
@@ -50,7 +50,7 @@ struct StoredShard {
   std::filesystem::path path;
   layout::RowRange rows;
   std::unique_ptr<storage::UnfinishedFile> part;
-  hdf5::WrittenValues written;
+  storage::WrittenBytes written;
 };
 
 /// @throws Failure (machine_failed) with the path and the reason
@@ -62,9 +62,6 @@ void flush_shard(const StoredShard& shard);
 
 /// @param timeline gets the spans of what any thread does; null: none
 /// @throws Failure (machine_failed) if anything that was written is missing, differs or cannot be read
-void require_stored(const StoredShard& shard, timeline::Timeline* timeline = nullptr);
-
-/// @throws Failure (machine_failed) with the path and the reason
-void publish_shard(const StoredShard& shard);
+void publish_shard(const StoredShard& shard, timeline::Timeline* timeline = nullptr);
 
 }  // namespace zerocount::shards

@@ -125,9 +125,9 @@ void number_kept_trials(hdf5::File& file, const study::Study& study) {
 }
 
 /// Writes everything except sums, statistics and the completion mark.
-hdf5::WrittenValues write_trials_of(std::span<const ShardInfo> shards, const study::Study& study,
-                                    const fs::path& part, layout::RowRange rows,
-                                    const MergeOptions& options) {
+storage::WrittenBytes write_trials_of(std::span<const ShardInfo> shards, const study::Study& study,
+                                      const fs::path& part, layout::RowRange rows,
+                                      const MergeOptions& options) {
   hdf5::File file = begin_file(study, part, rows, merged_provenance(shards, options.provenance));
   const auto join = [&](const layout::Table& table, std::int64_t width,
                         std::optional<std::int64_t> first_number, const Renumbering& renumber = {}) {
@@ -242,8 +242,7 @@ void MergedFile::close() {
 }
 
 void MergedFile::read_back() {
-  checksum_ = storage::checksum_of_contents(
-      part_.path(), [&] { require_written(); }, timeline_);
+  checksum_ = written_.require_in(part_.path(), timeline_);
 }
 
 void MergedFile::publish() const {

@@ -18,6 +18,7 @@
 #include "results/shards/rig_tables.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
+#include "results/storage/written_bytes.hpp"
 
 namespace zerocount::shards {
 
@@ -70,13 +71,13 @@ class MergedFile {
   void write_statistics(const layout::StoredStatistics& statistics);
   hdf5::File& file() { return file_; }  ///< for further groups
 
-  /// @throws Failure (machine_failed) if what was written is not in the file: the reason why it cannot be
-  /// read
-  void require_written() const { hdf5::require_written(part_.path(), written_, timeline_); }
+  /// @throws Failure (machine_failed) if the trials are not in the file as they were written: the reason why
+  /// they cannot be read
+  void require_trials() const { written_.hashed().require_in(part_.path(), timeline_); }
   void finish();
   /// The steps of finish(): close(), read_back(), publish().
   void close();
-  /// require_written(), and the checksum of the file, at the same time.
+  /// Compares the file with what was written, and takes its checksum.
   void read_back();
   void publish() const;
 
@@ -88,7 +89,7 @@ class MergedFile {
   timeline::Timeline* timeline_;
   std::vector<ShardInfo> shards_;
   storage::UnfinishedFile part_;
-  hdf5::WrittenValues written_;
+  storage::WrittenBytes written_;
   hash::Sha256 checksum_{};  ///< of what was read back
   hdf5::File file_;
   std::optional<reading::AllTrialsFile> trials_;

@@ -58,13 +58,11 @@ void write_shard(const fs::path& path, const study::Study& study, layout::RowRan
       path, study,
       encode_shard(study, rows, columns_of(study, measures, trials), {sums.begin(), sums.end()}, options));
   flush_shard(stored);
-  require_stored(stored);
   publish_shard(stored);
 }
 
-void finish_results(const fs::path& path, const hdf5::WrittenValues& written) {
-  hdf5::require_written(storage::part_of(path), written);
-  storage::publish_compared(path);
+void finish_results(const fs::path& path, const storage::WrittenBytes& written) {
+  storage::publish_compared(path, written.require_in(storage::part_of(path)));
 }
 
 layout::FileHeader inspect_header(const fs::path& path, layout::Checksum checksum) {

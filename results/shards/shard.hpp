@@ -9,13 +9,13 @@
 
 #include "experiments/study/study.hpp"
 #include "results/hdf5/element.hpp"
-#include "results/hdf5/written_values.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/point_sums.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/trial_result.hpp"
+#include "results/storage/written_bytes.hpp"
 
 namespace zerocount::shards {
 
@@ -24,9 +24,9 @@ std::filesystem::path shard_path(const std::filesystem::path& directory, layout:
 
 /// Reads the closed results file part_of(path) back, appends its checksum trailer, brings it to the disk, and
 /// renames it to `path`.
-/// @param written the expected contents
+/// @param written to the file
 /// @throws Failure (machine_failed) if the file cannot be flushed or read, or if its contents differ.
-void finish_results(const std::filesystem::path& path, const hdf5::WrittenValues& written);
+void finish_results(const std::filesystem::path& path, const storage::WrittenBytes& written);
 
 /// Shards are read once and then removed: compressing them takes longer than it saves, unless the results
 /// file can take over compressed chunks (see concatenate).

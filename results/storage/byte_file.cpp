@@ -40,8 +40,8 @@ void copy_overlap(std::uint64_t source_offset, std::span<const std::byte> source
 
 }  // namespace
 
-ByteFile::ByteFile(std::filesystem::path path, Mode mode)
-    : path_(std::move(path)), mode_(mode), file_(open_file(path_, mode)) {
+ByteFile::ByteFile(std::filesystem::path path, Mode mode, WrittenBytes so_far)
+    : path_(std::move(path)), mode_(mode), file_(open_file(path_, mode)), written_(std::move(so_far)) {
   const char* const action = writable() ? "open for writing" : "read";
   if (!file_.valid()) fail_with(path_, action, errno);
   struct stat status {};
@@ -74,7 +74,8 @@ bool ByteFile::read(std::uint64_t offset, std::span<std::byte> bytes) {
   return true;
 }
 
-void ByteFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
+void ByteFile::write(std::uint64_t offset, std::span<const std::byte> bytes, Rewritten rewritten) {
+  written_.add(offset, bytes, rewritten);
   size_ = std::max<std::uint64_t>(size_, offset + bytes.size());
   while (!failure_ && !bytes.empty()) {
     const ssize_t size = ::pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
@@ -91,6 +92,7 @@ void ByteFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
 
 void ByteFile::resize(std::uint64_t size) {
   size_ = size;
+  written_.cut(size);
   if (failure_) return;
   int result = 0;
   do {

@@ -6,10 +6,12 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "results/storage/file_descriptor.hpp"
 #include "results/storage/flush.hpp"
+#include "results/storage/written_bytes.hpp"
 
 namespace zerocount::storage {
 
@@ -32,8 +34,9 @@ class ByteFile {
     change   ///< reads and writes an existing file
   };
 
+  /// @param so_far written to the file earlier
   /// @throws Failure (machine_failed) with the path and the system's reason if it cannot be opened.
-  ByteFile(std::filesystem::path path, Mode mode);
+  ByteFile(std::filesystem::path path, Mode mode, WrittenBytes so_far = {});
 
   const std::filesystem::path& path() const { return path_; }
   bool writable() const { return mode_ != Mode::read; }
@@ -41,7 +44,8 @@ class ByteFile {
 
   /// Bytes beyond the end of the file are 0. Returns false if reading fails.
   bool read(std::uint64_t offset, std::span<std::byte> bytes);
-  void write(std::uint64_t offset, std::span<const std::byte> bytes);
+  void write(std::uint64_t offset, std::span<const std::byte> bytes,
+             Rewritten rewritten = Rewritten::in_part);
   void resize(std::uint64_t size);
   /// Reads without a record of the failure, so that several threads can read at a time. Nothing may have been
   /// written. @return the failure
@@ -53,6 +57,8 @@ class ByteFile {
   void note(const IoFailure& failure);
   const std::optional<IoFailure>& failure() const { return failure_; }
 
+  WrittenBytes take_written() { return std::move(written_); }
+
  private:
   struct Unwritten {
     std::uint64_t offset{0};
@@ -63,6 +69,7 @@ class ByteFile {
   Mode mode_;
   FileDescriptor file_;
   std::uint64_t size_{0};
+  WrittenBytes written_;
   std::optional<IoFailure> failure_;
   std::vector<Unwritten> unwritten_;  ///< in the order of the write calls
 };

@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <cstddef>
-#include <exception>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,14 +9,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_invoke.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include "core/failure/failure.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_contents.hpp"
 #include "results/storage/file_descriptor.hpp"
-#include "results/timeline/timeline.hpp"
 
 namespace zerocount::storage {
 namespace {
@@ -103,34 +99,6 @@ void require_valid_checksum(const fs::path& path) {
                       "of its contents; run its manifest again",
                       path.string()));
   }
-}
-
-hash::Sha256 checksum_of_contents(const fs::path& path, timeline::Timeline* timeline) {
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file.valid()) fail_with(path, "read", errno);
-  return sha256_read_ahead(path, file, size_of_file(path, file), timeline);
-}
-
-hash::Sha256 checksum_of_contents(const fs::path& path, const std::function<void()>& compare,
-                                  timeline::Timeline* timeline) {
-  hash::Sha256 checksum{};
-  std::exception_ptr unread;
-  const auto hash = [&] {
-    try {
-      const timeline::TimeSpan span(timeline, "hash", timeline::Work::serial);
-      checksum = checksum_of_contents(path, timeline);
-    } catch (const Failure&) {
-      unread = std::current_exception();
-    }
-  };
-  // A thread that waits here must not begin another task meanwhile, such as a block of trials.
-  oneapi::tbb::this_task_arena::isolate([&] { oneapi::tbb::parallel_invoke(compare, hash); });
-  if (unread) std::rethrow_exception(unread);
-  return checksum;
-}
-
-void publish_compared(const fs::path& path) {
-  publish_compared(path, checksum_of_contents(part_of(path)));
 }
 
 void publish_compared(const fs::path& path, const hash::Sha256& checksum) {

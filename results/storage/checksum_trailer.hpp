@@ -2,14 +2,9 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <string>
 
 #include "core/hash/sha256.hpp"
-
-namespace zerocount::timeline {
-class Timeline;
-}
 
 namespace zerocount::storage {
 
@@ -40,18 +35,9 @@ void require_valid_checksum(const std::filesystem::path& path);
 /// Appends the checksum trailer to the closed file part_of(path), which was brought to the disk and whose
 /// contents came from there and were as they should be, so that only the trailer is read again; renames it to
 /// `path`.
-/// @throws Failure (machine_failed) with the path and the reason
-void publish_compared(const std::filesystem::path& path);
 /// @param checksum of these contents
-void publish_compared(const std::filesystem::path& path, const hash::Sha256& checksum);
-
-/// The SHA-256 of all bytes of a file that has no trailer yet.
-/// @param timeline gets the spans of reading the file, which any thread does; null: none
 /// @throws Failure (machine_failed) with the path and the reason
-hash::Sha256 checksum_of_contents(const std::filesystem::path& path, timeline::Timeline* timeline = nullptr);
-/// The same, while another thread compares the contents. @throws what `compare` throws, else as above
-hash::Sha256 checksum_of_contents(const std::filesystem::path& path, const std::function<void()>& compare,
-                                  timeline::Timeline* timeline);
+void publish_compared(const std::filesystem::path& path, const hash::Sha256& checksum);
 
 /// The SHA-256 that the trailer of a valid file records, 64 hexadecimal digits: it identifies the contents.
 /// @throws Failure as require_valid_checksum, without reading more than the trailer.

@@ -1,16 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
 
 #include "core/hash/sha256.hpp"
 #include "results/storage/file_descriptor.hpp"
-
-namespace zerocount::timeline {
-class Timeline;
-}
 
 /// Functions that read a file. Those that read an open one throw Failure (machine_failed) with the path and
 /// the system's reason.
@@ -26,13 +23,11 @@ std::size_t size_of_file(const std::filesystem::path& path, const FileDescriptor
 std::size_t read_some(const std::filesystem::path& path, const FileDescriptor& file,
                       std::span<std::byte> bytes);
 
+/// Reads all of `bytes`, from `offset` on. Several threads can read at a time.
+void read_at(const std::filesystem::path& path, const FileDescriptor& file, std::uint64_t offset,
+             std::span<std::byte> bytes);
+
 /// SHA-256 of the next `length` bytes of the file. The file position is behind them afterwards.
 hash::Sha256 sha256_of(const std::filesystem::path& path, const FileDescriptor& file, std::size_t length);
-
-/// SHA-256 of the first `length` bytes of the file, which several threads read ahead of the one that adds
-/// them.
-/// @param timeline gets the spans of reading; null: none
-hash::Sha256 sha256_read_ahead(const std::filesystem::path& path, const FileDescriptor& file,
-                               std::size_t length, timeline::Timeline* timeline);
 
 }  // namespace zerocount::storage

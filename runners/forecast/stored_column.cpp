@@ -134,7 +134,7 @@ double stored_bytes(hdf5::Element element, std::span<const std::byte> values) {
   for (; !values.empty(); values = values.subspan(std::min(chunk, values.size()))) {
     const std::span<const std::byte> elements = values.first(std::min(chunk, values.size()));
     const auto stored = hdf5::encode_chunk(filters, elements);
-    bytes += static_cast<double>(stored ? stored->size() : elements.size());
+    bytes += static_cast<double>(stored.size());
   }
   return bytes;
 }

@@ -43,7 +43,7 @@ void write_statistics(shards::MergedFile& file, const study::Study& study, const
         [&](const layout::StoredStatistics& block) { file.write_statistics(block); }, settings.timeline);
     if (!study.sequence.empty()) iso230::write_repeatability(file.file(), study);
   } catch (const Failure&) {
-    file.require_written();
+    file.require_trials();
     throw;
   }
 }

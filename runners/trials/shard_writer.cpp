@@ -194,11 +194,7 @@ void ShardWriter::write_shard(ShardContents&& contents) {
     });
   }
   timed("flush", Work::parallel, [&] { shards::flush_shard(stored); });
-  {
-    const std::lock_guard lock(library_);
-    timed("read back", Work::serial, [&] { shards::require_stored(stored, timeline_); });
-  }
-  timed("publish", Work::parallel, [&] { shards::publish_shard(stored); });
+  timed("read back", Work::parallel, [&] { shards::publish_shard(stored, timeline_); });
   const std::lock_guard lock(library_);
   written_.push_back({stored.path, stored.rows});
 }

@@ -59,8 +59,7 @@ struct FinishedTrials {
 ///     encode     any thread: filter its columns
 ///     store      one thread at a time, as the library of the files wants it: write the file
 ///     flush      any thread: bring it to the disk
-///     read back  one thread at a time: find what is in the file; any thread: compare its chunks
-///     publish    any thread: checksum, name
+///     read back  any thread: compare the file with what was written; checksum, name
 FinishedTrials run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,
                           const std::filesystem::path& directory, const RunSettings& settings,
                           const std::stop_token& stop);

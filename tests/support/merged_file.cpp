@@ -11,7 +11,7 @@ void merge_shards(std::span<const shards::ShardInfo> shards, const study::Study&
   try {
     if (file.is_whole() && statistics) file.write_statistics(statistics(file.trials()));
   } catch (const Failure&) {
-    file.require_written();
+    file.require_trials();
     throw;
   }
   file.finish();

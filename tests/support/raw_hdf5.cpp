@@ -242,13 +242,6 @@ void remove_attribute(const std::filesystem::path& path, const std::string& name
   storage::append_checksum(path);
 }
 
-void remove_dataset_attribute(const std::filesystem::path& path, const std::string& dataset,
-                              const std::string& name) {
-  const hid_t file = open_file(path, H5F_ACC_RDWR);
-  checked(H5Adelete_by_name(file, dataset.c_str(), name.c_str(), H5P_DEFAULT));
-  H5Fclose(file);
-}
-
 void write_empty_hdf5(const std::filesystem::path& path) {
   H5Fclose(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)));
 }

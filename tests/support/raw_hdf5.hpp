@@ -40,10 +40,6 @@ void replace_attribute(const std::filesystem::path& path, const std::string& nam
 void replace_attribute(const std::filesystem::path& path, const std::string& name, const std::string& value);
 void remove_attribute(const std::filesystem::path& path, const std::string& name);
 
-/// Removes an attribute of a dataset from a file without a checksum trailer.
-void remove_dataset_attribute(const std::filesystem::path& path, const std::string& dataset,
-                              const std::string& name);
-
 /// Replaces a dataset by one of `rows` texts, none of which is written, and writes the checksum trailer anew.
 void replace_by_texts(const std::filesystem::path& path, const std::string& dataset, std::uint64_t rows);
 

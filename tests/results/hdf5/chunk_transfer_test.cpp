@@ -78,7 +78,7 @@ void write_whole(const fs::path& path, const Sample& sample, std::size_t threads
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
   hdf5::File file = hdf5::File::create(path);
   file.create_dataset("value", sample.storage).write(0, sample.rows(), sample.elements.data());
-  hdf5::require_written(path, file.close());
+  file.close().require_in(path);
 }
 
 /// The same, in pieces that divide chunks: the library encodes them.
@@ -90,7 +90,7 @@ void write_pieces(const fs::path& path, const Sample& sample, Draws& draws) {
       value.write(first, rows, &sample.elements[static_cast<std::size_t>(first) * sample.row_size()]);
     });
   }
-  hdf5::require_written(path, file.close());
+  file.close().require_in(path);
 }
 
 std::string read(const fs::path& path, const Sample& sample, std::int64_t first, std::int64_t rows) {
@@ -113,7 +113,7 @@ void copy(const fs::path& from, const fs::path& to, const Sample& sample) {
     }
     hdf5::copy_rows({&all, 1});
   }
-  hdf5::require_written(to, target.close());
+  target.close().require_in(to);
 }
 
 TEST(ChunkTransfer, TheLibraryReadsWhatWeEncodeAndWeReadWhatItEncodes) {
@@ -158,7 +158,7 @@ void write_encoded(const fs::path& path, const Sample& sample, const hdf5::Chunk
   const std::vector<hdf5::EncodedRows> encoded = hdf5::encode_rows({&rows, 1});
   hdf5::File file = hdf5::File::create(path);
   file.create_dataset("value", sample.storage).write(0, encoded.front());
-  hdf5::require_written(path, file.close());
+  file.close().require_in(path);
 }
 
 TEST(EncodedRows, AreStoredAsTheDatasetWouldEncodeThem) {

@@ -10,6 +10,7 @@
 #include "experiments/manifest/manifest.hpp"
 #include "experiments/randomness/factors.hpp"
 #include "experiments/study/condition_study.hpp"
+#include "experiments/study/effects.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study_table.hpp"
 
@@ -105,15 +106,12 @@ void number_factors(study::StudyPlan& plan, study::Study& study) {
 
 // Random keys of the draws during a trial. The slash keeps their names apart from parameter names.
 random::TrialRandomness trial_randomness(std::uint64_t seed) {
-  return {.history = designs::random_key(seed, "initial.history/levels"),
-          .fine_noise = designs::random_key(seed, "encoder.fine_errors.noise/samples"),
-          .fine_missed = designs::random_key(seed, "encoder.fine_errors.missed/samples"),
-          .coarse_noise = designs::random_key(seed, "encoder.coarse_errors.noise/samples"),
-          .coarse_missed = designs::random_key(seed, "encoder.coarse_errors.missed/samples"),
-          .dac_noise = designs::random_key(seed, "dac.noise/samples"),
-          .missed_samples = designs::random_key(seed, "controller.missed/samples"),
-          .jitter = designs::random_key(seed, "controller.jitter/samples"),
-          .spectrum = designs::random_key(seed, "disturbance.vibration/spectrum")};
+  random::TrialRandomness keys{.history = designs::random_key(seed, "initial.history/levels"),
+                               .spectrum = designs::random_key(seed, "disturbance.vibration/spectrum")};
+  for (const study::Effect& effect : study::effects())
+    if (effect.draws != nullptr)
+      keys.*effect.draws = designs::random_key(seed, fmt::format("{}/samples", effect.parameter));
+  return keys;
 }
 
 std::size_t gms_element_count(const study::StudyTable& table) {

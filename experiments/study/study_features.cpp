@@ -1,7 +1,5 @@
-#include <algorithm>
-#include <initializer_list>
-
 #include "core/friction/law.hpp"
+#include "experiments/study/effects.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
 
@@ -10,9 +8,6 @@ namespace {
 
 bool can_be_positive(const ValueLimits& limits) {
   return limits.high > 0.0;
-}
-bool can_be_nonzero(const ValueLimits& limits) {
-  return limits.low != 0.0 || limits.high != 0.0;
 }
 bool has_zero(const ValueLimits& limits) {
   return limits.can_be_zero;
@@ -31,21 +26,6 @@ bool is_travel(const ValueLimits& shape) {
   return is_shape(shape, loop::ReferenceShape::trapezoidal) || is_shape(shape, loop::ReferenceShape::s_curve);
 }
 
-bool any_holds(const StudyPlan& plan, std::initializer_list<std::string_view> names,
-               bool (*holds)(const ValueLimits&)) {
-  return std::any_of(names.begin(), names.end(),
-                     [&](std::string_view name) { return holds_somewhere(plan, name, holds); });
-}
-
-bool has_encoder_errors(const StudyPlan& plan) {
-  return any_holds(
-      plan,
-      {"encoder.fine_errors.eccentricity", "encoder.fine_errors.interpolation", "encoder.fine_errors.noise",
-       "encoder.fine_errors.missed", "encoder.coarse_errors.eccentricity",
-       "encoder.coarse_errors.interpolation", "encoder.coarse_errors.noise", "encoder.coarse_errors.missed"},
-      can_be_positive);
-}
-
 // Friction that holds the rotor without any travel causes hunting with integral control.
 bool causes_hunting(const ValueLimits& model) {
   const friction::LawTraits& law =
@@ -54,11 +34,7 @@ bool causes_hunting(const ValueLimits& model) {
 }
 
 // A pure delay of the closed loop does not count: the motor torque is the commanded one of an earlier sample.
-bool has_uneven_drive(const StudyPlan& plan) {
-  if (any_holds(plan,
-                {"dac.offset", "dac.gain_error", "dac.nonlinearity", "dac.noise", "amplifier.bandwidth"},
-                can_be_nonzero))
-    return true;
+bool has_delayed_torque(const StudyPlan& plan) {
   const auto is_exact = [](const ValueLimits& through) {
     return through.high == static_cast<double>(trial::TorquePath::exact);
   };
@@ -88,14 +64,15 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
   features.travel = closed_loop && holds_somewhere(plan, "command.profile.shape", is_travel);
   features.phases =
       closed_loop && holds_somewhere(plan, "controller.coarse.coarse_beyond", can_have_coarse_phase);
-  features.load = holds_somewhere(plan, "plant.load.inertia", can_be_positive);
-  features.drive_torque = has_uneven_drive(plan);
-  features.encoder_errors = has_encoder_errors(plan);
+  features.drive_torque = has_delayed_torque(plan);
+  for (const Effect& effect : effects())
+    if (effect.feature != nullptr && !(features.*effect.feature))
+      features.*effect.feature = acts_somewhere(plan, effect.parameter);
   features.own_controller = plan.plugin != nullptr;
   const bool has_sine = closed_loop && holds_somewhere(plan, "command.profile.shape", is_sine);
   features.final_error = features.own_controller || features.travel || has_sine || features.phases ||
                          holds_somewhere(plan, "controller.ki", has_zero) ||
-                         any_holds(plan, {"controller.deadband.enter"}, can_be_positive) ||
+                         holds_somewhere(plan, "controller.deadband.enter", can_be_positive) ||
                          holds_somewhere(plan, "friction.model", causes_hunting);
   features.stopping = closed_loop && holds_somewhere(plan, "verdict.stop", can_be_positive);
   features.motion = closed_loop && holds_somewhere(plan, "verdict.motion", can_be_positive);

@@ -120,6 +120,27 @@ TEST(ChecksumTrailer, OfAPublishedFileIsThatOfItsBytes) {
   }
 }
 
+// What is rewritten in part is known beside the new bytes.
+TEST(WrittenBytes, AreAllKnownAfterALaterWrite) {
+  const TemporaryFolder folder;
+  std::string bytes = "0123456789";
+  storage::WrittenBytes written;
+  const auto write = [&](std::size_t offset, const std::string& text) {
+    bytes.replace(offset, text.size(), text);
+    written.add(offset, std::as_bytes(std::span(text)), storage::Rewritten::in_part);
+  };
+  write(0, bytes);
+  write(3, "abc");
+  write(5, "de");
+  EXPECT_EQ(hash::hexadecimal(written.require_in(folder.write("file", bytes))), hash::sha256_hex(bytes));
+  for (std::size_t at = 0; at < bytes.size(); ++at) {
+    std::string changed = bytes;
+    changed[at] = '-';
+    expect_failure(ExitCode::machine_failed, "what was written is not what is read back",
+                   [&] { written.require_in(folder.write("file", changed)); });
+  }
+}
+
 TEST(ChecksumTrailer, ThatIsMissingOrWrongMeansChangedOrDamaged) {
   const TemporaryFolder folder;
   const std::filesystem::path path =

@@ -29,8 +29,10 @@ trial::TrialParameters trial_of_move(trial::TrialParameters trial, const TargetS
   trial.encoder.fine_errors.noise = 0.0;
   trial.encoder.coarse_errors.noise = 0.0;
   trial.dac.noise = 0.0;
-  trial.disturbance.vibration.clear();
-  trial.disturbance.spectra.clear();
+  for (trial::DisturbanceParameters* of : {&trial.disturbance, &trial.load_side.disturbance}) {
+    of->vibration.clear();
+    of->spectra.clear();
+  }
   return trial;
 }
 

@@ -60,20 +60,23 @@ struct BestTorques {
 BestTorques best_torques(const MoveOfTrial& move, const FrictionBound& friction) {
   const trial::TrialParameters& p = move.of.trial;
   double favour = largest_torque(p.dac);
-  for (const trial::RippleParameters& ripple : p.disturbance.ripple) favour += std::abs(ripple.amplitude);
-  for (const trial::VibrationParameters& one : p.disturbance.vibration) favour += std::abs(one.amplitude);
-  const double along = move.direction() * p.disturbance.torque;
+  double along = 0.0;
+  for (const trial::DisturbanceParameters* of : {&p.disturbance, &p.load_side.disturbance}) {
+    for (const trial::RippleParameters& ripple : of->ripple) favour += std::abs(ripple.amplitude);
+    for (const trial::VibrationParameters& one : of->vibration) favour += std::abs(one.amplitude);
+    along += move.direction() * of->torque;
+  }
   return {favour + along, favour - along + friction.breakaway};
 }
 
-/// Inertia that the torque has to move. A coupling that is soft for so short a move lets the motor move
-/// without its load.
+/// Inertia that the torque has to move. A coupling with a gap, or soft for so short a move, lets the motor
+/// move without its load.
 double moved_inertia(const MoveOfTrial& move) {
   const motion::PlantParameters& plant = move.of.trial.plant;
   if (!(plant.load.inertia > 0.0)) return plant.inertia;
   constexpr double periods = 10.0;  // of the mode of both masses, in which they move as one
   const double mode = std::sqrt(plant.load.stiffness * (1.0 / plant.inertia + 1.0 / plant.load.inertia));
-  const bool is_soft = periods * 2.0 * std::numbers::pi / mode > move.within();
+  const bool is_soft = plant.load.gap > 0.0 || periods * 2.0 * std::numbers::pi / mode > move.within();
   return plant.inertia +
          (is_soft && plant.load.encoder == motion::EncoderPlace::motor ? 0.0 : plant.load.inertia);
 }
@@ -96,13 +99,12 @@ double shortest_time(const MoveOfTrial& move) {
   return std::max(shortest_move(axis, sliding + run_up) - run_up_time, 0.0);
 }
 
-/// Constant torque and ripple at an angle, N m.
+/// Constant torque and ripple at an angle, of the rotor and of a load that is there too, N m.
 double standing_torque(const trial::TrialParameters& p, double theta) {
-  trial::DisturbanceParameters standing = p.disturbance;
-  standing.vibration.clear();
-  standing.spectra.clear();
-  const motion::Disturbance disturbance = trial::disturbance_of(standing, p.initial.position, p.randomness);
-  return disturbance.torque + motion::value({disturbance, 0.0, theta});
+  double torque = 0.0;
+  for (const trial::DisturbanceParameters* of : {&p.disturbance, &p.load_side.disturbance})
+    torque += of->torque + motion::value(trial::ripples_of(of->ripple, p.initial.position), theta);
+  return torque;
 }
 
 }  // namespace
@@ -201,7 +203,9 @@ Doubt reference_is_on_its_way(const MoveOfTrial& move) {
 Doubt torque_is_too_small_for_the_move(const MoveOfTrial& move) {
   const trial::TrialParameters& p = move.of.trial;
   const bool starts_at_rest = move.number > 0 || p.initial.velocity == 0.0;
-  if (!p.disturbance.spectra.empty() || !starts_at_rest) return {};
+  if (trial::random_lines(p.disturbance) + trial::random_lines(p.load_side.disturbance) > 0 ||
+      !starts_at_rest)
+    return {};
   const double time = shortest_time(move) + p.controller.delay / p.controller.sample_rate;
   const std::string what = fmt::format("{} by {} with an inertia of {:.3g} {} and the ±{} of the converter",
                                        move.name(), move.of.length(move.distance()), moved_inertia(move),

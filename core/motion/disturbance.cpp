@@ -16,10 +16,21 @@ double angle(const Vibration& line, double time) {
 
 }  // namespace
 
-double value(const VaryingTorque& torque) {
+double value(std::span<const Ripple> ripples, double theta) {
   double sum = 0.0;
-  for (const Ripple& ripple : torque.of.ripple)
-    sum += ripple.amplitude * numerics::sin(angle(ripple, torque.theta));
+  for (const Ripple& ripple : ripples) sum += ripple.amplitude * numerics::sin(angle(ripple, theta));
+  return sum;
+}
+
+double slope(std::span<const Ripple> ripples, double theta) {
+  double sum = 0.0;
+  for (const Ripple& ripple : ripples)
+    sum += ripple.amplitude * ripple.per_angle * numerics::cos(angle(ripple, theta));
+  return sum;
+}
+
+double value(const VaryingTorque& torque) {
+  double sum = value(torque.of.ripple, torque.theta);
   for (const Vibration& line : torque.of.vibration)
     sum += line.amplitude * numerics::sin(angle(line, torque.time));
   return sum;
@@ -44,7 +55,42 @@ double vibration_beyond(const Disturbance& disturbance, std::size_t order, doubl
   return sum;
 }
 
-DisturbanceSeries::DisturbanceSeries(const VaryingTorque& torque) {
+RippleSeries::RippleSeries(std::span<const Ripple> ripples, double theta) {
+  waves_.reserve(ripples.size());
+  for (const Ripple& ripple : ripples) {
+    Wave wave{ripple.amplitude, ripple.per_angle, {}, {}};
+    wave.sine[0] = numerics::sin(angle(ripple, theta));
+    wave.cosine[0] = numerics::cos(angle(ripple, theta));
+    waves_.push_back(wave);
+  }
+}
+
+void RippleSeries::expand(const numerics::Series& omega, std::size_t k) {
+  if (k == 0) return;
+  for (Wave& wave : waves_) {
+    double sine = 0.0;
+    double cosine = 0.0;
+    for (std::size_t j = 0; j < k; ++j) {
+      sine += omega[j] * wave.cosine[k - 1 - j];
+      cosine -= omega[j] * wave.sine[k - 1 - j];
+    }
+    wave.sine[k] = wave.per_angle * sine * numerics::reciprocal[k];
+    wave.cosine[k] = wave.per_angle * cosine * numerics::reciprocal[k];
+  }
+}
+
+double RippleSeries::value(std::size_t k, double sum) const {
+  for (const Wave& wave : waves_) sum += wave.amplitude * wave.sine[k];
+  return sum;
+}
+
+double RippleSeries::slope(std::size_t k) const {
+  double sum = 0.0;
+  for (const Wave& wave : waves_) sum += wave.amplitude * wave.per_angle * wave.cosine[k];
+  return sum;
+}
+
+DisturbanceSeries::DisturbanceSeries(const VaryingTorque& torque) : ripple_(torque.of.ripple, torque.theta) {
   for (const Vibration& line : torque.of.vibration) {
     double sine = line.amplitude * numerics::sin(angle(line, torque.time));
     double cosine = line.amplitude * numerics::cos(angle(line, torque.time));
@@ -57,31 +103,11 @@ DisturbanceSeries::DisturbanceSeries(const VaryingTorque& torque) {
       vibration_[k] += sine;
     }
   }
-  ripple_.reserve(torque.of.ripple.size());
-  for (const Ripple& ripple : torque.of.ripple) {
-    Wave wave{ripple.amplitude, ripple.per_angle, {}, {}};
-    wave.sine[0] = numerics::sin(angle(ripple, torque.theta));
-    wave.cosine[0] = numerics::cos(angle(ripple, torque.theta));
-    ripple_.push_back(wave);
-  }
 }
 
 double DisturbanceSeries::expand(const numerics::Series& omega, std::size_t k) {
-  double torque = vibration_[k];
-  for (Wave& wave : ripple_) {
-    if (k > 0) {
-      double sine = 0.0;
-      double cosine = 0.0;
-      for (std::size_t j = 0; j < k; ++j) {
-        sine += omega[j] * wave.cosine[k - 1 - j];
-        cosine -= omega[j] * wave.sine[k - 1 - j];
-      }
-      wave.sine[k] = wave.per_angle * sine * numerics::reciprocal[k];
-      wave.cosine[k] = wave.per_angle * cosine * numerics::reciprocal[k];
-    }
-    torque += wave.amplitude * wave.sine[k];
-  }
-  return torque;
+  ripple_.expand(omega, k);
+  return ripple_.value(k, vibration_[k]);
 }
 
 }  // namespace zerocount::motion

@@ -1,15 +1,16 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/numerics/power_series.hpp"
 
 namespace zerocount::motion {
 
-/// A torque that varies along the rotor: amplitude·sin(per_angle·θ + phase).
+/// A torque, or a kinematic error, that varies along an angle: amplitude·sin(per_angle·θ + phase).
 struct Ripple {
-  double amplitude{0.0};  ///< N m
+  double amplitude{0.0};  ///< N m; rad of a kinematic error
   double per_angle{0.0};  ///< rad/rad (rad/m on a linear axis)
   double phase{0.0};      ///< at θ = 0, rad
 };
@@ -21,7 +22,7 @@ struct Vibration {
   double phase{0.0};      ///< at t = 0, rad
 };
 
-/// A disturbance of the rotor: d = torque + Σ ripple + Σ vibration.
+/// A disturbance of the rotor or of the load: d = torque + Σ ripple + Σ vibration.
 struct Disturbance {
   double torque{0.0};  ///< N m
   std::vector<Ripple> ripple{};
@@ -50,15 +51,25 @@ double value(const VaryingTorque& torque);
 /// Its rate of change, N m/s. @param omega ω, rad/s.
 double rate(const VaryingTorque& torque, double omega);
 
-/// The Taylor series in time of the varying part, given that of ω. With s = sin(q·θ + φ) and c its cosine,
+/// Σ amplitude·sin(per_angle·θ + phase).
+double value(std::span<const Ripple> ripples, double theta);
+
+/// Its derivative by θ.
+double slope(std::span<const Ripple> ripples, double theta);
+
+/// The Taylor series in time of ripples, given that of ω = dθ/dt. With s = sin(q·θ + φ) and c its cosine,
 ///
 ///   ds/dt = q·ω·c,   dc/dt = −q·ω·s.
-class DisturbanceSeries {
+class RippleSeries {
  public:
-  explicit DisturbanceSeries(const VaryingTorque& torque);
+  RippleSeries(std::span<const Ripple> ripples, double theta);
 
-  /// Coefficient k, N m/sᵏ, from those of ω up to k − 1. Call with ascending k.
-  double expand(const numerics::Series& omega, std::size_t k);
+  /// Computes the coefficients k from those of ω up to k − 1. Call with ascending k.
+  void expand(const numerics::Series& omega, std::size_t k);
+  /// `sum` plus coefficient k of Σ amplitude·s.
+  double value(std::size_t k, double sum) const;
+  /// Coefficient k of Σ amplitude·q·c.
+  double slope(std::size_t k) const;
 
  private:
   struct Wave {
@@ -68,8 +79,20 @@ class DisturbanceSeries {
     numerics::Series cosine;
   };
 
+  std::vector<Wave> waves_;
+};
+
+/// The Taylor series in time of the varying part of a disturbance, given that of ω.
+class DisturbanceSeries {
+ public:
+  explicit DisturbanceSeries(const VaryingTorque& torque);
+
+  /// Coefficient k, N m/sᵏ, from those of ω up to k − 1. Call with ascending k.
+  double expand(const numerics::Series& omega, std::size_t k);
+
+ private:
   numerics::Series vibration_{};
-  std::vector<Wave> ripple_;
+  RippleSeries ripple_;
 };
 
 }  // namespace zerocount::motion

@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <vector>
 
+#include "core/motion/disturbance.hpp"
 #include "core/motion/parameters.hpp"
 #include "core/numerics/power_series.hpp"
 
@@ -10,18 +13,61 @@ namespace zerocount::motion {
 
 /// A second mass behind an elastic coupling, with its state:
 ///
-///   JL·dωL/dt = Ts,   Ts = kL·δ + dL·(ω − ωL),   dδ/dt = ω − ωL,   δ = θ − θL.
+///   JL·dωL/dt = Ts + dist − cg·ωL,   Ts = kL·h(δ) + dL·dδ/dt where h(δ) ≠ 0,
+///   δ = θ + ε(θ) − θL,   dδ/dt = (1 + ε′(θ))·ω − ωL.
 ///
-/// −Ts acts on the rotor.
+/// h is δ without the gap: δ − g/2 above g/2, δ + g/2 below −g/2, 0 between. −(1 + ε′(θ))·Ts acts on the
+/// rotor, so that the coupling conserves power. The edge of the gap on which δ lies exactly belongs to the
+/// side to which δ moves.
 struct Load {
   LoadParameters parameters;
-  double twist{0.0};  ///< δ, rad
-  double omega{0.0};  ///< ωL, rad/s
+  double twist{0.0};            ///< δ, rad
+  double omega{0.0};            ///< ωL, rad/s
+  std::vector<Ripple> error{};  ///< ε, by the rotor's angle
+  Disturbance disturbance{};    ///< dist, by the load's angle
+  double rotor_theta{0.0};      ///< θ, rad; set before each step
+  double time{0.0};             ///< t of the disturbance, s; set before each step
 };
 
-/// Ts, N m. @param rotor_omega ω, rad/s.
+/// What acts on a load beside a coupling without gap and error, and where it starts.
+struct LoadSide {
+  std::vector<Ripple> error{};
+  Disturbance disturbance{};
+  double twist{0.0};  ///< δ at t = 0, rad
+};
+
+/// Whether there is neither a gap nor an error, and the coupling alone acts on the load. Then an oscillation
+/// decays to rest with the rotor.
+inline bool is_plain(const Load& load) {
+  return load.parameters.gap == 0.0 && load.parameters.damping_to_ground == 0.0 && load.error.empty() &&
+         load.disturbance.torque == 0.0 && !varies(load.disturbance);
+}
+
+/// θL, rad. @param theta θ, rad.
+inline double load_theta(const Load& load, double theta) {
+  return load.error.empty() ? theta - load.twist : theta + value(load.error, theta) - load.twist;
+}
+
+/// 1 + ε′(θ): velocity at the coupling by that of the rotor.
+inline double transmission(const Load& load) {
+  return load.error.empty() ? 1.0 : 1.0 + slope(load.error, load.rotor_theta);
+}
+
+/// The side of the gap: 1 above, −1 below, 0 in it. @param heading sign of the change of δ.
+inline int side_of_gap(const LoadParameters& load, double twist, double heading) {
+  const double half = 0.5 * load.gap;
+  if (twist > half || (twist == half && heading > 0.0)) return 1;
+  return twist < -half || (twist == -half && heading < 0.0) ? -1 : 0;
+}
+
+/// The torque of the coupling on the rotor, (1 + ε′)·Ts, N m. @param rotor_omega ω, rad/s.
 inline double coupling_torque(const Load& load, double rotor_omega) {
-  return load.parameters.stiffness * load.twist + load.parameters.damping * (rotor_omega - load.omega);
+  const LoadParameters& p = load.parameters;
+  const double ratio = transmission(load);
+  const double rate = ratio * rotor_omega - load.omega;
+  const int side = side_of_gap(p, load.twist, rate);
+  if (p.gap > 0.0 && side == 0) return 0.0;
+  return ratio * (p.stiffness * (load.twist - 0.5 * p.gap * side) + p.damping * rate);
 }
 
 /// √(kL·J·JL/(J + JL)) + dL, N m s/rad: the largest coupling torque of an oscillation by its largest relative
@@ -31,42 +77,52 @@ inline double torque_by_velocity(const LoadParameters& load, double inertia) {
   return std::sqrt(load.stiffness * reduced) + load.damping;
 }
 
-/// Whether the coupling torque of any oscillation between load and rotor stays below `torque` (N m).
+/// Whether the coupling torque of any oscillation between load and rotor stays below `torque` (N m). Only
+/// that of a plain load is known to.
 /// @param inertia J of the rotor, kg m². @param steady coupling torque of the motion without the oscillation,
 /// N m.
 inline bool is_quiet(const Load& load, double rotor_omega, double inertia, double torque, double steady) {
-  return std::abs(load.parameters.stiffness * load.twist - steady) +
-             torque_by_velocity(load.parameters, inertia) * std::abs(rotor_omega - load.omega) <
-         torque;
+  return is_plain(load) &&
+         std::abs(load.parameters.stiffness * load.twist - steady) +
+                 torque_by_velocity(load.parameters, inertia) * std::abs(rotor_omega - load.omega) <
+             torque;
 }
 
-/// The load moves as the rotor does from now on.
+/// A plain load moves as the rotor does from now on.
 inline void follow_rotor(Load& load, double rotor_omega) {
   load.twist = 0.0;
   load.omega = rotor_omega;
 }
 
-/// Taylor series in time of a load.
+/// Taylor series in time of a load, on one side of the gap.
 struct LoadSeries {
-  numerics::Series twist;  ///< δ, rad
-  numerics::Series omega;  ///< ωL, rad/s
+  numerics::Series twist;         ///< δ, rad
+  numerics::Series omega;         ///< ωL, rad/s
+  numerics::Series torque;        ///< Ts, N m
+  numerics::Series transmission;  ///< 1 + ε′(θ); unused without an error
+  int side{0};                    ///< of the gap
+  bool plain{true};
+  std::optional<RippleSeries> error{};
+  std::optional<DisturbanceSeries> disturbance{};
 };
 
-/// Sets the coefficients 0.
-inline void start_series(LoadSeries& series, const Load& load) {
-  series.twist[0] = load.twist;
-  series.omega[0] = load.omega;
-}
+/// Sets the coefficients 0. @param heading sign of the change of δ.
+void start_series(LoadSeries& series, const Load& load, double heading);
 
-/// Computes the coefficients k + 1 from those of ω up to k. @returns coefficient k of Ts, N m.
-inline double expand(LoadSeries& series, const LoadParameters& load, const numerics::Series& rotor_omega,
-                     std::size_t k) {
-  const double relative = rotor_omega[k] - series.omega[k];
-  const double torque = load.stiffness * series.twist[k] + load.damping * relative;
-  series.twist[k + 1] = relative * numerics::reciprocal[k + 1];
-  series.omega[k + 1] = torque / load.inertia * numerics::reciprocal[k + 1];
-  return torque;
-}
+/// Computes the coefficients k + 1 from those of ω up to k. @returns coefficient k of the torque of the
+/// coupling on the rotor, N m.
+double expand(LoadSeries& series, const Load& load, const numerics::Series& rotor_omega, std::size_t k);
+
+/// The direction in which δ leaves the edge of the gap on which it starts exactly; 0 where it starts
+/// elsewhere.
+double heading_from_edge(const LoadSeries& series, const LoadParameters& load);
+
+/// The first time within `step` (s) at which δ comes to an edge of the gap.
+struct EdgeOfGap {
+  double time;   ///< s
+  double twist;  ///< δ there, rad
+};
+std::optional<EdgeOfGap> next_edge(const LoadSeries& series, const LoadParameters& load, double step);
 
 /// The load after the time t (s) of its series.
 inline void go_to(Load& load, const LoadSeries& series, double t) {

@@ -11,6 +11,8 @@ struct LoadParameters {
   double stiffness{2.0e4};  ///< kL of the coupling, N m/rad
   double damping{0.1};      ///< dL of the coupling, N m s/rad
   EncoderPlace encoder{EncoderPlace::motor};
+  double gap{0.0};                ///< g, whole play of the coupling, rad
+  double damping_to_ground{0.0};  ///< cg, of the load, N m s/rad
 };
 
 /// The rotor. J and c by default: the paper's (section 4); the sliding damping is assumed.

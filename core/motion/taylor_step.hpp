@@ -72,26 +72,36 @@ typename Motion::Expansion motion_series(const Motion& motion, double inertia, c
                                          LoadSeries& load_series) {
   const numerics::Series applied = torque_series(torque);
   const double per_inertia = 1.0 / inertia;
-  typename Motion::Expansion series = motion.start();
+  typename Motion::Expansion series;
   const auto add_orders = [&](const auto& coupling) {
+    series = motion.start();
     for (std::size_t k = 0; k < numerics::series_order; ++k) {
       const double acceleration = motion.expand(series, k, applied[k] - coupling(k)) * per_inertia;
       series.omega[k + 1] = acceleration * numerics::reciprocal[k + 1];
     }
   };
-  if (torque.load != nullptr) start_series(load_series, *torque.load);
-  const auto of_load = [&](std::size_t k) {
-    return expand(load_series, torque.load->parameters, series.omega, k);
+  const auto of_load = [&](std::size_t k) { return expand(load_series, *torque.load, series.omega, k); };
+  const auto add_all = [&] {
+    if (torque.disturbance != nullptr) {
+      DisturbanceSeries disturbance(*torque.disturbance);
+      add_orders([&](std::size_t k) {
+        return (torque.load == nullptr ? 0.0 : of_load(k)) - disturbance.expand(series.omega, k);
+      });
+    } else if (torque.load != nullptr) {
+      add_orders(of_load);
+    } else {
+      add_orders([](std::size_t) { return 0.0; });
+    }
   };
-  if (torque.disturbance != nullptr) {
-    DisturbanceSeries disturbance(*torque.disturbance);
-    add_orders([&](std::size_t k) {
-      return (torque.load == nullptr ? 0.0 : of_load(k)) - disturbance.expand(series.omega, k);
-    });
-  } else if (torque.load != nullptr) {
-    add_orders(of_load);
-  } else {
-    add_orders([](std::size_t) { return 0.0; });
+  if (torque.load != nullptr) start_series(load_series, *torque.load, 0.0);
+  add_all();
+  if (torque.load != nullptr) {
+    // On an edge of the gap the first derivative of the twist that is not 0 is the same on both sides.
+    const double heading = heading_from_edge(load_series, torque.load->parameters);
+    if (heading * torque.load->twist > 0.0) {
+      start_series(load_series, *torque.load, heading);
+      add_all();
+    }
   }
   if constexpr (requires { motion.complete(series); }) motion.complete(series);
   return series;
@@ -108,8 +118,8 @@ typename Motion::Expansion motion_series(const Motion& motion, double inertia, c
 double step_within(const numerics::Series& position, const numerics::Series& velocity,
                    const numerics::Series& exponent, double tolerance, double longest);
 
-/// Advances the motion, and the load of `torque`, to the end of a Taylor step or to the motion's first event,
-/// whichever comes first.
+/// Advances the motion, and the load of `torque`, to the end of a Taylor step, to the motion's first event or
+/// to an edge of the gap, whichever comes first.
 /// @param tolerance of the position, rad. @param duration longest step, s. @returns the time used and the
 /// event.
 template <SmoothMotion Motion>
@@ -120,13 +130,19 @@ NextEvent<typename Motion::Event> step_along(const typename Motion::Expansion& s
   if constexpr (requires { motion.step_of_state(series, tolerance, duration); }) {
     step = std::min(step, motion.step_of_state(series, tolerance, duration));
   }
+  std::optional<EdgeOfGap> edge;
   if (torque.load != nullptr) {
     step = std::min(step,
                     step_within(load_series.twist, load_series.omega, series.exponent, tolerance, duration));
+    edge = next_edge(load_series, torque.load->parameters, step);
+    if (edge) step = edge->time;
   }
   const NextEvent<typename Motion::Event> next = motion.first_event(series, step);
   motion.go_to(series, next);
-  if (torque.load != nullptr) go_to(*torque.load, load_series, next.time);
+  if (torque.load == nullptr) return next;
+  go_to(*torque.load, load_series, next.time);
+  // Exactly on the edge, so that rounding cannot meet it again.
+  if (edge && next.time == edge->time) torque.load->twist = edge->twist;
   return next;
 }
 

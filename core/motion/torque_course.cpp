@@ -5,6 +5,7 @@
 
 #include "core/motion/disturbance.hpp"
 #include "core/motion/load.hpp"
+#include "core/motion/taylor_step.hpp"
 #include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::motion {
@@ -16,7 +17,34 @@ double torque_on_rotor(const TorqueCourse& course, double omega) {
   return torque;
 }
 
-double applied_torque_rate(const TorqueCourse& course, double omega) {
+namespace {
+
+/// A rotor that does not move, to find how the torque on it changes.
+struct HeldRotor {
+  struct Expansion {
+    numerics::Series position{};
+    numerics::Series omega{};
+    numerics::Series exponent{};
+    double change{0.0};  // first coefficient of the torque beyond the present value that is not 0
+  };
+  enum class Event { none };
+
+  static Expansion start() { return {}; }
+  static double expand(Expansion& series, std::size_t k, double torque) {
+    if (k > 0 && series.change == 0.0) series.change = torque;
+    return 0.0;
+  }
+  static NextEvent<Event> first_event(const Expansion&, double step) { return {step}; }
+  void go_to(const Expansion&, const NextEvent<Event>&) {}
+};
+
+}  // namespace
+
+double change_of_torque(const TorqueCourse& course, double omega) {
+  if (course.load != nullptr && !is_plain(*course.load)) {
+    LoadSeries load_series;
+    return motion_series(HeldRotor{}, 1.0, course, load_series).change;
+  }
   const double of_motor = motor_is_constant(course) ? 0.0 : course.rate * (course.settled - course.now);
   return course.disturbance == nullptr ? of_motor : of_motor + rate(*course.disturbance, omega);
 }

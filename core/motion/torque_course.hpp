@@ -54,8 +54,10 @@ inline bool is_coupled(const TorqueCourse& course) {
 /// The torque on the rotor at this instant, N m. @param omega ω of the rotor, rad/s.
 double torque_on_rotor(const TorqueCourse& course, double omega);
 
-/// The rate of change of the applied torque at this instant, N m/s. @param omega ω of the rotor, rad/s.
-double applied_torque_rate(const TorqueCourse& course, double omega);
+/// Where the torque on the rotor goes from its present value: its rate of change without the coupling of a
+/// plain load, N m/s; with another load, its first derivative that is not 0, of a rotor that stands.
+/// @param omega ω of the rotor, rad/s.
+double change_of_torque(const TorqueCourse& course, double omega);
 
 /// Whether any oscillation between load and rotor has a coupling torque below `torque` (N m); true without a
 /// load.

@@ -32,7 +32,14 @@ class PlantWith : public Law {
     disturbance_ = disturbance;
     time_ = 0.0;
   }
-  /// Sets the time t (s) of the disturbance, which advance() moves on only to rounding.
+  /// Adds to the load, if any, what acts on it from now on, t = 0 of its vibration.
+  void start_load(const motion::LoadSide& side) {
+    if (!load_) return;
+    load_->error = side.error;
+    load_->disturbance = side.disturbance;
+    load_->twist = side.twist;
+  }
+  /// Sets the time t (s) of the disturbances, which advance() moves on only to rounding.
   void set_time(double time) { time_ = time; }
 
   /// Applies the torque for `duration` (s). The motion is lost if that takes more than `step_limit` steps.
@@ -48,6 +55,10 @@ class PlantWith : public Law {
     for (int step = 0; remaining > 0.0 && finite_; ++step) {
       if (step == step_limit) finite_ = false;
       varying.theta = this->theta();
+      if (load_) {
+        load_->rotor_theta = varying.theta;
+        load_->time = varying.time;
+      }
       const double used = step_on(ahead, remaining);
       varying.time += used;
       remaining = used < remaining ? remaining - used : 0.0;
@@ -84,7 +95,7 @@ class PlantWith : public Law {
   bool finite_{true};
   std::optional<motion::Load> load_;
   motion::Disturbance disturbance_{};
-  double time_{0.0};  // of the disturbance, s
+  double time_{0.0};  // of the disturbances, s
 };
 
 /// State of the plant at an instant.
@@ -116,7 +127,11 @@ class PlantOf {
   void disturb(const motion::Disturbance& disturbance) {
     std::visit([&](auto& plant) { plant.disturb(disturbance); }, plant_);
   }
-  /// Sets the time t (s) of the disturbance.
+  /// Adds to the load, if any, what acts on it from now on, t = 0 of its vibration.
+  void start_load(const motion::LoadSide& side) {
+    std::visit([&](auto& plant) { plant.start_load(side); }, plant_);
+  }
+  /// Sets the time t (s) of the disturbances.
   void set_time(double time) {
     std::visit([&](auto& plant) { plant.set_time(time); }, plant_);
   }
@@ -127,7 +142,7 @@ class PlantOf {
           PlantReading reading{plant.theta(),   plant.omega(), plant.creep(), plant.depth(),
                                plant.sliding(), plant.theta(), plant.omega()};
           if (plant.load()) {
-            reading.load_theta -= plant.load()->twist;
+            reading.load_theta = motion::load_theta(*plant.load(), plant.theta());
             reading.load_omega = plant.load()->omega;
           }
           return reading;

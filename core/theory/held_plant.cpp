@@ -32,6 +32,8 @@ Eigen::MatrixXd generator_of(double stiffness, double damping, double inertia,
     F(3, 2) = -load.stiffness / other_inertia;
     F(3, 3) = -load.damping / other_inertia;
     F(3, 1) = -F(3, 3);
+    const Eigen::Index mass = at_load ? 1 : 3;
+    F(mass, mass) -= load.damping_to_ground / load.inertia;
     F(motor, 0) -= stiffness / inertia;
     if (at_load) F(motor, 2) -= stiffness / inertia;
     F(motor, motor) -= damping / inertia;

@@ -73,20 +73,31 @@ double mean_square(const SpectrumParameters& spectrum, double low, double high) 
   return sum;
 }
 
-motion::Disturbance disturbance_of(const DisturbanceParameters& parameters, double position,
-                                   const random::TrialRandomness& randomness) {
-  motion::Disturbance disturbance{parameters.torque};
-  for (const RippleParameters& ripple : parameters.ripple) {
+std::vector<motion::Ripple> ripples_of(const std::vector<RippleParameters>& ripples, double position) {
+  std::vector<motion::Ripple> along;
+  for (const RippleParameters& ripple : ripples) {
     const double per_angle = ripple.pitch > 0.0 ? two_pi / ripple.pitch : ripple.periods;
     // The remainder keeps the digits of the phase far from the rotor's zero.
     const double phase = std::remainder(per_angle * position, two_pi) + ripple.phase;
-    if (ripple.amplitude != 0.0) disturbance.ripple.push_back({ripple.amplitude, per_angle, phase});
+    if (ripple.amplitude != 0.0) along.push_back({ripple.amplitude, per_angle, phase});
   }
+  return along;
+}
+
+std::uint64_t random_lines(const DisturbanceParameters& parameters) {
+  std::uint64_t lines = 0;
+  for (const auto& spectrum : parameters.spectra) lines += static_cast<std::uint64_t>(spectrum->lines);
+  return lines;
+}
+
+motion::Disturbance disturbance_of(const DisturbanceParameters& parameters, double position,
+                                   const random::TrialRandomness& randomness, std::uint64_t lines) {
+  motion::Disturbance disturbance{parameters.torque, ripples_of(parameters.ripple, position)};
   for (const VibrationParameters& line : parameters.vibration) {
     if (line.amplitude != 0.0)
       disturbance.vibration.push_back({line.amplitude, two_pi * line.frequency, line.phase});
   }
-  std::uint64_t first = 0;
+  std::uint64_t first = 2 * lines;
   for (const auto& spectrum : parameters.spectra) {
     add_lines(*spectrum, randomness, first, disturbance.vibration);
     first += 2 * static_cast<std::uint64_t>(spectrum->lines);

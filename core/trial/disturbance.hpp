@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -8,10 +9,10 @@
 
 namespace zerocount::trial {
 
-/// A disturbance that varies along the rotor: amplitude·sin(a + phase), with a = periods·(θ + p) or, with a
-/// pitch, 2π·(θ + p)/pitch, p the initial position.
+/// A disturbance, or a kinematic error, that varies along an angle: amplitude·sin(a + phase), with a =
+/// periods·(θ + p) or, with a pitch, 2π·(θ + p)/pitch, p the initial position.
 struct RippleParameters {
-  double amplitude{0.0};  ///< N m
+  double amplitude{0.0};  ///< N m; rad of a kinematic error
   double periods{0.0};    ///< per revolution
   double pitch{0.0};      ///< of one period, m; 0: by `periods`
   double phase{0.0};      ///< rad
@@ -39,7 +40,7 @@ struct SpectrumParameters {
   int lines{100};
 };
 
-/// The disturbance of the rotor.
+/// The disturbance of the rotor, or of the load.
 struct DisturbanceParameters {
   double torque{0.0};  ///< constant, N m
   std::vector<RippleParameters> ripple{};
@@ -50,8 +51,15 @@ struct DisturbanceParameters {
 /// ∫S df from `low` to `high` (Hz), (N m)²: the mean square of the vibration in a band. 0 outside the points.
 double mean_square(const SpectrumParameters& spectrum, double low, double high);
 
+/// The ripples along an angle, without those of amplitude 0. @param position p, rad.
+std::vector<motion::Ripple> ripples_of(const std::vector<RippleParameters>& ripples, double position);
+
 /// The disturbance of a trial, without the terms of amplitude 0. @param position p, rad.
+/// @param lines random lines of the disturbances before.
 motion::Disturbance disturbance_of(const DisturbanceParameters& parameters, double position,
-                                   const random::TrialRandomness& randomness);
+                                   const random::TrialRandomness& randomness, std::uint64_t lines = 0);
+
+/// Number of random lines of a disturbance.
+std::uint64_t random_lines(const DisturbanceParameters& parameters);
 
 }  // namespace zerocount::trial

@@ -63,6 +63,7 @@ struct InitialConditions {
   double velocity{0.0};  ///< ω, rad/s
   double integral{0.0};  ///< I of the controller before the first sample, N m
   InitialMode mode{InitialMode::stick};
+  double gap{0.0};  ///< twist of the coupling over its gap, −½ to ½
   /// The contact has been loaded slowly from virgin to the constant disturbance, and carries it at t = 0.
   bool holding{false};
 };
@@ -80,6 +81,12 @@ struct VerdictParameters {
   double rest_band{0.0};       ///< |e| within which a move is at rest, for these measures, counts
 };
 
+/// What belongs to a second mass beside its coupling.
+struct LoadSideParameters {
+  std::vector<RippleParameters> error{};  ///< kinematic error of the coupling, by the rotor's angle
+  DisturbanceParameters disturbance{};    ///< of the load, by its angle
+};
+
 /// Everything that determines a trial: two equal sets give the same trial, bit for bit.
 struct TrialParameters {
   motion::PlantParameters plant;
@@ -93,6 +100,7 @@ struct TrialParameters {
   VerdictParameters verdict;
   random::TrialRandomness randomness{};
   DisturbanceParameters disturbance{};
+  LoadSideParameters load_side{};
 };
 
 /// Number of whole samples in `duration` (s) at `sample_rate` (Hz): round(duration·sample_rate).

@@ -24,6 +24,13 @@ motion::PlantStart plant_start(const TrialParameters& p) {
           p.initial.holding ? p.disturbance.torque : 0.0};
 }
 
+motion::LoadSide load_side(const TrialParameters& p) {
+  const double position = p.initial.position;
+  return {ripples_of(p.load_side.error, position),
+          disturbance_of(p.load_side.disturbance, position, p.randomness, random_lines(p.disturbance)),
+          p.initial.gap * p.plant.load.gap};
+}
+
 motion::MotionTolerance motion_tolerance(double resolution) {
   return {motion_tolerance_in_counts * resolution, rest_in_counts * resolution};
 }

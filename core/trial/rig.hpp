@@ -17,6 +17,9 @@ namespace zerocount::trial {
 /// State of the plant at t = 0.
 motion::PlantStart plant_start(const TrialParameters& parameters);
 
+/// What acts on the second mass, and where it starts.
+motion::LoadSide load_side(const TrialParameters& parameters);
+
 /// Largest count that a double represents as a whole number.
 inline constexpr double max_counts = 0x1p52;
 
@@ -36,6 +39,7 @@ class Rig {
         encoder_place_(motion::has_load(p.plant) ? p.plant.load.encoder : motion::EncoderPlace::motor),
         plant_(p.plant, p.friction, plant_start(p), motion_tolerance(measurement_.fine_resolution())) {
     plant_.disturb(disturbance_of(p.disturbance, p.initial.position, p.randomness));
+    if (motion::has_load(p.plant)) plant_.start_load(load_side(p));
     if (p.controller.jitter > 0.0) plant_.advance(motion::constant_torque(0.0), clock_.lateness(0));
   }
 

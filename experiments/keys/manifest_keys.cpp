@@ -262,6 +262,12 @@ std::span<const GeneralKey> general_keys() {
       {"disturbance.ripple",
        "list of torques that vary along the rotor: {amplitude, periods, phase}, amplitude*sin(periods*(theta "
        "+ initial.position) + phase), periods per revolution; on a linear axis {amplitude, pitch, phase}"},
+      {"disturbance.load.ripple", "list of torques on the second mass, by its angle, as disturbance.ripple"},
+      {"disturbance.load.vibration",
+       "list of torques on the second mass that vary in time, as disturbance.vibration"},
+      {"plant.load.error",
+       "kinematic error of the coupling, by the rotor: list of {amplitude, periods, phase} as "
+       "disturbance.ripple, in rad; the twist is theta + the error - theta of the load"},
       {"disturbance.vibration",
        "list of torques that vary in time: {amplitude, frequency, phase}, amplitude*sin(2*pi*frequency*t + "
        "phase); or {spectrum: [[frequency, density], ...], lines: 100}, a random vibration with this "

@@ -48,8 +48,8 @@ Json elements_schema(const parameters::ElementList& list) {
 }
 
 // Lines, and spectra from which lines are drawn.
-Json vibration_schema() {
-  Json schema = elements_schema(*parameters::find_element_list("disturbance.vibration"));
+Json vibration_schema(std::string_view path) {
+  Json schema = elements_schema(*parameters::find_element_list(path));
   const Json pair = {{"type", "array"},
                      {"prefixItems", {number_in(numerics::above(0)), number_in(numerics::at_least(0))}},
                      {"minItems", 2},
@@ -225,7 +225,8 @@ Json own_schemas() {
        {{"type", "object"},
         {"patternProperties", {{fmt::format("^{}$", plugin_name), value_schema(plugin_value())}}},
         {"additionalProperties", false}}},
-      {"disturbance.vibration", vibration_schema()},
+      {"disturbance.vibration", vibration_schema("disturbance.vibration")},
+      {"disturbance.load.vibration", vibration_schema("disturbance.load.vibration")},
       {"command.torque.file", torque_record_schema()},
       {"verdict.bands",
        {{"type", "array"},

@@ -12,11 +12,22 @@ constexpr std::size_t dimensions_of_vibration = 3;
 constexpr std::size_t max_ripples = 8;
 constexpr std::size_t max_vibrations = 16;
 
+constexpr std::size_t max_load_vibrations = 8;
+
 std::vector<trial::RippleParameters>& ripples(trial::TrialParameters& p) {
   return p.disturbance.ripple;
 }
 std::vector<trial::VibrationParameters>& vibrations(trial::TrialParameters& p) {
   return p.disturbance.vibration;
+}
+std::vector<trial::RippleParameters>& load_ripples(trial::TrialParameters& p) {
+  return p.load_side.disturbance.ripple;
+}
+std::vector<trial::VibrationParameters>& load_vibrations(trial::TrialParameters& p) {
+  return p.load_side.disturbance.vibration;
+}
+std::vector<trial::RippleParameters>& errors(trial::TrialParameters& p) {
+  return p.load_side.error;
 }
 
 // The row of a number of each element of a list.
@@ -35,59 +46,122 @@ Parameter zero_by_default(Parameter row) {
   return row;
 }
 
-}  // namespace
-
-std::vector<Parameter> disturbance_rows() {
+// Rows of a list of ripples. @param names of amplitude, periods, pitch and phase. @param ideal without one.
+template <auto list>
+void add_ripple_rows(std::vector<Parameter>& rows, const std::array<std::string_view, 4>& names,
+                     std::size_t first, std::string_view unit, std::string_view meaning,
+                     std::string_view ideal) {
   using R = trial::RippleParameters;
-  using V = trial::VibrationParameters;
-  constexpr std::size_t ripple = beyond_moves(192);
-  constexpr std::size_t vibration = ripple + max_ripples * dimensions_of_ripple;
-  return {
-      idealised_by(no_constant_disturbance,
-                   real_row("disturbance.torque", beyond_moves(30), "N m", "constant $torque on the $rotor",
-                            assumed, numerics::all_numbers(), [](auto& p) { return &p.disturbance.torque; })),
-      ideal_at(0, "no ripple",
-               number_of<ripples, &R::amplitude>(
-                   "disturbance.ripple.#.amplitude", ripple, dimensions_of_ripple, "N m",
-                   "amplitude of a $torque that varies along the $track", numerics::at_least(0))),
-      only_on(
-          AxisKind::rotary, "pitch, m",
-          number_of<ripples, &R::periods>("disturbance.ripple.#.periods", ripple + 1, dimensions_of_ripple,
-                                          "1", "its periods in a revolution", numerics::above(0))),
-      only_on(AxisKind::linear, "periods, per revolution",
-              number_of<ripples, &R::pitch>("disturbance.ripple.#.pitch", ripple + 1, dimensions_of_ripple,
-                                            "m", "length of one of its periods", numerics::above(0))),
-      zero_by_default(number_of<ripples, &R::phase>(
-          "disturbance.ripple.#.phase", ripple + 2, dimensions_of_ripple, "1",
-          "its phase at the zero of the $track, of 2 pi in a period", numerics::all_numbers())),
-      ideal_at(0, "no vibration",
-               number_of<vibrations, &V::amplitude>(
-                   "disturbance.vibration.#.amplitude", vibration, dimensions_of_vibration, "N m",
-                   "amplitude of a $torque that varies in time", numerics::at_least(0))),
-      number_of<vibrations, &V::frequency>("disturbance.vibration.#.frequency", vibration + 1,
-                                           dimensions_of_vibration, "Hz", "its frequency",
-                                           numerics::above(0)),
-      zero_by_default(number_of<vibrations, &V::phase>(
-          "disturbance.vibration.#.phase", vibration + 2, dimensions_of_vibration, "1",
-          "its phase at the start of the trial, of 2 pi in a period", numerics::all_numbers())),
-  };
+  constexpr std::size_t of = dimensions_of_ripple;
+  rows.push_back(ideal_at(
+      0, ideal, number_of<list, &R::amplitude>(names[0], first, of, unit, meaning, numerics::at_least(0))));
+  rows.push_back(only_on(AxisKind::rotary, "pitch, m",
+                         number_of<list, &R::periods>(names[1], first + 1, of, "1",
+                                                      "its periods in a revolution", numerics::above(0))));
+  rows.push_back(only_on(AxisKind::linear, "periods, per revolution",
+                         number_of<list, &R::pitch>(names[2], first + 1, of, "m",
+                                                    "length of one of its periods", numerics::above(0))));
+  rows.push_back(zero_by_default(number_of<list, &R::phase>(
+      names[3], first + 2, of, "1", "its phase at the zero of the $track, of 2 pi in a period",
+      numerics::all_numbers())));
 }
 
-ElementList ripple_list() {
+// Rows of a list of vibrations. @param names of amplitude, frequency and phase.
+template <auto list>
+void add_vibration_rows(std::vector<Parameter>& rows, const std::array<std::string_view, 3>& names,
+                        std::size_t first, std::string_view meaning) {
+  using V = trial::VibrationParameters;
+  constexpr std::size_t of = dimensions_of_vibration;
+  rows.push_back(
+      ideal_at(0, "no vibration",
+               number_of<list, &V::amplitude>(names[0], first, of, "N m", meaning, numerics::at_least(0))));
+  rows.push_back(
+      number_of<list, &V::frequency>(names[1], first + 1, of, "Hz", "its frequency", numerics::above(0)));
+  rows.push_back(zero_by_default(number_of<list, &V::phase>(
+      names[2], first + 2, of, "1", "its phase at the start of the trial, of 2 pi in a period",
+      numerics::all_numbers())));
+}
+
+template <auto list>
+ElementList ripples_at(std::string_view path, std::string_view element) {
   static const std::array<ElementForm, 2> forms{{
       {"", {"amplitude", "periods", "phase"}, "on a rotary axis"},
       {"", {"amplitude", "pitch", "phase"}, "on a linear axis"},
   }};
-  return {"disturbance.ripple", "ripple", max_ripples, forms,
-          [](trial::TrialParameters& p, std::size_t) { ripples(p).emplace_back(); }};
+  return {path, element, max_ripples, forms,
+          [](trial::TrialParameters& p, std::size_t) { list(p).emplace_back(); }};
 }
 
-ElementList vibration_list() {
+template <auto list>
+ElementList vibrations_at(std::string_view path, std::size_t max_elements) {
   static const std::array<ElementForm, 1> forms{{
       {"", {"amplitude", "frequency", "phase"}, "a line"},
   }};
-  return {"disturbance.vibration", "vibration", max_vibrations, forms,
-          [](trial::TrialParameters& p, std::size_t) { vibrations(p).emplace_back(); }};
+  return {path, "vibration", max_elements, forms,
+          [](trial::TrialParameters& p, std::size_t) { list(p).emplace_back(); }};
+}
+
+}  // namespace
+
+std::vector<Parameter> disturbance_rows() {
+  constexpr std::size_t ripple = beyond_moves(192);
+  constexpr std::size_t load_ripple = beyond_moves(445);
+  constexpr std::size_t error = load_ripple + max_ripples * dimensions_of_ripple;
+  std::vector<Parameter> rows{
+      idealised_by(no_constant_disturbance,
+                   real_row("disturbance.torque", beyond_moves(30), "N m", "constant $torque on the $rotor",
+                            assumed, numerics::all_numbers(), [](auto& p) { return &p.disturbance.torque; })),
+  };
+  add_ripple_rows<ripples>(rows,
+                           {"disturbance.ripple.#.amplitude", "disturbance.ripple.#.periods",
+                            "disturbance.ripple.#.pitch", "disturbance.ripple.#.phase"},
+                           ripple, "N m", "amplitude of a $torque that varies along the $track", "no ripple");
+  add_vibration_rows<vibrations>(rows,
+                                 {"disturbance.vibration.#.amplitude", "disturbance.vibration.#.frequency",
+                                  "disturbance.vibration.#.phase"},
+                                 ripple + max_ripples * dimensions_of_ripple,
+                                 "amplitude of a $torque that varies in time");
+  rows.push_back(ideal_at(
+      0, "no constant disturbance of the load",
+      real_row("disturbance.load.torque", beyond_moves(288), "N m", "constant $torque on the second mass",
+               assumed, numerics::all_numbers(), [](auto& p) { return &p.load_side.disturbance.torque; })));
+  add_ripple_rows<load_ripples>(
+      rows,
+      {"disturbance.load.ripple.#.amplitude", "disturbance.load.ripple.#.periods",
+       "disturbance.load.ripple.#.pitch", "disturbance.load.ripple.#.phase"},
+      load_ripple, "N m", "amplitude of a $torque on the second mass that varies along its way", "no ripple");
+  add_vibration_rows<load_vibrations>(
+      rows,
+      {"disturbance.load.vibration.#.amplitude", "disturbance.load.vibration.#.frequency",
+       "disturbance.load.vibration.#.phase"},
+      error + max_ripples * dimensions_of_ripple,
+      "amplitude of a $torque on the second mass that varies in time");
+  add_ripple_rows<errors>(rows,
+                          {"plant.load.error.#.amplitude", "plant.load.error.#.periods",
+                           "plant.load.error.#.pitch", "plant.load.error.#.phase"},
+                          error, "rad", "amplitude of a kinematic error of the coupling, along the $track",
+                          "no kinematic error");
+  return rows;
+}
+
+ElementList ripple_list() {
+  return ripples_at<ripples>("disturbance.ripple", "ripple");
+}
+
+ElementList vibration_list() {
+  return vibrations_at<vibrations>("disturbance.vibration", max_vibrations);
+}
+
+ElementList load_ripple_list() {
+  return ripples_at<load_ripples>("disturbance.load.ripple", "ripple");
+}
+
+ElementList load_vibration_list() {
+  return vibrations_at<load_vibrations>("disturbance.load.vibration", max_load_vibrations);
+}
+
+ElementList kinematic_error_list() {
+  return ripples_at<errors>("plant.load.error", "kinematic error");
 }
 
 }  // namespace zerocount::parameters

@@ -38,7 +38,15 @@ const ElementList* find_element_list(std::string_view path);
 /// The dotted path with # for every index: "controller.filters.#.frequency".
 std::string without_indices(std::string_view path);
 
-ElementList ripple_list();     ///< disturbance.ripple
-ElementList vibration_list();  ///< disturbance.vibration
+ElementList ripple_list();           ///< disturbance.ripple
+ElementList vibration_list();        ///< disturbance.vibration
+ElementList load_ripple_list();      ///< disturbance.load.ripple
+ElementList load_vibration_list();   ///< disturbance.load.vibration
+ElementList kinematic_error_list();  ///< plant.load.error
+
+/// Whether elements of the list may be spectra, which are no parameters.
+inline bool has_spectra(const ElementList& list) {
+  return list.path == "disturbance.vibration" || list.path == "disturbance.load.vibration";
+}
 
 }  // namespace zerocount::parameters

@@ -103,11 +103,14 @@ std::vector<Parameter> filter_rows() {
 }
 
 std::span<const ElementList> element_lists() {
-  static const std::array<ElementList, 4> lists{{
+  static const std::array<ElementList, 7> lists{{
       {Fine::path, "filter", max_filters, filter_forms(), add_filter<Fine>},
       {Coarse::path, "filter", max_filters, filter_forms(), add_filter<Coarse>},
       ripple_list(),
       vibration_list(),
+      load_ripple_list(),
+      load_vibration_list(),
+      kinematic_error_list(),
   }};
   return lists;
 }

@@ -31,6 +31,9 @@ std::vector<Parameter> initial_rows() {
       bool_row("initial.holding", beyond_moves(31),
                "whether the contact carries the constant disturbance at the start", assumed,
                [](auto& p) { return &p.initial.holding; }),
+      real_row("initial.gap", beyond_moves(287), "1",
+               "twist of the coupling of the second mass at the start, of its gap", assumed,
+               numerics::closed(-0.5, 0.5), [](auto& p) { return &p.initial.gap; }),
   };
 }
 

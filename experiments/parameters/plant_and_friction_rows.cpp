@@ -34,6 +34,13 @@ std::vector<Parameter> plant_rows() {
                numerics::at_least(0), [](auto& p) { return &p.plant.load.damping; }),
       word_row("plant.load.encoder", beyond_moves(15), "the mass whose $angle the encoders read", assumed,
                {"motor", "load"}, [](auto& p) { return &p.plant.load.encoder; }),
+      ideal_at(0, "no gap in the coupling",
+               real_row("plant.load.gap", beyond_moves(285), "rad",
+                        "gap of the coupling (backlash), its whole play", assumed, numerics::at_least(0),
+                        [](auto& p) { return &p.plant.load.gap; })),
+      real_row("plant.load.damping_to_ground", beyond_moves(286), "N m s/rad",
+               "viscous damping of the second mass against the frame", assumed, numerics::at_least(0),
+               [](auto& p) { return &p.plant.load.damping_to_ground; }),
   };
 }
 

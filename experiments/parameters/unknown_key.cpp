@@ -31,7 +31,7 @@ std::string_view same_name_elsewhere(std::string_view key) {
 }
 
 // Other usual names, as data sheets and drives have them: of a key anywhere, or of a path.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 22> synonyms{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 23> synonyms{
     {{"mass", "plant.inertia"},
      {"moment_of_inertia", "plant.inertia"},
      {"full_scale", "dac.range"},
@@ -47,6 +47,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 22> synonyms
      {"notch", "controller.filters"},
      {"lowpass", "controller.filters"},
      {"gear", "plant.load"},
+     {"backlash", "plant.load.gap"},
      {"lsb", "encoder.fine"},
      {"encoder.motor", "encoder.fine"},
      {"encoder.load", "plant.load.encoder"},

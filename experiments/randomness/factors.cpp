@@ -22,7 +22,7 @@ bool is_drawn_somewhere(const study::StudyPlan& plan, std::size_t slot) {
 bool draws_within_trials(const study::StudyPlan& plan) {
   const auto above_zero = [](const study::ValueLimits& limits) { return limits.high > 0.0; };
   constexpr std::array<std::string_view, 2> history{"initial.history.reversals", "initial.history.torque"};
-  return !plan.common.disturbance.spectra.empty() ||
+  return !plan.common.disturbance.spectra.empty() || !plan.common.load_side.disturbance.spectra.empty() ||
          study::holds_somewhere(plan, history,
                                 [&](std::span<const study::ValueLimits> l) {
                                   return std::all_of(l.begin(), l.end(), above_zero);

@@ -247,11 +247,20 @@ EffectRule rule_of_the_resolution() {
 }
 
 EffectRule rule_of_the_load() {
-  return {.keys = {"plant.load.stiffness", "plant.load.damping", "plant.load.encoder"},
+  return {.keys = {"plant.load.stiffness", "plant.load.damping", "plant.load.encoder", "plant.load.gap",
+                   "plant.load.damping_to_ground", "plant.load.error", "disturbance.load"},
           .depends_on = {"plant.load.inertia"},
           .has_effect = [](Limits l) { return can_be_positive(l[0]); },
           .what = "it has no effect: no point has a second mass",
           .expected = "plant.load.inertia above 0, or the key left out"};
+}
+
+EffectRule rule_of_the_initial_gap() {
+  return {.keys = {"initial.gap"},
+          .depends_on = {"plant.load.inertia", "plant.load.gap"},
+          .has_effect = [](Limits l) { return can_be_positive(l[0]) && can_be_positive(l[1]); },
+          .what = "it has no effect: no point has a second mass behind a gap",
+          .expected = "plant.load.gap above 0, or the key left out"};
 }
 
 // Only a warning, so that a study can be switched between both cases with one key.
@@ -370,7 +379,9 @@ std::vector<EffectRule> rules_of_vanished_terms() {
 
 bool has_ripple(const study::StudyPlan& plan) {
   return std::any_of(plan.table.rows.begin(), plan.table.rows.end(), [](const auto& row) {
-    return parameters::has_value(row) && row.name.starts_with("disturbance.ripple.");
+    return parameters::has_value(row) &&
+           (row.name.starts_with("disturbance.ripple.") || row.name.starts_with("disturbance.load.ripple.") ||
+            row.name.starts_with("plant.load.error."));
   });
 }
 
@@ -397,6 +408,7 @@ std::vector<EffectRule> effect_rules(const study::StudyPlan& plan) {
   rules.push_back(rule_of_the_position(plan));
   rules.push_back(rule_of_the_limit());
   rules.push_back(rule_of_the_load());
+  rules.push_back(rule_of_the_initial_gap());
   rules.push_back(rule_of_the_resolution());
   rules.push_back(rule_of_the_plugin(plan));
   for (const auto& more : {rules_of_the_loop(), rules_of_the_drive(), rules_of_the_blocks<Phase::fine>(),

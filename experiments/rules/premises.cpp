@@ -34,7 +34,8 @@ std::vector<study::Premise> premises_of(const study::StudyPlan& plan) {
     premises.back().state = std::min(premises.back().state, state_of(effect, plan));
   }
   // Spectra are not parameters.
-  if (!plan.common.disturbance.spectra.empty()) premises.back().state = study::PremiseState::considered;
+  if (!plan.common.disturbance.spectra.empty() || !plan.common.load_side.disturbance.spectra.empty())
+    premises.back().state = study::PremiseState::considered;
   return premises;
 }
 

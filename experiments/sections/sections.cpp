@@ -129,10 +129,12 @@ const parameters::ElementForm* find_form(SectionReading& s, const yaml::Field& e
 
 void read_element(SectionReading& s, const yaml::Field& element, std::size_t index,
                   const parameters::ElementList& list) {
-  if (list.path == "disturbance.vibration" && is_spectrum(element)) {
+  if (parameters::has_spectra(list) && is_spectrum(element)) {
     list.add(s.plan().common, 0);  // a line of amplitude 0, so that places in the list and in the trial agree
     if (const auto spectrum = read_spectrum(element, s.problems()))
-      s.plan().common.disturbance.spectra.push_back(spectrum);
+      (list.path.starts_with("disturbance.load.") ? s.plan().common.load_side.disturbance
+                                                  : s.plan().common.disturbance)
+          .spectra.push_back(spectrum);
     return;
   }
   const parameters::ElementForm* const form = find_form(s, element, list);

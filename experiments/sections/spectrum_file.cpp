@@ -58,14 +58,10 @@ std::optional<std::string> list_of(const std::string& text, const std::string& s
   return "[" + list + "]";
 }
 
-}  // namespace
-
-std::vector<std::string> spectrum_overrides(const yaml::YamlNode& root, const SamplesReader& read,
-                                            yaml::Problems& problems) {
-  std::vector<std::string> overrides;
-  const auto disturbance = yaml::find_field({&root, ""}, "disturbance");
-  const auto list = disturbance ? yaml::find_field(*disturbance, "vibration") : std::nullopt;
-  if (!list || list->node->kind != yaml::YamlNode::Kind::list) return overrides;
+void add_spectra_below(const yaml::Field& disturbance, const SamplesReader& read, yaml::Problems& problems,
+                       std::vector<std::string>& overrides) {
+  const auto list = yaml::find_field(disturbance, "vibration");
+  if (!list || list->node->kind != yaml::YamlNode::Kind::list) return;
   for (std::size_t i = 0; i < list->node->items.size(); ++i) {
     const auto spectrum = yaml::find_field(yaml::item_of(*list, i), "spectrum");
     if (!spectrum || spectrum->node->kind != yaml::YamlNode::Kind::scalar) continue;
@@ -79,6 +75,18 @@ std::vector<std::string> spectrum_overrides(const yaml::YamlNode& root, const Sa
             list_of(read(*file, "a table of a spectrum"), spectrum->node->text, spectrum->path, problems))
       overrides.push_back(spectrum->path + "=" + *table);
   }
+}
+
+}  // namespace
+
+std::vector<std::string> spectrum_overrides(const yaml::YamlNode& root, const SamplesReader& read,
+                                            yaml::Problems& problems) {
+  std::vector<std::string> overrides;
+  const auto disturbance = yaml::find_field({&root, ""}, "disturbance");
+  if (!disturbance) return overrides;
+  add_spectra_below(*disturbance, read, problems, overrides);
+  if (const auto load = yaml::find_field(*disturbance, "load"))
+    add_spectra_below(*load, read, problems, overrides);
   return overrides;
 }
 

@@ -33,7 +33,10 @@ std::span<const Effect> effects() {
       Effect{"plant.load.inertia", "rigid", &F::load},
       Effect{"disturbance.torque", disturbance},
       Effect{"disturbance.ripple.#.amplitude", disturbance},
-      Effect{"disturbance.vibration.#.amplitude", disturbance}};
+      Effect{"disturbance.vibration.#.amplitude", disturbance},
+      Effect{"disturbance.load.torque", disturbance},
+      Effect{"disturbance.load.ripple.#.amplitude", disturbance},
+      Effect{"disturbance.load.vibration.#.amplitude", disturbance}};
   return all;
 }
 

@@ -101,6 +101,18 @@ std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMo
   return ripple.size() > max_lane_ripples ? "more than eight ripples" : "";
 }
 
+std::string_view lacking(const motion::LoadParameters& load, const trial::LoadSideParameters& side) {
+  [[maybe_unused]] const auto& [inertia, stiffness, damping, encoder, gap, damping_to_ground] = load;
+  [[maybe_unused]] const auto& [error, disturbance] = side;
+  if (inertia == 0.0) return "";
+  if (gap > 0.0) return "plant.load.gap";
+  if (!error.empty()) return "plant.load.error";
+  if (damping_to_ground > 0.0) return "plant.load.damping_to_ground";
+  const bool is_disturbed = disturbance.torque != 0.0 || !disturbance.ripple.empty() ||
+                            !disturbance.vibration.empty() || !disturbance.spectra.empty();
+  return is_disturbed ? "disturbance.load" : "";
+}
+
 std::string_view lacking(const trial::CommandParameters& command) {
   [[maybe_unused]] const auto& [targets, hold, profile, torque, exact_targets] = command;
   return targets.empty() && torque.levels.empty() ? "no moves" : "";
@@ -117,11 +129,12 @@ bool has_samples(const trial::TrialParameters& p) {
 /// The first feature of the trial that the lanes of its friction model lack; empty if they have all.
 std::string_view lacking(const trial::TrialParameters& p, LaneMotion motion) {
   [[maybe_unused]] const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial,
-                                verdict, randomness, disturbance] = p;
+                                verdict, randomness, disturbance, load_side] = p;
   // After a late sample the series must reach up to the next one.
   const double max_frequency = 0.5 / (1.0 / controller.sample_rate + controller.jitter);
   for (const std::string_view feature :
-       {lacking(controller), lacking(command), lacking(disturbance, motion, max_frequency)}) {
+       {lacking(controller), lacking(command), lacking(disturbance, motion, max_frequency),
+        lacking(plant.load, load_side)}) {
     if (!feature.empty()) return feature;
   }
   if (friction.gms_elements.size() > max_lane_elements) return "more than sixteen elements of gms";

@@ -74,7 +74,7 @@ double Bristle::direction_under(const motion::TorqueCourse& torque) const {
   if (omega_ != 0.0) return numerics::sign_of(omega_);
   const double excess = motion::torque_on_rotor(torque, omega_) - parameters_.stiffness * deflection_;
   if (excess != 0.0) return numerics::sign_of(excess);
-  return numerics::sign_of(motion::applied_torque_rate(torque, omega_));
+  return numerics::sign_of(motion::change_of_torque(torque, omega_));
 }
 
 /// Whether the bristle is saturated; sets z to its end if so.

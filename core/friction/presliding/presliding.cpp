@@ -126,12 +126,9 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
     return 0.0;
   }
   // At rest, the motion starts in the direction in which the torque changes.
-  const double torque_change = constant ? 0.0 : motion::applied_torque_rate(torque, omega_);
-  for (const double heading : {elongation.rate, elongation.acceleration, torque_change}) {
-    if (heading == 0.0) continue;
-    spring_.set_direction(numerics::sign_of(heading));
-    break;
-  }
+  double heading = elongation.rate != 0.0 ? elongation.rate : elongation.acceleration;
+  if (heading == 0.0) heading = motion::change_of_torque(torque, omega_);
+  if (heading != 0.0) spring_.set_direction(numerics::sign_of(heading));
   deepest_ = std::max(deepest_, depth());
 
   Sticking motion{contact_,  plant_.presliding_damping, spring_, creep_, omega_,

@@ -158,10 +158,19 @@ void add_even_friction(const PointEdit& at, std::vector<Effect>& all) {
 
 // Second mass.
 
-/// The motor carries the load's inertia.
+/// The motor carries the load's inertia, and what acts on the load acts on the motor.
 void with_a_rigid_load(trial::TrialParameters& p) {
   p.plant.inertia += p.plant.load.inertia;
+  p.plant.presliding_damping += p.plant.load.damping_to_ground;
+  p.plant.sliding_damping += p.plant.load.damping_to_ground;
   p.plant.load = {};
+  const trial::DisturbanceParameters& of_load = p.load_side.disturbance;
+  p.disturbance.torque += of_load.torque;
+  const auto append = [](auto& to, const auto& more) { to.insert(to.end(), more.begin(), more.end()); };
+  append(p.disturbance.ripple, of_load.ripple);
+  append(p.disturbance.vibration, of_load.vibration);
+  append(p.disturbance.spectra, of_load.spectra);
+  p.load_side = {};
 }
 
 // Converter. Its range and its non-linearity stay, the latter in codes.
@@ -284,6 +293,7 @@ Effect without_spectrum(const std::shared_ptr<const trial::SpectrumParameters>& 
           .change = [spectrum, silent = std::shared_ptr<const trial::SpectrumParameters>(std::move(quiet))](
                         trial::TrialParameters& p) {
             std::ranges::replace(p.disturbance.spectra, spectrum, silent);
+            std::ranges::replace(p.load_side.disturbance.spectra, spectrum, silent);
           }};
 }
 
@@ -298,12 +308,15 @@ void add_disturbances(const PointEdit& at, std::vector<Effect>& all) {
     all.push_back({.name = std::string(parameters::no_constant_disturbance), .change = without_torque});
     ++disturbances;
   }
-  const auto& spectra = at.plan().common.disturbance.spectra;
+  auto spectra = at.plan().common.disturbance.spectra;
+  const auto& of_load = at.plan().common.load_side.disturbance.spectra;
+  spectra.insert(spectra.end(), of_load.begin(), of_load.end());
   for (std::size_t i = 0; i < spectra.size(); ++i) all.push_back(without_spectrum(spectra[i], i));
   if (disturbances + std::ssize(spectra) > 1)
     all.push_back({.name = "no disturbance", .change = [without_torque](trial::TrialParameters& p) {
                      without_torque(p);
                      p.disturbance = {};
+                     p.load_side.disturbance = {};
                    }});
 }
 

@@ -24,7 +24,7 @@ constexpr motion::MotionTolerance tolerance{1e-11 * count, 1e-8 * count};
 class Answers {
  public:
   template <class Law>
-  Json motion(friction::FrictionModel model, bool loaded, bool disturbed) {
+  Json motion(friction::FrictionModel model, bool loaded, bool disturbed, bool wide) {
     motion::PlantParameters rotor{.inertia = power_of_ten(-3.7, -2.7),
                                   .presliding_damping = power_of_ten(-2.0, 0.0),
                                   .sliding_damping = power_of_ten(-3.0, -1.0)};
@@ -35,6 +35,13 @@ class Answers {
         disturbed ? disturbance_of(friction, start) : motion::Disturbance{};
     plant::PlantWith<Law> plant(rotor, friction, start, tolerance);
     plant.disturb(disturbance);
+    motion::LoadSide side;
+    if (loaded && wide) {
+      side = load_side(rotor.load, friction.uniform.breakaway);
+      plant = plant::PlantWith<Law>(rotor, friction, start, tolerance);
+      plant.disturb(disturbance);
+      plant.start_load(side);
+    }
     Json samples = Json::array();
     motion::TorqueCourse course;
     const bool lags = random_() % 3 == 0;
@@ -75,6 +82,11 @@ class Answers {
             {"load_inertia", rotor.load.inertia},
             {"load_stiffness", rotor.load.stiffness},
             {"load_damping", rotor.load.damping},
+            {"load_gap", rotor.load.gap},
+            {"load_twist", side.twist},
+            {"load_error", waves_of({.ripple = side.error})["ripple"]},
+            {"load_damping_to_ground", rotor.load.damping_to_ground},
+            {"load_disturbance", waves_of(side.disturbance)},
             {"velocity", start.velocity},
             {"slides", start.sliding},
             {"sample_time", sample_time},
@@ -84,6 +96,28 @@ class Answers {
   }
 
  private:
+  /// A gap, a kinematic error, a damper and a disturbance of the load, each now and then.
+  motion::LoadSide load_side(motion::LoadParameters& load, double breakaway) {
+    motion::LoadSide side;
+    if (random_() % 3 != 0) {
+      load.gap = power_of_ten(-5.5, -3.5);
+      side.twist = load.gap * (random_() % 3 == 0 ? 0.5 : uniform(-0.5, 0.5));
+    }
+    for (std::uint64_t i = random_() % 3; i > 0; --i) {
+      const double per_angle = power_of_ten(0.0, 3.0);
+      side.error.push_back({power_of_ten(-3.0, -0.6) / per_angle, per_angle, uniform(0.0, 6.0)});
+    }
+    if (random_() % 2 == 0) load.damping_to_ground = power_of_ten(-4.0, -1.0);
+    if (random_() % 2 == 0) {
+      side.disturbance.torque = 0.3 * breakaway * uniform(-1.0, 1.0);
+      side.disturbance.ripple.push_back(
+          {breakaway * power_of_ten(-3.0, -0.7), power_of_ten(0.0, 3.0), uniform(0.0, 6.0)});
+      side.disturbance.vibration.push_back(
+          {breakaway * power_of_ten(-4.0, -0.7), power_of_ten(1.0, 4.0), uniform(0.0, 6.0)});
+    }
+    return side;
+  }
+
   /// A constant torque, held from the start now and then, ripples and vibrations.
   motion::Disturbance disturbance_of(const friction::FrictionAlongRotor& friction,
                                      motion::PlantStart& start) {
@@ -179,13 +213,14 @@ int main(int, char** arguments) {
   for (int i = 0; i < motions; ++i) {
     const bool loaded = i % 2 == 1;
     const bool disturbed = i % 4 >= 2;
-    cases.push_back(answers.motion<friction::DahlFriction>(Model::dahl, loaded, disturbed));
-    cases.push_back(answers.motion<friction::LuGreFriction>(Model::lugre, loaded, disturbed));
-    cases.push_back(answers.motion<friction::GmsFriction>(Model::gms, loaded, disturbed));
-    cases.push_back(answers.motion<friction::CoulombFriction>(Model::coulomb, loaded, disturbed));
-    cases.push_back(answers.motion<friction::NoFriction>(Model::none, loaded, disturbed));
-    cases.push_back(answers.motion<friction::PreslidingFriction>(Model::presliding, loaded, disturbed));
-    cases.push_back(answers.motion<friction::SpringFriction>(Model::spring, loaded, disturbed));
+    const bool wide = i % 8 >= 4;
+    cases.push_back(answers.motion<friction::DahlFriction>(Model::dahl, loaded, disturbed, wide));
+    cases.push_back(answers.motion<friction::LuGreFriction>(Model::lugre, loaded, disturbed, wide));
+    cases.push_back(answers.motion<friction::GmsFriction>(Model::gms, loaded, disturbed, wide));
+    cases.push_back(answers.motion<friction::CoulombFriction>(Model::coulomb, loaded, disturbed, wide));
+    cases.push_back(answers.motion<friction::NoFriction>(Model::none, loaded, disturbed, wide));
+    cases.push_back(answers.motion<friction::PreslidingFriction>(Model::presliding, loaded, disturbed, wide));
+    cases.push_back(answers.motion<friction::SpringFriction>(Model::spring, loaded, disturbed, wide));
   }
   std::cout << cases.dump() << '\n';
 }

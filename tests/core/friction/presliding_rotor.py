@@ -91,7 +91,7 @@ class Presliding(Rotor):
                 self.spring.side = 0  # the last load was 0
             self.creeps = self.alpha > 0 and self.limit(x) >= hardening
         self.hook = -x
-        return np.array([x, w, 0.0, hardening, 0.0, w])
+        return np.array([x, w, 0.0, hardening, self.case["load_twist"], w])
 
     def theta(self, y):
         return self.hook + y[0] + y[2]
@@ -163,10 +163,10 @@ class Presliding(Rotor):
         w, drive = y[1], self.drive(t, y)
         if self.sliding:
             friction = self.case["sliding_damping"] * w + self.s * self.level(w)
-            return [w, (drive - friction) / self.case["inertia"], 0.0, 0.0] + self.load_rate(y)
+            return [w, (drive - friction) / self.case["inertia"], 0.0, 0.0] + self.load_rate(t, y)
         creep = self.creep_rate(y)
         extension = self.spring.side * creep
-        return [w - extension, (drive - self.pull(y)) / self.case["inertia"], extension, creep] + self.load_rate(y)
+        return [w - extension, (drive - self.pull(y)) / self.case["inertia"], extension, creep] + self.load_rate(t, y)
 
     def break_away(self, y):
         self.held, self.sliding, self.s = self.torque(y), True, np.sign(y[1])

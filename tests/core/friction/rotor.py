@@ -22,29 +22,77 @@ class Rotor:
         self.stribeck = 0.0 if case["model"] == "dahl" else self.Fs - self.Fc
         self.course = (0.0, 0.0, 0.0)
         self.time = 0.0
-        self.varies = bool(case["disturbance"]["ripple"] or case["disturbance"]["vibration"])
+        self.plain = not (case["load_gap"] or case["load_error"] or case["load_damping_to_ground"]
+                          or any(case["load_disturbance"].values()))
+        self.varies = bool(case["disturbance"]["ripple"] or case["disturbance"]["vibration"] or not self.plain)
         self.s = 0
+        self.side = None  # of the gap: −1, 0, 1; None before the start
 
     def level(self, w):
         return self.Fc + self.stribeck * np.exp(-(w / self.case["stribeck_velocity"]) ** 2)
 
-    def coupling(self, y):
-        case = self.case
-        return case["load_stiffness"] * y[-2] + case["load_damping"] * (y[1] - y[-1]) if case["load_inertia"] else 0.0
+    def transmission(self, y):
+        return 1 + sum(a * q * np.cos(q * self.theta(y) + phase) for a, q, phase in self.case["load_error"])
 
-    def load_rate(self, y):
+    def twist_rate(self, y):
+        return self.transmission(y) * y[1] - y[-1]
+
+    def coupling(self, y):
+        """On the load."""
+        case = self.case
+        if not case["load_inertia"] or case["load_gap"] and not self.side:
+            return 0.0
+        h = y[-2] - (self.side * case["load_gap"] / 2 if case["load_gap"] else 0.0)
+        return case["load_stiffness"] * h + case["load_damping"] * self.twist_rate(y)
+
+    def load_theta(self, y):
+        error = sum(a * np.sin(q * self.theta(y) + phase) for a, q, phase in self.case["load_error"])
+        return self.theta(y) + error - y[-2]
+
+    def load_rate(self, t, y):
         if not self.case["load_inertia"]:
             return [0.0, 0.0]
-        return [y[1] - y[-1], self.coupling(y) / self.case["load_inertia"]]
+        torque = self.coupling(y) - self.case["load_damping_to_ground"] * y[-1]
+        torque += self.waves(self.case["load_disturbance"], t, self.load_theta(y))
+        return [self.twist_rate(y), torque / self.case["load_inertia"]]
+
+    def heading_of_twist(self, t, y):
+        """The sign of the change of the twist on an edge of the gap."""
+        return np.sign(self.twist_rate(y)) or -np.sign(self.load_rate(t, y)[1])
+
+    def side_at_start(self, y):
+        half = self.case["load_gap"] / 2
+        if abs(y[-2]) == half and half:
+            self.side = 0
+            outside = self.heading_of_twist(0.0, y) * y[-2] > 0
+        else:
+            outside = abs(y[-2]) > half
+        self.side = np.sign(y[-2]) if outside else 0
+
+    def edges(self):
+        """Events at which the twist comes to an edge of the gap, and the side that begins there."""
+        if not self.case["load_gap"]:
+            return []
+
+        def edge_of(side, direction):
+            def edge(_, y):
+                return y[-2] - side * self.case["load_gap"] / 2
+            edge.terminal, edge.direction = True, direction
+            return edge
+        if self.side:
+            return [(edge_of(self.side, -self.side), 0)]
+        return [(edge_of(1, 1), 1), (edge_of(-1, -1), -1)]
 
     def disturbance(self, t, y):
-        waves = self.case["disturbance"]
-        along = sum(a * np.sin(q * self.theta(y) + phase) for a, q, phase in waves["ripple"])
+        return self.waves(self.case["disturbance"], t, self.theta(y))
+
+    def waves(self, waves, t, theta):
+        along = sum(a * np.sin(q * theta + phase) for a, q, phase in waves["ripple"])
         return waves["torque"] + along + sum(a * np.sin(w * (self.time + t) + phase) for a, w, phase in waves["vibration"])
 
     def drive(self, t, y):
         now, settled, rate = self.course
-        return settled + (now - settled) * np.exp(-rate * t) + self.disturbance(t, y) - self.coupling(y)
+        return settled + (now - settled) * np.exp(-rate * t) + self.disturbance(t, y) - self.transmission(y) * self.coupling(y)
 
     def drive_heads(self, t, y):
         """The sign of the rate of the drive, where it alone decides the direction."""
@@ -80,6 +128,8 @@ class Rotor:
     def advance(self, y, duration):
         t = 0.0
         restarts = 0
+        if self.side is None:
+            self.side_at_start(y)
         while t < duration:
             restarts += 1
             if self.varies and restarts > 200:
@@ -92,13 +142,16 @@ class Rotor:
                 self.s = np.sign(self.drive(t, y) - self.torque(y)) or self.drive_heads(t, y)
             self.begin(t, y)
             scale = [1e-6 * COUNT, 1e-4 * COUNT] + self.scales() + [1e-7 * COUNT, 1e-4 * COUNT]
+            edges, own = self.edges(), self.events()
             solution = solve_ivp(self.rate, (t, duration), y, method="DOP853", rtol=1e-12, atol=1e-6 * np.array(scale),
-                                 events=self.events(), max_step=duration / 10,
+                                 events=own + [edge for edge, _ in edges], max_step=duration / (60 if self.case["load_gap"] else 10),
                                  first_step=min(1e-9, duration - t) if self.varies else None)
             if not solution.success:
                 sys.exit(f"{solution.message}: {self.case['model']}")
             t, y = solution.t[-1], solution.y[:, -1]
             for number, times in enumerate(solution.t_events):
-                if len(times):
+                if len(times) and number < len(own):
                     self.passed(number, y)
+                elif len(times):
+                    self.side = edges[number - len(own)][1]
         return y

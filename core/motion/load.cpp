@@ -10,6 +10,7 @@ void start_series(LoadSeries& series, const Load& load, double heading) {
   series.omega[0] = load.omega;
   series.plain = is_plain(load);
   series.side = side_of_gap(load.parameters, load.twist, heading);
+  if (load.friction != nullptr) load.friction->start(load);
   if (!load.error.empty()) series.error.emplace(load.error, load.rotor_theta);
   if (varies(load.disturbance))
     series.disturbance.emplace(
@@ -36,6 +37,7 @@ double expand(LoadSeries& s, const Load& load, const numerics::Series& rotor_ome
     on_load -= p.damping_to_ground * s.omega[k];
     if (k == 0) on_load += load.disturbance.torque;
     if (s.disturbance) on_load += s.disturbance->expand(s.omega, k);
+    if (load.friction != nullptr) on_load = load.friction->expand(s.omega, on_load, k);
   }
   s.omega[k + 1] = on_load / p.inertia * numerics::reciprocal[k + 1];
   if (!s.error) return torque;

@@ -11,9 +11,27 @@
 
 namespace zerocount::motion {
 
+struct Load;
+
+/// Friction between a load and the frame, for the duration of a Taylor step.
+class LoadFriction {
+ public:
+  virtual ~LoadFriction() = default;
+  virtual void start(const Load& load) = 0;
+  /// @param omega ωL up to coefficient k. @param torque coefficient k of the torque on the load without
+  /// friction, N m. @returns coefficient k of JL·dωL/dt, N m.
+  virtual double expand(const numerics::Series& omega, double torque, std::size_t k) = 0;
+  /// The longest step that keeps the friction's own state within `tolerance` (rad), s.
+  virtual double step_within(double tolerance, double duration) = 0;
+  /// The first event within `step`, s. One at 0 means that the series are not those of the motion to come.
+  virtual std::optional<double> next_event(const numerics::Series& omega, double step) = 0;
+  /// Advances the state, through the event of that time if `at_event`.
+  virtual void go_to(double time, bool at_event, Load& load) = 0;
+};
+
 /// A second mass behind an elastic coupling, with its state:
 ///
-///   JL·dωL/dt = Ts + dist − cg·ωL,   Ts = kL·h(δ) + dL·dδ/dt where h(δ) ≠ 0,
+///   JL·dωL/dt = Ts + dist − cg·ωL − friction,   Ts = kL·h(δ) + dL·dδ/dt where h(δ) ≠ 0,
 ///   δ = θ + ε(θ) − θL,   dδ/dt = (1 + ε′(θ))·ω − ωL.
 ///
 /// h is δ without the gap: δ − g/2 above g/2, δ + g/2 below −g/2, 0 between. −(1 + ε′(θ))·Ts acts on the
@@ -21,12 +39,13 @@ namespace zerocount::motion {
 /// side to which δ moves.
 struct Load {
   LoadParameters parameters;
-  double twist{0.0};            ///< δ, rad
-  double omega{0.0};            ///< ωL, rad/s
-  std::vector<Ripple> error{};  ///< ε, by the rotor's angle
-  Disturbance disturbance{};    ///< dist, by the load's angle
-  double rotor_theta{0.0};      ///< θ, rad; set before each step
-  double time{0.0};             ///< t of the disturbance, s; set before each step
+  double twist{0.0};                ///< δ, rad
+  double omega{0.0};                ///< ωL, rad/s
+  std::vector<Ripple> error{};      ///< ε, by the rotor's angle
+  Disturbance disturbance{};        ///< dist, by the load's angle
+  double rotor_theta{0.0};          ///< θ, rad; set before each step
+  double time{0.0};                 ///< t of the disturbance, s; set before each step
+  LoadFriction* friction{nullptr};  ///< may be null; set before each step
 };
 
 /// What acts on a load beside a coupling without gap and error, and where it starts.
@@ -40,7 +59,7 @@ struct LoadSide {
 /// decays to rest with the rotor.
 inline bool is_plain(const Load& load) {
   return load.parameters.gap == 0.0 && load.parameters.damping_to_ground == 0.0 && load.error.empty() &&
-         load.disturbance.torque == 0.0 && !varies(load.disturbance);
+         load.disturbance.torque == 0.0 && !varies(load.disturbance) && load.friction == nullptr;
 }
 
 /// θL, rad. @param theta θ, rad.

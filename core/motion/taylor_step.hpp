@@ -131,11 +131,20 @@ NextEvent<typename Motion::Event> step_along(const typename Motion::Expansion& s
     step = std::min(step, motion.step_of_state(series, tolerance, duration));
   }
   std::optional<EdgeOfGap> edge;
+  std::optional<double> at_friction;
   if (torque.load != nullptr) {
     step = std::min(step,
                     step_within(load_series.twist, load_series.omega, series.exponent, tolerance, duration));
+    LoadFriction* const friction = torque.load->friction;
+    if (friction != nullptr) step = std::min(step, friction->step_within(tolerance, duration));
     edge = next_edge(load_series, torque.load->parameters, step);
     if (edge) step = edge->time;
+    if (friction != nullptr) at_friction = friction->next_event(load_series.omega, step);
+    if (at_friction) step = *at_friction;
+    if (at_friction == 0.0) {
+      friction->go_to(0.0, true, *torque.load);
+      return {0.0};
+    }
   }
   const NextEvent<typename Motion::Event> next = motion.first_event(series, step);
   motion.go_to(series, next);
@@ -143,6 +152,8 @@ NextEvent<typename Motion::Event> step_along(const typename Motion::Expansion& s
   go_to(*torque.load, load_series, next.time);
   // Exactly on the edge, so that rounding cannot meet it again.
   if (edge && next.time == edge->time) torque.load->twist = edge->twist;
+  if (torque.load->friction != nullptr)
+    torque.load->friction->go_to(next.time, at_friction == next.time, *torque.load);
   return next;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/friction/laws.hpp"
+#include "core/friction/load_friction.hpp"
 #include "core/motion/load.hpp"
 
 namespace zerocount::plant {
@@ -33,8 +34,9 @@ class PlantWith : public Law {
     time_ = 0.0;
   }
   /// Adds to the load, if any, what acts on it from now on, t = 0 of its vibration.
-  void start_load(const motion::LoadSide& side) {
+  void start_load(const motion::LoadSide& side, const friction::LoadFrictionParameters& friction = {}) {
     if (!load_) return;
+    load_friction_ = friction::friction_of_load(friction, load_->parameters.inertia, load_->omega);
     load_->error = side.error;
     load_->disturbance = side.disturbance;
     load_->twist = side.twist;
@@ -48,6 +50,7 @@ class PlantWith : public Law {
     ahead.now += disturbance_.torque;
     ahead.settled += disturbance_.torque;
     ahead.load = load_ ? &*load_ : nullptr;
+    if (load_) load_->friction = friction::to_load_friction(load_friction_);
     motion::VaryingTorque varying{disturbance_, time_, 0.0};
     if (motion::varies(disturbance_)) ahead.disturbance = &varying;
     bool moves = !motion::motor_is_constant(ahead);
@@ -94,6 +97,7 @@ class PlantWith : public Law {
   double tolerance_;
   bool finite_{true};
   std::optional<motion::Load> load_;
+  friction::FrictionOfLoad load_friction_;
   motion::Disturbance disturbance_{};
   double time_{0.0};  // of the disturbances, s
 };
@@ -128,8 +132,8 @@ class PlantOf {
     std::visit([&](auto& plant) { plant.disturb(disturbance); }, plant_);
   }
   /// Adds to the load, if any, what acts on it from now on, t = 0 of its vibration.
-  void start_load(const motion::LoadSide& side) {
-    std::visit([&](auto& plant) { plant.start_load(side); }, plant_);
+  void start_load(const motion::LoadSide& side, const friction::LoadFrictionParameters& friction = {}) {
+    std::visit([&](auto& plant) { plant.start_load(side, friction); }, plant_);
   }
   /// Sets the time t (s) of the disturbances.
   void set_time(double time) {

@@ -19,7 +19,8 @@ struct HeldPlant {
 };
 
 /// Exact discretisation of J·θ¨ + damping·θ˙ + stiffness·θ = u − Ts, with the load of `plant`, and the
-/// drive's input held over each sample. The coupling is in contact and without an error.
+/// drive's input held over each sample. The coupling is in contact and without an error, the load without
+/// its friction.
 /// @param stiffness N m/rad. @param damping N m s/rad. @param plant its inertia and load.
 /// @param count_angle Δx, rad. @param sample_time T, s.
 /// @param delay samples between deciding a torque and applying it, whole or not.

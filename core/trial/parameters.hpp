@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/friction/load_friction.hpp"
 #include "core/friction/parameters.hpp"
 #include "core/loop/parameters.hpp"
 #include "core/motion/parameters.hpp"
@@ -85,6 +86,7 @@ struct VerdictParameters {
 struct LoadSideParameters {
   std::vector<RippleParameters> error{};  ///< kinematic error of the coupling, by the rotor's angle
   DisturbanceParameters disturbance{};    ///< of the load, by its angle
+  friction::LoadFrictionParameters friction{};
 };
 
 /// Everything that determines a trial: two equal sets give the same trial, bit for bit.

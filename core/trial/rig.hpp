@@ -39,7 +39,7 @@ class Rig {
         encoder_place_(motion::has_load(p.plant) ? p.plant.load.encoder : motion::EncoderPlace::motor),
         plant_(p.plant, p.friction, plant_start(p), motion_tolerance(measurement_.fine_resolution())) {
     plant_.disturb(disturbance_of(p.disturbance, p.initial.position, p.randomness));
-    if (motion::has_load(p.plant)) plant_.start_load(load_side(p));
+    if (motion::has_load(p.plant)) plant_.start_load(load_side(p), p.load_side.friction);
     if (p.controller.jitter > 0.0) plant_.advance(motion::constant_torque(0.0), clock_.lateness(0));
   }
 

@@ -13,9 +13,15 @@ Parameter friction(Parameter row) {
   return stored_at(std::move(row), [](auto& p) { return &(p.friction.uniform.*field); });
 }
 
+template <double friction::FrictionParameters::*field>
+Parameter on_load(Parameter row) {
+  return stored_at(std::move(row), [](auto& p) { return &(p.load_side.friction.contact.*field); });
+}
+
 }  // namespace
 
 std::vector<Parameter> plant_rows() {
+  using P = friction::FrictionParameters;
   return {
       real_row("plant.inertia", 12, "kg m^2", "$inertia J of the $rotor", "paper, section 4",
                numerics::above(0), [](auto& p) { return &p.plant.inertia; }),
@@ -41,6 +47,23 @@ std::vector<Parameter> plant_rows() {
       real_row("plant.load.damping_to_ground", beyond_moves(286), "N m s/rad",
                "viscous damping of the second mass against the frame", assumed, numerics::at_least(0),
                [](auto& p) { return &p.plant.load.damping_to_ground; }),
+      word_row("plant.load.friction.model", beyond_moves(289),
+               "friction law of the second mass, without its viscous part", assumed,
+               {"none", "coulomb", "dahl", "lugre"}, [](auto& p) { return &p.load_side.friction.model; }),
+      on_load<&P::breakaway>(real_row("plant.load.friction.breakaway", beyond_moves(290), "N m",
+                                      "$torque at which the second mass starts to slide", assumed,
+                                      numerics::above(0))),
+      on_load<&P::coulomb_ratio>(real_row("plant.load.friction.coulomb_ratio", beyond_moves(291), "1",
+                                          "ratio of its Coulomb level to breakaway", assumed,
+                                          {.low = 0, .high = 1, .high_included = true})),
+      on_load<&P::stribeck_velocity>(
+          real_row("plant.load.friction.stribeck_velocity", beyond_moves(292), "rad/s",
+                   "velocity over which its sliding friction falls to the Coulomb level", assumed,
+                   numerics::above(0))),
+      on_load<&P::sigma0>(real_row("plant.load.friction.sigma0", beyond_moves(293), "N m/rad",
+                                   "stiffness of its bristles (dahl, lugre)", assumed, numerics::above(0))),
+      on_load<&P::sigma1>(real_row("plant.load.friction.sigma1", beyond_moves(294), "N m s/rad",
+                                   "damping of its bristles (lugre)", assumed, numerics::at_least(0))),
   };
 }
 

@@ -247,12 +247,33 @@ EffectRule rule_of_the_resolution() {
 }
 
 EffectRule rule_of_the_load() {
-  return {.keys = {"plant.load.stiffness", "plant.load.damping", "plant.load.encoder", "plant.load.gap",
-                   "plant.load.damping_to_ground", "plant.load.error", "disturbance.load"},
-          .depends_on = {"plant.load.inertia"},
-          .has_effect = [](Limits l) { return can_be_positive(l[0]); },
-          .what = "it has no effect: no point has a second mass",
-          .expected = "plant.load.inertia above 0, or the key left out"};
+  return {
+      .keys = {"plant.load.stiffness", "plant.load.damping", "plant.load.encoder", "plant.load.gap",
+               "plant.load.damping_to_ground", "plant.load.error", "plant.load.friction", "disturbance.load"},
+      .depends_on = {"plant.load.inertia"},
+      .has_effect = [](Limits l) { return can_be_positive(l[0]); },
+      .what = "it has no effect: no point has a second mass",
+      .expected = "plant.load.inertia above 0, or the key left out"};
+}
+
+// The friction of the load: its model decides which parameters act.
+std::vector<EffectRule> rules_of_the_load_friction() {
+  using Model = friction::LoadFrictionModel;
+  const auto rule = [](std::vector<std::string_view> keys, bool (*has_effect)(Limits)) {
+    return EffectRule{
+        .keys = std::move(keys),
+        .depends_on = {"plant.load.friction.model"},
+        .has_effect = has_effect,
+        .what = "it has no effect: plant.load.friction.model has no such parameter at any point",
+        .expected = "another plant.load.friction.model, or the key left out"};
+  };
+  return {rule({"plant.load.friction.breakaway", "plant.load.friction.coulomb_ratio"},
+               [](Limits l) { return !is_word<Model::none>(l[0]); }),
+          rule({"plant.load.friction.stribeck_velocity"},
+               [](Limits l) { return is_word<Model::coulomb>(l[0]) || is_word<Model::lugre>(l[0]); }),
+          rule({"plant.load.friction.sigma0"},
+               [](Limits l) { return is_word<Model::dahl>(l[0]) || is_word<Model::lugre>(l[0]); }),
+          rule({"plant.load.friction.sigma1"}, [](Limits l) { return is_word<Model::lugre>(l[0]); })};
 }
 
 EffectRule rule_of_the_initial_gap() {
@@ -411,9 +432,9 @@ std::vector<EffectRule> effect_rules(const study::StudyPlan& plan) {
   rules.push_back(rule_of_the_initial_gap());
   rules.push_back(rule_of_the_resolution());
   rules.push_back(rule_of_the_plugin(plan));
-  for (const auto& more : {rules_of_the_loop(), rules_of_the_drive(), rules_of_the_blocks<Phase::fine>(),
-                           rules_of_the_blocks<Phase::coarse>(), rules_of_the_contact(), rules_of_the_model(),
-                           rules_of_vanished_terms()}) {
+  for (const auto& more : {rules_of_the_loop(), rules_of_the_load_friction(), rules_of_the_drive(),
+                           rules_of_the_blocks<Phase::fine>(), rules_of_the_blocks<Phase::coarse>(),
+                           rules_of_the_contact(), rules_of_the_model(), rules_of_vanished_terms()}) {
     rules.insert(rules.end(), more.begin(), more.end());
   }
   return rules;

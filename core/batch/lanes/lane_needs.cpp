@@ -103,8 +103,9 @@ std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMo
 
 std::string_view lacking(const motion::LoadParameters& load, const trial::LoadSideParameters& side) {
   [[maybe_unused]] const auto& [inertia, stiffness, damping, encoder, gap, damping_to_ground] = load;
-  [[maybe_unused]] const auto& [error, disturbance] = side;
+  [[maybe_unused]] const auto& [error, disturbance, friction] = side;
   if (inertia == 0.0) return "";
+  if (friction.model != friction::LoadFrictionModel::none) return "plant.load.friction";
   if (gap > 0.0) return "plant.load.gap";
   if (!error.empty()) return "plant.load.error";
   if (damping_to_ground > 0.0) return "plant.load.damping_to_ground";

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "core/motion/taylor_step.hpp"
 #include "core/motion/torque_course.hpp"
+#include "core/numerics/sign.hpp"
 
 namespace zerocount::friction {
 
@@ -9,6 +11,38 @@ struct StandingContact {
   double breakaway;  ///< Fs, N m
   double inertia;    ///< of the rotor, J, kg m²
   bool spent;        ///< a slide that led nowhere (leads_nowhere) has just ended
+};
+
+struct StandingSeries {
+  numerics::Series position{};  ///< 0
+  numerics::Series omega{};     ///< 0
+  numerics::Series exponent{};  ///< 0
+  numerics::Series torque{};    ///< on the rotor, N m
+};
+
+/// A rotor at rest while the torque on it, u − Ts, is within the breakaway torque.
+struct StandingRotor {
+  using Expansion = StandingSeries;
+  enum class Event { none, at_level, beyond };
+
+  StandingContact contact;
+  const motion::Disturbance* disturbance;  ///< may be null
+  double direction{0};                     ///< of the torque on it at the end of the step: −1, 1
+
+  static StandingSeries start() { return {}; }
+  static double expand(StandingSeries& s, std::size_t k, double torque) {
+    s.torque[k] = torque;
+    return 0.0;
+  }
+  /// The torque moves nothing while the rotor stands, so that no error of the position limits the step. Its
+  /// series ends before series_order. Of a motor and a load the last two terms, times t, stay below the
+  /// tolerance times t. Those of a line of a vibration may vanish, one at each extreme, and those of several
+  /// lines cancel: what they leave out is bounded line by line.
+  double step_of_state(const StandingSeries& s, double tolerance, double duration) const;
+  motion::NextEvent<Event> first_event(const StandingSeries& s, double step) const;
+  void go_to(const StandingSeries& s, const motion::NextEvent<Event>& next) {
+    direction = numerics::sign_of(numerics::value_at(s.torque, next.time));
+  }
 };
 
 /// A step of a rotor at rest.

@@ -158,7 +158,7 @@ void add_even_friction(const PointEdit& at, std::vector<Effect>& all) {
 
 // Second mass.
 
-/// The motor carries the load's inertia, and what acts on the load acts on the motor.
+/// The motor carries the load's inertia, and what acts on the load acts on the motor, except its friction.
 void with_a_rigid_load(trial::TrialParameters& p) {
   p.plant.inertia += p.plant.load.inertia;
   p.plant.presliding_damping += p.plant.load.damping_to_ground;

@@ -1,5 +1,6 @@
 // How rotors with each friction law move under random torques, for an independent integrator to judge: JSON
 // on standard output. The argument is the number of motions of each law.
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -36,11 +37,15 @@ class Answers {
     plant::PlantWith<Law> plant(rotor, friction, start, tolerance);
     plant.disturb(disturbance);
     motion::LoadSide side;
+    friction::LoadFrictionParameters load_friction;
     if (loaded && wide) {
+      load_friction.model = static_cast<friction::LoadFrictionModel>(random_() % 4);
+      load_friction.contact = contact(model).uniform;
+      load_friction.contact.breakaway *= 0.3;
       side = load_side(rotor.load, friction.uniform.breakaway);
       plant = plant::PlantWith<Law>(rotor, friction, start, tolerance);
       plant.disturb(disturbance);
-      plant.start_load(side);
+      plant.start_load(side, load_friction);
     }
     Json samples = Json::array();
     motion::TorqueCourse course;
@@ -84,6 +89,7 @@ class Answers {
             {"load_damping", rotor.load.damping},
             {"load_gap", rotor.load.gap},
             {"load_twist", side.twist},
+            {"load_friction", friction_json(load_friction)},
             {"load_error", waves_of({.ripple = side.error})["ripple"]},
             {"load_damping_to_ground", rotor.load.damping_to_ground},
             {"load_disturbance", waves_of(side.disturbance)},
@@ -96,6 +102,18 @@ class Answers {
   }
 
  private:
+  static Json friction_json(const friction::LoadFrictionParameters& friction) {
+    if (friction.model == friction::LoadFrictionModel::none) return nullptr;
+    const friction::FrictionParameters& p = friction.contact;
+    constexpr std::array names{"none", "coulomb", "dahl", "lugre"};
+    return {{"model", names.at(static_cast<std::size_t>(friction.model))},
+            {"breakaway", p.breakaway},
+            {"coulomb_ratio", p.coulomb_ratio},
+            {"stribeck_velocity", p.stribeck_velocity},
+            {"sigma0", p.sigma0},
+            {"sigma1", p.sigma1}};
+  }
+
   /// A gap, a kinematic error, a damper and a disturbance of the load, each now and then.
   motion::LoadSide load_side(motion::LoadParameters& load, double breakaway) {
     motion::LoadSide side;

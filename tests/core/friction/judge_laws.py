@@ -21,7 +21,7 @@ class Bristle(Rotor):
     def start(self):
         w = self.case["velocity"]
         z = np.sign(w) * self.level(w) / self.case["sigma0"] if self.case["slides"] else self.case["holding"] / self.case["sigma0"]
-        return np.array([0.0, w, z, self.case["load_twist"], w])
+        return np.array([0.0, w, z, 0.0, self.case["load_twist"], w])
 
     def stiffness(self):
         return self.case["sigma0"]
@@ -64,7 +64,7 @@ class Elements(Rotor):
         torques = self.eta * np.sign(w) * self.level(w) * steady
         if not steady:
             torques = self.held_torques()
-        return np.concatenate([[0.0, w], torques, [self.case["load_twist"], w]])
+        return np.concatenate([[0.0, w], torques, [0.0, self.case["load_twist"], w]])
 
     def held_torques(self):
         """Slowly loaded from 0: each element has its spring's torque, at most its share of the level at rest."""
@@ -82,18 +82,18 @@ class Elements(Rotor):
         return not self.slipping.any() and super().stands(y)
 
     def torque(self, y):
-        return y[2:-2].sum()
+        return y[2:-3].sum()
 
     def scales(self):
         return list(1e-6 * COUNT * self.kappa)
 
     def begin(self, _, y):
-        reached = self.s * y[2:-2] >= self.eta * self.level(y[1]) * (1 - 1e-12)
-        y[2:-2] = np.where(reached & ~self.slipping, self.s * self.eta * self.level(y[1]), y[2:-2])
+        reached = self.s * y[2:-3] >= self.eta * self.level(y[1]) * (1 - 1e-12)
+        y[2:-3] = np.where(reached & ~self.slipping, self.s * self.eta * self.level(y[1]), y[2:-3])
         self.slipping |= reached
 
     def rate(self, t, y):
-        F, w = y[2:-2], y[1]
+        F, w = y[2:-3], y[1]
         slip = self.case["attraction"] * (self.s * self.eta - F / self.level(w))
         acceleration = (self.drive(t, y) - F.sum() - self.case["sliding_damping"] * w) / self.case["inertia"]
         return np.concatenate([[w, acceleration], np.where(self.slipping, slip, self.kappa * w), self.load_rate(t, y)])
@@ -124,7 +124,7 @@ class Free(Rotor):
     """An air bearing."""
 
     def start(self):
-        return np.array([0.0, self.case["velocity"], self.case["load_twist"], self.case["velocity"]])
+        return np.array([0.0, self.case["velocity"], 0.0, self.case["load_twist"], self.case["velocity"]])
 
     def torque(self, _):
         return 0.0

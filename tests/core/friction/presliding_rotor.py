@@ -67,7 +67,7 @@ class Spring:
 
 
 class Presliding(Rotor):
-    """State y = [xs, ω, xp, xh, twist, ωL], θ = hook + xs + xp. In a slide xs goes on with θ."""
+    """State y = [xs, ω, xp, xh, zL, twist, ωL], θ = hook + xs + xp. In a slide xs goes on with θ."""
 
     def __init__(self, case):
         super().__init__(case)
@@ -91,7 +91,7 @@ class Presliding(Rotor):
                 self.spring.side = 0  # the last load was 0
             self.creeps = self.alpha > 0 and self.limit(x) >= hardening
         self.hook = -x
-        return np.array([x, w, 0.0, hardening, self.case["load_twist"], w])
+        return np.array([x, w, 0.0, hardening, 0.0, self.case["load_twist"], w])
 
     def theta(self, y):
         return self.hook + y[0] + y[2]

@@ -101,12 +101,25 @@ ElementList vibrations_at(std::string_view path, std::size_t max_elements) {
           [](trial::TrialParameters& p, std::size_t) { list(p).emplace_back(); }};
 }
 
+// First Sobol dimensions.
+constexpr std::size_t load_ripple = beyond_moves(445);
+constexpr std::size_t kinematic_error = load_ripple + max_ripples * dimensions_of_ripple;
+
 }  // namespace
+
+std::vector<Parameter> kinematic_error_rows() {
+  std::vector<Parameter> rows;
+  add_ripple_rows<errors>(rows,
+                          {"plant.load.error.#.amplitude", "plant.load.error.#.periods",
+                           "plant.load.error.#.pitch", "plant.load.error.#.phase"},
+                          kinematic_error, "rad",
+                          "amplitude of a kinematic error of the coupling, along the $track",
+                          "no kinematic error");
+  return rows;
+}
 
 std::vector<Parameter> disturbance_rows() {
   constexpr std::size_t ripple = beyond_moves(192);
-  constexpr std::size_t load_ripple = beyond_moves(445);
-  constexpr std::size_t error = load_ripple + max_ripples * dimensions_of_ripple;
   std::vector<Parameter> rows{
       idealised_by(no_constant_disturbance,
                    real_row("disturbance.torque", beyond_moves(30), "N m", "constant $torque on the $rotor",
@@ -134,13 +147,8 @@ std::vector<Parameter> disturbance_rows() {
       rows,
       {"disturbance.load.vibration.#.amplitude", "disturbance.load.vibration.#.frequency",
        "disturbance.load.vibration.#.phase"},
-      error + max_ripples * dimensions_of_ripple,
+      kinematic_error + max_ripples * dimensions_of_ripple,
       "amplitude of a $torque on the second mass that varies in time");
-  add_ripple_rows<errors>(rows,
-                          {"plant.load.error.#.amplitude", "plant.load.error.#.periods",
-                           "plant.load.error.#.pitch", "plant.load.error.#.phase"},
-                          error, "rad", "amplitude of a kinematic error of the coupling, along the $track",
-                          "no kinematic error");
   return rows;
 }
 

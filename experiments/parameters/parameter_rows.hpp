@@ -19,6 +19,7 @@ namespace zerocount::parameters {
 // beyond_moves(516).
 
 std::vector<Parameter> plant_rows();
+std::vector<Parameter> kinematic_error_rows();  ///< of the coupling of a second mass
 std::vector<Parameter> friction_rows();
 std::vector<Parameter> encoder_rows();
 std::vector<Parameter> drive_rows();  ///< converter and amplifier

@@ -21,6 +21,7 @@ std::vector<Parameter> make_table() {
     }
   };
   add(plant_rows(), true);
+  add(kinematic_error_rows(), true);
   add(friction_rows(), true);
   add(encoder_rows(), true);
   add(drive_rows(), true);

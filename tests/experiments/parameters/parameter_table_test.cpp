@@ -17,7 +17,7 @@ TEST(ParameterTable, DefaultsAreThoseOfThisVersionOfResultsFiles) {
     if (!exists_on(parameter, AxisKind::rotary)) continue;
     defaults += std::string(parameter.name) + "=" + default_text(parameter) + "\n";
   }
-  EXPECT_EQ(hash::sha256_hex(defaults), "7bc8f9bdf0b0d333c2c8185487db86bd413d155c337d30dfe2c4e5f1ac31c627")
+  EXPECT_EQ(hash::sha256_hex(defaults), "8d723086b7550dbbf35c97bcdfdacbcfdbdbe89d5364ff1c870dc230a4c498cf")
       << defaults;
 }
 

@@ -35,6 +35,18 @@ Words under_a_load(const std::string& block) {
   return {block, "disturbance.torque=1", "controller.ki=2000", "command.hold=0.6", "goal.within=0.5"};
 }
 
+/// A cascade in which this acts.
+Words as_a_host(const std::string& more) {
+  return {"controller={sample_rate: 4000, structure: cascade, cascade: {kv: 100, kp: 0.3, ki: 0, " + more +
+          "}}"};
+}
+
+/// A stiff second mass with this, and what else is given.
+Words with_a_load(const std::string& more, Words given = {}) {
+  given.push_back("plant.load={inertia: 1.0e-3, stiffness: 1.0e+4, damping: 0.1, " + more + "}");
+  return given;
+}
+
 Words on_the_coarse_encoder(Words with) {
   with.insert(with.end(), {of_the_coarse_encoder, "encoder.coarse=100000", by_position});
   return with;
@@ -44,6 +56,17 @@ Words on_the_coarse_encoder(Words with) {
 const std::map<std::string, Words, std::less<>>& causes_of_failures() {
   static const std::map<std::string, Words, std::less<>> all{
       {"plant.load.inertia", {"plant.load={inertia: 1.0e-3, stiffness: 60, damping: 1.0e-3, encoder: load}"}},
+      {"plant.load.gap", with_a_load("encoder: load, gap: 0.01")},
+      {"plant.load.error.#.amplitude",
+       with_a_load("error: [{amplitude: 1.0e-6, periods: 3}, {amplitude: 0.1, periods: 20}]",
+                   {"initial.position={uniform: [0, 6.28]}"})},
+      {"disturbance.load.torque", with_a_load("encoder: load", {"disturbance.load.torque=1"})},
+      {"disturbance.load.ripple.#.amplitude",
+       with_a_load("encoder: load", {"disturbance.load.ripple=[{amplitude: 1.0e-4, periods: 7}, "
+                                     "{amplitude: 1, periods: 40}]"})},
+      {"disturbance.load.vibration.#.amplitude",
+       with_a_load("encoder: load", {"disturbance.load.vibration=[{amplitude: 1.0e-4, frequency: 30}, "
+                                     "{amplitude: 1, frequency: 20}]"})},
       {"friction.alpha",
        {"friction={k1: 100, k2: 700, beta: 4000, alpha: 20, lambda: 3, n: 1, breakaway: 0.05}",
         "plant.presliding_damping=0.2", "disturbance.torque=0.03", "initial.holding=true",
@@ -80,6 +103,11 @@ const std::map<std::string, Words, std::less<>>& causes_of_failures() {
       {"controller.dither.amplitude", {"controller.dither={amplitude: 1, frequency: 50}"}},
       {"controller.missed", {"controller.missed=0.97"}},
       {"controller.jitter", {"controller.sample_rate=250", "controller.jitter=3.9e-3"}},
+      {"controller.cascade.divider", as_a_host("divider: 200")},
+      {"controller.cascade.latency", as_a_host("latency: 200")},
+      {"controller.cascade.resolution", as_a_host("resolution: 5")},
+      {"controller.cascade.limit", as_a_host("limit: 1.0e-2")},
+      {"amplifier.limit", {"amplifier.limit=0.01"}},
       {"controller.deadband.enter", under_a_load("controller.deadband={enter: 30}")},
       {"controller.integrator_zone", under_a_load("controller.integrator_zone=5")},
       {"controller.integrator_leak", under_a_load("controller.integrator_leak=0.01")},
@@ -145,6 +173,21 @@ TEST(IdealValues, AreMissingOnlyWhereThereIsNone) {
                                               "plant.load.stiffness",
                                               "plant.load.damping",
                                               "plant.load.encoder",
+                                              "plant.load.damping_to_ground",
+                                              "plant.load.error.#.periods",
+                                              "plant.load.error.#.pitch",
+                                              "plant.load.error.#.phase",
+                                              "plant.load.friction.model",
+                                              "plant.load.friction.breakaway",
+                                              "plant.load.friction.coulomb_ratio",
+                                              "plant.load.friction.stribeck_velocity",
+                                              "plant.load.friction.sigma0",
+                                              "plant.load.friction.sigma1",
+                                              "disturbance.load.ripple.#.periods",
+                                              "disturbance.load.ripple.#.pitch",
+                                              "disturbance.load.ripple.#.phase",
+                                              "disturbance.load.vibration.#.frequency",
+                                              "disturbance.load.vibration.#.phase",
                                               "friction.model",
                                               "friction.k1",
                                               "friction.k2",

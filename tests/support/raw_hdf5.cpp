@@ -229,6 +229,7 @@ void replace_attribute(const std::filesystem::path& path, const std::string& nam
 void replace_attribute(const std::filesystem::path& path, const std::string& name, const std::string& value) {
   const hid_t type = H5Tcopy(H5T_C_S1);
   H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);  // as in all files: the library does not always convert to it from ASCII
   const char* text = value.c_str();
   replace(path, name, type, &text);
   H5Tclose(type);

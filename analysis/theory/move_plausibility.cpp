@@ -21,8 +21,10 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double largest_torque(const loop::DacParameters& dac) {
-  return std::max(std::abs(loop::torque_with_errors(dac, loop::lowest_code(dac))),
-                  std::abs(loop::torque_with_errors(dac, loop::highest_code(dac))));
+  const auto given_for = [&](double wanted) {
+    return std::abs(loop::torque_with_errors(dac, loop::convert(dac, wanted).code));
+  };
+  return std::max(given_for(loop::lowest_torque(dac)), given_for(loop::highest_torque(dac)));
 }
 
 /// Friction as a bound of motion.

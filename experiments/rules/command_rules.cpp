@@ -130,21 +130,22 @@ ValueRule range_of_the_converter(const std::string& unit) {
   return {{"command.torque.through", "dac.bits", "dac.resolution", "dac.range", "amplifier.limit"},
           true,
           [unit](Limits l, Limits levels) -> Faults {
-            if (l[0].low != static_cast<double>(trial::TorquePath::dac)) return {};
+            const bool by_dac = l[0].low == static_cast<double>(trial::TorquePath::dac);
             loop::DacParameters dac{.bits = static_cast<int>(l[1].low), .resolution = l[2].low};
             dac.limit = l[4].low;
             if (l[3].low > 0.0) dac.resolution = std::ldexp(l[3].low, 1 - dac.bits);
-            const double lowest = loop::lowest_torque(dac);
-            const double highest = loop::highest_torque(dac);
+            const double lowest = by_dac ? loop::lowest_torque(dac) : -dac.limit;
+            const double highest = by_dac ? loop::highest_torque(dac) : dac.limit;
             Faults faults;
             for (std::size_t i = 0; i < levels.size(); ++i) {
               if (levels[i].low >= lowest && levels[i].high <= highest) continue;
               const double beyond = levels[i].high > highest ? levels[i].high : levels[i].low;
-              faults.push_back({fmt::format("{} {} can be outside the converter's range from {:.6g} to "
-                                            "{:.6g} {}, to which it is clipped",
-                                            beyond, unit, lowest, highest, unit),
-                                "",
-                                {i}});
+              faults.push_back(
+                  {fmt::format("{} {} can be outside the {}'s range from {:.6g} to {:.6g} {}, "
+                               "to which it is clipped",
+                               beyond, unit, by_dac ? "converter" : "amplifier", lowest, highest, unit),
+                   "",
+                   {i}});
             }
             return faults;
           },

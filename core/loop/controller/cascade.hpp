@@ -17,14 +17,12 @@ inline CascadeConstants<double> cascade_constants(const CascadeParameters& gains
 /// The velocity command of a position loop that may run in a host of its own: slower than the velocity loop,
 /// and sent to it as a number of few digits over a bus. With m = divider and q = latency, at sample k
 ///
-///   where k is a multiple of m:  v*_k = kv·Δx·e_k + feedforward·ṙ_k, rounded half to even to multiples of
-///   the
-///                                resolution and clipped to ± the limit; elsewhere v*_k = v*_{k−1}   (rad/s)
-///   what acts:                   v*_{k−q}, 0 before the first
+///   v*_k = kv·Δx·e_k + feedforward·ṙ_k where k is a multiple of m, elsewhere v*_{k−1}          (rad/s)
 ///
 ///   V*(z) = z^−q·(1/m)·(1 + z⁻¹ + … + z^−(m−1))·kv·Δx·E(z), the images of the slower sampling left out.
 ///
-/// The delay counts the samples at which the controller runs.
+/// v*_k is rounded half to even to multiples of the resolution, and then clipped to ± the limit. The velocity
+/// loop gets v*_{k−q}, 0 before the first. The delay counts the samples at which the controller runs.
 class VelocityCommand {
  public:
   explicit VelocityCommand(const CascadeParameters& parameters)

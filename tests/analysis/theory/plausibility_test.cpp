@@ -323,21 +323,26 @@ TEST(MovePlausibility, NoTrialMakesAMoveForWhichTheTorqueIsTooSmall) {
 
 // Of bang-bang: a range of 10 N moves 1 kg by 25 mm in 0.1 s.
 TEST(MovePlausibility, TheTimeCountsInertiaLoadAndRange) {
-  const auto told = [](const std::string& plant, double range, double within) {
+  const auto told = [](const std::string& plant, double range, double within, bool by_amplifier = false) {
+    const std::string drive =
+        by_amplifier ? fmt::format("dac: {{bits: 24, range: 100}}\namplifier: {{limit: {:.6g}}}", range)
+                     : fmt::format("dac: {{bits: 24, range: {:.6g}}}", range);
     study::Study study = manifest::parse_study(
         fmt::format(
             "zerocount: 1\nname: s\naxis: linear\nseed: 1\ntrials: 2\nplant: {{presliding_damping: 0, "
             "{}}}\nfriction: {{model: none}}\nencoder: {{resolution: 1.0e-7}}\n"
-            "dac: {{bits: 24, range: {:.6g}}}\ncontroller: {{units: si, delay: 0, kp: 100, ki: 0}}\n"
+            "{}\ncontroller: {{units: si, delay: 0, kp: 100, ki: 0}}\n"
             "command: {{units: si, targets: [0.025], hold: 1}}\n"
             "goal: {{tolerance: 1.0e-6, within: {:.6g}, moves: 0.9}}\n",
-            plant, range, within),
+            plant, drive, within),
         "m.yaml", {});
     return is_told(study, " s at least");
   };
   EXPECT_TRUE(told("inertia: 1", 10.0, 0.099));
   EXPECT_FALSE(told("inertia: 1", 10.0, 0.101));
   EXPECT_FALSE(told("inertia: 1", 10.3, 0.099));
+  EXPECT_TRUE(told("inertia: 1", 10.0, 0.099, true));
+  EXPECT_FALSE(told("inertia: 1", 10.0, 0.101, true));
   EXPECT_TRUE(told("inertia: 0.7, load: {inertia: 0.3, stiffness: 1.0e+5, damping: 5}", 10.0, 0.099));
   EXPECT_FALSE(told("inertia: 0.7, load: {inertia: 0.3, stiffness: 1.0e+5, damping: 5}", 10.0, 0.101));
 }

@@ -461,8 +461,30 @@ TEST(FittingValues, ATorqueBeyondTheConverterIsClippedAndSaysSo) {
       has_faults(warnings("{levels: [0.49, 0.4913, -0.4915]}"), "5:35: command.torque.levels.1 | converter"));
   EXPECT_EQ(warnings("{levels: [{uniform: [-0.5, 0]}]}").size(), 1u);
   EXPECT_EQ(warnings("{levels: [0.49, 0.5], through: exact}"), Warnings{});
+  EXPECT_TRUE(has_faults(warnings("{levels: [0.3]}", "amplifier: {limit: 0.2}\n"),
+                         "5:35: command.torque.levels.0 | converter's range from -0.2 to 0.2"));
+  EXPECT_TRUE(has_faults(warnings("{levels: [0.3], through: exact}", "amplifier: {limit: 0.2}\n"),
+                         "5:35: command.torque.levels.0 | amplifier's range from -0.2 to 0.2"));
   EXPECT_TRUE(has_faults(warnings("{levels: [0.49]}", "sweep: {grid: {dac.bits: [12, 11]}}\n"),
                          "6:31: command.torque.levels.0 | converter"));
+}
+
+// Its second mass would need a torque of the coupling that the start does not have.
+TEST(FittingValues, AnAxisThatHoldsCarriesWhatActsOnTheRotorAlone) {
+  const auto refusal = [](const std::string& of_load) {
+    return refusal_of(manifest_commanding("{targets: [0], hold: 1}",
+                                          "plant: {load: {inertia: 1.0e-3, gap: 1.0e-4}}\n" + of_load));
+  };
+  const std::string expected = "initial.holding | acts on the rotor alone | disturbance.load.torque of 0";
+  for (const std::string acting : {"torque: 0.01", "ripple: [{amplitude: 0.01, periods: 1}]"})
+    EXPECT_TRUE(
+        has_faults(refusal("disturbance: {torque: 0.01, load: {" + acting + "}}\ninitial: {holding: true}\n"),
+                   "8:11: " + expected));
+  EXPECT_TRUE(has_faults(refusal("disturbance: {torque: 0.01}\ninitial: {holding: true, gap: 0.2}\n"),
+                         "8:11: " + expected));
+  EXPECT_NO_THROW(study_of(manifest_commanding(
+      "{targets: [0], hold: 1}",
+      "plant: {load: {inertia: 1.0e-3}}\ndisturbance: {torque: 0.01}\ninitial: {holding: true}\n")));
 }
 
 TEST(FittingValues, TheSamplesOfASequenceAreThoseOfAllItsMoves) {

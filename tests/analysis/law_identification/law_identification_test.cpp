@@ -222,6 +222,30 @@ TEST(LawIdentification, SearchesAgainForALawThatItMissed) {
   EXPECT_TRUE(found.laws.front().checks.passed) << document::text(fit::laws_answer().of(found));
 }
 
+// The loops of this record have a minimum for each assignment of the elements to their corners: starting
+// points that do not come from the measured path end in one that leaves fifty times the residuals of the
+// encoder.
+TEST(LawIdentification, FindsTheElementsOfLoopsWithManyMinima) {
+  std::mt19937_64 random(5);
+  Truth truth;
+  truth.friction.model = FrictionModel::gms;
+  truth.friction.uniform.breakaway = 2.0;
+  truth.friction.uniform.coulomb_ratio = 1.0;
+  truth.friction.gms_elements = {{240.0, 2.3e-3}, {170.0, 6.6e-3}, {210.0, 3.2e-2}, {100.0, 0.9591}};
+  truth.plant.inertia = 6.1e-4;
+  truth.plant.sliding_damping = 0.23;
+  const TorqueProgramme test = slow_levels({0.08, 0.0, 0.1, -0.1, 0.15, 0.0}, 0.8);
+  const LawComparison found =
+      fit::compare_laws({simulated_test(truth.plant, truth.friction, test, {.torque_step = 2e-5}, random)},
+                        {{FrictionModel::gms}});
+  for (const auto& [name, value] :
+       {std::pair{"stiffness.1", 170.0}, {"stiffness.2", 210.0}, {"stiffness.3", 100.0}}) {
+    const auto estimate =
+        std::ranges::find(found.laws.front().parameters, name, &fit::ParameterEstimate::name);
+    EXPECT_NEAR(estimate->value, value, 0.03 * value) << name << document::text(fit::laws_answer().of(found));
+  }
+}
+
 void expect_fixture_told_from_contact(FrictionModel law) {
   std::mt19937_64 random(21);
   Truth truth = rotor_of(law, random);

@@ -228,6 +228,7 @@ StudySummary full_study() {
   StudySummary full;
   full.features.motion = full.features.steps = full.features.following = full.features.reversals = true;
   full.features.travel = full.features.phases = full.features.load = full.features.drive_torque = true;
+  full.features.load_count = full.features.motor_count = true;
   full.features.encoder_errors = full.features.final_error = full.features.stopping = true;
   full.features.own_controller = full.features.rigs = true;
   full.question.parts.front().claim = study::Goal{.name = "goal", .machines = 0.99};

@@ -22,16 +22,31 @@ inline double fine_per_coarse(const EncoderParameters& encoders) {
   return encoders.fine / encoders.coarse * (encoders.coarse_length / encoders.fine_length);
 }
 
+inline bool has_other(const EncoderParameters& encoders) {
+  return encoders.other.counts > 0.0;
+}
+
+/// Δx of the encoder of the other mass, rad per count (m on a linear axis); that of the fine one without it.
+inline double other_resolution(const EncoderParameters& encoders) {
+  return has_other(encoders) ? encoders.other.length / encoders.other.counts : fine_resolution(encoders);
+}
+
+/// Δx of the encoder that the velocity loop of a cascade reads.
+inline double velocity_resolution(const EncoderParameters& encoders, const ControllerParameters& controller) {
+  return controller.velocity_by_other ? other_resolution(encoders) : fine_resolution(encoders);
+}
+
 /// An incremental encoder: count = floor(θ/Δx + phase), θ measured from the start of the trial.
 struct Encoder {
   double resolution{1.0};  ///< Δx, rad per count
   double phase{0.0};       ///< where in a count θ = 0 lies, in [0, 1)
 };
 
-/// Readings of both encoders at a sampling instant.
+/// Readings of the encoders at a sampling instant.
 struct EncoderReading {
   std::int64_t fine{0};    ///< counts
   std::int64_t coarse{0};  ///< counts of the coarse encoder
+  std::int64_t other{0};   ///< counts of the encoder of the other mass; 0 without it
 };
 
 /// The ideal encoders of a trial. @param phase of either, in [0, 1).

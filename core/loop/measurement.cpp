@@ -1,5 +1,6 @@
 #include "core/loop/measurement.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -89,9 +90,10 @@ void ImperfectEncoder::miss_counts(std::int64_t k, std::int64_t raw) {
 }
 
 Measurement::Measurement(const EncoderParameters& encoders, double phase, double position,
-                         const random::TrialRandomness& randomness, double sample_time)
+                         const random::TrialRandomness& randomness, double sample_time, double other_phase)
     : fine_(fine_encoder(encoders, phase)),
       coarse_(coarse_encoder(encoders, phase)),
+      finest_(std::min({fine_.resolution, coarse_.resolution, other_resolution(encoders)})),
       fine_per_coarse_(loop::fine_per_coarse(encoders)),
       ideal_(!has_errors(encoders.fine_errors) && !has_errors(encoders.coarse_errors)),
       imperfect_fine_(fine_, encoders.fine_errors, position, sample_time, randomness.trial,
@@ -99,7 +101,13 @@ Measurement::Measurement(const EncoderParameters& encoders, double phase, double
                       {randomness.fine_missed, randomness.stream}),
       imperfect_coarse_(coarse_, encoders.coarse_errors, position, sample_time, randomness.trial,
                         {randomness.coarse_noise, randomness.stream},
-                        {randomness.coarse_missed, randomness.stream}) {}
+                        {randomness.coarse_missed, randomness.stream}) {
+  if (has_other(encoders))
+    imperfect_other_.emplace(Encoder{other_resolution(encoders), other_phase}, encoders.other.errors,
+                             position, sample_time, randomness.trial,
+                             random::RandomStream{randomness.other_noise, randomness.stream},
+                             random::RandomStream{randomness.other_missed, randomness.stream});
+}
 
 EncoderReading Measurement::read_with_errors(std::int64_t k, double theta) {
   const EncoderReading reading{imperfect_fine_.read(k, theta), imperfect_coarse_.read(k, theta)};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/loop/encoder.hpp"
 #include "core/loop/formulas.hpp"
@@ -68,24 +69,28 @@ class ImperfectEncoder {
   std::int64_t lost_{0};
 };
 
-/// The two encoders of a trial. Without errors their readings are those of read_count.
+/// The encoders of a trial. Without errors their readings are those of read_count.
 class Measurement {
  public:
-  /// @param phase where in a count, of either encoder, θ = 0 lies, in [0, 1).
+  /// @param phase where in a count, of the fine and the coarse encoder, θ = 0 lies, in [0, 1).
+  /// @param other_phase that of the encoder of the other mass.
   /// @param position rotor angle (rad) of θ = 0.
   /// @param sample_time T, s, for the bandwidth of the encoders' noise.
   Measurement(const EncoderParameters& encoders, double phase, double position,
-              const random::TrialRandomness& randomness, double sample_time = 1.0);
+              const random::TrialRandomness& randomness, double sample_time = 1.0, double other_phase = 0.5);
 
-  /// The readings at sample k with the rotor at θ (rad). Call with ascending k.
-  EncoderReading read(std::int64_t k, double theta) {
-    if (ideal_) return {read_count(fine_, theta), read_count(coarse_, theta)};
-    return read_with_errors(k, theta);
+  /// The readings at sample k. Call with ascending k.
+  /// @param theta angle of the mass that closes the loop, rad. @param other_theta of the other mass.
+  EncoderReading read(std::int64_t k, double theta, double other_theta = 0.0) {
+    EncoderReading reading = ideal_ ? EncoderReading{read_count(fine_, theta), read_count(coarse_, theta)}
+                                    : read_with_errors(k, theta);
+    if (imperfect_other_) reading.other = imperfect_other_->read(k, other_theta);
+    return reading;
   }
 
-  double fine_resolution() const { return fine_.resolution; }      ///< rad per count
-  double coarse_resolution() const { return coarse_.resolution; }  ///< rad per count
-  double fine_per_coarse() const { return fine_per_coarse_; }      ///< fine counts in a coarse one
+  double fine_resolution() const { return fine_.resolution; }  ///< rad per count
+  double finest_resolution() const { return finest_; }         ///< of all encoders, rad per count
+  double fine_per_coarse() const { return fine_per_coarse_; }  ///< fine counts in a coarse one
 
   /// Samples so far at which the coarse count was impossible given the fine one: counts_agree was false, and
   /// ideal encoders at this angle would not read the two counts, which rounding at an edge allows. Always 0
@@ -97,10 +102,12 @@ class Measurement {
 
   Encoder fine_;
   Encoder coarse_;
+  double finest_;
   double fine_per_coarse_;
   bool ideal_;
   ImperfectEncoder imperfect_fine_;
   ImperfectEncoder imperfect_coarse_;
+  std::optional<ImperfectEncoder> imperfect_other_{};
   std::int64_t disagreements_{0};
 };
 

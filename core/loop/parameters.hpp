@@ -23,7 +23,14 @@ struct EncoderErrors {
   double noise_bandwidth{std::numeric_limits<double>::infinity()};
 };
 
-/// The two encoders: Δx = length/counts. On a rotary axis `fine` and `coarse` are the counts of a revolution,
+/// An encoder that reads the other of two masses than the one that closes the (position) loop.
+struct OtherEncoder {
+  double counts{0.0};  ///< in `length`, a whole number; 0: there is no such encoder
+  double length{0.0};  ///< rad, or m
+  EncoderErrors errors{};
+};
+
+/// The encoders: Δx = length/counts. On a rotary axis `fine` and `coarse` are the counts of a revolution,
 /// 2π rad; on a linear axis one count has the length of the resolution. Defaults: the paper's rig.
 struct EncoderParameters {
   double fine{1620000.0};  ///< counts in `fine_length` of the encoder that closes the loop, a whole number
@@ -32,6 +39,7 @@ struct EncoderParameters {
   double coarse_length{2.0 * std::numbers::pi};  ///< rad, or m
   EncoderErrors fine_errors{};
   EncoderErrors coarse_errors{};
+  OtherEncoder other{};
 };
 
 /// The digital-to-analogue converter. Defaults: the paper's rig.
@@ -131,6 +139,13 @@ enum class ControlStructure {
   cascade  ///< a position loop around a velocity loop (cascade.hpp)
 };
 
+/// The mass whose encoder a loop of the cascade reads.
+enum class LoopEncoder {
+  of_the_plant,  ///< motion::LoadParameters::encoder
+  motor,
+  load
+};
+
 /// The cascade, and the way of its velocity command from the position loop to the velocity loop.
 struct CascadeParameters {
   double kv{150.0};         ///< of the position loop: velocity command per error, 1/s
@@ -141,6 +156,8 @@ struct CascadeParameters {
   int latency{0};           ///< after which a command acts, samples of the velocity loop
   double resolution{0.0};   ///< of the command, rad/s; 0: none
   double limit{std::numeric_limits<double>::infinity()};  ///< of |command|, rad/s
+  LoopEncoder position{LoopEncoder::of_the_plant};
+  LoopEncoder velocity{LoopEncoder::of_the_plant};
 };
 
 /// Blocks of the controller besides the PID gains. By default none acts.
@@ -195,7 +212,8 @@ struct ControllerParameters {
   AntiWindup anti_windup{AntiWindup::clamp};
   EncoderChoice encoder{EncoderChoice::fine};  ///< that closes the loop in the fine phase
   CoarsePhaseParameters coarse{};
-  ControlBlocks blocks{};  ///< with a coarse phase those of the fine one
+  ControlBlocks blocks{};         ///< with a coarse phase those of the fine one
+  bool velocity_by_other{false};  ///< the velocity loop of a cascade reads EncoderParameters::other
   UserControl user{};
   Dither dither{};
   double missed{0.0};  ///< probability that the controller does not run at a sample, in [0, 1)

@@ -16,6 +16,8 @@ struct TrialRandomness {
   RandomKey fine_missed{};
   RandomKey coarse_noise{};
   RandomKey coarse_missed{};
+  RandomKey other_noise{};
+  RandomKey other_missed{};
   RandomKey dac_noise{};
   RandomKey missed_samples{};
   RandomKey jitter{};

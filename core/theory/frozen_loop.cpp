@@ -28,8 +28,9 @@ FrozenLoop frozen_loop(double stiffness, double damping, const motion::PlantPara
                        const LinearDrive& drive) {
   const double T = sample_time(controller);
   const double resolution = loop::fine_resolution(encoder);
-  return {hold_plant(stiffness, damping, plant, resolution, T, drive, controller.delay),
-          loop::linear_chain(controller, resolution), T};
+  HeldPlant held = hold_plant(stiffness, damping, plant, resolution, T, drive, controller.delay);
+  if (controller.velocity_by_other) held.other_per_count = resolution / loop::other_resolution(encoder);
+  return {held, loop::linear_chain(controller, encoder), T};
 }
 
 OpenLoop open_loop(const FrozenLoop& loop) {

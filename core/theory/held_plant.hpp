@@ -16,6 +16,9 @@ struct HeldPlant {
   Eigen::VectorXd b;         ///< counts/(N m); 1 for the torque
   Eigen::VectorXd b_before;  ///< 0 for a delay of whole samples
   int delay{0};              ///< whole samples between deciding a torque and applying it
+  /// Counts of the encoder of the other mass in one of the fine one, where the velocity loop reads it; else
+  /// 0.
+  double other_per_count{0.0};
 };
 
 /// Exact discretisation of J·θ¨ + damping·θ˙ + stiffness·θ = u − Ts, with the load of `plant`, and the

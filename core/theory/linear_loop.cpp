@@ -43,10 +43,11 @@ bool knows_torque_in_force(const Blocks& blocks) {
   return false;
 }
 
-/// The wanted torque where the signals are `count` and `in_force`, the torque in force.
+/// The wanted torque where the signals are `count`, `velocity_count` and `in_force`, the torque in force.
 /// @param pass returns the output of a group of paths for its input signals.
 template <class Signal, class Pass>
-Signal wanted_torque(const Blocks& blocks, const Signal& count, const Signal& in_force, Pass pass) {
+Signal wanted_torque(const Blocks& blocks, const Signal& count, const Signal& velocity_count,
+                     const Signal& in_force, Pass pass) {
   Signal torque = 0.0 * count;
   const auto input = [&](loop::LoopSignal from) -> Signal {
     switch (from) {
@@ -56,6 +57,8 @@ Signal wanted_torque(const Blocks& blocks, const Signal& count, const Signal& in
         return -count;
       case loop::LoopSignal::count:
         return count;
+      case loop::LoopSignal::velocity_count:
+        return velocity_count;
       case loop::LoopSignal::torque_in_force:
         break;
     }
@@ -112,8 +115,9 @@ struct Equations {
   Complex right[max_size];
 };
 
-/// Eliminates the other unknowns, the last one first, by the pivot of largest magnitude.
-Complex first_unknown(Equations& equations) {
+/// Eliminates the unknowns above the first from the equations before theirs, the last one first, by the pivot
+/// of largest magnitude: equation k then contains the unknowns up to k.
+void eliminate(Equations& equations) {
   auto& [size, left, right] = equations;
   for (Eigen::Index k = size - 1; k > 0; --k) {
     Eigen::Index pivot = k;
@@ -129,7 +133,14 @@ Complex first_unknown(Equations& equations) {
       right[i] -= factor * right[k];
     }
   }
-  return quotient(right[0], left[0][0]);
+}
+
+/// The unknown k of equations that eliminate() has made ready.
+Complex unknown(const Equations& equations, Eigen::Index k) {
+  const auto& [size, left, right] = equations;
+  Complex rest = right[k];
+  for (Eigen::Index j = 0; j < k; ++j) rest -= left[k][j] * unknown(equations, j);
+  return quotient(rest, left[k][k]);
 }
 
 Complex power(Complex base, int exponent) {
@@ -166,12 +177,15 @@ Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& contro
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(states, states);
   Eigen::Index next = driven;
   const Row in_force = pending < states ? state(pending) : Row::Zero(states);
-  const Row decided =
-      wanted_torque<Row>(blocks, state(0), in_force, [&](const PathGroup& group, const auto& input) {
-        Row output = realise(group, input, next, map);
-        next += group.order();
-        return output;
-      });
+  const Row count = state(0);
+  const double other_per_count = plant.other_per_count;
+  const Row velocity_count = other_per_count > 0.0 ? other_per_count * (count + state(2)) : count;
+  const Row decided = wanted_torque<Row>(blocks, count, velocity_count, in_force,
+                                         [&](const PathGroup& group, const auto& input) {
+                                           Row output = realise(group, input, next, map);
+                                           next += group.order();
+                                           return output;
+                                         });
   map.topLeftCorner(driven, driven) = plant.A;
   const auto decided_before = [&](int samples) -> Row {
     return samples == 0 ? decided : state(pending + samples - 1);
@@ -190,7 +204,7 @@ double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controll
 ControllerResponse::ControllerResponse(const loop::LinearChain& controller)
     : blocks_(blocks_of(controller)), knows_torque_in_force_(knows_torque_in_force(blocks_)) {}
 
-Complex ControllerResponse::at(Complex z, double error_gain) const {
+Complex ControllerResponse::at(Complex z, double error_gain, Complex velocity_per_count) const {
   const Complex w = quotient(1.0, z);
   const auto pass = [w, error_gain](const PathGroup& group, const auto& input) {
     Complex sum = 0.0;
@@ -200,10 +214,10 @@ Complex ControllerResponse::at(Complex z, double error_gain) const {
     }
     return group.a.size() == 1 ? sum / group.a[0] : quotient(sum, value_at(group.a, w));
   };
-  const Complex from_count = wanted_torque<Complex>(blocks_, 1.0, 0.0, pass);
+  const Complex from_count = wanted_torque<Complex>(blocks_, 1.0, velocity_per_count, 0.0, pass);
   if (!knows_torque_in_force_) return -from_count;
   // The torque in force is z⁻¹·U, so U = from_count·count + from_itself·z⁻¹·U.
-  const Complex from_itself = wanted_torque<Complex>(blocks_, 0.0, 1.0, pass);
+  const Complex from_itself = wanted_torque<Complex>(blocks_, 0.0, 0.0, 1.0, pass);
   return -quotient(from_count, 1.0 - from_itself * w);
 }
 
@@ -212,24 +226,27 @@ OpenLoop::OpenLoop(const HeldPlant& plant, const loop::LinearChain& controller)
 
 Complex OpenLoop::at(Complex z) const {
   const Complex inverse = quotient(1.0, z);
-  return controller_.at(z) * power(inverse, plant_.delay) * plant_at(z, inverse);
+  const auto [count, velocity_per_count] = plant_at(z, inverse);
+  return controller_.at(z, 1.0, velocity_per_count) * power(inverse, plant_.delay) * count;
 }
 
-/// The first element of (z·I − A)⁻¹·(b + b_before/z): the count per torque decided, but for whole delays.
-Complex OpenLoop::plant_at(Complex z, Complex inverse) const {
+/// The count per torque decided, but for whole delays: the first element of (z·I − A)⁻¹·(b + b_before/z).
+/// And the count that the velocity loop reads per count.
+std::pair<Complex, Complex> OpenLoop::plant_at(Complex z, Complex inverse) const {
   const Eigen::Index states = plant_.A.rows();
   const auto m = [&](Eigen::Index i, Eigen::Index j) { return (i == j ? z : 0.0) - plant_.A(i, j); };
   const auto drive = [&](Eigen::Index i) { return plant_.b(i) + plant_.b_before(i) * inverse; };
   // Of two or three states, as most plants have, Cramer's rule: c are the cofactors of the first column of m.
   if (states == 2) {
     const Complex c[] = {m(1, 1), -m(0, 1)};
-    return quotient(c[0] * drive(0) + c[1] * drive(1), c[0] * m(0, 0) + c[1] * m(1, 0));
+    return {quotient(c[0] * drive(0) + c[1] * drive(1), c[0] * m(0, 0) + c[1] * m(1, 0)), 1.0};
   }
   if (states == 3) {
     const Complex c[] = {m(1, 1) * m(2, 2) - m(1, 2) * m(2, 1), m(0, 2) * m(2, 1) - m(0, 1) * m(2, 2),
                          m(0, 1) * m(1, 2) - m(0, 2) * m(1, 1)};
-    return quotient(c[0] * drive(0) + c[1] * drive(1) + c[2] * drive(2),
-                    c[0] * m(0, 0) + c[1] * m(1, 0) + c[2] * m(2, 0));
+    return {quotient(c[0] * drive(0) + c[1] * drive(1) + c[2] * drive(2),
+                     c[0] * m(0, 0) + c[1] * m(1, 0) + c[2] * m(2, 0)),
+            1.0};
   }
   Equations equations;
   equations.size = states;
@@ -237,7 +254,10 @@ Complex OpenLoop::plant_at(Complex z, Complex inverse) const {
     for (Eigen::Index j = 0; j < states; ++j) equations.left[i][j] = m(i, j);
     equations.right[i] = drive(i);
   }
-  return first_unknown(equations);
+  eliminate(equations);
+  const Complex count = unknown(equations, 0);
+  if (plant_.other_per_count == 0.0) return {count, 1.0};
+  return {count, plant_.other_per_count * (1.0 + quotient(unknown(equations, 2), count))};
 }
 
 }  // namespace zerocount::theory

@@ -36,7 +36,9 @@ class ControllerResponse {
   explicit ControllerResponse(const loop::LinearChain& controller);
 
   /// @param error_gain of the error before the chain, such as the describing function of its dead zone.
-  std::complex<double> at(std::complex<double> z, double error_gain = 1.0) const;
+  /// @param velocity_per_count of the count of the velocity loop's encoder per count of the position loop's.
+  std::complex<double> at(std::complex<double> z, double error_gain = 1.0,
+                          std::complex<double> velocity_per_count = 1.0) const;
 
  private:
   std::vector<std::vector<PathGroup>> blocks_;
@@ -53,7 +55,8 @@ class OpenLoop {
   std::complex<double> at_angle(double angle) const { return at(std::polar(1.0, angle)); }
 
  private:
-  std::complex<double> plant_at(std::complex<double> z, std::complex<double> inverse) const;
+  std::pair<std::complex<double>, std::complex<double>> plant_at(std::complex<double> z,
+                                                                 std::complex<double> inverse) const;
 
   HeldPlant plant_;
   ControllerResponse controller_;

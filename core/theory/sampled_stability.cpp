@@ -17,11 +17,10 @@
 namespace zerocount::theory {
 namespace {
 
-HeldPlant presliding_plant(double stiffness, const motion::PlantParameters& plant,
+FrozenLoop presliding_loop(double stiffness, const motion::PlantParameters& plant,
                            const loop::EncoderParameters& encoder,
                            const loop::ControllerParameters& controller, const LinearDrive& drive) {
-  return hold_plant(stiffness, plant.presliding_damping, plant, loop::fine_resolution(encoder),
-                    sample_time(controller), drive, controller.delay);
+  return frozen_loop(stiffness, plant.presliding_damping, plant, encoder, controller, drive);
 }
 
 /// Controller is ControllerParameters, const or not.
@@ -53,16 +52,15 @@ double static_stiffness(double stiffness, const loop::EncoderParameters& encoder
 double sampled_spectral_radius(double stiffness, const motion::PlantParameters& plant,
                                const loop::EncoderParameters& encoder,
                                const loop::ControllerParameters& controller, const LinearDrive& drive) {
-  return spectral_radius(presliding_plant(stiffness, plant, encoder, controller, drive),
-                         loop::linear_chain(controller, loop::fine_resolution(encoder)));
+  const FrozenLoop loop = presliding_loop(stiffness, plant, encoder, controller, drive);
+  return spectral_radius(loop.plant, loop.controller);
 }
 
 double slowest_time_constant(double stiffness, const motion::PlantParameters& plant,
                              const loop::EncoderParameters& encoder,
                              const loop::ControllerParameters& controller, const LinearDrive& drive) {
-  const HeldPlant held = presliding_plant(stiffness, plant, encoder, controller, drive);
-  const loop::LinearChain chain = loop::linear_chain(controller, loop::fine_resolution(encoder));
-  return slowest_time_constant(numerics::eigenvalues(loop_map(held, chain)), sample_time(controller));
+  const FrozenLoop loop = presliding_loop(stiffness, plant, encoder, controller, drive);
+  return slowest_time_constant(poles_of(loop), loop.sample_time);
 }
 
 double integral_gain(const loop::ControllerParameters& controller) {
@@ -74,11 +72,10 @@ double sampled_critical_integral_gain(double stiffness, const motion::PlantParam
                                       loop::ControllerParameters controller, const LinearDrive& drive) {
   double& ki = integral_gain_in(controller);
   const double scale = static_stiffness(stiffness, encoder, controller);
-  FrozenLoop loop{
-      presliding_plant(stiffness, plant, encoder, controller, drive), {}, sample_time(controller)};
+  FrozenLoop loop = presliding_loop(stiffness, plant, encoder, controller, drive);
   const auto with_gain = [&](double gain) {
     ki = gain;
-    loop.controller = loop::linear_chain(controller, loop::fine_resolution(encoder));
+    loop.controller = loop::linear_chain(controller, encoder);
     return loop;
   };
   const double lowest = 1e-6 * scale;

@@ -1,10 +1,21 @@
 #include "core/trial/parameters.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "core/trial/torque_ramp.hpp"
 
 namespace zerocount::trial {
+
+void exchange_encoders(TrialParameters& p) {
+  loop::EncoderParameters& encoder = p.encoder;
+  std::swap(encoder.fine, encoder.other.counts);
+  std::swap(encoder.fine_length, encoder.other.length);
+  std::swap(encoder.fine_errors, encoder.other.errors);
+  std::swap(p.initial.encoder_phase, p.initial.other_encoder_phase);
+  std::swap(p.randomness.fine_noise, p.randomness.other_noise);
+  std::swap(p.randomness.fine_missed, p.randomness.other_missed);
+}
 
 std::int64_t samples_in(double duration, double sample_rate) {
   return std::llround(duration * sample_rate);

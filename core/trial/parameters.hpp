@@ -56,9 +56,11 @@ struct RandomHistory {
 
 /// State of rig and controller at t = 0.
 struct InitialConditions {
-  double encoder_phase{0.5};  ///< position of the rotor within a count, in [0, 1)
-  double position{0.0};       ///< position of the contact on the rotor, rad; selects from the profiles
-  double hardening{0.0};      ///< xh, rad
+  /// Position of the mass that closes the loop within a count of the fine encoder, in [0, 1).
+  double encoder_phase{0.5};
+  double other_encoder_phase{0.5};  ///< of the other mass in a count of EncoderParameters::other, in [0, 1)
+  double position{0.0};             ///< position of the contact on the rotor, rad; selects from the profiles
+  double hardening{0.0};            ///< xh, rad
   double preload{0.0};  ///< torque of a slow load-and-unload from virgin before t = 0, without creep, N m
   RandomHistory history{};
   double velocity{0.0};  ///< ω, rad/s
@@ -104,6 +106,9 @@ struct TrialParameters {
   DisturbanceParameters disturbance{};
   LoadSideParameters load_side{};
 };
+
+/// Exchanges the fine encoder with that of the other mass.
+void exchange_encoders(TrialParameters& parameters);
 
 /// Number of whole samples in `duration` (s) at `sample_rate` (Hz): round(duration·sample_rate).
 std::int64_t samples_in(double duration, double sample_rate);

@@ -34,7 +34,8 @@ class Rig {
   explicit Rig(const TrialParameters& p)
       : sample_time_(1.0 / p.controller.sample_rate),
         clock_(p.controller, p.randomness),
-        measurement_(p.encoder, p.initial.encoder_phase, p.initial.position, p.randomness, sample_time_),
+        measurement_(p.encoder, p.initial.encoder_phase, p.initial.position, p.randomness, sample_time_,
+                     p.initial.other_encoder_phase),
         drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness, p.controller.jitter > 0.0),
         encoder_place_(motion::has_load(p.plant) ? p.plant.load.encoder : motion::EncoderPlace::motor),
         plant_(p.plant, p.friction, plant_start(p), motion_tolerance(measurement_.fine_resolution())) {
@@ -56,10 +57,13 @@ class Rig {
     record.omega = plant.omega;
     record.load_theta = plant.load_theta;
     record.load_omega = plant.load_omega;
-    last_measured_ = encoder_place_ == motion::EncoderPlace::load ? record.load_theta : record.theta;
-    const loop::EncoderReading reading = measurement_.read(k, last_measured_);
-    record.count = reading.fine;
-    record.coarse_count = reading.coarse;
+    const bool at_load = encoder_place_ == motion::EncoderPlace::load;
+    last_measured_ = at_load ? record.load_theta : record.theta;
+    reading_ = measurement_.read(k, last_measured_, at_load ? record.theta : record.load_theta);
+    record.count = reading_.fine;
+    record.coarse_count = reading_.coarse;
+    record.motor_count = at_load ? reading_.other : reading_.fine;
+    record.load_count = at_load ? reading_.fine : reading_.other;
     record.xp = plant.creep.extension;
     record.xh = plant.creep.hardening;
     record.depth = plant.depth;
@@ -67,7 +71,8 @@ class Rig {
     return record;
   }
 
-  /// The angle that the encoders read last: of the rotor, or of the load, rad.
+  const loop::EncoderReading& last_reading() const { return reading_; }
+  /// The angle that closes the loop at the last reading: of the rotor, or of the load, rad.
   double last_measured() const { return last_measured_; }
 
   /// Sends the converter's output at t_k; completes `record`.
@@ -97,8 +102,8 @@ class Rig {
 
   /// Whether the controller has not failed, and the motion is finite and within the counters' range.
   bool readable() const {
-    const double finest = std::min(measurement_.fine_resolution(), measurement_.coarse_resolution());
-    return !failed_ && plant_.finite() && std::abs(plant_.theta()) < max_counts * finest;
+    return !failed_ && plant_.finite() &&
+           std::abs(plant_.theta()) < max_counts * measurement_.finest_resolution();
   }
 
   bool clipped() const { return clipped_; }  ///< the converter was out of range at this sample
@@ -112,6 +117,7 @@ class Rig {
   loop::Measurement measurement_;
   loop::Drive drive_;
   motion::EncoderPlace encoder_place_;
+  loop::EncoderReading reading_{};
   double last_measured_{0.0};
   AnyPlant plant_;
   bool clipped_{false};

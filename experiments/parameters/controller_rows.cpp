@@ -14,6 +14,9 @@ constexpr std::size_t dimension(std::size_t i) {
   return beyond_moves(i < 14 ? 64 + i : 17 + (i - 14));
 }
 
+// In the order of loop::LoopEncoder.
+const std::vector<std::string_view> loop_encoders{"plant.load.encoder", "motor", "load"};
+
 /// The rows of the structure of the control of one phase. `Blocks` is a function from TrialParameters to its
 /// ControlBlocks.
 template <Phase phase, class Blocks>
@@ -155,6 +158,12 @@ std::vector<Parameter> rows_of_the_drive() {
                                 "cascade: largest velocity command, in both directions; none: no limit",
                                 assumed, numerics::above(0))),
               [](auto& p) { return &p.controller.blocks.cascade.limit; }),
+      word_row("controller.cascade.position", beyond_moves(304),
+               "cascade: the mass whose encoder the position loop reads", assumed, loop_encoders,
+               [](auto& p) { return &p.controller.blocks.cascade.position; }),
+      word_row("controller.cascade.velocity", beyond_moves(305),
+               "cascade: the mass whose encoder the velocity loop reads", assumed, loop_encoders,
+               [](auto& p) { return &p.controller.blocks.cascade.velocity; }),
       whole_row("controller.derivative_window", beyond_moves(278), "sample",
                 "samples between the counts whose difference, per sample, is the velocity", assumed, samples,
                 [](auto& p) { return &p.controller.blocks.derivative_window; }),

@@ -1,20 +1,52 @@
+#include <array>
+
 #include "experiments/parameters/parameter_rows.hpp"
+#include "experiments/parameters/phase_path.hpp"
 
 namespace zerocount::parameters {
 namespace {
 
 constexpr std::string_view no_disc = "the key left out: only an encoder disc has an eccentricity";
 
-constexpr std::string_view eccentricity = "amplitude of the error that repeats once per revolution";
-constexpr std::string_view eccentricity_angle = "rotor angle at which that error rises through zero";
-constexpr std::string_view interpolation =
-    "amplitude of the error that repeats once per signal period, in counts of this encoder";
-constexpr std::string_view interpolation_period = "signal period, in counts of this encoder";
-constexpr std::string_view noise =
-    "standard deviation of the reading before rounding, in counts of this encoder";
-constexpr std::string_view noise_bandwidth =
-    "bandwidth (-3 dB) of this noise; none: drawn anew at each sample";
-constexpr std::string_view missed = "probability that the encoder misses a count that it passes";
+/// The rows of the errors of one encoder. `Errors` is a function from TrialParameters to its EncoderErrors.
+/// @param dimensions of Sobol, in the order of the rows. @param noiseless name of the ideal without noise.
+/// @tparam whose after the names of the other ideals: of which encoder.
+template <Literal encoder, Literal whose, class Errors>
+std::vector<Parameter> error_rows(const std::array<std::size_t, 7>& dimensions, std::string_view noiseless,
+                                  Errors /*errors*/) {
+  const auto [eccentricity, angle, interpolation, period, noise, bandwidth, missed] = dimensions;
+  return {
+      only_on(AxisKind::rotary, no_disc,
+              ideal_at(0, joined<"no eccentricity", whose>,
+                       real_row(joined<encoder, ".eccentricity">, eccentricity, "rad",
+                                "amplitude of the error that repeats once per revolution", assumed,
+                                numerics::at_least(0), [](auto& p) { return &Errors{}(p).eccentricity; }))),
+      only_on(AxisKind::rotary, no_disc,
+              real_row(joined<encoder, ".eccentricity_angle">, angle, "rad",
+                       "rotor angle at which that error rises through zero", assumed, numerics::all_numbers(),
+                       [](auto& p) { return &Errors{}(p).eccentricity_angle; })),
+      ideal_at(0, joined<"no interpolation error", whose>,
+               real_row(joined<encoder, ".interpolation">, interpolation, "count",
+                        "amplitude of the error that repeats once per signal period, in counts of this "
+                        "encoder",
+                        assumed, numerics::at_least(0), [](auto& p) { return &Errors{}(p).interpolation; })),
+      real_row(joined<encoder, ".interpolation_period">, period, "count",
+               "signal period, in counts of this encoder", assumed, numerics::above(0),
+               [](auto& p) { return &Errors{}(p).interpolation_period; }),
+      ideal_at(0, noiseless,
+               real_row(joined<encoder, ".noise">, noise, "count",
+                        "standard deviation of the reading before rounding, in counts of this encoder",
+                        assumed, numerics::at_least(0), [](auto& p) { return &Errors{}(p).noise; })),
+      or_none(real_row(joined<encoder, ".noise_bandwidth">, bandwidth, "Hz",
+                       "bandwidth (-3 dB) of this noise; none: drawn anew at each sample", assumed,
+                       numerics::Interval{.low = 0, .high = max_count, .high_included = true}),
+              [](auto& p) { return &Errors{}(p).noise_bandwidth; }),
+      ideal_at(0, joined<"no missed counts", whose>,
+               real_row(joined<encoder, ".missed">, missed, "1",
+                        "probability that the encoder misses a count that it passes", assumed,
+                        numerics::closed(0, 1), [](auto& p) { return &Errors{}(p).missed; })),
+  };
+}
 
 }  // namespace
 
@@ -22,7 +54,7 @@ constexpr std::string_view missed = "probability that the encoder misses a count
 constexpr numerics::Interval length_of_count{.low = 0, .high = 0.1, .high_included = true};
 
 std::vector<Parameter> encoder_rows() {
-  return {
+  std::vector<Parameter> rows{
       only_on(AxisKind::rotary, "encoder.resolution, m per count",
               idealised_by(finer_encoder, whole_row("encoder.fine", 16, "count/rev",
                                                     "counts per revolution of the fine encoder",
@@ -44,56 +76,36 @@ std::vector<Parameter> encoder_rows() {
                   real_row("encoder.coarse_resolution", beyond_moves(8), "m/count",
                            "length of a count of the coarse encoder; default: that of the fine one",
                            "required", length_of_count, [](auto& p) { return &p.encoder.coarse_length; })))),
-
-      only_on(AxisKind::rotary, no_disc,
-              ideal_at(0, "no eccentricity",
-                       real_row("encoder.fine_errors.eccentricity", 29, "rad", eccentricity, assumed,
-                                numerics::at_least(0),
-                                [](auto& p) { return &p.encoder.fine_errors.eccentricity; }))),
-      only_on(AxisKind::rotary, no_disc,
-              real_row("encoder.fine_errors.eccentricity_angle", 30, "rad", eccentricity_angle, assumed,
-                       numerics::all_numbers(),
-                       [](auto& p) { return &p.encoder.fine_errors.eccentricity_angle; })),
-      ideal_at(0, "no interpolation error",
-               real_row("encoder.fine_errors.interpolation", 31, "count", interpolation, assumed,
-                        numerics::at_least(0), [](auto& p) { return &p.encoder.fine_errors.interpolation; })),
-      real_row("encoder.fine_errors.interpolation_period", 32, "count", interpolation_period, assumed,
-               numerics::above(0), [](auto& p) { return &p.encoder.fine_errors.interpolation_period; }),
-      ideal_at(0, "no encoder noise",
-               real_row("encoder.fine_errors.noise", 33, "count", noise, assumed, numerics::at_least(0),
-                        [](auto& p) { return &p.encoder.fine_errors.noise; })),
-      or_none(real_row("encoder.fine_errors.noise_bandwidth", beyond_moves(28), "Hz", noise_bandwidth,
-                       assumed, numerics::Interval{.low = 0, .high = max_count, .high_included = true}),
-              [](auto& p) { return &p.encoder.fine_errors.noise_bandwidth; }),
-      ideal_at(0, "no missed counts",
-               real_row("encoder.fine_errors.missed", 34, "1", missed, assumed, numerics::closed(0, 1),
-                        [](auto& p) { return &p.encoder.fine_errors.missed; })),
-
-      only_on(AxisKind::rotary, no_disc,
-              ideal_at(0, "no eccentricity of the coarse encoder",
-                       real_row("encoder.coarse_errors.eccentricity", 35, "rad", eccentricity, assumed,
-                                numerics::at_least(0),
-                                [](auto& p) { return &p.encoder.coarse_errors.eccentricity; }))),
-      only_on(AxisKind::rotary, no_disc,
-              real_row("encoder.coarse_errors.eccentricity_angle", 36, "rad", eccentricity_angle, assumed,
-                       numerics::all_numbers(),
-                       [](auto& p) { return &p.encoder.coarse_errors.eccentricity_angle; })),
-      ideal_at(
-          0, "no interpolation error of the coarse encoder",
-          real_row("encoder.coarse_errors.interpolation", 37, "count", interpolation, assumed,
-                   numerics::at_least(0), [](auto& p) { return &p.encoder.coarse_errors.interpolation; })),
-      real_row("encoder.coarse_errors.interpolation_period", 38, "count", interpolation_period, assumed,
-               numerics::above(0), [](auto& p) { return &p.encoder.coarse_errors.interpolation_period; }),
-      ideal_at(0, "no noise of the coarse encoder",
-               real_row("encoder.coarse_errors.noise", 39, "count", noise, assumed, numerics::at_least(0),
-                        [](auto& p) { return &p.encoder.coarse_errors.noise; })),
-      or_none(real_row("encoder.coarse_errors.noise_bandwidth", beyond_moves(29), "Hz", noise_bandwidth,
-                       assumed, numerics::Interval{.low = 0, .high = max_count, .high_included = true}),
-              [](auto& p) { return &p.encoder.coarse_errors.noise_bandwidth; }),
-      ideal_at(0, "no missed counts of the coarse encoder",
-               real_row("encoder.coarse_errors.missed", 40, "1", missed, assumed, numerics::closed(0, 1),
-                        [](auto& p) { return &p.encoder.coarse_errors.missed; })),
+      none_is(0, only_on(AxisKind::rotary, "encoder.load.resolution, m per count",
+                         idealised_by(
+                             finer_encoder,
+                             whole_row("encoder.load.counts_per_revolution", beyond_moves(295), "count/rev",
+                                       "counts per revolution of an encoder on the second mass, beside "
+                                       "the fine one, which then reads the motor; none: no such encoder",
+                                       assumed, numerics::closed(1, max_count),
+                                       [](auto& p) { return &p.encoder.other.counts; })))),
+      none_is(0,
+              only_on(AxisKind::linear, "encoder.load.counts_per_revolution",
+                      idealised_by(finer_encoder,
+                                   real_row("encoder.load.resolution", beyond_moves(296), "m/count",
+                                            "length of a count of an encoder on the second mass, beside the "
+                                            "fine one, which then reads the motor; none: no such encoder",
+                                            assumed, length_of_count,
+                                            [](auto& p) { return &p.encoder.other.length; })))),
   };
+  for (const std::vector<Parameter>& errors :
+       {error_rows<"encoder.fine_errors", "">(
+            {29, 30, 31, 32, 33, beyond_moves(28), 34}, "no encoder noise",
+            [](auto& p) -> auto& { return p.encoder.fine_errors; }),
+        error_rows<"encoder.coarse_errors", " of the coarse encoder">(
+            {35, 36, 37, 38, 39, beyond_moves(29), 40}, "no noise of the coarse encoder",
+            [](auto& p) -> auto& { return p.encoder.coarse_errors; }),
+        error_rows<"encoder.load.fine_errors", " of the load's encoder">(
+            {beyond_moves(297), beyond_moves(298), beyond_moves(299), beyond_moves(300), beyond_moves(301),
+             beyond_moves(302), beyond_moves(303)},
+            "no noise of the load's encoder", [](auto& p) -> auto& { return p.encoder.other.errors; })})
+    rows.insert(rows.end(), errors.begin(), errors.end());
+  return rows;
 }
 
 std::vector<Parameter> drive_rows() {

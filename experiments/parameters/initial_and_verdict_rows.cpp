@@ -6,6 +6,9 @@ std::vector<Parameter> initial_rows() {
   return {
       real_row("initial.encoder_phase", 2, "count", "position of the $rotor within a count at the start",
                assumed, numerics::half_open(0, 1), [](auto& p) { return &p.initial.encoder_phase; }),
+      real_row("initial.load_encoder_phase", beyond_moves(306), "count",
+               "position of the second mass within a count of its own encoder at the start", assumed,
+               numerics::half_open(0, 1), [](auto& p) { return &p.initial.other_encoder_phase; }),
       real_row("initial.position", 9, "rad",
                "position of the contact along the $track at the start; selects the values of profiles",
                assumed, numerics::all_numbers(), [](auto& p) { return &p.initial.position; }),

@@ -12,7 +12,7 @@
 namespace zerocount::parameters {
 
 // The rows of the table of parameters, by section. Each has a Sobol dimension of its own, so that a new row
-// does not change the draws of the others. The next free one is beyond_moves(295);
+// does not change the draws of the others. The next free one is beyond_moves(307);
 // beyond_moves(17) to (26) and (32) to (57) are those of the blocks of the controller. Lists have dimensions
 // from beyond_moves(80) on, as many as they may have values; the last is beyond_moves(263). A plugin has the
 // dimensions from beyond_moves(317) to beyond_moves(444), lists of the second mass those up to

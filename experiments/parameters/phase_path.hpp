@@ -22,19 +22,22 @@ struct Literal {
   }
 };
 
-template <Phase phase, Literal name>
-constexpr auto phase_path_text = [] {
-  constexpr std::string_view section = phase == Phase::fine ? "controller." : "controller.coarse.";
-  constexpr std::string_view last(name.text);
-  std::array<char, section.size() + last.size()> text{};
-  for (std::size_t i = 0; i < text.size(); ++i)
-    text[i] = i < section.size() ? section[i] : last[i - section.size()];
+template <Literal first, Literal last>
+constexpr auto joined_text = [] {
+  std::array<char, sizeof(first.text) + sizeof(last.text) - 1> text{};
+  std::size_t end = 0;
+  for (std::size_t i = 0; first.text[i] != '\0'; ++i) text[end++] = first.text[i];
+  for (std::size_t i = 0; last.text[i] != '\0'; ++i) text[end++] = last.text[i];
   return text;
 }();
 
+/// Two texts as one: joined<"encoder", ".fine"> is "encoder.fine".
+template <Literal first, Literal last>
+constexpr std::string_view joined{joined_text<first, last>.data()};
+
 /// The dotted path of a parameter of a phase: phase_path<Phase::coarse, "kp"> is "controller.coarse.kp".
 template <Phase phase, Literal name>
-constexpr std::string_view phase_path{phase_path_text<phase, name>.data(),
-                                      phase_path_text<phase, name>.size()};
+constexpr std::string_view phase_path =
+    phase == Phase::fine ? joined<"controller.", name> : joined<"controller.coarse.", name>;
 
 }  // namespace zerocount::parameters

@@ -31,7 +31,7 @@ std::string_view same_name_elsewhere(std::string_view key) {
 }
 
 // Other usual names, as data sheets and drives have them: of a key anywhere, or of a path.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 26> synonyms{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 25> synonyms{
     {{"mass", "plant.inertia"},
      {"moment_of_inertia", "plant.inertia"},
      {"full_scale", "dac.range"},
@@ -52,7 +52,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 26> synonyms
      {"lsb", "encoder.fine"},
      {"inc", "encoder.fine"},
      {"encoder.motor", "encoder.fine"},
-     {"encoder.load", "plant.load.encoder"},
      {"controller.position", "controller.cascade"},
      {"controller.velocity", "controller.cascade"},
      {"Tn", "controller.cascade.ki"},

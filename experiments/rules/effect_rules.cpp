@@ -14,6 +14,8 @@ namespace zerocount::rules {
 namespace {
 
 using Limits = std::span<const study::ValueLimits>;
+using parameters::joined;
+using parameters::Literal;
 using parameters::Phase;
 using parameters::phase_path;
 
@@ -109,12 +111,35 @@ EffectRule rule_of_the_plugin(const study::StudyPlan& plan) {
 }
 
 // The other parameters of an encoder error have an effect only if its amplitude is not 0.
-EffectRule rule_of_an_error(std::string_view key, std::string_view amplitude) {
-  return {.keys = {key},
-          .depends_on = {amplitude},
-          .has_effect = [](Limits l) { return can_be_positive(l[0]); },
-          .what = "it has no effect: that error is 0 at every point",
-          .expected = fmt::format("{} above 0, or the key left out", amplitude)};
+template <Literal encoder>
+std::vector<EffectRule> rules_of_errors() {
+  const auto rule = [](std::string_view key, std::string_view amplitude) {
+    return EffectRule{.keys = {key},
+                      .depends_on = {amplitude},
+                      .has_effect = [](Limits l) { return can_be_positive(l[0]); },
+                      .what = "it has no effect: that error is 0 at every point",
+                      .expected = fmt::format("{} above 0, or the key left out", amplitude)};
+  };
+  return {rule(joined<encoder, ".eccentricity_angle">, joined<encoder, ".eccentricity">),
+          rule(joined<encoder, ".interpolation_period">, joined<encoder, ".interpolation">),
+          rule(joined<encoder, ".noise_bandwidth">, joined<encoder, ".noise">)};
+}
+
+// Of two encoders, one on each mass, none is coarse.
+std::vector<EffectRule> rules_of_two_encoders() {
+  const auto has_second = [](Limits l) { return can_be_positive(l[0]) || can_be_positive(l[1]); };
+  const auto always_has_second = [](Limits l) { return l[0].low > 0.0 || l[1].low > 0.0; };
+  return {{.keys = {"encoder.load.fine_errors", "initial.load_encoder_phase"},
+           .depends_on = {"encoder.load.counts_per_revolution", "encoder.load.resolution"},
+           .has_effect = has_second,
+           .what = "it has no effect: no point has an encoder on the second mass",
+           .expected = "encoder.load, or the key left out"},
+          {.keys = {"encoder.coarse", "encoder.coarse_resolution", "encoder.coarse_errors"},
+           .depends_on = {"encoder.load.counts_per_revolution", "encoder.load.resolution"},
+           .has_effect = [always_has_second](Limits l) { return !always_has_second(l); },
+           .what = "it has no effect: beside encoder.fine, which reads the motor, encoder.load reads the "
+                   "load",
+           .expected = "either a coarse encoder or encoder.load"}};
 }
 
 std::vector<EffectRule> rules_of_the_loop() {
@@ -125,10 +150,6 @@ std::vector<EffectRule> rules_of_the_loop() {
        .has_effect = [](Limits l) { return study::can_have_coarse_phase(l[0]); },
        .what = "it has no effect: no point has a coarse phase",
        .expected = "controller.coarse.coarse_beyond below 1e12, or the key left out"},
-      rule_of_an_error("encoder.fine_errors.eccentricity_angle", "encoder.fine_errors.eccentricity"),
-      rule_of_an_error("encoder.fine_errors.interpolation_period", "encoder.fine_errors.interpolation"),
-      rule_of_an_error("encoder.fine_errors.noise_bandwidth", "encoder.fine_errors.noise"),
-      rule_of_an_error("encoder.coarse_errors.noise_bandwidth", "encoder.coarse_errors.noise"),
       {.keys = {"controller.dither.frequency"},
        .depends_on = {"controller.dither.amplitude"},
        .has_effect = [](Limits l) { return can_be_positive(l[0]); },
@@ -139,8 +160,6 @@ std::vector<EffectRule> rules_of_the_loop() {
        .has_effect = [](Limits l) { return l[0].low != 0.0 || l[0].high != 0.0; },
        .what = "it has no effect: disturbance.torque is 0 at every point",
        .warn_only = true},
-      rule_of_an_error("encoder.coarse_errors.eccentricity_angle", "encoder.coarse_errors.eccentricity"),
-      rule_of_an_error("encoder.coarse_errors.interpolation_period", "encoder.coarse_errors.interpolation"),
   };
 }
 
@@ -249,7 +268,8 @@ EffectRule rule_of_the_resolution() {
 EffectRule rule_of_the_load() {
   return {
       .keys = {"plant.load.stiffness", "plant.load.damping", "plant.load.encoder", "plant.load.gap",
-               "plant.load.damping_to_ground", "plant.load.error", "plant.load.friction", "disturbance.load"},
+               "plant.load.damping_to_ground", "plant.load.error", "plant.load.friction", "disturbance.load",
+               "encoder.load", "controller.cascade.position", "controller.cascade.velocity"},
       .depends_on = {"plant.load.inertia"},
       .has_effect = [](Limits l) { return can_be_positive(l[0]); },
       .what = "it has no effect: no point has a second mass",
@@ -412,7 +432,8 @@ EffectRule rule_of_the_position(const study::StudyPlan& plan) {
   return {
       .keys = {"initial.position"},
       .depends_on = {"encoder.fine_errors.eccentricity", "encoder.fine_errors.interpolation",
-                     "encoder.coarse_errors.eccentricity", "encoder.coarse_errors.interpolation"},
+                     "encoder.coarse_errors.eccentricity", "encoder.coarse_errors.interpolation",
+                     "encoder.load.fine_errors.eccentricity", "encoder.load.fine_errors.interpolation"},
       .has_effect =
           [has_profile](Limits l) { return has_profile || std::any_of(l.begin(), l.end(), can_be_positive); },
       .what =
@@ -432,9 +453,12 @@ std::vector<EffectRule> effect_rules(const study::StudyPlan& plan) {
   rules.push_back(rule_of_the_initial_gap());
   rules.push_back(rule_of_the_resolution());
   rules.push_back(rule_of_the_plugin(plan));
-  for (const auto& more : {rules_of_the_loop(), rules_of_the_load_friction(), rules_of_the_drive(),
-                           rules_of_the_blocks<Phase::fine>(), rules_of_the_blocks<Phase::coarse>(),
-                           rules_of_the_contact(), rules_of_the_model(), rules_of_vanished_terms()}) {
+  for (const auto& more :
+       {rules_of_errors<"encoder.fine_errors">(), rules_of_errors<"encoder.coarse_errors">(),
+        rules_of_errors<"encoder.load.fine_errors">(), rules_of_two_encoders(), rules_of_the_loop(),
+        rules_of_the_load_friction(), rules_of_the_drive(), rules_of_the_blocks<Phase::fine>(),
+        rules_of_the_blocks<Phase::coarse>(), rules_of_the_contact(), rules_of_the_model(),
+        rules_of_vanished_terms()}) {
     rules.insert(rules.end(), more.begin(), more.end());
   }
   return rules;

@@ -185,6 +185,36 @@ std::vector<ValueRule> rules_of_holding(const study::StudyPlan& plan) {
   };
 }
 
+// Which encoder each loop reads.
+std::vector<ValueRule> rules_of_the_loops_encoders() {
+  const auto between = [](std::string_view first) {
+    std::vector<std::string_view> names{first};
+    names.insert(names.end(), study::two_encoders.begin(), study::two_encoders.end());
+    return names;
+  };
+  const auto no_coarse_one = [&](std::string_view choice) -> ValueRule {
+    return {between(choice), false, [](Limits l, Limits) -> Faults {
+              const bool coarse = l[0].high == static_cast<double>(loop::EncoderChoice::coarse);
+              if (!coarse || !study::has_two_encoders(l.subspan(1))) return {};
+              return {{"there is no coarse encoder beside encoder.load", "fine"}};
+            }};
+  };
+  return {no_coarse_one("controller.encoder"),
+          no_coarse_one("controller.coarse.encoder"),
+          {between("controller.cascade.velocity"), false, [](Limits l, Limits) -> Faults {
+             const auto choice = static_cast<loop::LoopEncoder>(static_cast<int>(l[0].low));
+             const bool at_load = choice == loop::LoopEncoder::of_the_plant
+                                      ? l[4].high == static_cast<double>(motion::EncoderPlace::load)
+                                      : choice == loop::LoopEncoder::load;
+             const bool cascade = l[5].low == static_cast<double>(loop::ControlStructure::cascade);
+             if (!cascade || study::has_two_encoders(l.subspan(1)) ||
+                 at_load == study::closes_at_load(l.subspan(1)))
+               return {};
+             return {{"the loops of the cascade read two masses, and there is one encoder",
+                      "the same mass for both, or encoder.load"}};
+           }}};
+}
+
 std::vector<ValueRule> rules_of_the_clock() {
   return {{{"controller.jitter", "controller.sample_rate"},
            false,
@@ -256,6 +286,7 @@ std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
   if (!plan.open_loop) {
     add({order_of_hold("controller.hold.leave", "controller.hold.enter"),
          order_of_hold("controller.coarse.hold.leave", "controller.coarse.hold.enter")});
+    add(rules_of_the_loops_encoders());
     add(rules_of_two_phases(parameters::unit_of(kd, plan.units)));
     add(rules_of_blocks("controller.deadband.enter", "controller.deadband.leave",
                         "controller.integrator_zone", "controller.observer.bandwidth"));

@@ -153,6 +153,19 @@ ValueLimits limits_of_slot(const StudyPlan& plan, std::size_t slot, std::size_t 
   return {low, high, limits.can_be_zero || factors.can_be_zero, limits.typical * factors.typical};
 }
 
+bool has_two_encoders(std::span<const ValueLimits> limits) {
+  return limits[0].high > 0.0 || limits[1].high > 0.0;
+}
+
+bool closes_at_load(std::span<const ValueLimits> limits) {
+  const bool of_plant = limits[3].high == static_cast<double>(motion::EncoderPlace::load);
+  const auto choice = static_cast<loop::LoopEncoder>(static_cast<int>(limits[2].high));
+  if (limits[4].high == static_cast<double>(loop::ControlStructure::pid) ||
+      choice == loop::LoopEncoder::of_the_plant)
+    return of_plant;
+  return choice == loop::LoopEncoder::load;
+}
+
 bool can_have_coarse_phase(const ValueLimits& coarse_beyond) {
   trial::TrialParameters trial;
   parameters::parameter_table()[parameters::find_parameter("controller.coarse.coarse_beyond").value()].set(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <span>
 #include <string_view>
@@ -36,6 +37,15 @@ ValueLimits limits_of_slot(const StudyPlan& plan, std::size_t slot, std::size_t 
 
 /// Whether the control has a coarse phase in some trial, from the limits of controller.coarse.coarse_beyond.
 bool can_have_coarse_phase(const ValueLimits& coarse_beyond);
+
+/// The parameters by which a point has an encoder on each mass, and which of them closes the (position) loop.
+inline constexpr std::array<std::string_view, 5> two_encoders{
+    "encoder.load.counts_per_revolution", "encoder.load.resolution", "controller.cascade.position",
+    "plant.load.encoder", "controller.structure"};
+
+/// @param limits of two_encoders.
+bool has_two_encoders(std::span<const ValueLimits> limits);
+bool closes_at_load(std::span<const ValueLimits> limits);
 
 /// The slots of these parameters, by their dotted paths.
 std::vector<std::size_t> slots_named(const StudyTable& table, std::span<const std::string_view> names);

@@ -104,6 +104,8 @@ struct StudyFeatures {
   bool travel{false};                                       ///< the reference takes time to its target
   bool phases{false};                                       ///< the control has two phases
   bool load{false};                                         ///< there is a second mass
+  bool load_count{false};      ///< it has an encoder of its own, which does not close the (position) loop
+  bool motor_count{false};     ///< it has one, which closes that loop
   bool drive_torque{false};    ///< the motor torque is not the (delayed) code times the resolution
   bool encoder_errors{false};  ///< an encoder may have errors
   /// Moves may end beside their targets by design: no integral control, Coulomb friction, or moves that are

@@ -68,6 +68,13 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
   for (const Effect& effect : effects())
     if (effect.feature != nullptr && !(features.*effect.feature))
       features.*effect.feature = acts_somewhere(plan, effect.parameter);
+  const auto closes_at = [&](bool load) {
+    return features.load && holds_somewhere(plan, two_encoders, [&](std::span<const ValueLimits> limits) {
+             return has_two_encoders(limits) && closes_at_load(limits) == load;
+           });
+  };
+  features.load_count = closes_at(false);
+  features.motor_count = closes_at(true);
   features.own_controller = plan.plugin != nullptr;
   const bool has_sine = closed_loop && holds_somewhere(plan, "command.profile.shape", is_sine);
   features.final_error = features.own_controller || features.travel || has_sine || features.phases ||

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "core/theory/gains.hpp"
 #include "experiments/study/study.hpp"
 
@@ -14,19 +16,48 @@ void convert_gains(Phase& phase, const trial::TrialParameters& trial) {
   phase.kd = gains.kd;
 }
 
+/// Gives each loop the encoder of its mass. Of two encoders, the one that closes the (position) loop becomes
+/// the fine one.
+void choose_encoders(trial::TrialParameters& trial) {
+  motion::EncoderPlace& closing = trial.plant.load.encoder;
+  motion::EncoderPlace of_velocity = closing;
+  if (trial.controller.blocks.structure == loop::ControlStructure::cascade) {
+    const auto place = [of_plant = closing](loop::LoopEncoder choice) {
+      switch (choice) {
+        case loop::LoopEncoder::motor:
+          return motion::EncoderPlace::motor;
+        case loop::LoopEncoder::load:
+          return motion::EncoderPlace::load;
+        case loop::LoopEncoder::of_the_plant:
+          break;
+      }
+      return of_plant;
+    };
+    const loop::CascadeParameters& cascade = trial.controller.blocks.cascade;
+    closing = place(cascade.position);
+    of_velocity = place(cascade.velocity);
+  }
+  if (!loop::has_other(trial.encoder)) return;
+  trial.controller.velocity_by_other = of_velocity != closing;
+  if (closing == motion::EncoderPlace::load) trial::exchange_encoders(trial);
+}
+
 }  // namespace
 
 void complete_trial(const parameters::StudyUnits& units, trial::TrialParameters& trial) {
   switch (units.axis) {
     case parameters::AxisKind::rotary:
+      trial.encoder.other.length = 2.0 * std::numbers::pi;
       break;
     case parameters::AxisKind::linear: {
       loop::EncoderParameters& encoder = trial.encoder;
       encoder.fine = encoder.coarse = 1.0;
+      encoder.other.counts = encoder.other.length > 0.0 ? 1.0 : 0.0;
       if (encoder.coarse_length == 0.0) encoder.coarse_length = encoder.fine_length;
       break;
     }
   }
+  choose_encoders(trial);
   switch (units.gains) {
     case parameters::GainUnits::count:
       break;

@@ -122,6 +122,14 @@ std::vector<RecordField<TraceRecord>> trace_fields(const study::StudyFeatures& f
     fields.push_back(field<T>("load_theta", "rad", "$angle of the second mass", &T::load_theta));
     fields.push_back(field<T>("load_omega", "rad/s", "velocity of the second mass", &T::load_omega));
   }
+  if (features.load_count)
+    fields.push_back(field<T>("load_count", "count",
+                              "reading of the encoder of the second mass, in its "
+                              "counts",
+                              &T::load_count));
+  if (features.motor_count)
+    fields.push_back(
+        field<T>("motor_count", "count", "reading of the motor's encoder, in its counts", &T::motor_count));
   if (features.drive_torque) {
     fields.push_back(
         field<T>("drive_torque", "N m", "$torque of the motor at this instant", &T::drive_torque));

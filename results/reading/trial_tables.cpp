@@ -42,6 +42,8 @@ study::StudyFeatures read_features(const hdf5::File& file, const layout::Measure
   features.travel = trace.contains("reference");
   features.phases = trace.contains("phase");
   features.load = trace.contains("load_theta");
+  features.load_count = trace.contains("load_count");
+  features.motor_count = trace.contains("motor_count");
   features.drive_torque = trace.contains("drive_torque");
   return features;
 }

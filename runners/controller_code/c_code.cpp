@@ -144,7 +144,7 @@ const zerocount_controller* zerocount_controller_entry(void) {{ return &descript
 /// The inputs of the program, from where they stand in double precision.
 std::string converted(const Program& program, const std::vector<std::string>& from) {
   std::string text;
-  for (std::size_t i = 0; i < from.size(); ++i) {
+  for (std::size_t i = 0; i < program.inputs(); ++i) {
     const Type type = program.variables[i].type;
     const bool single = program.precision == Precision::single_precision && type != Type::flag;
     text +=
@@ -159,7 +159,7 @@ pin in bit enable "without it the {torque} is 0, and the controller starts anew"
 pin in float target-counts "end of the move, counts";
 pin in float command-counts "reference, which is rounded to counts";
 pin in float feedback-counts "of the encoder, counts";
-pin in float command-velocity "of the reference, {angle}/s";
+{}pin in float command-velocity "of the reference, {angle}/s";
 pin in float command-acceleration "of the reference, {angle}/s2";
 pin out float output-torque "wanted {torque}, {unit}";
 function _ fp "one sample";
@@ -212,9 +212,10 @@ FUNCTION(_) {{
 
 std::string c_code(const ControllerToWrite& chain, const Program& program) {
   return chain_code(chain, program) +
-         fmt::format(plugin, fmt::arg("inputs", converted(program, {"now->error", "now->count",
-                                                                    "now->velocity", "now->acceleration",
-                                                                    "now->torque", "now->new_target"})));
+         fmt::format(plugin,
+                     fmt::arg("inputs", converted(program, {"now->error", "now->count", "now->velocity",
+                                                            "now->acceleration", "now->torque",
+                                                            "now->new_target", "now->other_count"})));
 }
 
 std::string linuxcnc_component(const ControllerToWrite& chain, const Program& program,
@@ -225,16 +226,22 @@ std::string linuxcnc_component(const ControllerToWrite& chain, const Program& pr
   const auto torque_of = [&](std::int64_t code) {
     return decimal(static_cast<double>(code) * dac.resolution, in_double);
   };
-  return fmt::format(linuxcnc_head, component, fmt::arg("torque", parameters::text_on(chain.axis, "$torque")),
+  const std::string velocity_pin =
+      chain.controller.velocity_by_other
+          ? "pin in float velocity-feedback-counts \"of the encoder of the velocity loop, counts of it\";\n"
+          : "";
+  return fmt::format(linuxcnc_head, component, velocity_pin,
+                     fmt::arg("torque", parameters::text_on(chain.axis, "$torque")),
                      fmt::arg("angle", parameters::unit_on(chain.axis, "rad")), fmt::arg("unit", unit)) +
          chain_code(chain, program) +
-         fmt::format(linuxcnc_function, fmt::arg("resolution", decimal(dac.resolution, in_double)),
-                     fmt::arg("lowest", torque_of(loop::lowest_code(dac))),
-                     fmt::arg("highest", torque_of(loop::highest_code(dac))), fmt::arg("unit", unit),
-                     fmt::arg("inputs", converted(program, {"nearest(command_counts) - feedback_counts",
-                                                            "feedback_counts", "command_velocity",
-                                                            "command_acceleration", "memory->given",
-                                                            "memory->target != target_counts"})));
+         fmt::format(
+             linuxcnc_function, fmt::arg("resolution", decimal(dac.resolution, in_double)),
+             fmt::arg("lowest", torque_of(loop::lowest_code(dac))),
+             fmt::arg("highest", torque_of(loop::highest_code(dac))), fmt::arg("unit", unit),
+             fmt::arg("inputs",
+                      converted(program, {"nearest(command_counts) - feedback_counts", "feedback_counts",
+                                          "command_velocity", "command_acceleration", "memory->given",
+                                          "memory->target != target_counts", "velocity_feedback_counts"})));
 }
 
 }  // namespace zerocount::controller_code

@@ -33,7 +33,7 @@ class ChainWriter {
         single_(precision == Precision::single_precision),
         torque_unit_(parameters::unit_on(of.axis, "N m")),
         angle_unit_(parameters::unit_on(of.axis, "rad")),
-        write_(precision, angle_unit_, torque_unit_) {}
+        write_(precision, angle_unit_, torque_unit_, of.controller.velocity_by_other) {}
 
   Program program() {
     start();
@@ -48,7 +48,7 @@ class ChainWriter {
     } else {
       write_hold();
     }
-    shift(last_counts_, count_);
+    shift(last_counts_, velocity_count_);
     write_.assign(started_, Term(1.0));
     write_dither();
     const double limit = of_.dac.limit;
@@ -103,8 +103,8 @@ class ChainWriter {
       first_count_ = state("first_count", "at the first sample, counts", Type::count);
     if (last_counts_.empty() && !first_count_) return;
     write_.branch(!started_, [&] {
-      for (const Term& last : last_counts_) write_.assign(last, count_);
-      if (first_count_) write_.assign(*first_count_, count_);
+      for (const Term& last : last_counts_) write_.assign(last, velocity_count_);
+      if (first_count_) write_.assign(*first_count_, velocity_count_);
     });
   }
 
@@ -181,7 +181,7 @@ class ChainWriter {
     difference_ =
         remembered ? state("difference", "of successive counts, filtered, counts") : local("difference");
     const Term a = coefficient("derivative_pole", pole, "of the filter of the difference of counts");
-    Term change = difference_of_counts(count_, last_counts_.front());
+    Term change = difference_of_counts(velocity_count_, last_counts_.front());
     if (last_counts_.size() > 1)
       change = change / write_.constant("derivative_window", blocks_.derivative_window, "samples");
     write_.assign(*difference_, loop::filtered_difference(a, *difference_, change));
@@ -263,7 +263,8 @@ class ChainWriter {
   /// v* (VelocityCommand), also at samples whose torque is held.
   void write_command() {
     const loop::CascadeParameters& cascade = blocks_.cascade;
-    const loop::CascadeConstants<double> c = loop::cascade_constants(cascade, sample_rate_, of_.resolution);
+    const loop::CascadeConstants<double> c =
+        loop::cascade_constants(cascade, sample_rate_, of_.resolution, of_.velocity_resolution);
     const std::string per_second = angle_unit_ + "/s";
     const Term kv =
         write_.constant("kv", c.kv, fmt::format("{} per count ({:.6g} 1/s)", per_second, cascade.kv));
@@ -300,7 +301,7 @@ class ChainWriter {
   void write_cascade() {
     write_.remark("position loop around a velocity loop");
     const loop::CascadeConstants<double> c =
-        loop::cascade_constants(blocks_.cascade, sample_rate_, of_.resolution);
+        loop::cascade_constants(blocks_.cascade, sample_rate_, of_.resolution, of_.velocity_resolution);
     velocity_ = write_.constant("velocity_per_count", c.velocity,
                                 angle_unit_ + "/s per count of difference between samples");
     const std::string unit = parameters::unit_on(of_.axis, "N m s/rad");
@@ -359,7 +360,7 @@ class ChainWriter {
   void write_observer() {
     if (!first_count_) return;
     const loop::ObserverConstants<double> c =
-        loop::observer_constants(blocks_.observer, sample_rate_, of_.resolution);
+        loop::observer_constants(blocks_.observer, sample_rate_, of_.velocity_resolution);
     write_.remark("disturbance observer");
     const Term acceleration = coefficient("observer_inertia", c.acceleration, torque_per("count"));
     const Term q = write_.constant("observer_q", c.q, "gain of its filter");
@@ -370,7 +371,7 @@ class ChainWriter {
     const Term inertia = local("inertia");
     const Term filtered = local("filtered");
     const Term estimate = local("estimate");
-    write_.assign(inertia, acceleration * difference_of_counts(count_, *first_count_));
+    write_.assign(inertia, acceleration * difference_of_counts(velocity_count_, *first_count_));
     write_.assign(filtered, q * write_.input(Input::torque));
     loop::BiquadState<Term> after{first, second};
     write_.assign(estimate, loop::observer_step<Term>({1.0, 1.0, a1, a2}, after, inertia, filtered));
@@ -412,7 +413,8 @@ class ChainWriter {
   ProgramWriter write_;
 
   Term error_{write_.input(Input::error)};
-  Term count_{write_.input(Input::count)};
+  /// Of which differences are taken.
+  Term velocity_count_{write_.input(of_.controller.velocity_by_other ? Input::velocity_count : Input::count)};
   Term new_target_{write_.input(Input::new_target)};
   Term e_{error_};  ///< e′
   Term u_{local("wanted")};

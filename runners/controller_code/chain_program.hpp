@@ -13,6 +13,7 @@ namespace zerocount::controller_code {
 struct ControllerToWrite {
   loop::ControllerParameters controller;  ///< with gains per count
   double resolution{1.0};                 ///< Δx, rad per count
+  double velocity_resolution{1.0};        ///< Δx of the encoder that a velocity loop reads, rad per count
   loop::DacParameters dac{};              ///< whose range clamps the integral
   double initial_integral{0.0};           ///< I before the first sample, N m
   std::string name{};                     ///< of the study, for comments

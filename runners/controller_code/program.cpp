@@ -36,6 +36,8 @@ class RunningProgram {
     give(Input::acceleration, now.acceleration);
     give(Input::torque, now.torque);
     give(Input::new_target, now.new_target);
+    if (program_->inputs() > static_cast<std::size_t>(Input::velocity_count))
+      give(Input::velocity_count, now.other_count);
     run(program_->step);
     return static_cast<double>(numbers_[program_->wanted]);
   }
@@ -127,7 +129,12 @@ class RunningProgram {
 
 }  // namespace
 
-ProgramWriter::ProgramWriter(Precision precision, const std::string& angle, const std::string& torque)
+std::size_t Program::inputs() const {
+  return static_cast<std::size_t>(std::ranges::count(variables, Role::input, &Variable::role));
+}
+
+ProgramWriter::ProgramWriter(Precision precision, const std::string& angle, const std::string& torque,
+                             bool with_velocity_count)
     : program_{.precision = precision}, at_(&program_.step) {
   program_.variables = {
       {"error", Role::input, Type::number, "the reference, rounded to counts, less the count"},
@@ -137,6 +144,9 @@ ProgramWriter::ProgramWriter(Precision precision, const std::string& angle, cons
       {"torque", Role::input, Type::number,
        "that the converter gave at the sample before, " + torque + "; 0 at the first"},
       {"new_target", Role::input, Type::flag, "the target is not that of the sample before"}};
+  if (with_velocity_count)
+    variable(
+        {"velocity_count", Role::input, Type::count, "of the encoder of the velocity loop, counts of it"});
 }
 
 Term ProgramWriter::input(Input input) const {

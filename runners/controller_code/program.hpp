@@ -165,8 +165,9 @@ struct Statement {
 };
 using Statements = std::vector<Statement>;
 
-/// The inputs of every program, in the order of its variables.
-enum class Input { error, count, velocity, acceleration, torque, new_target };
+/// The inputs of every program, in the order of its variables; the last one only where a velocity loop reads
+/// an encoder of its own.
+enum class Input { error, count, velocity, acceleration, torque, new_target, velocity_count };
 
 struct Program {
   Precision precision{Precision::double_precision};
@@ -174,13 +175,16 @@ struct Program {
   std::vector<Variable> variables{};  ///< the inputs first
   Statements step{};
   std::size_t wanted{0};  ///< the variable with the result
+
+  std::size_t inputs() const;  ///< their number
 };
 
 /// Makes a program, statement by statement.
 class ProgramWriter {
  public:
   /// @param angle, torque units: "rad" and "N m"
-  ProgramWriter(Precision precision, const std::string& angle, const std::string& torque);
+  ProgramWriter(Precision precision, const std::string& angle, const std::string& torque,
+                bool with_velocity_count);
 
   Term input(Input input) const;
   /// @throws std::logic_error if the program has another with this name

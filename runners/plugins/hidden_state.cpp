@@ -71,6 +71,7 @@ class ControllerAlone {
   ControllerAlone(const trial::TrialParameters& p, const Samples& inputs)
       : functions_(*p.controller.user.plugin->functions),
         parameters_(p.controller.user.parameters),
+        closes_at_load_(p.plant.load.encoder == motion::EncoderPlace::load),
         inputs_(&inputs),
         state_(functions_.state_size + alignment) {
     setup_ = {.size = sizeof(zerocount_setup),
@@ -81,7 +82,8 @@ class ControllerAlone {
               .torque_resolution = p.dac.resolution,
               .lowest_torque = loop::lowest_torque(p.dac),
               .highest_torque = loop::highest_torque(p.dac),
-              .initial_integral = p.initial.integral};
+              .initial_integral = p.initial.integral,
+              .other_resolution = loop::has_other(p.encoder) ? loop::other_resolution(p.encoder) : 0.0};
     char message[256] = {};
     functions_.start(aligned(state_), &setup_, message, sizeof message);
     mode_.restore();
@@ -94,15 +96,17 @@ class ControllerAlone {
   /// The wanted torque at its next sample, N m.
   double step() {
     const trial::SampleRecord& record = (*inputs_)[k_];
-    const zerocount_sample sample{.k = record.k,
-                                  .time = record.t,
-                                  .error = static_cast<double>(record.reference - record.count),
-                                  .count = static_cast<double>(record.count),
-                                  .reference = static_cast<double>(record.reference),
-                                  .torque = k_ == 0 ? 0.0 : (*inputs_)[k_ - 1].torque,
-                                  .velocity = 0.0,
-                                  .acceleration = 0.0,
-                                  .new_target = new_target() ? 1 : 0};
+    const zerocount_sample sample{
+        .k = record.k,
+        .time = record.t,
+        .error = static_cast<double>(record.reference - record.count),
+        .count = static_cast<double>(record.count),
+        .reference = static_cast<double>(record.reference),
+        .torque = k_ == 0 ? 0.0 : (*inputs_)[k_ - 1].torque,
+        .velocity = 0.0,
+        .acceleration = 0.0,
+        .new_target = new_target() ? 1 : 0,
+        .other_count = static_cast<double>(closes_at_load_ ? record.motor_count : record.load_count)};
     ++k_;
     const double torque = functions_.step(aligned(state_), &setup_, &sample);
     mode_.restore();
@@ -128,6 +132,7 @@ class ControllerAlone {
 
   const zerocount_controller& functions_;
   std::vector<double> parameters_;
+  bool closes_at_load_;
   const Samples* inputs_;
   std::vector<std::byte> state_;
   zerocount_setup setup_{};

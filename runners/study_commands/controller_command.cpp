@@ -201,9 +201,14 @@ ExitCode write_controller(const command_line::Arguments& arguments) {
           ? fmt::format("{}, {}", study.name, study.points.labels[static_cast<std::size_t>(point)])
           : study.name;
   if (study.conditions.size() == 1) name = study::label_under(name, study.conditions.front());
-  controller_code::ControllerToWrite chain{
-      p.controller,     loop::fine_resolution(p.encoder), p.dac, p.initial.integral, name,
-      study.units.axis, margin_lines(study, point)};
+  controller_code::ControllerToWrite chain{p.controller,
+                                           loop::fine_resolution(p.encoder),
+                                           loop::velocity_resolution(p.encoder, p.controller),
+                                           p.dac,
+                                           p.initial.integral,
+                                           name,
+                                           study.units.axis,
+                                           margin_lines(study, point)};
   if (precision == controller_code::Precision::single_precision) {
     const std::vector<std::string> lines = simulated_effect(study, point, chain);
     for (const std::string& line : lines) status::tell("{}\n", line);

@@ -4,6 +4,7 @@ from the manifest. Each block alone, and all of them; in one phase and in two.""
 import copy
 import csv
 import json
+import math
 import random
 import subprocess
 import sys
@@ -73,6 +74,41 @@ def drive():
                         "resolution": log_uniform(1e-5, 1e-2), "limit": log_uniform(1e-3, 1.0)}}
 
 
+def second_encoder(manifest):
+    """Puts a load with an encoder of its own behind the rotor, lets either close each loop, and returns what the judge has to know."""
+    fine, load = draw.randint(200_000, 2_000_000), draw.randint(200_000, 2_000_000)
+    position, velocity = draw.choice(["motor", "load"]), draw.choice(["motor", "load"])
+    plant_load = {"inertia": log_uniform(1e-4, 1e-3), "stiffness": log_uniform(300, 3000), "damping": 0.05}
+    manifest["plant"] = {"load": plant_load}
+    manifest["encoder"] = {"fine": fine, "load": {"counts_per_revolution": load}}
+    manifest["initial"] = {"encoder_phase": draw.random(), "load_encoder_phase": draw.random()}
+    plant_load["encoder"] = draw.choice(["motor", "load"])
+    if manifest["controller"].get("structure") == "cascade":
+        choices = manifest["controller"]["cascade"]
+        for loop, mass in (("position", position), ("velocity", velocity)):
+            if mass != plant_load["encoder"] or draw.random() < 0.5:
+                choices[loop] = mass
+    else:
+        position = velocity = plant_load["encoder"]
+    counts = {"motor": fine, "load": load}
+    other = "load" if position == "motor" else "motor"
+    return {"fine": counts[position], "coarse": 86400, "other": counts[other],
+            "velocity": "fine" if velocity == position else "other"}, position, other
+
+
+def counts_are_right(row, manifest, position, other):
+    """Whether each count is that of its mass."""
+    encoder, start = manifest["encoder"], manifest["initial"]
+    of = {"motor": (encoder["fine"], start["encoder_phase"], "theta"),
+          "load": (encoder["load"]["counts_per_revolution"], start["load_encoder_phase"], "load_theta")}
+    for mass, column in ((position, "count"), (other, f"{other}_count")):
+        counts, phase, angle = of[mass]
+        exact = float(row[angle]) / (2 * math.pi / counts) + phase
+        if int(row[column]) != math.floor(exact) and abs(exact - round(exact)) > 1e-6:
+            return False
+    return True
+
+
 FILTERS = ["lowpass", "notch", "lead", "biquad"]
 KINDS = ["deadband", "zone", "leak", "derivative", "filters", "feedforward", "observer", "cascade"]
 
@@ -119,7 +155,8 @@ def manifest_of(kinds, two_phases):
             "amplifier": {"limit": log_uniform(1e-2, 1.0)}, "command": command, "verdict": {"dwell": 0.01, "window": 0.01}}
 
 
-def judge(manifest, folder):
+def judge(manifest, folder, two_encoders):
+    encoder, position, other = second_encoder(manifest) if two_encoders else (DEFAULTS["encoder"], None, None)
     path = Path(folder) / "judged.yaml"
     path.write_text(json.dumps(manifest), encoding="utf-8")
     ran = subprocess.run([PROGRAM, "trace", str(path), "--point", "0", "--trial", "0", "--format", "csv"],
@@ -127,9 +164,12 @@ def judge(manifest, folder):
     if ran.returncode != 0:
         sys.exit(f"{json.dumps(manifest)}\n{ran.stderr}")
     rows = list(csv.DictReader(ran.stdout.splitlines()))
-    samples = [tuple(int(row[key]) for key in ("target", "count", "coarse_count")) for row in rows]
+    columns = ("target", "count", "coarse_count", f"{other}_count" if other else "coarse_count")
+    samples = [tuple(int(row[key]) for key in columns) for row in rows]
+    if two_encoders and not all(counts_are_right(row, manifest, position, other) for row in rows):
+        sys.exit(f"a count is not that of its mass\n{json.dumps(manifest)}")
     given = {key: manifest[key] for key in ("controller", "command", "amplifier")}
-    judged = codes_of(merged(DEFAULTS, given), samples)
+    judged = codes_of({**merged(DEFAULTS, given), "encoder": encoder}, samples)
     for row, (code, _, margin) in zip(rows, judged):
         if int(row["code"]) != code or float(row["torque"]) != code * DEFAULTS["dac"]["resolution"]:
             sys.exit(f"sample {row['k']}: code {row['code']}, torque {row['torque']}; judged {code}, {margin:.2g} of a code "
@@ -141,8 +181,9 @@ compared = codes = 0
 with tempfile.TemporaryDirectory() as folder:
     for two_phases in (False, True):
         for kinds in [[kind] for kind in KINDS] + [KINDS, KINDS[:-1], *(draw.sample(KINDS, 3) for _ in range(6))]:
-            rows, different = judge(manifest_of(kinds, two_phases), folder)
-            compared, codes = compared + rows, codes + different
+            for two_encoders in (False, True):
+                rows, different = judge(manifest_of(kinds, two_phases), folder, two_encoders)
+                compared, codes = compared + rows, codes + different
 print(f"{compared} samples, {codes} different codes")
 if codes < 1000:
     sys.exit("too few of the codes say something")

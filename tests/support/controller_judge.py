@@ -107,8 +107,8 @@ def make_filter(element, T):
 
 
 class Chain:
-    def __init__(self, phase, T, dx, integral, integral_range):
-        self.p, self.T, self.dx = phase, T, dx
+    def __init__(self, phase, T, dx, dx_velocity, integral, integral_range):
+        self.p, self.T, self.dx, self.dx_velocity = phase, T, dx, dx_velocity
         self.integral, self.range = integral, integral_range
         self.inside = False
         self.first = None
@@ -130,7 +130,7 @@ class Chain:
             self.drives = Filter(*bilinear([w**2], q, 1 / T))
 
     def watch(self, count, e, in_force, velocity, acceleration):
-        """What goes on at every sample, whichever chain decides. Returns whether the integral may change."""
+        """`count` is that of the velocity loop. What goes on at every sample, whichever chain decides. Returns whether the integral may change."""
         if self.first is None:
             self.first = count
             self.last_counts = [count] * self.window
@@ -145,7 +145,7 @@ class Chain:
         self.added = (forward["velocity"] * velocity + forward["acceleration"] * acceleration +
                       forward["friction"] * np.sign(velocity))
         if self.observes:
-            self.estimate = self.accelerates((count - self.first) * self.dx) - self.drives(in_force)
+            self.estimate = self.accelerates((count - self.first) * self.dx_velocity) - self.drives(in_force)
         zone = self.p["integrator_zone"]
         return not self.inside and (zone is None or abs(e) <= zone)
 
@@ -196,7 +196,7 @@ class Chain:
         return self.holding
 
     def velocity_error(self):
-        return self.acts - self.d * self.dx / self.T
+        return self.acts - self.d * self.dx_velocity / self.T
 
     def remember(self, e):
         self.last_e, self.last_w = e, self.velocity_error()
@@ -246,6 +246,9 @@ class Controller:
         c = parameters["controller"]
         self.T = 1 / c["sample_rate"]
         self.dx = 2 * math.pi / parameters["encoder"]["fine"]
+        # Of two encoders, the one that closes the position loop is "fine" here; "other" may be in the velocity loop.
+        self.other = parameters["encoder"].get("other") if parameters["encoder"].get("velocity") == "other" else None
+        dx_velocity = 2 * math.pi / self.other if self.other else self.dx
         self.fine_per_coarse = parameters["encoder"]["fine"] / parameters["encoder"]["coarse"]
         bits, self.du = parameters["dac"]["bits"], parameters["dac"]["resolution"]
         self.low, self.high = -2**(bits - 1), 2**(bits - 1) - 1
@@ -255,8 +258,8 @@ class Controller:
         integral = parameters["initial"]["integral"]
         self.beyond = c["coarse"]["coarse_beyond"]
         fine = dict(c, kd=0.0) if self.beyond is not None else c
-        self.chains = {"fine": Chain(fine, self.T, self.dx, integral, limits),
-                       "coarse": Chain(c["coarse"], self.T, self.dx, integral, limits)}
+        self.chains = {"fine": Chain(fine, self.T, self.dx, dx_velocity, integral, limits),
+                       "coarse": Chain(c["coarse"], self.T, self.dx, self.dx, integral, limits)}
         self.phase, self.settled, self.last_coarse, self.in_force = "fine", 0, None, 0.0
         self.started = False
         self.last_target = None
@@ -277,36 +280,37 @@ class Controller:
         changed, self.phase = new != self.phase and self.started, new
         return changed
 
-    def decide(self, reference, velocity, acceleration, fine_count, coarse_count, target):
+    def decide(self, reference, velocity, acceleration, fine_count, coarse_count, target, other_count=0):
         """The wanted torque."""
         c = self.p["controller"]
         of = {"fine": float(fine_count), "coarse": coarse_count * self.fine_per_coarse}
         counts = {"fine": of[c["encoder"]], "coarse": of[c["coarse"]["encoder"]]}
         errors = {phase: reference - count for phase, count in counts.items()}
+        differs = dict(counts, fine=float(other_count)) if self.other else counts
         changed = self.beyond is not None and self.change_phase(errors, counts)
         if changed:
             self.chains[self.phase].take_over(self.in_force)
         self.started = True
         for phase, chain in self.chains.items():
             if phase != self.phase:
-                chain.rest(self.k, counts[phase], errors[phase], self.in_force, velocity, acceleration)
+                chain.rest(self.k, differs[phase], errors[phase], self.in_force, velocity, acceleration)
         new_target = self.last_target is not None and self.last_target != target
         self.last_target = target
-        wanted = self.chains[self.phase].decide(self.k, counts[self.phase], errors[self.phase], self.in_force,
+        wanted = self.chains[self.phase].decide(self.k, differs[self.phase], errors[self.phase], self.in_force,
                                                 velocity, acceleration, new_target)
         self.k += 1
         return wanted if self.limit is None else min(max(wanted, -self.limit), self.limit)
 
 
 def codes_of(parameters, samples):
-    """For each (target, count, coarse count) of the samples: the code, whether the phase is coarse, and how far, in codes,
+    """For each (target, count, coarse count, count of the encoder of the other mass) of the samples: the code, whether the phase is coarse, and how far, in codes,
     the wanted torque is from where the code changes."""
     controller = Controller(parameters)
     command = parameters["command"]
     length = math.floor(command["hold"] * parameters["controller"]["sample_rate"] + 0.5)
     result = []
     motion = None
-    for k, (target, count, coarse_count) in enumerate(samples):
+    for k, (target, count, coarse_count, other_count) in enumerate(samples):
         if k % length == 0:
             start = 0 if k == 0 else command["targets"][k // length - 1]
             motion = Motion(command["profile"], start, target, controller.dx)
@@ -317,7 +321,8 @@ def codes_of(parameters, samples):
         if abs(abs(position - math.floor(position)) - 0.5) < 1e-6:
             towards = start if t < motion.duration / 2 else target
             nearest = math.floor(position) if towards < position else math.ceil(position)
-        wanted = controller.decide(nearest, velocity, acceleration, count, coarse_count, target) / controller.du
+        wanted = controller.decide(nearest, velocity, acceleration, count, coarse_count, target,
+                                   other_count) / controller.du
         code = int(min(max(np.rint(wanted), controller.low), controller.high))
         controller.in_force = code * controller.du
         margin = abs(wanted - math.floor(wanted) - 0.5) if controller.low < wanted < controller.high else 0.5

@@ -45,7 +45,7 @@ LaneLoop::Decision LaneLoop::decide_open(std::int64_t k, std::int64_t i, std::in
 }
 
 std::optional<LaneLoop::Decision> LaneLoop::sample(std::int64_t i, double theta) {
-  const double finest = std::min(measurement_.fine_resolution(), measurement_.coarse_resolution());
+  const double finest = measurement_.finest_resolution();
   if (!(std::abs(theta) < 0x1p50 * finest)) return std::nullopt;
   const std::int64_t k = first_sample_ + i;
   const loop::EncoderReading reading = measurement_.read(k, theta);

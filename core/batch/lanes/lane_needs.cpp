@@ -65,13 +65,15 @@ std::string_view lacking(const loop::ControlBlocks& blocks) {
   return lanes_have(structure) ? "" : "the controller's structure";
 }
 
-std::string_view lacking(const loop::ControllerParameters& controller) {
+std::string_view lacking(const loop::ControllerParameters& controller,
+                         const loop::EncoderParameters& encoders) {
   static_assert(
       std::is_same_v<loop::ControlBlockChain, loop::BlockChain<loop::ControlLaw, loop::Filters,
                                                                loop::Feedforward, loop::DisturbanceObserver>>,
       "sample_kernel has these blocks: another one needs its law there, or needs_lane_loop()");
-  [[maybe_unused]] const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse, blocks, user,
-                                dither, missed, jitter] = controller;
+  [[maybe_unused]] const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse, blocks,
+                                velocity_by_other, user, dither, missed, jitter] = controller;
+  if (velocity_by_other || (user.plugin && loop::has_other(encoders))) return "encoder.load";
   return lacking(blocks);
 }
 
@@ -134,7 +136,7 @@ std::string_view lacking(const trial::TrialParameters& p, LaneMotion motion) {
   // After a late sample the series must reach up to the next one.
   const double max_frequency = 0.5 / (1.0 / controller.sample_rate + controller.jitter);
   for (const std::string_view feature :
-       {lacking(controller), lacking(command), lacking(disturbance, motion, max_frequency),
+       {lacking(controller, encoder), lacking(command), lacking(disturbance, motion, max_frequency),
         lacking(plant.load, load_side)}) {
     if (!feature.empty()) return feature;
   }

@@ -75,7 +75,8 @@ void start_blocks(BlockLanes& b, int lane, const trial::TrialParameters& p, doub
                                loop::integral_range(controller.anti_windup, loop::lowest_torque(p.dac),
                                                     loop::highest_torque(p.dac))));
   b.is_cascade[lane] = blocks.structure == loop::ControlStructure::cascade ? 1.0 : 0.0;
-  store_constants(b.cascade, lane, loop::cascade_constants(blocks.cascade, sample_rate, resolution));
+  store_constants(b.cascade, lane,
+                  loop::cascade_constants(blocks.cascade, sample_rate, resolution, resolution));
   b.pole[lane] = loop::derivative_pole(blocks, sample_rate);
   b.filter_count[lane] = static_cast<double>(blocks.filters.size());
   for (std::size_t i = 0; i < max_lane_filters; ++i) {

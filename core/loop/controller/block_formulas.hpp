@@ -165,12 +165,12 @@ ZEROCOUNT_ALWAYS_INLINE Number observer_step(const ObserverConstants<Number>& c,
 template <class Number>
 struct CascadeConstants {
   Number kv;        ///< kv·Δx: velocity command per error, rad/s per count
-  Number velocity;  ///< Δx/T: velocity per difference of successive counts, rad/s per count
+  Number velocity;  ///< Δx_v/T: velocity per difference of successive counts, rad/s per count
   Number kp;        ///< N m s/rad
   Number ki;        ///< ki·T/2, N m s/rad
 };
 
-/// v* − v = v* − (Δx/T)·d_k, rad/s. @param command v*, rad/s: kv·Δx·e_k by way of VelocityCommand.
+/// v* − v = v* − (Δx_v/T)·d_k, rad/s. @param command v*, rad/s: kv·Δx·e_k by way of VelocityCommand.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number velocity_error(const CascadeConstants<Number>& c, const Number& command,
                                               const Number& d) {

@@ -9,9 +9,11 @@
 
 namespace zerocount::loop {
 
+/// @param resolution, velocity_resolution Δx of the encoders of the position and the velocity loop, rad per
+/// count.
 inline CascadeConstants<double> cascade_constants(const CascadeParameters& gains, double sample_rate,
-                                                  double resolution) {
-  return {gains.kv * resolution, sample_rate * resolution, gains.kp, 0.5 * gains.ki / sample_rate};
+                                                  double resolution, double velocity_resolution) {
+  return {gains.kv * resolution, sample_rate * velocity_resolution, gains.kp, 0.5 * gains.ki / sample_rate};
 }
 
 /// The velocity command of a position loop that may run in a host of its own: slower than the velocity loop,
@@ -31,10 +33,10 @@ class VelocityCommand {
   /// The command that acts at this sample, rad/s. @param wanted kv·Δx·e_k, rad/s.
   double step(const Feedback& now, double wanted) {
     if (now.sample % parameters_.divider == 0) {
-      const auto& [kv, kp, ki, feedforward, divider, latency, resolution, limit] = parameters_;
-      if (feedforward != 0.0) wanted += feedforward * now.reference.velocity;
-      if (resolution > 0.0) wanted = rounded_command(wanted, resolution);
-      command_ = clamped(wanted, -limit, limit);
+      const auto& p = parameters_;
+      if (p.feedforward != 0.0) wanted += p.feedforward * now.reference.velocity;
+      if (p.resolution > 0.0) wanted = rounded_command(wanted, p.resolution);
+      command_ = clamped(wanted, -p.limit, p.limit);
     }
     if (sent_.empty()) return command_;
     const double arrived = std::exchange(sent_[oldest_], command_);
@@ -59,19 +61,20 @@ class VelocityCommand {
 
 /// The usual cascade of a drive, a proportional position loop around a PI velocity loop:
 ///
-///   v*_k by VelocityCommand,   v_k = (Δx/T)·d_k,   w_k = v*_k − v_k                          (rad/s)
+///   v*_k by VelocityCommand,   v_k = (Δx_v/T)·d_k,   w_k = v*_k − v_k                        (rad/s)
 ///   I ← I + (ki·T/2)·(w_k + w_{k−1}),   u = kp·w_k + I                                       (N m)
 ///
-///   U(z) = [kp + (ki·T/2)·(1 + z⁻¹)/(1 − z⁻¹)]·[V*(z) − (Δx/T)·D(z)],
+///   U(z) = [kp + (ki·T/2)·(1 + z⁻¹)/(1 − z⁻¹)]·[V*(z) − (Δx_v/T)·D(z)],
 ///
 /// with e′ of the dead zone (acting_error) in place of e, the conditions on I, by the position error e, and
-/// its leak by Integrator, and d the difference of counts by CountDifference. Before the first sample w
-/// was 0. Source: Groß, Hamann, Wiegärtner, "Electrical Feed Drives in Automation", Siemens/MCD
-/// 2001, chapter 3.
+/// its leak by Integrator, and d the difference of the counts of the encoder that the velocity loop reads, of
+/// Δx_v, by CountDifference. Before the first sample w was 0. Source: Groß, Hamann, Wiegärtner, "Electrical
+/// Feed Drives in Automation", Siemens/MCD 2001, chapter 3.
 class Cascade {
  public:
   Cascade(const ControllerParameters& parameters, const ControlStart& start)
-      : constants_(cascade_constants(parameters.blocks.cascade, parameters.sample_rate, start.resolution)),
+      : constants_(cascade_constants(parameters.blocks.cascade, parameters.sample_rate, start.resolution,
+                                     start.velocity_resolution)),
         deadband_(error_deadband_constants(parameters.blocks.error_deadband)),
         integral_(integral_constants(parameters.blocks, parameters.sample_rate, start.integral_range),
                   start.integral),
@@ -80,19 +83,19 @@ class Cascade {
                     parameters.blocks.derivative_window) {}
 
   double step(const Feedback& now, double /*torque*/ = 0.0) {
-    const double w = velocity_error(constants_, command(now), difference_.step(now.count));
+    const double w = velocity_error(constants_, command(now), difference_.step(now.velocity_count));
     const double integral = integral_.add(now.error, constants_.ki * (w + last_velocity_error_));
     last_velocity_error_ = w;
     return cascade_torque(integral, constants_.kp, w);
   }
 
   void observe(const Feedback& now) {
-    last_velocity_error_ = velocity_error(constants_, command(now), difference_.step(now.count));
+    last_velocity_error_ = velocity_error(constants_, command(now), difference_.step(now.velocity_count));
     integral_.observe(now.error);
   }
 
   void pause(const Feedback& now) {
-    difference_.pass(now.count);
+    difference_.pass(now.velocity_count);
     last_velocity_error_ = velocity_error(constants_, command(now), difference_.value());
   }
 
@@ -104,7 +107,7 @@ class Cascade {
 
   LinearChain linear() const {
     const LinearBlock position_loop{{LoopSignal::error, command_.transfer(constants_.kv)},
-                                    {LoopSignal::count, difference_.transfer(-constants_.velocity)}};
+                                    {LoopSignal::velocity_count, difference_.transfer(-constants_.velocity)}};
     LinearBlock velocity_loop{{LoopSignal::torque, {{constants_.kp}}}};
     if (constants_.ki != 0.0) {
       velocity_loop.push_back({LoopSignal::torque, integral_.trapezoid(constants_.ki)});

@@ -22,7 +22,7 @@ struct ReferenceMotion {
 };
 
 /// Inputs of the controller at a sampling instant. Error and count are whole numbers, or those of a coarser
-/// encoder in counts of the fine one.
+/// encoder in counts of the fine one; velocity_count and other_count are of their own encoders.
 struct Feedback {
   double error{0.0};            ///< reference − count, counts
   double count{0.0};            ///< counts
@@ -30,6 +30,9 @@ struct Feedback {
   ReferenceMotion reference{};
   bool new_target{false};  ///< the target is not that of the last sample
   std::int64_t sample{0};  ///< its number, from the trial's start
+  double velocity_count{
+      0.0};                 ///< of the encoder that the velocity loop of a cascade reads; otherwise `count`
+  double other_count{0.0};  ///< of the encoder of the other mass; 0 without it
 };
 
 /// Range and resolution of the converter.
@@ -44,6 +47,8 @@ struct ControlStart {
   TorqueRange integral_range{};
   double resolution{1.0};  ///< Δx, rad per count
   DacScale dac{};
+  double velocity_resolution{1.0};  ///< Δx of the encoder of velocity_count, rad per count
+  double other_resolution{0.0};     ///< Δx of the encoder of other_count, rad per count; 0 without it
 };
 
 /// A block of the controller (README.md): its parameters, its state, and its law from sample to sample.

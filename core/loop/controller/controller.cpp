@@ -30,8 +30,10 @@ std::optional<ControllerParameters> controller_at_standstill(ControllerParameter
   return controller;
 }
 
-LinearChain linear_chain(const ControllerParameters& parameters, double resolution) {
-  return ControlChain(parameters, {.resolution = resolution}).linear();
+LinearChain linear_chain(const ControllerParameters& parameters, const EncoderParameters& encoders) {
+  return ControlChain(parameters, {.resolution = fine_resolution(encoders),
+                                   .velocity_resolution = velocity_resolution(encoders, parameters)})
+      .linear();
 }
 
 TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest) {
@@ -49,31 +51,46 @@ bool has_coarse_phase(const ControllerParameters& parameters) {
   return parameters.coarse.coarse_beyond < std::numeric_limits<double>::infinity();
 }
 
-Controller::Controller(const ControllerParameters& parameters, const CountScale& counts, double integral,
-                       const DacScale& dac)
+namespace {
+
+ControlStart control_start(const ControllerParameters& parameters, const EncoderParameters& encoders,
+                           bool velocity_by_other, double integral, const DacScale& dac) {
+  return {integral,
+          integral_range(parameters.anti_windup, dac.range.lowest, dac.range.highest),
+          fine_resolution(encoders),
+          dac,
+          velocity_by_other ? other_resolution(encoders) : fine_resolution(encoders),
+          has_other(encoders) ? other_resolution(encoders) : 0.0};
+}
+
+}  // namespace
+
+Controller::Controller(const ControllerParameters& parameters, const EncoderParameters& encoders,
+                       double integral, const DacScale& dac)
     : two_phases_(has_coarse_phase(parameters)),
       fine_encoder_(parameters.encoder),
       coarse_encoder_(parameters.coarse.encoder),
-      fine_per_coarse_(counts.fine_per_coarse),
+      velocity_by_other_(parameters.velocity_by_other),
+      fine_per_coarse_(loop::fine_per_coarse(encoders)),
       fine_(controller_in_phase(parameters, ControlPhase::fine),
-            {integral, integral_range(parameters.anti_windup, dac.range.lowest, dac.range.highest),
-             counts.resolution, dac}),
+            control_start(parameters, encoders, velocity_by_other_, integral, dac)),
       // Without two phases it is not used, and a user's law must not be started twice.
       coarse_(two_phases_ ? controller_in_phase(parameters, ControlPhase::coarse) : ControllerParameters{},
-              {integral, integral_range(parameters.anti_windup, dac.range.lowest, dac.range.highest),
-               counts.resolution, dac}),
+              control_start(parameters, encoders, false, integral, dac)),
       switch_(parameters.coarse, parameters.sample_rate) {}
 
 double Controller::update(std::int64_t reference, const EncoderReading& reading, double torque_in_force,
                           const ReferenceMotion& motion, bool new_target, std::int64_t sample) {
-  const auto feedback = [&](EncoderChoice encoder) -> Feedback {
+  const auto other = static_cast<double>(reading.other);
+  const auto feedback = [&](EncoderChoice encoder, bool velocity_by_other) -> Feedback {
     const double count = count_of(encoder, reading);
-    return {static_cast<double>(reference) - count, count, torque_in_force, motion, new_target, sample};
+    return {static_cast<double>(reference) - count, count, torque_in_force, motion, new_target, sample,
+            velocity_by_other ? other : count,      other};
   };
-  const Feedback fine = feedback(fine_encoder_);
+  const Feedback fine = feedback(fine_encoder_, velocity_by_other_);
   if (!two_phases_) return fine_.step(fine);
 
-  const Feedback coarse = feedback(coarse_encoder_);
+  const Feedback coarse = feedback(coarse_encoder_, false);
   const bool changed = switch_.update(fine, coarse);
   const bool in_fine = switch_.phase() == ControlPhase::fine;
   ControlChain& deciding = in_fine ? fine_ : coarse_;

@@ -20,21 +20,15 @@ ControllerParameters controller_in_phase(ControllerParameters controller, Contro
 /// The controller whose gains are those at standstill; empty without them.
 std::optional<ControllerParameters> controller_at_standstill(ControllerParameters controller);
 
-/// The blocks of a control without phases, away from their limits. @param resolution Δx, rad per count.
-LinearChain linear_chain(const ControllerParameters& parameters, double resolution);
+/// The blocks of a control without phases, away from their limits.
+LinearChain linear_chain(const ControllerParameters& parameters, const EncoderParameters& encoders);
 
 /// Range to which anti-windup clamps the integral. @param lowest, highest the DAC's range, N m.
 TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest);
 
-/// Sizes of the counts of the two encoders.
-struct CountScale {
-  double fine_per_coarse{1.0};  ///< counts of the fine encoder in one of the coarse encoder
-  double resolution{1.0};       ///< Δx of the fine encoder, rad per count
-};
-
 /// The control of the count: a chain of blocks, or one for each of two phases (PhaseSwitch), each fed back
-/// from its own encoder. Errors and counts are fine ones; a coarse encoder's count is taken times
-/// fine/coarse.
+/// from its own encoder; the coarse phase reads no encoder of the other mass. Errors and counts are fine
+/// ones; a coarse encoder's count is taken times fine/coarse.
 ///
 /// On a change of phase at sample k the new chain sets I to the torque in force; with blocks, to the torque
 /// with which the chain gives the one in force in the steady state (ControlBlock::take_over). Its previous
@@ -43,7 +37,7 @@ struct CountScale {
 class Controller {
  public:
   /// @param integral I before the first sample, N m, of the phase of that sample.
-  Controller(const ControllerParameters& parameters, const CountScale& counts, double integral,
+  Controller(const ControllerParameters& parameters, const EncoderParameters& encoders, double integral,
              const DacScale& dac);
 
   /// The wanted torque (N m) at this sample.
@@ -65,6 +59,7 @@ class Controller {
   bool two_phases_;
   EncoderChoice fine_encoder_;    ///< of the fine phase
   EncoderChoice coarse_encoder_;  ///< of the coarse phase
+  bool velocity_by_other_;        ///< of the fine phase
   double fine_per_coarse_;
   ControlChain fine_;    ///< of the fine phase
   ControlChain coarse_;  ///< of the coarse phase

@@ -23,8 +23,9 @@ inline ObserverConstants<double> observer_constants(const ObserverParameters& ob
 ///
 ///   u − d̂,   d̂ = Jn·s²·Q·θm − Q·u₁,   Q = ωq²/(s² + √2·ωq·s + ωq²),   ωq = 2π·bandwidth,
 ///
-/// with θm = (count_k − count_0)·Δx and u₁ the torque decided one sample before, both by the bilinear
-/// transform without prewarping. With w = ωq·T/2, c = 1 + √2·w + w² and N = 1 + a₁·z⁻¹ + a₂·z⁻²:
+/// with θm = (count_k − count_0)·Δx, of the encoder of a cascade's velocity loop, and u₁ the torque decided
+/// one sample before, both by the bilinear transform without prewarping. With w = ωq·T/2, c = 1 + √2·w + w²
+/// and N = 1 + a₁·z⁻¹ + a₂·z⁻²:
 ///
 ///   D̂(z) = (Jn·ωq²/c)·(1 − z⁻¹)²/N·Θm(z) − (w²/c)·(1 + z⁻¹)²/N·U₁(z),
 ///   a₁ = 2·(w² − 1)/c,   a₂ = (1 − √2·w + w²)/c.
@@ -35,8 +36,8 @@ class DisturbanceObserver {
  public:
   DisturbanceObserver(const ControllerParameters& parameters, const ControlStart& start)
       : acts_(parameters.blocks.observer.bandwidth > 0.0),
-        constants_(observer_constants(parameters.blocks.observer, parameters.sample_rate, start.resolution)) {
-  }
+        constants_(observer_constants(parameters.blocks.observer, parameters.sample_rate,
+                                      start.velocity_resolution)) {}
 
   double step(const Feedback& now, double torque) {
     observe(now);
@@ -44,9 +45,9 @@ class DisturbanceObserver {
   }
   void observe(const Feedback& now) {
     if (!acts_) return;
-    if (!started_) first_count_ = now.count;
+    if (!started_) first_count_ = now.velocity_count;
     started_ = true;
-    estimate_ = observer_step(constants_, state_, now.count - first_count_, now.torque_in_force);
+    estimate_ = observer_step(constants_, state_, now.velocity_count - first_count_, now.torque_in_force);
   }
   static void pause(const Feedback& /*now*/) {}
   double take_over(double torque) const { return torque + estimate_; }
@@ -56,7 +57,7 @@ class DisturbanceObserver {
     const auto& [acceleration, q, a1, a2] = constants_;
     const std::vector<double> denominator{1.0, a1, a2};
     return {{{LoopSignal::torque, {{1.0}}},
-             {LoopSignal::count, {{-acceleration, 2.0 * acceleration, -acceleration}, denominator}},
+             {LoopSignal::velocity_count, {{-acceleration, 2.0 * acceleration, -acceleration}, denominator}},
              {LoopSignal::torque_in_force, {{q, 2.0 * q, q}, denominator}}}};
   }
 

@@ -15,6 +15,7 @@ enum class LoopSignal {
   torque,          ///< from the stage before it, N m (rad/s within the cascade); 0 for the first
   error,           ///< e_k, counts
   count,           ///< counts
+  velocity_count,  ///< of the encoder that the velocity loop of a cascade reads, counts of it; else `count`
   torque_in_force  ///< decided at sample k − 1, N m
 };
 

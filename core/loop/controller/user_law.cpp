@@ -71,7 +71,8 @@ UserLaw::UserLaw(const ControllerParameters& p, const ControlStart& start)
                    .torque_resolution = start.dac.resolution,
                    .lowest_torque = start.dac.range.lowest,
                    .highest_torque = start.dac.range.highest,
-                   .initial_integral = start.integral};
+                   .initial_integral = start.integral,
+                   .other_resolution = start.other_resolution};
   if (plugin.start) {
     running.step = plugin.start(running.setup);
   } else if (plugin.functions != nullptr) {
@@ -101,7 +102,8 @@ double UserLaw::step(const Feedback& now, double /*torque*/) {
                                 .torque = now.torque_in_force,
                                 .velocity = now.reference.velocity,
                                 .acceleration = now.reference.acceleration,
-                                .new_target = now.new_target ? 1 : 0};
+                                .new_target = now.new_target ? 1 : 0,
+                                .other_count = now.other_count};
   ++running.k;
   const double torque = running.step(sample);
   running.mode.restore();

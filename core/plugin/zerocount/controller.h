@@ -29,7 +29,7 @@
 extern "C" {
 #endif
 
-#define ZEROCOUNT_CONTROLLER_ABI 1
+#define ZEROCOUNT_CONTROLLER_ABI 2
 
 #if defined(_WIN32)
 #define ZEROCOUNT_EXPORT __declspec(dllexport)
@@ -58,6 +58,7 @@ typedef struct zerocount_setup {
   double lowest_torque;     /* that the converter can give, N m */
   double highest_torque;    /* that the converter can give, N m */
   double initial_integral;  /* initial.integral of the manifest, N m */
+  double other_resolution;  /* of the encoder of the other mass, rad per count; 0: there is none */
 } zerocount_setup;
 
 /* A sampling instant. */
@@ -71,6 +72,7 @@ typedef struct zerocount_sample {
   double velocity;     /* of the reference before it is rounded, rad/s */
   double acceleration; /* of the reference before it is rounded, rad/s^2 */
   int32_t new_target;  /* 1 at the first sample with another target, otherwise 0 */
+  double other_count;  /* of the encoder of the other mass, counts of it; 0 where there is none */
 } zerocount_sample;
 
 /* The controller. */

@@ -9,6 +9,7 @@
 
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/theory/theory_prediction.hpp"
+#include "core/loop/encoder.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "runners/tuning/effects/effects.hpp"
 
@@ -36,6 +37,8 @@ void add_noise(trial::TrialParameters& p) {
   };
   add_to(loop::EncoderChoice::fine, p.encoder.fine_errors.noise);
   add_to(loop::EncoderChoice::coarse, p.encoder.coarse_errors.noise);
+  if (loop::has_other(p.encoder))
+    p.encoder.other.errors.noise = std::hypot(p.encoder.other.errors.noise, added_noise);
 }
 
 std::string refusal_of_noise(study::PointEdit at) {

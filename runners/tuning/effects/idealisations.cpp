@@ -212,7 +212,8 @@ void refine(PointEdit& at, std::string_view per_revolution, std::string_view len
 
 void keep_lengths_in_fine_counts(PointEdit& at) {
   visit_values(at, [&](std::size_t slot, const parameters::Parameter& row) {
-    const bool of_an_encoder = is_within(row.name, "encoder") || row.name == "initial.encoder_phase";
+    const bool of_an_encoder = is_within(row.name, "encoder") || row.name == "initial.encoder_phase" ||
+                               row.name == "initial.load_encoder_phase";
     if ((row.unit == "count" && !of_an_encoder) || row.unit == "count/sample")
       at.scale(slot, counts_per_count);
     if (is_sampled_gain(at, row)) at.scale(slot, 1.0 / counts_per_count);
@@ -229,6 +230,9 @@ void with_finer_encoder(PointEdit& at) {
   if (encoders.coarse) refine(at, "encoder.coarse", "encoder.coarse_resolution", "encoder.coarse_errors");
   if (!encoders.fine) return;
   refine(at, "encoder.fine", "encoder.resolution", "encoder.fine_errors");
+  if (study::has_two_encoders(study::limits_at(
+          at.plan(), study::slots_named(at.plan().table, study::two_encoders), at.points().front())))
+    refine(at, "encoder.load.counts_per_revolution", "encoder.load.resolution", "encoder.load.fine_errors");
   keep_lengths_in_fine_counts(at);
 }
 

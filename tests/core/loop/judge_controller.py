@@ -15,7 +15,7 @@ for number, trial in enumerate(answers):
     blocks = trial["blocks"]
     parameters = trial["parameters"]
     limits = [sign * 2**(parameters["dac"]["bits"] - 1) - (sign > 0) for sign in (-1, 1)]
-    judged = codes_of(parameters, [row[:3] for row in trial["samples"]])
+    judged = codes_of(parameters, [(*row[:3], 0) for row in trial["samples"]])
     for k, ((code, coarse, margin), row) in enumerate(zip(judged, trial["samples"])):
         if code != row[3] or coarse != row[5]:
             sys.exit(f"trial {number} ({blocks}), sample {k}: code {row[3]}, phase {row[5]}; judged {code}, {coarse}, "

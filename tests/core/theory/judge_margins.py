@@ -30,24 +30,38 @@ def element_response(element, z, T):
 def open_loop(case):
     c = case["controller"]
     T, dx, J = 1 / c["sample_rate"], 2 * math.pi / case["fine"], case["inertia"]
-    A = [[0, 1], [-case["stiffness"] / J, -case["damping"] / J]]
-    B = [[0], [1 / J]]
-    if case["bandwidth"]:
-        rate = 2 * math.pi * case["bandwidth"]
-        A = [[0, 1, 0], [*A[1], 1 / J], [0, 0, -rate]]
-        B = [[0], [0], [rate]]
-    held = lambda t: cont2discrete((np.array(A, float), np.array(B, float), np.eye(1, len(A)), np.zeros((1, 1))), t, "zoh")[:2]
+    load = case["load"]
+    masses = 2 if load["inertia"] else 1
+    A = np.zeros((2 * masses + 1, 2 * masses + 1))  # angle and velocity of the motor, of the load, and the motor's torque
+    A[0, 1] = 1
+    A[1, :2] = -case["stiffness"] / J, -case["damping"] / J
+    A[1, -1] = 1 / J
+    if masses == 2:
+        twist = np.array([load["stiffness"], load["damping"], -load["stiffness"], -load["damping"], 0])
+        A[1] -= twist / J
+        A[2, 3] = 1
+        A[3] = twist / load["inertia"]
+    rate = 2 * math.pi * case["bandwidth"]
+    A[-1, -1] = -rate
+    B = np.zeros((len(A), 1))
+    B[-1] = rate
+    if not rate:
+        A, B = A[:-1, :-1], A[:-1, -1:]
+    motor, of_load = np.eye(1, len(A))[0], np.eye(1, len(A), 2 * (masses - 1))[0]
+    position, other = (of_load, motor) if case["position_at_load"] else (motor, of_load)
+    outputs = np.array([position, other if case["velocity_by_other"] else position])
+    held = lambda t: cont2discrete((A, B, outputs[:1], np.zeros((1, 1))), t, "zoh")[:2]
     whole = math.floor(case["delay"])
     flow, total = held(T)
     now = held(T * (1 + whole - case["delay"]))[1]  # of the torque that acts from within the sample to its end
     poles, modes = np.linalg.eig(flow)
-    residues = [modes[0] * np.linalg.solve(modes, b[:, 0]) for b in (now, total - now)]
 
-    def plant(z):  # rad per N m
+    def plant(z, output):  # rad per N m
         if np.min(np.abs(poles[:, None] - poles[None, :]) + np.eye(len(poles))) > 1e-6:
+            residues = [(output @ modes) * np.linalg.solve(modes, b[:, 0]) for b in (now, total - now)]
             return sum((r + before / z) / (z - p) for r, before, p in zip(*residues, poles))
         eye = np.eye(len(flow))
-        return np.array([np.linalg.solve(x * eye - flow, now + (total - now) / x)[0, 0] for x in np.atleast_1d(z)])
+        return np.array([output @ np.linalg.solve(x * eye - flow, now + (total - now) / x)[:, 0] for x in np.atleast_1d(z)])
 
     tau, cutoff = c["integrator_leak"], c["derivative_cutoff"]
     left = 1.0 if tau is None else math.exp(-T / tau)
@@ -55,23 +69,24 @@ def open_loop(case):
 
     def response(z):
         trapezoid = (z + 1) / (z - left)
+        angle, of_velocity = (plant(z, output) for output in outputs)  # of the position and of the velocity loop
         window = c["derivative_window"]
         difference = (1 - a) * (1 - z**-float(window)) / window / (1 - a / z)
         if c["structure"] == "cascade":
             g = c["cascade"]
             held = sum(z**-float(j) for j in range(g["divider"])) / g["divider"]
             command = g["kv"] * held * z**-float(g["latency"])
-            u = -(g["kp"] + g["ki"] * T / 2 * trapezoid) * dx * (command + difference / T)
+            u = -(g["kp"] + g["ki"] * T / 2 * trapezoid) * (command * angle + difference / T * of_velocity)
         else:
-            u = -c["kp"] - c["ki"] * trapezoid - c["kd"] * difference
+            u = -(c["kp"] + c["ki"] * trapezoid + c["kd"] * difference) * angle / dx
         for element in c["filters"]:
             u = u * element_response(element, z, T)
         w = 2 * math.pi * c["observer"]["bandwidth"]
         if w:
             s = 2 / T * (z - 1) / (z + 1)
             q = w**2 / (s**2 + math.sqrt(2) * w * s + w**2)
-            u = (u - c["observer"]["inertia"] * s**2 * q * dx) / (1 - q / z)
-        return -u * z**-whole * plant(z) / dx * case["gain"]
+            u = (u - c["observer"]["inertia"] * s**2 * q * of_velocity) / (1 - q / z)
+        return -u * z**-whole * case["gain"]
 
     return lambda angle: response(np.exp(1j * np.asarray(angle)))
 

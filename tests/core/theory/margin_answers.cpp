@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <numbers>
 
 #include <nlohmann/json.hpp>
 
@@ -36,13 +37,32 @@ void print() {
     const double stiffness = draw.chance(0.3) ? 0.0 : draw.log_uniform(30.0, 2000.0);
     const double damping = draw.log_uniform(1e-3, 0.5);
     const theory::LinearDrive drive{draw.log_uniform(0.8, 1.25), draw.some(draw.log_uniform(100.0, 2000.0))};
-    const theory::FrozenLoop loop = theory::frozen_loop(stiffness, damping, {}, {}, controller, drive);
+    motion::PlantParameters plant;
+    loop::EncoderParameters encoder;
+    if (draw.chance(0.4)) {
+      motion::LoadParameters& load = plant.load;
+      load.inertia = draw.log_uniform(1e-4, 1e-3);
+      load.stiffness = draw.log_uniform(100.0, 3000.0);
+      load.damping = 0.2 * std::sqrt(load.stiffness * load.inertia) * draw.log_uniform(0.5, 2.0);
+      load.encoder = draw.chance(0.5) ? motion::EncoderPlace::load : motion::EncoderPlace::motor;
+      encoder.other = {std::round(draw.log_uniform(1e4, 1e7)), 2.0 * std::numbers::pi};
+      controller.velocity_by_other =
+          controller.blocks.structure == loop::ControlStructure::cascade && draw.chance(0.7);
+    }
+    const theory::FrozenLoop loop =
+        theory::frozen_loop(stiffness, damping, plant, encoder, controller, drive);
     const theory::StabilityMargins margins = theory::stability_margins(loop);
     all.push_back({{"blocks", testing::block_kind_names[i % testing::block_kinds]},
                    {"controller", testing::controller_json(controller)},
                    {"delay", controller.delay},
-                   {"inertia", motion::PlantParameters{}.inertia},
-                   {"fine", loop::EncoderParameters{}.fine},
+                   {"inertia", plant.inertia},
+                   {"load",
+                    {{"inertia", plant.load.inertia},
+                     {"stiffness", plant.load.stiffness},
+                     {"damping", plant.load.damping}}},
+                   {"position_at_load", plant.load.encoder == motion::EncoderPlace::load},
+                   {"velocity_by_other", controller.velocity_by_other},
+                   {"fine", encoder.fine},
                    {"stiffness", stiffness},
                    {"damping", damping},
                    {"gain", drive.gain},

@@ -17,7 +17,7 @@ TEST(ParameterTable, DefaultsAreThoseOfThisVersionOfResultsFiles) {
     if (!exists_on(parameter, AxisKind::rotary)) continue;
     defaults += std::string(parameter.name) + "=" + default_text(parameter) + "\n";
   }
-  EXPECT_EQ(hash::sha256_hex(defaults), "8d723086b7550dbbf35c97bcdfdacbcfdbdbe89d5364ff1c870dc230a4c498cf")
+  EXPECT_EQ(hash::sha256_hex(defaults), "39b90a32a9c47809671941cd9fe14d9db15a05db1429a22fa88fc30979129ae5")
       << defaults;
 }
 
@@ -127,8 +127,8 @@ TEST(ParameterTable, SectionsHaveTheKeysOfTheirRowsAndSections) {
   using Keys = std::vector<std::string>;
   EXPECT_EQ(keys::keys_below("command"), (Keys{"targets", "torque", "sequence", "hold", "profile", "units"}));
   EXPECT_EQ(keys::keys_below("command.sequence"), (Keys{"targets", "overrun", "cycles", "approach"}));
-  EXPECT_EQ(keys::keys_below("encoder"),
-            (Keys{"fine", "coarse", "resolution", "coarse_resolution", "fine_errors", "coarse_errors"}));
+  EXPECT_EQ(keys::keys_below("encoder"), (Keys{"fine", "coarse", "resolution", "coarse_resolution", "load",
+                                               "fine_errors", "coarse_errors"}));
   EXPECT_EQ(keys::keys_below("initial.history"), (Keys{"reversals", "torque"}));
   EXPECT_TRUE(keys::keys_below("friction.k1").empty());
 }

@@ -342,6 +342,43 @@ INSTANTIATE_TEST_SUITE_P(
             "6:72: controller.coarse.fine_within | at most controller.coarse.coarse_beyond"},
         UnfitCase{"{targets: [1]}", "controller: {coarse: {coarse_beyond: 60, fine_within: 60}}", ""}));
 
+constexpr const char* loops_on_two_masses =
+    "controller: {structure: cascade, cascade: {position: motor, velocity: load}}\n"
+    "plant: {load: {inertia: 1.0e-3}}\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    TwoEncoders, ValueRules,
+    testing::Values(UnfitCase{"{targets: [1]}", loops_on_two_masses,
+                              "6:71: controller.cascade.velocity | read two masses | encoder.load"},
+                    UnfitCase{"{targets: [1]}",
+                              "controller: {structure: cascade, cascade: {position: load}}\n"
+                              "plant: {load: {inertia: 1.0e-3}}",
+                              "6:54: controller.cascade.velocity | read two masses | encoder.load"},
+                    UnfitCase{"{targets: [1]}",
+                              "controller: {structure: cascade, cascade: {position: load, velocity: load}}\n"
+                              "plant: {load: {inertia: 1.0e-3}}",
+                              ""},
+                    UnfitCase{
+                        "{targets: [1]}",
+                        "controller: {structure: cascade, cascade: {position: load}}\n"
+                        "plant: {load: {inertia: 1.0e-3}}\nencoder: {load: {counts_per_revolution: 20000}}",
+                        ""},
+                    UnfitCase{"{targets: [1]}",
+                              "controller: {encoder: coarse}\nplant: {load: {inertia: 1.0e-3}}\n"
+                              "encoder: {load: {counts_per_revolution: 20000}}",
+                              "6:23: controller.encoder | no coarse encoder beside encoder.load | fine"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    TwoEncoders, EffectRules,
+    testing::Values(IdleCase{"{targets: [1]}", "encoder: {load: {counts_per_revolution: 20000}}",
+                             "6:41: encoder.load.counts_per_revolution | no point has a second mass"},
+                    IdleCase{"{targets: [1]}", "initial: {load_encoder_phase: 0.2}",
+                             "6:31: initial.load_encoder_phase | no point has an encoder on the second mass"},
+                    IdleCase{"{targets: [1]}",
+                             "plant: {load: {inertia: 1.0e-3}}\n"
+                             "encoder: {coarse: 1000, load: {counts_per_revolution: 20000}}",
+                             "7:19: encoder.coarse | encoder.load reads the load | either"}));
+
 INSTANTIATE_TEST_SUITE_P(
     Blocks, ValueRules,
     testing::Values(UnfitCase{"{targets: [1]}", "controller: {deadband: {enter: 2, leave: 1}}",
@@ -462,9 +499,9 @@ TEST(FittingValues, ATorqueBeyondTheConverterIsClippedAndSaysSo) {
   EXPECT_EQ(warnings("{levels: [{uniform: [-0.5, 0]}]}").size(), 1u);
   EXPECT_EQ(warnings("{levels: [0.49, 0.5], through: exact}"), Warnings{});
   EXPECT_TRUE(has_faults(warnings("{levels: [0.3]}", "amplifier: {limit: 0.2}\n"),
-                         "5:35: command.torque.levels.0 | converter's range from -0.2 to 0.2"));
+                         "5:29: command.torque.levels.0 | converter's range from -0.2 to 0.2"));
   EXPECT_TRUE(has_faults(warnings("{levels: [0.3], through: exact}", "amplifier: {limit: 0.2}\n"),
-                         "5:35: command.torque.levels.0 | amplifier's range from -0.2 to 0.2"));
+                         "5:29: command.torque.levels.0 | amplifier's range from -0.2 to 0.2"));
   EXPECT_TRUE(has_faults(warnings("{levels: [0.49]}", "sweep: {grid: {dac.bits: [12, 11]}}\n"),
                          "6:31: command.torque.levels.0 | converter"));
 }
@@ -479,9 +516,9 @@ TEST(FittingValues, AnAxisThatHoldsCarriesWhatActsOnTheRotorAlone) {
   for (const std::string acting : {"torque: 0.01", "ripple: [{amplitude: 0.01, periods: 1}]"})
     EXPECT_TRUE(
         has_faults(refusal("disturbance: {torque: 0.01, load: {" + acting + "}}\ninitial: {holding: true}\n"),
-                   "8:11: " + expected));
+                   "8:20: " + expected));
   EXPECT_TRUE(has_faults(refusal("disturbance: {torque: 0.01}\ninitial: {holding: true, gap: 0.2}\n"),
-                         "8:11: " + expected));
+                         "8:20: " + expected));
   EXPECT_NO_THROW(study_of(manifest_commanding(
       "{targets: [0], hold: 1}",
       "plant: {load: {inertia: 1.0e-3}}\ndisturbance: {torque: 0.01}\ninitial: {holding: true}\n")));

@@ -52,6 +52,12 @@ Words on_the_coarse_encoder(Words with) {
   return with;
 }
 
+/// An encoder on a stiff second mass that closes the loop, with these errors.
+Words on_the_loads_encoder(const std::string& errors, Words given = {by_position}) {
+  given.push_back("encoder.load={counts_per_revolution: 100000, fine_errors: {" + errors + "}}");
+  return with_a_load("encoder: load", given);
+}
+
 // [parameter] what makes it the cause
 const std::map<std::string, Words, std::less<>>& causes_of_failures() {
   static const std::map<std::string, Words, std::less<>> all{
@@ -91,6 +97,15 @@ const std::map<std::string, Words, std::less<>>& causes_of_failures() {
                               "initial.position={uniform: [0, 6.28]}"})},
       {"encoder.coarse_errors.noise", on_the_coarse_encoder({"encoder.coarse_errors.noise=10"})},
       {"encoder.coarse_errors.missed", on_the_coarse_encoder({"encoder.coarse_errors.missed=0.05"})},
+      {"encoder.load.counts_per_revolution",
+       with_a_load("encoder: load", {"encoder.load.counts_per_revolution=2000", "command.targets=[8, 0]",
+                                     "goal={tolerance: 1.0e-3, within: 0.2, moves: 0.9}"})},
+      {"encoder.load.fine_errors.eccentricity", on_the_loads_encoder("eccentricity: 5.0e-2")},
+      {"encoder.load.fine_errors.interpolation",
+       on_the_loads_encoder("interpolation: 20, interpolation_period: 1000",
+                            {by_position, "initial.position={uniform: [0, 6.28]}"})},
+      {"encoder.load.fine_errors.noise", on_the_loads_encoder("noise: 2", {})},
+      {"encoder.load.fine_errors.missed", on_the_loads_encoder("missed: 0.05")},
       {"dac.bits", {"dac.bits=8"}},
       {"dac.range", {"dac.range=0.01"}},
       {"dac.offset", {"dac.offset=0.5"}},
@@ -140,7 +155,8 @@ class Causes : public ProgramTest {
 /// one.
 bool has_a_twin(const parameters::Parameter& row) {
   return row.name.starts_with("controller.coarse.") || row.name == "encoder.resolution" ||
-         row.name == "encoder.coarse_resolution" || row.name == "dac.resolution";
+         row.name == "encoder.coarse_resolution" || row.name == "encoder.load.resolution" ||
+         row.name == "dac.resolution";
 }
 
 TEST_F(Causes, AreNamedForEveryParameterThatHasAnIdealValue) {
@@ -207,6 +223,9 @@ TEST(IdealValues, AreMissingOnlyWhereThereIsNone) {
                                               "encoder.coarse_errors.eccentricity_angle",
                                               "encoder.coarse_errors.interpolation_period",
                                               "encoder.coarse_errors.noise_bandwidth",
+                                              "encoder.load.fine_errors.eccentricity_angle",
+                                              "encoder.load.fine_errors.interpolation_period",
+                                              "encoder.load.fine_errors.noise_bandwidth",
                                               "dac.sigma_delta",
                                               "disturbance.ripple.#.periods",
                                               "disturbance.ripple.#.pitch",

@@ -60,6 +60,7 @@ TEST_F(ControllerOfConditions, IsOneWhereOnlyThePlantDiffers) {
 TEST(TraceHelp, NamesEveryColumn) {
   study::StudyFeatures features;
   features.travel = features.phases = features.load = features.drive_torque = true;
+  features.load_count = features.motor_count = true;
   for (const commands::Command& command : program::commands()) {
     if (command.spec.name != "trace") continue;
     for (const auto& field : layout::trace_fields(features)) {

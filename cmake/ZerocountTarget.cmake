@@ -15,8 +15,8 @@ function(zerocount_target target optimisation)
   # Clang also warns of a local name that a constant of another file in the same unity build has.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wshadow>)
   target_compile_options(${target} PUBLIC -ffp-contract=off)
-  # The extension of the Python package is a shared library of the same objects. Nothing replaces their functions when it is loaded,
-  # so that they may be inlined.
+  # libzerocount.so is a shared library of the same objects. Nothing replaces their functions when it is loaded, so that they may be
+  # inlined.
   target_compile_options(${target} PRIVATE -fPIC -fno-semantic-interposition)
   # Boost would compute in long double, by the x87 unit of the processor.
   target_compile_definitions(${target} PRIVATE BOOST_MATH_PROMOTE_DOUBLE_POLICY=false)
@@ -165,9 +165,7 @@ function(zerocount_layer)
   foreach(folder IN LISTS ARGN)
     add_subdirectory(${folder})
     string(REPLACE "/" "::" name "${layer}/${folder}")
-    if(TARGET zerocount::${name})  # the extension of the Python package is no library
-      target_link_libraries(zerocount_${layer} INTERFACE zerocount::${name})
-    endif()
+    target_link_libraries(zerocount_${layer} INTERFACE zerocount::${name})
   endforeach()
 endfunction()
 

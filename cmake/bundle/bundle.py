@@ -16,7 +16,7 @@ OF_COMPILER = {"libstdc++.so.6", "libgcc_s.so.1"}
 UNUSED = ("libcurl.so.4", "libcrypto.so.3", "libcholmod.so.3", "libspqr.so.2", "libcxsparse.so.3", "liblapack.so.3", "libf77blas.so.3")
 STAND_IN = "libzerocount-unused.so"  # has their functions, which end the program
 # Packages whose code is compiled into the program.
-COMPILED_IN = ("libboost1.74-dev", "libeigen3-dev", "libsqlitecpp-dev", "nlohmann-json3-dev", "librandom123-dev", "pybind11-dev")
+COMPILED_IN = ("libboost1.74-dev", "libeigen3-dev", "libsqlitecpp-dev", "nlohmann-json3-dev", "librandom123-dev")
 
 
 def output_of(*words):

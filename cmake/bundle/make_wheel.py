@@ -1,10 +1,9 @@
 #!/usr/bin/python3
-"""Makes the wheel that has program, extension and libraries, so that pip installs all of it in a bare environment.
+"""Makes the wheel that has package, program and libraries, so that pip installs all of it in a bare environment of any Python 3.
 
 usage: make_wheel.py BUILD TARGET
 
-BUILD is a build for any machine of the architecture, such as build/portable, with the Python package. TARGET is
-the folder for the wheel.
+BUILD is a build for any machine of the architecture, such as build/portable. TARGET is the folder for the wheel.
 """
 
 import hashlib
@@ -42,14 +41,13 @@ def platform_tag(files):
 def main(build, target):
     with tempfile.TemporaryDirectory() as temporary:
         content = pathlib.Path(temporary)
-        extension = next((build / "python").glob("_zerocount.*.so"))
+        files = {build / "zerocount": "zerocount/bin/zerocount", build / "libzerocount.so.1": "zerocount/lib/libzerocount.so.1"}
         without = bundle.OF_C_LIBRARY | bundle.OF_COMPILER  # a system with Python has those of the compiler
-        libraries, unused = bundle.libraries_of([build / "zerocount", extension], without)
+        libraries, unused = bundle.libraries_of(list(files), without)
         names = {name: own_name(name, path) for name, path in libraries.items()}
-        bundle.place(build / "zerocount", content / "zerocount/bin/zerocount", f"$ORIGIN/../../{LIBRARIES}", names)
-        bundle.place(extension, content / extension.name, f"$ORIGIN/{LIBRARIES}", names)
+        for file, target_file in files.items():
+            bundle.place(file, content / target_file, f"$ORIGIN/../../{LIBRARIES}", names)
         bundle.place_libraries(libraries, unused, content / LIBRARIES, names)
-        shutil.copyfile(bundle.HERE / "_zerocount_program.py", content / "_zerocount_program.py")
         bundle.place_licences(libraries, content / LIBRARIES / "licences")
         tag = platform_tag([file for file in content.rglob("*") if file.is_file() and file.read_bytes()[:4] == b"\x7fELF"])
         environment = {**os.environ, "ZEROCOUNT_BUNDLE": str(content), "ZEROCOUNT_PLATFORM": tag}
@@ -57,7 +55,7 @@ def main(build, target):
             stale.unlink()
         with tempfile.TemporaryDirectory() as source:
             copy = pathlib.Path(source, "source")
-            for name in ("pyproject.toml", "setup.py", "CMakeLists.txt", "LICENSE", "runners/python"):
+            for name in ("pyproject.toml", "setup.py", "LICENSE", "runners/python"):
                 (copy / name).parent.mkdir(parents=True, exist_ok=True)
                 whole = bundle.ROOT / name
                 (shutil.copytree if whole.is_dir() else shutil.copyfile)(whole, copy / name)

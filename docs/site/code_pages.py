@@ -4,9 +4,15 @@ import ast
 
 INTERNAL = (  # of the fast engine and of bounds: whoever runs trials includes core/batch/batch.hpp
     "core/batch/lanes", "core/batch/kernels", "core/numerics/real.hpp")
-PLUGIN = "core/plugin/zerocount/controller.h"
-# The header is C for any compiler, with plain comments: Doxygen reads those that describe what follows or stands before them.
-PLUGIN_FILTER = r"sed -e '4s|^/\* |/** \\file\n * |' -e '5,$s|^\( *\)/\* |\1/** |' -e 's|\([;,]\) *\(/\*\) |\1 /**< |'"
+# The headers in C: page, file, title and first sentences.
+C_HEADERS = {
+    "plugin": ("core/plugin/zerocount/controller.h", "# The header of controllers of one's own\n\nWhat does a controller in C or C++ have to provide? "
+               "How to write one: [your own controller](../docs/your-own-controller.md)."),
+    "library": ("runners/library/zerocount/zerocount.h", "# The library for other languages\n\nWhich functions of C run trials of a study? "
+                "How a program links it: [installation](../docs/installation.md#the-simulation-as-a-library)."),
+}
+# They are C for any compiler, with plain comments: Doxygen reads those that describe what follows or stands before them.
+C_FILTER = r"sed -e '4s|^/\* |/** \\file\n * |' -e '5,$s|^\( *\)/\* |\1/** |' -e 's|\([;,]\) *\(/\*\) |\1 /**< |'"
 
 # Formulas and pseudo-code in comments are indented by less than Markdown asks.
 HEADER_FILTER = r"sed -e 's|^\( *///\)   \( *[^ ]\)|\1      \2|'"
@@ -24,13 +30,14 @@ def headers(root):
 
 def doxygen_settings(root, output):
     """Only XML, of the public headers; comments that start with /// or /**."""
-    inputs = [str(root / header) for folder in headers(root).values() for header in folder] + [str(root / PLUGIN)]
+    inputs = [str(root / header) for folder in headers(root).values() for header in folder]
+    inputs += [str(root / header) for header, _ in C_HEADERS.values()]
     settings = {
         "INPUT": " ".join(inputs), "OUTPUT_DIRECTORY": output, "GENERATE_XML": "YES", "GENERATE_HTML": "NO", "GENERATE_LATEX": "NO",
         "STRIP_FROM_PATH": root, "FULL_PATH_NAMES": "YES", "EXTRACT_ALL": "YES", "JAVADOC_AUTOBRIEF": "YES", "QUIET": "YES",
         "WARN_IF_INCOMPLETE_DOC": "NO", "WARN_IF_DOC_ERROR": "NO", "XML_PROGRAMLISTING": "NO",
         "MACRO_EXPANSION": "YES", "EXPAND_ONLY_PREDEF": "YES", "PREDEFINED": "ZEROCOUNT_EXPORT= ZEROCOUNT_ALWAYS_INLINE=",
-        "FILTER_PATTERNS": f'*.h="{PLUGIN_FILTER}" *.hpp="{HEADER_FILTER}"',
+        "FILTER_PATTERNS": f'*.h="{C_FILTER}" *.hpp="{HEADER_FILTER}"',
     }
     return "".join(f"{key} = {value}\n" for key, value in settings.items())
 
@@ -52,9 +59,8 @@ def cpp_pages(root):
             yield room, f"# {room}\n\n```{{doxygennamespace}} zerocount::{room}\n:content-only:\n:members:\n:undoc-members:\n```\n"
 
 
-def plugin_page():
-    return ("# The header of controllers of one's own\n\nWhat does a controller in C or C++ have to provide? How to write one: "
-            f"[your own controller](../docs/your-own-controller.md).\n\n```{{doxygenfile}} {PLUGIN}\n:sections: briefdescription detaileddescription innerclass func define public-attrib\n```\n")
+def c_page(header, opening):
+    return f"{opening}\n\n```{{doxygenfile}} {header}\n:sections: briefdescription detaileddescription innerclass func define public-attrib\n```\n"
 
 
 def python_page(root):
@@ -74,5 +80,6 @@ def write(folder, root):
     (folder / "cpp").mkdir(parents=True)
     for name, text in cpp_pages(root):
         (folder / "cpp" / f"{name}.md").write_text(text, encoding="utf-8")
-    (folder / "plugin.md").write_text(plugin_page(), encoding="utf-8")
+    for name, described in C_HEADERS.items():
+        (folder / f"{name}.md").write_text(c_page(*described), encoding="utf-8")
     (folder / "python.md").write_text(python_page(root), encoding="utf-8")

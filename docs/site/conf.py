@@ -23,7 +23,6 @@ smartquotes = False  # options have two dashes
 myst_enable_extensions = ["deflist", "attrs_image"]
 suppress_warnings = ["myst.header"]  # generated sections of schemas start below the heading of the page
 
-autodoc_mock_imports = ["_zerocount"]  # so that the site needs no build of the extension
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # numpydoc has them
 numpydoc_show_class_members = False

@@ -16,6 +16,7 @@
 #include "runners/command_line/output_place.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/identification_commands/identification_commands.hpp"
+#include "runners/library/description.hpp"
 #include "runners/program/shell_commands.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
@@ -136,6 +137,10 @@ ExitCode run_command_line(std::span<const std::string> words) {
     const layout::Provenance provenance = layout::current_provenance();
     return print(fmt::format("zerocount {} ({}, {})\n", provenance.zerocount_version, provenance.git_commit,
                              provenance.compiler));
+  }
+  if (verb == "--describe") {  // for the packages of other languages
+    standard_output::write(library::described(words.subspan(1)));
+    return ExitCode::success;
   }
   const commands::Command command = find_command(verb);
   const command_line::Arguments arguments(command.spec, {words.begin() + 1, words.end()});

@@ -35,7 +35,7 @@ def check_symbols(root, tag):
 
 
 def check_installed(wheel, folder, own):
-    venv.create(folder / "bare", with_pip=True)
+    venv.create(folder / "bare", with_pip=True, system_site_packages=True)  # for numpy
     binaries = folder / "bare/bin"
     run(binaries / "python", "-m", "pip", "install", "--no-deps", "--no-index", wheel)
     other = folder / "other"
@@ -45,9 +45,10 @@ def check_installed(wheel, folder, own):
     run(binaries / "zerocount", "new", "paper-gains", "-o", "mine.yaml", cwd=folder, env=environment)
     run(binaries / "zerocount", "run", "mine.yaml", "--set", "rigs=2", "--set", "trials=4", "-q", "-o", "mine.h5", cwd=folder, env=environment)
     require("ok" in run(binaries / "zerocount", "verify", "mine.h5", cwd=folder, env=environment), "the file is intact")
-    extension = "import _zerocount; assert _zerocount.Study.recorded('mine.h5').trials == 4; print(_zerocount.__file__)"
-    place = run(binaries / "python", "-c", extension, cwd=folder, env=environment).strip()
-    installed = pathlib.Path(place).with_name("zerocount") / "bin/zerocount"
+    in_process = ("from zerocount import checked, library; study = checked.recorded_study('mine.h5'); "
+                  "assert study.trials == 4 and len(study.trace(0, 0)['samples']['t']) > 0; print(library.places()[0])")
+    place = run(binaries / "python", "-c", in_process, cwd=folder, env=environment).strip()
+    installed = pathlib.Path(place).parents[1] / "bin/zerocount"
     require("undefined symbol" not in run("ldd", "-r", installed), "every function that a library names is in the wheel")
     for program in (place, installed):
         for name, found in re.findall(r"^\s(\S+) => (\S+)", run("ldd", program), re.MULTILINE):
@@ -61,6 +62,7 @@ def main():
         run(sys.executable, "-B", source / "cmake/bundle/make_wheel.py", build, folder)
         wheel = next(folder.glob("zerocount-*.whl"))
         zipfile.ZipFile(wheel).extractall(folder / "content")
+        require("-py3-none-manylinux" in wheel.stem, "the wheel is for every Python 3")
         own = check_symbols(folder / "content", wheel.stem.split("-")[-1])
         check_installed(wheel, folder, own)
     print(wheel.name)

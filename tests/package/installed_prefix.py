@@ -88,6 +88,7 @@ def check_consumer(source, prefix, folder):
     run("cmake", "-S", source / "examples/consumer", "-B", folder / "consumer", f"-DCMAKE_PREFIX_PATH={prefix}")
     run("cmake", "--build", folder / "consumer")
     require("zero counts of error" in run(folder / "consumer/one_trial"), "one trial ends in zero counts")
+    require(run(folder / "consumer/law_in_c") == "0 counts of error at the end\n", "so does one with a law in C")
 
 
 def main():

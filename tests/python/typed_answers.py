@@ -14,6 +14,13 @@ def use(results: zc.Results) -> float | None:
     return judgement.rate if judgement.needed is None else judgement.needed.trials
 
 
+def facts(results: zc.Results) -> int:
+    labels: list[str] = results.checked.labels
+    results.study.labels.nothing  # type: ignore[attr-defined]
+    number: int = results.summary  # type: ignore[assignment]
+    return number + len(labels) + results.study.trials
+
+
 learnt: LearnAnswer = zc.ask("learn", "worlds.h5", point=2)
 listed: ParametersAnswer | ParametersGuidesAnswer = zc.ask("parameters")
 word: str = zc.ask("judge", "my-axis.h5").label

@@ -9,8 +9,6 @@ The package calls the program zerocount and reads its files. Single trials run i
 
 import inspect as _inspect
 
-from _zerocount import __version__
-
 from . import arguments as _arguments
 from .answers import Answer
 from .asking import ask
@@ -18,16 +16,17 @@ from .comparison import Comparison, compare
 from .errors import ArgumentError, DataError, Error, MachineError, ManifestError, Problem, TooLittleDataError
 from .figures import Figure
 from .identification import Identification, LawIdentification, SlidingIdentification, identify
-from .laws import ControlLaw, Setup, trial
-from .laws import Sample as LoopSample
+from .laws import trial
+from .loop import ControlLaw, Setup
+from .loop import Sample as LoopSample
 from .monitoring import Monitor, monitor
 from .planning import plan
-from .results import Results
-from .results import open_results as open
+from .results import Results, open_results
 from .sampling import Sample, sample
 from .studies import Study, shipped, study
 from .traces import Trace
 from .tuning import Tuning, tune
+from .version import VERSION as __version__
 
 __all__ = [
     "Answer",
@@ -57,7 +56,7 @@ __all__ = [
     "compare",
     "identify",
     "monitor",
-    "open",
+    "open_results",
     "plan",
     "sample",
     "shipped",
@@ -66,7 +65,9 @@ __all__ = [
     "tune",
 ]
 
-for _name in __all__:
+open = open_results  # as zc.open; `from zerocount import *` leaves that of Python
+
+for _name in (*__all__, "open"):
     _item = globals()[_name]
     if isinstance(_item, type):
         _arguments.check_class(_item)

@@ -6,11 +6,10 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-import _zerocount
-
 from .answer_types import IdentifyAnswer, IdentifyLawsAnswer, IdentifySlidingAnswer
 from .answers import Answer
 from .asking import ask
+from .checked import manifest_tree
 from .optional import required
 
 if TYPE_CHECKING:
@@ -30,7 +29,7 @@ class Identified(Answer):
     @property
     def settings(self) -> dict[str, Any]:
         """The manifest as dotted keys: ``study.set(identified.settings)``."""
-        sections = _zerocount.manifest_tree(self["manifest"], "<identified>", []) or {}
+        sections = manifest_tree(self["manifest"], "<identified>", []) or {}
         return {
             f"{section}.{key}": value
             for section, keys in sections.items()

@@ -3,87 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, Protocol
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 from .errors import ManifestError
+from .loop import ControlLaw
 from .traces import Trace, simulated
 
 if TYPE_CHECKING:
     from .results import Results
     from .studies import Study
-
-
-class Setup(Protocol):
-    """What is the same at all samples of a trial. On a linear axis read m for rad, and N for N m."""
-
-    @property
-    def sample_time(self) -> float:
-        """T, s."""
-
-    @property
-    def resolution(self) -> float:
-        """Of the encoder, rad per count."""
-
-    @property
-    def torque_resolution(self) -> float:
-        """Of the converter, N m per code."""
-
-    @property
-    def lowest_torque(self) -> float:
-        """That the converter can give, N m."""
-
-    @property
-    def highest_torque(self) -> float:
-        """That the converter can give, N m."""
-
-    @property
-    def initial_integral(self) -> float:
-        """``initial.integral`` of the manifest, N m."""
-
-
-class Sample(Protocol):
-    """A sampling instant."""
-
-    @property
-    def k(self) -> int:
-        """Number of the sample in the trial, from 0."""
-
-    @property
-    def time(self) -> float:
-        """k T, s."""
-
-    @property
-    def error(self) -> float:
-        """Reference, rounded to counts, less count."""
-
-    @property
-    def count(self) -> float:
-        """Of the encoder that closes the loop, counts of the fine one."""
-
-    @property
-    def reference(self) -> float:
-        """Before it is rounded, counts."""
-
-    @property
-    def torque(self) -> float:
-        """Decided at the sample before, in whole DAC steps within the range, N m; 0 at the first."""
-
-    @property
-    def velocity(self) -> float:
-        """Of the reference before it is rounded, rad/s."""
-
-    @property
-    def acceleration(self) -> float:
-        """Of the reference before it is rounded, rad/s²."""
-
-    @property
-    def new_target(self) -> bool:
-        """Whether this is the first sample with another target."""
-
-
-ControlLaw = Callable[[Setup], Callable[[Sample], float]]
-"""A control law: is given the setup of a trial, and returns the function that gives the torque (N m) of a sample."""
 
 
 def trial(

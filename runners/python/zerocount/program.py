@@ -15,9 +15,8 @@ import threading
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 
-import _zerocount
-
 from .errors import MachineError, error_of
+from .version import VERSION
 
 _REPLACED = b"\r\x1b[K"  # ends a line of progress: the next one takes its place
 _PARTS = re.compile(rb"(\r\x1b\[K|\r?\n)")
@@ -56,9 +55,9 @@ def path() -> str:
         words = subprocess.run([found, "--version"], capture_output=True, text=True, check=True).stdout.split()
     except (OSError, subprocess.CalledProcessError):
         raise MachineError(f"{found} is not a program that runs here; expected zerocount", 5) from None
-    if words[:2] != ["zerocount", _zerocount.__version__]:
+    if words[:2] != ["zerocount", VERSION]:
         raise MachineError(
-            f"{found} is {' '.join(words[:2])}; expected zerocount {_zerocount.__version__}, as this package", 5
+            f"{found} is {' '.join(words[:2])}; expected zerocount {VERSION}, as this package", 5
         )
     return found
 

@@ -8,13 +8,12 @@ import functools
 import os
 import pathlib
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, TypeVar, cast
-
-import _zerocount
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
 
 from . import program
 from .answer_types import JudgeAnswer, SummaryAnswer
 from .asking import ask
+from .checked import CheckedStudy, recorded_study
 from .datasets import Column, ResultsDatasets, state_of
 from .errors import DataError
 from .figures import Figure, figure, figure_names
@@ -79,19 +78,24 @@ def open_results(path: str | os.PathLike[str]) -> Results:
     return Results(path)
 
 
-def _of_file(read: Callable[[Any], T]) -> property:
+class _of_file(property, Generic[T]):  # a property for Python, and a descriptor with a type for mypy
     """A property that is read once for each state of the file."""
 
-    @functools.wraps(read)
-    def value(results: Any) -> T:
-        state = state_of(results.path)
-        if results._kept.get(read.__name__, (None,))[0] != state:
-            results._kept[read.__name__] = (state, read(results))
-        kept = results._kept[read.__name__][1]
-        # The caller may change a table or a dict that it gets.
-        return cast(T, copy.deepcopy(kept) if hasattr(kept, "copy") else kept)
+    def __init__(self, read: Callable[[Any], T]) -> None:
+        @functools.wraps(read)
+        def value(results: Any) -> T:
+            state = state_of(results.path)
+            if results._kept.get(read.__name__, (None,))[0] != state:
+                results._kept[read.__name__] = (state, read(results))
+            kept = results._kept[read.__name__][1]
+            # The caller may change a table or a dict that it gets.
+            return cast(T, copy.deepcopy(kept) if hasattr(kept, "copy") else kept)
 
-    return property(value)
+        super().__init__(value)
+
+    if TYPE_CHECKING:
+
+        def __get__(self, results: object, owner: type | None = None) -> T: ...
 
 
 class Results:
@@ -140,9 +144,9 @@ class Results:
         return study
 
     @_of_file
-    def checked(self) -> _zerocount.Study:
+    def checked(self) -> CheckedStudy:
         """The study as its trials were run, in this process."""
-        return _zerocount.Study.recorded(self.path)
+        return recorded_study(self.path)
 
     def command(self, name: str, *options: str, accepted: frozenset[int] = frozenset({0})) -> str:
         """What a command of the program says of this file.

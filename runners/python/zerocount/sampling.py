@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-import _zerocount
-
+from .checked import CheckedStudy
 from .datasets import Array
 from .errors import ManifestError
 from .optional import required
@@ -118,11 +117,10 @@ class Sample:
         if not 0 <= first <= MAX_NUMBER - len(values):
             raise ManifestError(f"first = {first} is out of range; expected 0 to {MAX_NUMBER - len(values)}", 2)
         numbers = np.arange(first, first + len(values))
-        result: dict[str, Array] = self._checked.simulate(0, values, numbers, self._threads)
-        return result
+        return self._checked.simulate(0, values, numbers, self._threads)
 
     @property
-    def _checked(self) -> _zerocount.Study:
+    def _checked(self) -> CheckedStudy:
         """The study under the condition."""
         checked = self._study.checked
         return checked if self.condition is None else checked.under(self.condition)
@@ -198,8 +196,7 @@ class Sample:
         """
         factor = np.linalg.cholesky(self.correlations)
         scores = np.random.default_rng(seed).standard_normal((trials, len(self.names))) @ factor.T
-        result: Numbers = self._checked.values_at_scores(0, scores)
-        return result
+        return self._checked.values_at_scores(0, scores)
 
     @property
     def distribution(self) -> openturns.Distribution:

@@ -10,11 +10,10 @@ import pathlib
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-import _zerocount
-
 from . import program
 from .answer_types import CheckAnswer
 from .asking import ask
+from .checked import CheckedStudy, checked_study, manifest_tree
 from .errors import MachineError, ManifestError
 from .manifests import flow_text, yaml_text
 from .options import options
@@ -114,15 +113,15 @@ class Study:
         self._folder = folder
 
     @functools.cached_property
-    def checked(self) -> _zerocount.Study:
-        """The study in this process.
+    def checked(self) -> CheckedStudy:
+        """What is known of the study, and its trials in this process.
 
         Raises
         ------
         ManifestError
             If the manifest with the settings is wrong.
         """
-        return _zerocount.Study(self.text, self._source, self._folder, self._overrides)
+        return checked_study(self.text, self._source, self._folder, self._overrides)
 
     def __repr__(self) -> str:
         try:
@@ -273,8 +272,7 @@ class Study:
         >>> zc.study(d).trials
         2000
         """
-        tree: dict[str, Any] = _zerocount.manifest_tree(self.text, self._source, self._overrides)
-        return tree
+        return manifest_tree(self.text, self._source, self._overrides)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the manifest with its settings as a YAML file. Without settings it stays as it was written.
@@ -505,8 +503,38 @@ def point_number(point: int | str, labels: list[str], where: object) -> int:
     where : object
         Begins the message of an error.
     """
-    if isinstance(point, str) and (named := _zerocount.point_named(point, labels)) is not None:
+    if isinstance(point, str) and (named := _point_named(point, labels)) is not None:
         return named
     if hasattr(point, "__index__") and 0 <= operator.index(point) < len(labels):
         return operator.index(point)
     raise ManifestError(f"{where}: there is no point {point!r}; expected 0 to {len(labels) - 1} or a label", 2)
+
+
+def _point_named(name: str, labels: list[str]) -> int | None:
+    """The point of this name, as the program reads it: its label, its number, the label with the paths of keys shortened
+    to their ends, or both: ``3 (ki=5000)``. None where no point, or more than one, has the name."""
+    if name in labels:
+        return labels.index(name)
+    if (number := _whole(name)) is not None and number < len(labels):
+        return number
+    short = [point for point, label in enumerate(labels) if _shortens(name, label)]
+    if len(short) == 1:
+        return short[0]
+    first, bracket, rest = name.partition(" (")
+    number = _whole(first)
+    if bracket and name.endswith(")") and number is not None and number < len(labels) and _shortens(rest[:-1], labels[number]):
+        return number
+    return None
+
+
+def _whole(text: str) -> int | None:
+    return int(text) if text.isascii() and text.isdigit() else None
+
+
+def _shortens(name: str, label: str) -> bool:
+    """Whether the name is the label, in which ``controller.ki=5000`` may be ``ki=5000``."""
+    ours, its = ([word.removesuffix(",") for word in text.split(" ") if word] for text in (name, label))
+    return len(ours) == len(its) and all(
+        word == whole or ("=" in word and whole.endswith(f".{word}") and len(whole) - len(word) < whole.index("="))
+        for word, whole in zip(ours, its)
+    )

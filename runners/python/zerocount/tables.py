@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import _zerocount
-
 from .datasets import Array, Column
 from .optional import required
 
@@ -51,9 +49,9 @@ def succeeded(outcomes: Array, words: Sequence[str]) -> Array:
     return np.asarray((outcomes == words.index("zero_count")).all(axis=1))
 
 
-def worst(outcomes: Array, words: Sequence[str]) -> Array:
-    """``[trial]`` number of the worst outcome; parameters as of `succeeded`."""
-    order = np.array([words.index(word) for word in _zerocount.severity if word in words], dtype=outcomes.dtype)
+def worst(outcomes: Array, words: Sequence[str], by_severity: Sequence[str]) -> Array:
+    """``[trial]`` number of the worst outcome; parameters as of `succeeded`, and all words from best to worst."""
+    order = np.array([words.index(word) for word in by_severity if word in words], dtype=outcomes.dtype)
     severity = np.zeros(len(words), dtype=int)
     severity[order] = range(len(order))
     return np.asarray(order[severity[outcomes].max(axis=1)])

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import _zerocount
-
+from .checked import CheckedStudy
 from .datasets import Array
 from .optional import required
 
@@ -110,7 +109,7 @@ class Trace:
         return picture
 
 
-def replayed(text: str, study: _zerocount.Study, point: int) -> Trace:
+def replayed(text: str, study: CheckedStudy, point: int) -> Trace:
     """A trace from what ``zerocount trace --format json`` gives."""
     record = json.loads(text, parse_int=float)  # -0 is a number, too
     rows, moves, described = record["samples"], record["outcome"], study.descriptions
@@ -124,7 +123,7 @@ def replayed(text: str, study: _zerocount.Study, point: int) -> Trace:
     )
 
 
-def simulated(study: _zerocount.Study, point: int, trial: int, law: Any) -> Trace:
+def simulated(study: CheckedStudy, point: int, trial: int, law: Any) -> Trace:
     """A trial that is run in this process. ``law`` is a control law in Python, or None."""
     record = study.trace(point, trial, law)
     described = study.descriptions
@@ -141,7 +140,7 @@ def simulated(study: _zerocount.Study, point: int, trial: int, law: Any) -> Trac
 
 
 def _trace(
-    study: _zerocount.Study,
+    study: CheckedStudy,
     point: int,
     trial: int,
     samples: dict[str, Array],

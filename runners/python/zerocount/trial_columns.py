@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-import _zerocount
-
+from .checked import CheckedStudy
 from .datasets import Array, Column, ResultsDatasets
 from .tables import combined, succeeded, worst
 
@@ -22,12 +21,12 @@ class TrialColumns:
     ----------
     file : ResultsDatasets
         The file, whose checksum was compared.
-    study : _zerocount.Study
+    study : CheckedStudy
         The study as its trials were run.
     """
 
     file: ResultsDatasets
-    study: _zerocount.Study
+    study: CheckedStudy
 
     def inputs(self, rows: slice | None) -> dict[str, Column]:
         """[trial] what is known before trials are run: trial, point, index, machine, world, condition and inputs."""
@@ -106,7 +105,7 @@ class TrialColumns:
         codes, words = outcome.values, outcome.words
         result = {
             "success": Column(succeeded(codes, words), ("trial",), "1", "all moves ended at zero counts"),
-            "outcome": Column(worst(codes, words), ("trial",), "1", "outcome of the worst move", words),
+            "outcome": Column(worst(codes, words, self.study.severity), ("trial",), "1", "outcome of the worst move", words),
         }
         rules = {name: described["of_trial"] for name, described in self.study.descriptions["outcome"].items()}
         for name, column in columns.items():

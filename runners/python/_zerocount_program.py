@@ -7,5 +7,5 @@ import sys
 
 
 def main():
-    program = pathlib.Path(importlib.util.find_spec("_zerocount").origin).with_name("zerocount") / "bin" / "zerocount"
+    program = pathlib.Path(importlib.util.find_spec("zerocount").origin).with_name("bin") / "zerocount"
     os.execv(program, ["zerocount", *sys.argv[1:]])

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <future>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include <zerocount/zerocount.h>
+
+#include "experiments/study/study.hpp"
+#include "results/layout/fields.hpp"
+
+namespace zerocount::library {
+
+/// The arrays that a job makes.
+class Result {
+ public:
+  /// Adds the fields of the records as columns. @param prefix of their names
+  template <class Record>
+  void add(const std::string& prefix, const std::vector<layout::RecordField<Record>>& fields,
+           std::span<const Record* const> records) {
+    std::vector<std::vector<std::byte>> columns = layout::columns_of(fields, records);
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      add(prefix + fields[i].column.name, fields[i].column.element, std::move(columns[i]));
+  }
+  void add(std::string name, hdf5::Element element, std::vector<std::byte> values);
+
+  std::vector<zerocount_array> arrays() const;  ///< views of what this owns
+
+ private:
+  struct Column {
+    std::string name;
+    hdf5::Element element{};
+    std::vector<std::byte> values;
+  };
+  std::vector<Column> columns_;
+};
+
+/// Trials with these values of the variables [trial][variable] on so many threads: the measures of their
+/// moves.
+Result simulated(const study::Study& study, std::int64_t point, std::span<const double> values,
+                 std::span<const std::int64_t> numbers, int threads, const std::stop_token& stop);
+
+/// A trial, sample by sample. @param law in place of that of the manifest; null: none
+Result traced(const study::Study& study, std::int64_t point, std::int64_t trial, zerocount_law* law,
+              const std::stop_token& stop);
+
+}  // namespace zerocount::library

@@ -7,9 +7,8 @@
 
 #include <sleef.h>
 
-#include "core/numerics/exponential_table.hpp"
+#include "core/numerics/elementary_tables.hpp"
 #include "core/numerics/ln2.hpp"
-#include "core/numerics/logarithm_table.hpp"
 
 namespace zerocount::numerics {
 namespace {

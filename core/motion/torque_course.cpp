@@ -7,6 +7,7 @@
 #include "core/motion/load.hpp"
 #include "core/motion/taylor_step.hpp"
 #include "core/numerics/elementary_functions.hpp"
+#include "core/numerics/sign.hpp"
 
 namespace zerocount::motion {
 
@@ -47,6 +48,12 @@ double change_of_torque(const TorqueCourse& course, double omega) {
   }
   const double of_motor = motor_is_constant(course) ? 0.0 : course.rate * (course.settled - course.now);
   return course.disturbance == nullptr ? of_motor : of_motor + rate(*course.disturbance, omega);
+}
+
+double heading_under(const TorqueCourse& course, double omega, double friction) {
+  if (omega != 0.0) return numerics::sign_of(omega);
+  const double excess = torque_on_rotor(course, omega) - friction;
+  return numerics::sign_of(excess != 0.0 ? excess : change_of_torque(course, omega));
 }
 
 bool load_is_quiet(const TorqueCourse& course, double omega, double inertia, double torque,

@@ -59,6 +59,10 @@ double torque_on_rotor(const TorqueCourse& course, double omega);
 /// @param omega ω of the rotor, rad/s.
 double change_of_torque(const TorqueCourse& course, double omega);
 
+/// The sign of ω from now on: that of ω or, at ω = 0, of its first derivative that is not 0.
+/// @param friction torque of the friction at ω = 0, N m.
+double heading_under(const TorqueCourse& course, double omega, double friction);
+
 /// Whether any oscillation between load and rotor has a coupling torque below `torque` (N m); true without a
 /// load.
 /// @param omega ω of the rotor, rad/s. @param inertia J, kg m². @param acceleration of the slow motion

@@ -15,6 +15,9 @@ namespace zerocount {
 ZEROCOUNT_ALWAYS_INLINE bool any(bool mask) {
   return mask;
 }
+ZEROCOUNT_ALWAYS_INLINE bool negated(bool mask) {
+  return !mask;
+}
 /// a where `mask`, else b.
 ZEROCOUNT_ALWAYS_INLINE double select(bool mask, double a, double b) {
   return mask ? a : b;

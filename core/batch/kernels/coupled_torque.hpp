@@ -44,6 +44,11 @@ struct ForcedTorque {
 /// The torque of lanes without a Forcing, which is MotionLanes::torque.
 struct ConstantTorque {
   static constexpr bool forced = false;
+
+  template <class P>
+  ZEROCOUNT_ALWAYS_INLINE P coefficient(int, const P&) const {
+    return P(0.0);
+  }
 };
 
 /// Their types tell that of the torque.
@@ -82,6 +87,16 @@ ZEROCOUNT_ALWAYS_INLINE P torque_on_rotor(const BatchState& batch, const At& at,
   if (!forcing.loaded) return torque;
   const LoadLanes& l = batch.load;
   return torque - (at.load(l.stiffness) * at.load(l.twist) + at.load(l.damping) * (omega - at.load(l.omega)));
+}
+
+/// motion::heading_under: the sign of ω from now on. @param excess of the torque on the rotor over friction,
+/// N m.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE P heading_under(const BatchState& batch, const At& at, Forcing forcing,
+                                        const P& omega, const P& excess) {
+  const P direction = sign(select(omega == P(0.0), excess, omega));
+  if (!forcing.varies) return direction;
+  return select(direction == P(0.0), sign(torque_rate(batch, at, omega)), direction);
 }
 
 /// motion::is_quiet of the loads of the lanes.

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/batch/kernels/coupled_torque.hpp"
 #include "core/batch/kernels/velocity_step.hpp"
+#include "core/friction/sliding/slide_formulas.hpp"
 
 namespace zerocount::batch {
 
@@ -32,41 +32,30 @@ void free_kernel(BatchState& batch, const LaneSet& lanes, bool varies) {
 template <class At>
 __attribute__((noinline)) void move_free_with_load(BatchState& batch, const At& at, Forcing forcing) {
   using P = typename At::Vector;
-  MotionLanes& m = batch.motion;
-  const P zero(0.0);
   const P one(1.0);
   const P time_to_stop = at.load(batch.time.time_to_stop);
-  const P omega = at.load(m.omega);
-  const P per_inertia = at.load(batch.contact.per_inertia);
+  const P omega = at.load(batch.motion.omega);
   const P h = without_short_remainder(min(at.load(batch.time.next_step), time_to_stop), time_to_stop);
-  const P force_scale = h * h * per_inertia;
-  const P damping_scale = at.load(batch.contact.damping) * h * per_inertia;
+  const P damping = at.load(batch.contact.damping) / h;
   ForcedTorque<P> applied;
   load_torque(batch, at, forcing, h, one, one, applied);
-  P travel[batch_order + 1];
-  P velocity[batch_order + 1];
-  travel[0] = zero;
-  velocity[0] = omega * h;
-  P force = torque_on_rotor(batch, at, forcing, omega);
-#pragma GCC unroll 1
-  for (int k = 0; k < batch_order; ++k) {
-    const P coefficient = applied.coefficient(k, velocity[k]);
-    if (k > 0) force = coefficient;
-    const P per_order(numerics::reciprocal.of[k + 1]);
-    travel[k + 1] = velocity[k] * per_order;
-    velocity[k + 1] = (force_scale * force - damping_scale * velocity[k]) * per_order;
-  }
-  VelocityStep<P> step =
-      velocity_step(batch, at, time_to_stop, h,
-                    (last_terms_of(travel) + last_terms_of(velocity)) + last_terms_of_load(applied));
-  step.halts = one < zero;
+  struct {
+    P position[batch_order + 1];
+    P omega[batch_order + 1];
+  } s;
+  s.position[0] = P(0.0);
+  s.omega[0] = omega * h;
+  expand_motion(
+      s, applied, h, torque_on_rotor(batch, at, forcing, omega),
+      at.load(batch.contact.per_inertia), [&](std::size_t k, const P& u) __attribute__((always_inline)) {
+        return friction::damped_coefficient(damping, s, k, u);
+      });
+  VelocityStep<P> step = velocity_step(batch, at, time_to_stop, h, last_terms_of(s, applied));
+  step.halts = one < P(0.0);
   step.too_long = step.inexact;
   step.done = ~step.too_long;
-  store_time(batch, at, step);
-  at.store(m.theta, at.load(m.theta) + select(step.done, value_of(travel, batch_order, step.x), zero));
-  at.store(m.omega, omega_after(step, velocity, omega));
-  store_load(batch, at, applied, step.x, step.h, step.done);
-  add_events(batch, at, events_where<P>(at.load(batch.time.steps) > P(max_steps_to_stop), beyond_kernel));
+  store_motion(batch, at, s, applied, omega, step);
+  add_events(batch, at, lost_in_steps<P>(batch, at));
 }
 
 /// One step of each lane without friction and with a second mass: to the next stop, or as far as the series

@@ -168,6 +168,10 @@ template <int Width, int Chains>
 ZEROCOUNT_ALWAYS_INLINE bool any(const SimdMask<Width, Chains>& mask) {
   return mask.any();
 }
+template <int Width, int Chains>
+ZEROCOUNT_ALWAYS_INLINE SimdMask<Width, Chains> negated(const SimdMask<Width, Chains>& mask) {
+  return ~mask;
+}
 
 template <int Width, int Chains>
 struct Simd {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/batch/kernels/coupled_torque.hpp"
 #include "core/batch/kernels/velocity_step.hpp"
+#include "core/friction/sliding/slide_formulas.hpp"
 
 namespace zerocount::batch {
 
@@ -44,62 +44,44 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at, F forcing)
             time_to_stop);
     h = without_short_remainder(h, time_to_stop);
   }
-  const P force_scale = h * h * per_inertia;
-  const P damping_scale = damping * h * per_inertia;
-  const P per_step_squared = per_velocity_squared / (h * h);
-
-  P theta[batch_order + 1];
-  P velocity[batch_order + 1];
-  friction::StribeckSeriesOf<P[batch_order + 1]> curve;
-  theta[0] = at.load(m.theta);
-  velocity[0] = omega * h;
+  friction::SlideSeriesOf<P[batch_order + 1]> s;
+  s.position[0] = zero;
+  s.omega[0] = omega * h;
+  s.decay[0] = decay_start;
   decltype(torque_with<P>(forcing)) applied;
   load_torque(batch, at, forcing, h, one, one, applied);
-  curve.decay[0] = decay_start;
-#pragma GCC unroll 1
-  for (int k = 0; k < batch_order; ++k) {
-    P force = k == 0 ? driving : zero;
-    if constexpr (F::forced) {
-      const P torque_k = applied.coefficient(k, velocity[k]);
-      if (k > 0) force = torque_k;
-    }
-    if constexpr (!Fast) {
-      curve.expand(per_step_squared, velocity, static_cast<std::size_t>(k));
-      force = force - stribeck * curve.decay[k];
-    }
-    theta[k + 1] = velocity[k] * P(numerics::reciprocal.of[k + 1]);
-    velocity[k + 1] = (force_scale * force - damping_scale * velocity[k]) * P(numerics::reciprocal.of[k + 1]);
-  }
+  const friction::SlideConstants<P> law{
+      damping / h,
+      in_unit_of_time(friction::StribeckCurveOf<P>{direction * coulomb, stribeck, per_velocity_squared}, h)};
+  expand_motion(
+      s, applied, h, torque, per_inertia, [&](std::size_t k, const P& u) __attribute__((always_inline)) {
+        return friction::slide_coefficient<Fast>(law, s, k, u);
+      });
 
-  P last_terms = last_terms_of(theta) + last_terms_of(velocity);
-  if constexpr (F::forced) last_terms = last_terms + last_terms_of_load(applied);
-  VelocityStep<P> step = velocity_step(batch, at, time_to_stop, h, last_terms);
-  const P velocity_end = sum_of(velocity, batch_order);
-  step.halts = velocity[0] * velocity_end < zero;
+  VelocityStep<P> step = velocity_step(batch, at, time_to_stop, h, last_terms_of(s, applied));
+  const P velocity_end = sum_of(s.omega, batch_order);
+  step.halts = s.omega[0] * velocity_end < zero;
   Mask unfit = one < zero;
   if constexpr (!Fast) {
-    const P curvature = curvature_bound(velocity, batch_order);
-    unfit = grows_too_much(curve.exponent) |
-            (~step.halts & ~keeps_sign(velocity[0], velocity_end, velocity[1], curvature));
-    if (forcing.any()) unfit = unfit | (step.halts & ~crosses_once(velocity, batch_order));
+    const P curvature = curvature_bound(s.omega, batch_order);
+    unfit = grows_too_much(s.exponent) |
+            (~step.halts & ~keeps_sign(s.omega[0], velocity_end, s.omega[1], curvature));
+    if (forcing.any()) unfit = unfit | (step.halts & ~crosses_once(s.omega, batch_order));
   } else if (forcing.loaded) {
-    unfit = ~stays_fast(velocity, stribeck_velocity, h);
+    unfit = ~stays_fast(s.omega, stribeck_velocity, h);
   }
   const Mask beyond = omega * direction <= zero;
   step.too_long = (step.inexact | unfit) & ~beyond;
   const Mask seeks = at.taking_part() & step.halts & ~step.too_long;
   if (seeks.any()) {
     step.x =
-        select(step.halts, root_between(velocity, batch_order, velocity[0], velocity_end, one, seeks), one);
+        select(step.halts, root_between(s.omega, batch_order, s.omega[0], velocity_end, one, seeks), one);
   }
   step.done = ~step.too_long & ~beyond;
-  store_time(batch, at, step);
-  at.store(m.theta, select(step.done, value_of(theta, batch_order, step.x), theta[0]));
-  at.store(m.omega, omega_after(step, velocity, omega));
-  if constexpr (F::forced) store_load(batch, at, applied, step.x, step.h, step.done);
+  store_motion(batch, at, s, applied, omega, step);
+  const Mask lost = beyond | (at.load(batch.time.steps) > P(max_steps_to_stop));
   add_events(batch, at,
-             events_where<P>(step.done & step.halts, velocity_zero) +
-                 events_where<P>(beyond | (at.load(time.steps) > P(max_steps_to_stop)), beyond_kernel));
+             events_where<P>(step.done & step.halts, velocity_zero) + events_where<P>(lost, beyond_kernel));
 }
 
 /// One step of each lane whose hook slides: to the next stop, to ω = 0, or as far as the series converge.
@@ -107,7 +89,7 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at, F forcing)
 ///
 /// `Fast` is for lanes far above the Stribeck velocity, where (ω/ωs)² > 64 and friction is that of Coulomb to
 /// the last bit. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19. A second mass has a torque that
-/// has has no bound ahead: a step at whose end, or within which, ω is less is too long.
+/// has no bound ahead: a step at whose end, or within which, ω is less is too long.
 template <class V, bool Fast>
 void slide_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;

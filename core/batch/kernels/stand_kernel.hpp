@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/batch/kernels/coupled_torque.hpp"
 #include "core/batch/kernels/passed_measures.hpp"
 #include "core/batch/kernels/velocity_step.hpp"
 

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "core/batch/kernels/applied_torque.hpp"
+#include "core/batch/kernels/coupled_torque.hpp"
 #include "core/batch/kernels/step_control.hpp"
 #include "core/friction/sliding/stribeck_series.hpp"
 
-/// Step control of motions whose friction is a function of the velocity: slides and bristles.
+/// Steps of motions without a hook that sticks: slides, bristles, elements, and rotors without friction. The
+/// series of such a motion has `position`, the travel since the start of the step (rad), and `omega`, ω·h.
 namespace zerocount::batch {
 
 /// The step (s), at most `longest`, of a fast motion that decelerates by at most `slowing` (rad/s²): it ends
@@ -68,6 +69,31 @@ struct VelocityStep {
   Mask halts;          ///< ω is 0 at x
 };
 
+/// Expands a motion in the unit of time of a step of h (s), as motion::motion_series does.
+/// @param torque on the rotor at the start, N m. @param per_inertia 1/J. @param law computes the coefficients
+/// k of a law, given that of the torque on the rotor, and returns that of the torque that accelerates it.
+template <class P, class Series, class Applied, class Law>
+ZEROCOUNT_ALWAYS_INLINE void expand_motion(Series& s, Applied& applied, const P& h, const P& torque,
+                                           const P& per_inertia, Law law) {
+  const P acceleration = h * h * per_inertia;
+#pragma GCC unroll 1
+  for (int k = 0; k < batch_order; ++k) {
+    const P varying = applied.coefficient(k, s.omega[k]);
+    const P force = law(static_cast<std::size_t>(k), k == 0 ? torque : varying);
+    s.omega[k + 1] = force * acceleration * P(numerics::reciprocal.of[k + 1]);
+  }
+}
+
+/// The sum of the last two terms of the series of a motion and of its load at the end of the step.
+template <class Series, class Applied>
+ZEROCOUNT_ALWAYS_INLINE auto last_terms_of(const Series& s, const Applied& applied) {
+  const auto of_rotor = last_terms_of(s.position) + last_terms_of(s.omega);
+  if constexpr (!Applied::forced)
+    return of_rotor;
+  else
+    return of_rotor + last_terms_of_load(applied);
+}
+
 /// A step of h (s) with its truncation error (rad), up to its end.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE VelocityStep<P> velocity_step(const BatchState& batch, const At& at,
@@ -81,6 +107,36 @@ ZEROCOUNT_ALWAYS_INLINE VelocityStep<P> velocity_step(const BatchState& batch, c
   step.allowed = at.load(batch.time.tolerance) * (h * at.load(batch.time.sample_rate));
   step.inexact = ~(truncation_error <= step.allowed);
   return step;
+}
+
+/// Whether ω comes to 0 within the step, which sets step.halts, and whether that is unsure: neither ω, nor
+/// ω/t where ω starts at 0, may have two zeros. @param careful also where the signs at both ends differ.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask halts_unsurely(const P* velocity, bool careful,
+                                                        VelocityStep<P>& step) {
+  const auto from_zero = velocity[0] == P(0.0);
+  P part[batch_order + 1];
+  for (int k = 0; k < batch_order; ++k) part[k] = select(from_zero, velocity[k + 1], velocity[k]);
+  part[batch_order] = select(from_zero, P(0.0), velocity[batch_order]);
+  const P at_end = sum_of(velocity, batch_order);
+  const P curvature = curvature_bound(part, batch_order);
+  step.halts = part[0] * at_end < P(0.0);
+  auto unsure = ~step.halts & ~keeps_sign(part[0], at_end, part[1], curvature);
+  if (!careful) return unsure;
+  unsure = unsure | (step.halts & ~crosses_once(part, batch_order));
+  // A rotor that nothing moves keeps still.
+  return unsure & ((curvature > P(0.0)) | (part[1] != P(0.0)));
+}
+
+/// Ends the step where ω comes to 0, unless it is too long.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void end_at_halt(const P* velocity, const At& at, VelocityStep<P>& step) {
+  const auto seeks = at.taking_part() & step.halts & ~step.too_long;
+  if (!seeks.any()) return;
+  const auto from_zero = velocity[0] == P(0.0);
+  const P halt = next_zero(velocity, batch_order, select(from_zero, velocity[1], velocity[0]),
+                           sum_of(velocity, batch_order), from_zero, seeks);
+  step.x = select(step.halts, halt, P(1.0));
 }
 
 /// ω at the end of the step, rad/s. @param velocity the series of ω·h. @param omega at the start.
@@ -102,6 +158,25 @@ ZEROCOUNT_ALWAYS_INLINE void store_time(BatchState& batch, const At& at, const V
   at.store(time.time_to_stop,
            select(stops_here, zero, select(s.done, s.time_to_stop - s.x * s.h, s.time_to_stop)));
   at.store(time.steps, at.load(time.steps) + P(1.0));
+}
+
+/// Stores the motion after the step. @param omega ω at its start, rad/s.
+template <class P, class At, class Series, class Applied>
+ZEROCOUNT_ALWAYS_INLINE void store_motion(BatchState& batch, const At& at, const Series& s,
+                                          const Applied& applied, const P& omega,
+                                          const VelocityStep<P>& step) {
+  MotionLanes& m = batch.motion;
+  store_time(batch, at, step);
+  const P travel = value_of(s.position, batch_order, step.x);
+  at.store(m.theta, at.load(m.theta) + select(step.done, travel, P(0.0)));
+  at.store(m.omega, omega_after(step, s.omega, omega));
+  if constexpr (Applied::forced) store_load(batch, at, applied, step.x, step.h, step.done);
+}
+
+/// The event of lanes that have made too many steps since the last sample.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE P lost_in_steps(const BatchState& batch, const At& at) {
+  return events_where<P>(at.load(batch.time.steps) > P(max_steps_to_stop), beyond_kernel);
 }
 
 }  // namespace zerocount::batch

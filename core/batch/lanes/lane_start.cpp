@@ -152,10 +152,10 @@ void start_elements(BatchState& batch, int lane, const trial::TrialParameters& t
     const auto i = static_cast<std::size_t>(e.count[lane]++);
     e.torque[i][lane] = state.torque;
     e.slips[i][lane] = state.slips ? 1.0 : 0.0;
-    e.stiffness[i][lane] = state.element.stiffness;
-    e.weight[i][lane] = state.element.weight;
-    e.stiffest[lane] = std::max(e.stiffest[lane], state.element.stiffness);
-    e.softest[lane] = std::min(e.softest[lane], state.element.stiffness);
+    e.stiffness[i][lane] = state.stiffness;
+    e.weight[i][lane] = state.weight;
+    e.stiffest[lane] = std::max(e.stiffest[lane], state.stiffness);
+    e.softest[lane] = std::min(e.softest[lane], state.stiffness);
   }
   const friction::FrictionParameters contact = friction::friction_at(trial.friction, start.position);
   e.attraction[lane] = contact.gms_attraction;

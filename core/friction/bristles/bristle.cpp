@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "core/friction/bristles/bristle_formulas.hpp"
 #include "core/numerics/sign.hpp"
 
 namespace zerocount::friction {
@@ -10,32 +9,23 @@ namespace zerocount::friction {
 BristleParameters bristle_parameters(double stiffness, double bristle_damping, double damping,
                                      const StribeckCurve& level) {
   const double velocity = level.excess != 0.0 ? 1.0 / std::sqrt(level.per_velocity_squared) : 0.0;
-  return {stiffness,
-          bristle_damping,
-          damping,
-          level,
+  return {{stiffness, bristle_damping, damping, level},
           fast_by_stribeck_velocity * velocity,
           slow_by_stribeck_velocity * velocity};
 }
 
 BristleSeries BristleMotion::start() const {
-  BristleSeries s;
+  BristleSeries s{};
   s.position[0] = theta;
   s.omega[0] = omega;
   s.deflection[0] = deflection;
+  if (!has_constant_level()) s.decay[0] = decay_at(parameters.level, omega);
   return s;
 }
 
 double BristleMotion::expand(BristleSeries& s, std::size_t k, double torque) const {
-  const auto& [stiffness, bristle_damping, damping, curve, fast, slow] = parameters;
-  s.position[k + 1] = s.omega[k] * numerics::reciprocal[k + 1];
-  if (saturated) return torque - stiffness * s.deflection[k] - damping * s.omega[k];
-  if (curve.excess != 0.0) s.level[k] = curve.excess * s.StribeckSeries::expand(curve, s.omega, k);
-  if (k == 0) s.level[0] += curve.coulomb;
-  const double rate = bristle_rate_coefficient(direction * stiffness, s.omega.data(), s.deflection.data(),
-                                               s.level.data(), s.ratio.data(), k);
-  s.deflection[k + 1] = rate * numerics::reciprocal[k + 1];
-  return torque - stiffness * s.deflection[k] - bristle_damping * rate - damping * s.omega[k];
+  return has_constant_level() ? bristle_coefficient<true>(parameters, direction, saturated, s, k, torque)
+                              : bristle_coefficient<false>(parameters, direction, saturated, s, k, torque);
 }
 
 motion::NextEvent<BristleMotion::Event> BristleMotion::first_event(const BristleSeries& series,
@@ -65,16 +55,7 @@ Bristle::Bristle(const BristleParameters& parameters, double inertia, const moti
 }
 
 bool Bristle::sliding() const {
-  return bristle_slides(deflection_, omega_, parameters_.stiffness, parameters_.bristle_damping,
-                        level_at(parameters_.level, omega_));
-}
-
-/// The sign of ω from now on: that of ω or, at ω = 0, of its first derivative that is not 0.
-double Bristle::direction_under(const motion::TorqueCourse& torque) const {
-  if (omega_ != 0.0) return numerics::sign_of(omega_);
-  const double excess = motion::torque_on_rotor(torque, omega_) - parameters_.stiffness * deflection_;
-  if (excess != 0.0) return numerics::sign_of(excess);
-  return numerics::sign_of(motion::change_of_torque(torque, omega_));
+  return bristle_slides(parameters_, deflection_, omega_, level_at(parameters_.level, omega_));
 }
 
 /// Whether the bristle is saturated; sets z to its end if so.
@@ -87,16 +68,14 @@ bool Bristle::saturates(double direction) {
 }
 
 bool Bristle::rests_under(double torque) const {
-  return bristle_rests(deflection_, omega_, torque, parameters_.stiffness, parameters_.bristle_damping,
-                       parameters_.damping, parameters_.level.coulomb + parameters_.level.excess, inertia_,
-                       tolerance_.rest);
+  return bristle_rests(parameters_, deflection_, omega_, torque, inertia_, tolerance_.rest);
 }
 
 double Bristle::step(const motion::TorqueCourse& torque, double duration) {
   const bool constant = motion::is_steady(torque);
   if (constant && rest_torque_ == torque.now) return duration;
   rest_torque_.reset();
-  const double direction = direction_under(torque);
+  const double direction = motion::heading_under(torque, omega_, parameters_.stiffness * deflection_);
   const bool quiet = motion::load_is_quiet(torque, omega_, inertia_, parameters_.stiffness * tolerance_.rest);
   if (constant && quiet && (direction == 0.0 || rests_under(torque.now))) {
     motion::let_load_follow(torque, 0.0);

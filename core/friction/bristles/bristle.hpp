@@ -3,32 +3,22 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/friction/bristles/bristle_formulas.hpp"
 #include "core/friction/law.hpp"
 #include "core/friction/sliding/stribeck.hpp"
 
 namespace zerocount::friction {
 
-/// Constants of a bristle; `fast` and `slow` are 8·ωs and 6.5·ωs (stribeck_series.hpp).
-struct BristleParameters {
-  double stiffness;        ///< σ0, N m/rad
-  double bristle_damping;  ///< σ1, N m s/rad
-  double damping;          ///< d, of the rotor, N m s/rad
-  StribeckCurve level;     ///< g
-  double fast;             ///< |ω| beyond which g(ω) = Fc to the last bit, rad/s; 0 where g is constant
+/// With the velocities 8·ωs and 6.5·ωs (stribeck_series.hpp).
+struct BristleParameters : BristleConstants<double> {
+  double fast;  ///< |ω| beyond which g(ω) = Fc to the last bit, rad/s; 0 where g is constant
   double slow;  ///< |ω| above which g(ω) = Fc to 6e-19 of Fs − Fc, rad/s; 0 where g is constant
 };
 
 BristleParameters bristle_parameters(double stiffness, double bristle_damping, double damping,
                                      const StribeckCurve& level);
 
-/// Taylor series in time of a bristle and its rotor.
-struct BristleSeries : StribeckSeries {
-  numerics::Series position{};    ///< θ, rad
-  numerics::Series omega{};       ///< ω, rad/s
-  numerics::Series deflection{};  ///< z, rad
-  numerics::Series level{};       ///< g(ω), N m
-  numerics::Series ratio{};       ///< ω·z/g(ω), rad²/(N m s)
-};
+using BristleSeries = BristleSeriesOf<numerics::Series>;
 
 /// The motion of a rotor on a bristle, with a constant sign s of ω:
 ///
@@ -48,6 +38,8 @@ struct BristleMotion {
   double& omega;       ///< rad/s
   double& deflection;  ///< z, rad
 
+  /// Whether g is Fc as long as the motion lasts.
+  bool has_constant_level() const { return saturated || parameters.level.excess == 0.0; }
   BristleSeries start() const;
   double expand(BristleSeries& s, std::size_t k, double torque) const;
   /// z is as accurate as θ, because an error of z becomes one of ω.
@@ -83,7 +75,6 @@ class Bristle : public WithoutCreepAndReversals {
   double deflection() const { return deflection_; }  ///< z, rad
 
  private:
-  double direction_under(const motion::TorqueCourse& torque) const;
   bool saturates(double direction);
   bool rests_under(double torque) const;
 

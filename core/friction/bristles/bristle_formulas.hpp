@@ -2,30 +2,66 @@
 
 #include <cstddef>
 
-#include "core/numerics/series_recurrences.hpp"
+#include "core/friction/sliding/stribeck_series.hpp"
 
-/// Formulas of a bristle for double and for the vectors of the batch engine.
+/// The law of a bristle, for double and for the vectors of the batch engine.
 namespace zerocount::friction {
 
-/// Coefficient k of dz/dt = ω − s·σ0·ω·z/g(ω), and of `ratio`, ω·z/g(ω), from those of ω, z and g up to k.
-/// @param stiffness s·σ0
 template <class Number>
-ZEROCOUNT_ALWAYS_INLINE Number bristle_rate_coefficient(const Number& stiffness, const Number* omega,
-                                                        const Number* deflection, const Number* level,
-                                                        Number* ratio, std::size_t k) {
-  ratio[k] =
-      numerics::quotient_coefficient(numerics::product_coefficient(omega, deflection, k), level, ratio, k);
-  return omega[k] - stiffness * ratio[k];
+struct BristleConstants {
+  Number stiffness;               ///< σ0, N m/rad
+  Number bristle_damping;         ///< σ1, N m s/rad
+  Number damping;                 ///< d, of the rotor, N m s/rad
+  StribeckCurveOf<Number> level;  ///< g
+};
+
+/// With times in the unit of h (s).
+template <class Number>
+ZEROCOUNT_ALWAYS_INLINE BristleConstants<Number> in_unit_of_time(const BristleConstants<Number>& of,
+                                                                 const Number& h) {
+  return {of.stiffness, of.bristle_damping / h, of.damping / h, in_unit_of_time(of.level, h)};
+}
+
+/// Taylor series of a bristle and its rotor. @tparam Series an array of the coefficients.
+template <class Series>
+struct BristleSeriesOf : LevelSeriesOf<Series> {
+  Series position;    ///< θ, rad
+  Series omega;       ///< ω, rad/s
+  Series deflection;  ///< z, rad
+  Series ratio;       ///< ω·z/g(ω), rad²/(N m s)
+};
+
+/// Computes coefficients k of functions of the state, and k + 1 of θ and z (BristleMotion).
+/// @tparam ConstantLevel g is Fc. @param direction s. @param saturated z stays as it is; only with a constant
+/// level. @param torque coefficient k of u. @returns that of u − σ0·z − σ1·dz/dt − d·ω.
+template <bool ConstantLevel, class Number, class Mask, class Series>
+ZEROCOUNT_ALWAYS_INLINE Number bristle_coefficient(const BristleConstants<Number>& of,
+                                                   const Number& direction,
+                                                   [[maybe_unused]] const Mask& saturated,
+                                                   BristleSeriesOf<Series>& s, std::size_t k,
+                                                   const Number& torque) {
+  const Number per_order(numerics::reciprocal.of[k + 1]);
+  const Number product = numerics::product_coefficient(&s.omega[0], &s.deflection[0], k);
+  if constexpr (ConstantLevel) {
+    s.ratio[k] = product / of.level.coulomb;
+  } else {
+    s.expand_level(of.level, &s.omega[0], k);
+    s.ratio[k] = numerics::quotient_coefficient(product, &s.level[0], &s.ratio[0], k);
+  }
+  Number rate = s.omega[k] - direction * of.stiffness * s.ratio[k];
+  if constexpr (ConstantLevel) rate = select(saturated, Number(0.0), rate);
+  s.position[k + 1] = s.omega[k] * per_order;
+  s.deflection[k + 1] = rate * per_order;
+  return torque - of.stiffness * s.deflection[k] - of.bristle_damping * rate - of.damping * s.omega[k];
 }
 
 /// Whether friction without the damping d is above 0.99·g(ω): the bristle counts as sliding.
-/// @param stiffness σ0. @param bristle_damping σ1. @param level g(ω), N m.
+/// @param level g(ω), N m.
 template <class Number>
-ZEROCOUNT_ALWAYS_INLINE auto bristle_slides(const Number& deflection, const Number& omega,
-                                            const Number& stiffness, const Number& bristle_damping,
-                                            const Number& level) {
-  const Number rate = omega - stiffness * abs(omega) * deflection / level;
-  return abs(stiffness * deflection + bristle_damping * rate) > Number(0.99) * level;
+ZEROCOUNT_ALWAYS_INLINE auto bristle_slides(const BristleConstants<Number>& of, const Number& deflection,
+                                            const Number& omega, const Number& level) {
+  const Number rate = omega - of.stiffness * abs(omega) * deflection / level;
+  return abs(of.stiffness * deflection + of.bristle_damping * rate) > Number(0.99) * level;
 }
 
 /// Whether the bristle of a fast rotor may be set to its end. The distance |z − end|, which decays as
@@ -45,19 +81,16 @@ ZEROCOUNT_ALWAYS_INLINE auto is_at_end(const Number& deflection, const Number& e
 ///
 /// is below `rest` (rad). In the direction of u the bristle yields with the stiffness σ0·m and the damping b;
 /// half a period of a small oscillation about z = u/σ0 reduces it by exp(−π·b/(2·√2·J·ωn)) or more.
-/// @param stiffness σ0. @param bristle_damping σ1. @param damping d. @param breakaway g(0), N m.
 template <class Number>
-ZEROCOUNT_ALWAYS_INLINE auto bristle_rests(const Number& deflection, const Number& omega,
-                                           const Number& torque, const Number& stiffness,
-                                           const Number& bristle_damping, const Number& damping,
-                                           const Number& breakaway, const Number& inertia,
+ZEROCOUNT_ALWAYS_INLINE auto bristle_rests(const BristleConstants<Number>& of, const Number& deflection,
+                                           const Number& omega, const Number& torque, const Number& inertia,
                                            const Number& rest) {
   const Number one(1.0);
-  const Number margin = one - abs(torque) / breakaway;
-  const Number resistance = bristle_damping * margin + damping;
-  const Number frequency = sqrt(stiffness / inertia);
+  const Number margin = one - abs(torque) / (of.level.coulomb + of.level.excess);
+  const Number resistance = of.bristle_damping * margin + of.damping;
+  const Number frequency = sqrt(of.stiffness / inertia);
   const Number excursion =
-      abs(deflection - torque / stiffness) + abs(omega) * (one / frequency + inertia / resistance);
+      abs(deflection - torque / of.stiffness) + abs(omega) * (one / frequency + inertia / resistance);
   return (margin > Number(0.0)) & (resistance > Number(0.0)) &
          (Number(4.0) * excursion * (one + inertia * frequency / resistance) < rest * margin);
 }

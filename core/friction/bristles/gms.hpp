@@ -6,28 +6,14 @@
 #include <span>
 #include <vector>
 
+#include "core/friction/bristles/gms_formulas.hpp"
 #include "core/friction/law.hpp"
 #include "core/friction/sliding/stribeck.hpp"
 
 namespace zerocount::friction {
 
-/// An element of the model with its state.
-struct GmsState {
-  GmsElement element;
-  double torque{0.0};  ///< Fi, N m
-  bool slips{false};
-};
-
-/// Taylor series in time of the elements and their rotor.
-struct GmsSeries : StribeckSeries {
-  numerics::Series position{};        ///< travel since the start of the step, rad
-  numerics::Series omega{};           ///< ω, rad/s
-  numerics::Series level{};           ///< g(ω), N m
-  numerics::Series slipping{};        ///< torque of all slipping elements, N m
-  numerics::Series slipping_ratio{};  ///< slipping/g(ω)
-  numerics::Series fading{};          ///< E of GmsMotion, dimensionless
-  numerics::Series fading_ratio{};    ///< fading/g(ω), 1/(N m)
-};
+using GmsState = GmsStateOf<double>;
+using GmsSeries = GmsSeriesOf<numerics::Series>;
 
 /// The motion of a rotor on elements that stick or slip, with a constant sign s of ω:
 ///
@@ -45,31 +31,24 @@ struct GmsMotion {
   enum class Event { none, slip, velocity_zero };
 
   std::span<GmsState> elements;
-  const StribeckCurve& curve;
-  double attraction;          ///< C, N m/s
-  double damping;             ///< cs, N m s/rad
-  double direction;           ///< s, −1 or 1
-  double& theta;              ///< rad
-  double& omega;              ///< rad/s
-  double sticking_torque;     ///< of all sticking elements at the start of the step, N m
-  double sticking_stiffness;  ///< N m/rad
-  double slipping_weight;     ///< H
-  double stiffest;            ///< largest κi, N m/rad
-
-  GmsMotion(std::span<GmsState> elements, const StribeckCurve& curve, double attraction, double damping,
-            double direction, double& theta, double& omega);
+  GmsConstants<double> law;  ///< with its acting_attraction()
+  double direction;          ///< s, −1 or 1
+  double& theta;             ///< rad
+  double& omega;             ///< rad/s
+  GmsSums<double> sums;      ///< at the start of the step
 
   GmsSeries start() const;
-  double expand(GmsSeries& s, std::size_t k, double torque) const;
+  double expand(GmsSeries& s, std::size_t k, double torque) const {
+    return gms_coefficient(law, sums, direction, s, k, torque);
+  }
   /// Torques of slipping elements, and the level that others may reach, are as accurate as the elongation of
   /// the stiffest spring.
   double step_of_state(const GmsSeries& series, double tolerance, double duration) const;
-  void complete(GmsSeries& series) const { expand_level(series, numerics::series_order); }
+  void complete(GmsSeries& s) const { s.expand_level(law.level, s.omega.data(), numerics::series_order); }
   motion::NextEvent<Event> first_event(const GmsSeries& series, double step) const;
   void go_to(const GmsSeries& series, const motion::NextEvent<Event>& next);
 
  private:
-  void expand_level(GmsSeries& s, std::size_t k) const;
   bool may_slip(const GmsSeries& series, double step) const;
   numerics::Series margin_of(const GmsState& state, const GmsSeries& series) const;
 };
@@ -118,15 +97,11 @@ class GmsFriction : public WithoutCreepAndReversals {
  private:
   double torque() const;
   double softest() const;
-  double direction_under(const motion::TorqueCourse& torque) const;
-  bool come_to_rest(double torque);
   void load_slowly(double torque);
-  void begin_to_slip(double direction);
 
   motion::PlantParameters plant_;
   motion::MotionTolerance tolerance_;
-  StribeckCurve curve_;
-  double attraction_;
+  GmsConstants<double> constants_;
   std::vector<GmsState> elements_;
   double theta_{0.0};
   double omega_;

@@ -1,5 +1,7 @@
 #include "core/friction/sliding/none.hpp"
 
+#include "core/friction/sliding/slide_formulas.hpp"
+
 namespace zerocount::friction {
 namespace {
 
@@ -24,8 +26,7 @@ struct DampedRotor {
     return s;
   }
   double expand(FreeSeries& s, std::size_t k, double torque) const {
-    s.position[k + 1] = s.omega[k] * numerics::reciprocal[k + 1];
-    return torque - damping * s.omega[k];
+    return damped_coefficient(damping, s, k, torque);
   }
   static motion::NextEvent<Event> first_event(const FreeSeries&, double step) { return {step}; }
   void go_to(const FreeSeries& s, const motion::NextEvent<Event>& next) {

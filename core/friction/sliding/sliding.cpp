@@ -5,12 +5,13 @@
 namespace zerocount::friction {
 
 SlidingSeries Slide::start() const {
-  SlidingSeries series;
+  StribeckCurve curve = stribeck_curve(contact);
+  curve.coulomb *= direction;
+  curve.excess *= direction;
+  SlidingSeries series{{}, {damping, curve}};
   series.position[0] = theta;
   series.omega[0] = omega;
-  series.curve = stribeck_curve(contact);
-  series.curve.coulomb *= direction;
-  series.curve.excess *= direction;
+  series.decay[0] = decay_at(curve, omega);
   return series;
 }
 

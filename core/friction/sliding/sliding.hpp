@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/friction/sliding/slide_formulas.hpp"
 #include "core/friction/sliding/stribeck.hpp"
 #include "core/motion/taylor_step.hpp"
 #include "core/motion/torque_course.hpp"
@@ -15,10 +16,8 @@ Number sliding_torque(const Number& torque, const Number& damping, const Stribec
 }
 
 /// Taylor series in time of the sliding motion.
-struct SlidingSeries : StribeckSeries {
-  numerics::Series position{};  ///< θ, rad
-  numerics::Series omega{};     ///< ω, rad/s
-  StribeckCurve curve;          ///< times d
+struct SlidingSeries : SlideSeriesOf<numerics::Series> {
+  SlideConstants<double> constants;
 };
 
 /// The motion while the hook slides (paper, eq. 3, with Stribeck friction):
@@ -40,11 +39,8 @@ struct Slide {
 
   SlidingSeries start() const;
   double expand(SlidingSeries& s, std::size_t k, double torque) const {
-    const double decay = s.StribeckSeries::expand(s.curve, s.omega, k);
-    s.position[k + 1] = s.omega[k] * numerics::reciprocal[k + 1];
-    if (at_level && k == 0) return 0.0;
-    const double driving = k == 0 ? torque - s.curve.coulomb : torque;
-    return driving - damping * s.omega[k] - s.curve.excess * decay;
+    const double accelerating = slide_coefficient<false>(s.constants, s, k, torque);
+    return at_level && k == 0 ? 0.0 : accelerating;
   }
   static motion::NextEvent<Event> first_event(const SlidingSeries& series, double step);
   void go_to(const SlidingSeries& series, const motion::NextEvent<Event>& next);

@@ -3,21 +3,9 @@
 #include "core/friction/parameters.hpp"
 #include "core/friction/sliding/stribeck_series.hpp"
 #include "core/numerics/elementary_functions.hpp"
-#include "core/numerics/power_series.hpp"
 
 namespace zerocount::friction {
 
-/// The level of sliding friction over velocity:
-///
-///   g(ω) = Fc + (Fs − Fc)·exp(−(ω/ωs)²).
-///
-/// Number is double, or a number that carries derivatives and has its own exp().
-template <class Number>
-struct StribeckCurveOf {
-  Number coulomb;               ///< Fc, N m
-  Number excess;                ///< Fs − Fc, N m
-  Number per_velocity_squared;  ///< 1/ωs², s²/rad²
-};
 using StribeckCurve = StribeckCurveOf<double>;
 
 /// Fs = breakaway, Fc = coulomb_ratio·Fs, ωs = stribeck_velocity.
@@ -34,16 +22,9 @@ Number level_at(const StribeckCurveOf<Number>& curve, Number omega) {
   return curve.coulomb + curve.excess * exp(-curve.per_velocity_squared * omega * omega);
 }
 
-/// Taylor series in time of exp(−(ω/ωs)²).
-struct StribeckSeries : StribeckSeriesOf<numerics::Series> {
-  StribeckSeries() : StribeckSeriesOf<numerics::Series>{} {}
-
-  /// Computes coefficient k from ω[0…k]. @returns that of decay.
-  double expand(const StribeckCurve& curve, const numerics::Series& omega, std::size_t k) {
-    StribeckSeriesOf::expand(curve.per_velocity_squared, omega.data(), k);
-    if (k == 0) decay[0] = numerics::exp(exponent[0]);
-    return decay[k];
-  }
-};
+/// exp(−(ω/ωs)²), the coefficient 0 of StribeckSeriesOf::decay.
+inline double decay_at(const StribeckCurve& curve, double omega) {
+  return numerics::exp(-curve.per_velocity_squared * (omega * omega));
+}
 
 }  // namespace zerocount::friction

@@ -311,7 +311,7 @@ TEST(Gms, IsPassiveButForTheRiseOfSlippingTorques) {
   const auto stored = [&] {
     double energy = 0.5 * rotor.inertia * plant.omega() * plant.omega();
     for (const GmsState& state : plant.elements())
-      energy += 0.5 * state.torque * state.torque / state.element.stiffness;
+      energy += 0.5 * state.torque * state.torque / state.stiffness;
     return energy;
   };
   double given = 0.0;

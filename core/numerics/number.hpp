@@ -34,6 +34,10 @@ ZEROCOUNT_ALWAYS_INLINE double max(double a, double b) {
 ZEROCOUNT_ALWAYS_INLINE double sqrt(double a) {
   return __builtin_sqrt(a);
 }
+/// a/b of a b that stays the same in a loop: there a vector has the reciprocal.
+ZEROCOUNT_ALWAYS_INLINE double by_fixed(double a, double b) {
+  return a / b;
+}
 /// −1, 0 or 1.
 ZEROCOUNT_ALWAYS_INLINE double sign(double a) {
   return a > 0.0 ? 1.0 : (a < 0.0 ? -1.0 : 0.0);

@@ -6,46 +6,41 @@
 /// Lanes with elements that stick or slip; see friction::GmsFriction.
 namespace zerocount::batch {
 
-/// Calls `visit` with the index of each element that a lane of the vector has. Beyond its own a lane has
+/// The elements of the lanes of a vector, for the formulas of friction::GmsMotion. Beyond its own a lane has
 /// elements of stiffness, weight and torque 0, which never slip.
-template <class At, class Visit>
-ZEROCOUNT_ALWAYS_INLINE void for_each_element(const BatchState& batch, const At& at, Visit visit) {
-  using P = typename At::Vector;
-  const P count = select(at.taking_part(), at.load(batch.elements.count), P(0.0));
-  for (int i = 0; i < max_lane_elements && (count > P(static_cast<double>(i))).any(); ++i) visit(i);
-}
-
-/// The lanes that have an element of this index.
-template <class At>
-ZEROCOUNT_ALWAYS_INLINE typename At::Vector::Mask have_element(const BatchState& batch, const At& at, int i) {
-  return at.load(batch.elements.count) > typename At::Vector(static_cast<double>(i));
-}
-
-/// For the formulas of friction::GmsMotion.
-template <class At>
+template <class P>
 struct LaneElements {
-  using State = friction::GmsStateOf<typename At::Vector>;
-  BatchState& batch;
-  const At& at;
+  using State = friction::GmsStateOf<P>;
+  P count;
+  State states[max_lane_elements];
 
-  ZEROCOUNT_ALWAYS_INLINE State load(int i) const {
-    const ElementLanes& e = batch.elements;
-    return {at.load(e.stiffness[i]), at.load(e.weight[i]), at.load(e.torque[i]),
-            to_mask(at.load(e.slips[i]))};
+  template <class At>
+  ZEROCOUNT_ALWAYS_INLINE LaneElements(const ElementLanes& e, const At& at)
+      : count(select(at.taking_part(), at.load(e.count), P(0.0))) {
+    for (int i = 0; any(have(i)); ++i) {
+      states[i] = {at.load(e.stiffness[i]), at.load(e.weight[i]), at.load(e.torque[i]),
+                   to_mask(at.load(e.slips[i]))};
+    }
   }
+  /// The lanes that have an element of this index.
+  ZEROCOUNT_ALWAYS_INLINE typename P::Mask have(int i) const { return count > P(static_cast<double>(i)); }
   template <class Visit>
   ZEROCOUNT_ALWAYS_INLINE void each(Visit visit) const {
-    for_each_element(batch, at, [&](int i) { visit(load(i)); });
+    for (int i = 0; any(have(i)); ++i) visit(states[i]);
   }
   template <class Visit>
-  ZEROCOUNT_ALWAYS_INLINE void change(Visit visit) const {
-    for_each_element(batch, at, [&](int i) {
-      State state = load(i);
-      visit(state);
-      at.store(batch.elements.torque[i], state.torque);
-      at.store(batch.elements.slips[i],
-               to_number<typename At::Vector>(state.slips & have_element(batch, at, i)));
-    });
+  ZEROCOUNT_ALWAYS_INLINE void change(Visit visit) {
+    for (int i = 0; any(have(i)); ++i) {
+      visit(states[i]);
+      states[i].slips = states[i].slips & have(i);
+    }
+  }
+  template <class At>
+  ZEROCOUNT_ALWAYS_INLINE void store(ElementLanes& e, const At& at) const {
+    for (int i = 0; any(have(i)); ++i) {
+      at.store(e.torque[i], states[i].torque);
+      at.store(e.slips[i], to_number<P>(states[i].slips));
+    }
   }
 };
 
@@ -58,9 +53,12 @@ ZEROCOUNT_ALWAYS_INLINE typename At::Vector::Mask elements_rest(BatchState& batc
   const P rest = at.load(batch.time.rest);
   typename P::Mask quiet = rest == rest;
   if (forcing.loaded) quiet = load_is_quiet(batch, at, omega, at.load(batch.elements.softest) * rest, P(0.0));
-  return friction::rest_on_elements(LaneElements<At>{batch, at}, at.load(batch.motion.torque), omega,
-                                    at.load(batch.contact.breakaway), at.load(batch.contact.inertia), rest,
-                                    quiet);
+  LaneElements<P> elements(batch.elements, at);
+  const auto rests = friction::rest_on_elements(elements, at.load(batch.motion.torque), omega,
+                                                at.load(batch.contact.breakaway),
+                                                at.load(batch.contact.inertia), rest, quiet);
+  elements.store(batch.elements, at);
+  return rests;
 }
 
 /// Moves the lanes that are at rest under their torque, which stays, to their next stop. @returns the others.
@@ -93,22 +91,21 @@ using ElementSeries = friction::GmsSeriesOf<P[batch_order + 1]>;
 /// the first slip is not known: a margin may have a second zero, or the level is not accurate and an element
 /// is near it.
 template <class At, class P>
-ZEROCOUNT_ALWAYS_INLINE typename P::Mask find_first_slip(BatchState& batch, const At& at,
-                                                         const ElementSeries<P>& s, const P& direction,
-                                                         const typename P::Mask& lanes,
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask find_first_slip(const LaneElements<P>& elements, const P& coulomb,
+                                                         const At& at, const ElementSeries<P>& s,
+                                                         const P& direction, const typename P::Mask& lanes,
                                                          const typename P::Mask& exact, P& x) {
   using Mask = typename P::Mask;
   const P zero(0.0);
-  const P coulomb = at.load(batch.contact.coulomb);
   P excursion = zero;
 #pragma GCC unroll 1
   for (int k = batch_order; k >= 1; --k) excursion = excursion + abs(s.position[k]);
   Mask unfit = zero != zero;
-  for_each_element(batch, at, [&](int i) {
-    const friction::GmsStateOf<P> state = LaneElements<At>{batch, at}.load(i);
-    const Mask near = lanes & ~state.slips & have_element(batch, at, i) &
+  for (int i = 0; any(elements.have(i)); ++i) {
+    const friction::GmsStateOf<P>& state = elements.states[i];
+    const Mask near = lanes & ~state.slips & elements.have(i) &
                       (direction * state.torque + state.stiffness * excursion >= state.weight * coulomb);
-    if (!(near & at.taking_part()).any()) return;
+    if (!(near & at.taking_part()).any()) continue;
     P margin[batch_order + 1];
 #pragma GCC unroll 1
     for (std::size_t k = 0; k <= batch_order; ++k)
@@ -122,27 +119,26 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask find_first_slip(BatchState& batch, cons
             (slips & ~crosses_once(margin, batch_order));
     const Mask seeks = slips & ~unfit & at.taking_part();
     if (seeks.any()) x = select(seeks, root_between(margin, batch_order, margin[0], at_x, x, seeks), x);
-  });
+  }
   return unfit;
 }
 
-/// Stores the elements at the fraction x of the step, in the lanes of step.done.
-template <class At, class P>
-ZEROCOUNT_ALWAYS_INLINE void store_elements(BatchState& batch, const At& at, const ElementSeries<P>& s,
-                                            const friction::GmsSums<P>& sums, const VelocityStep<P>& step) {
+/// Moves the elements to the fraction x of the step, in the lanes of step.done. @returns where all slip.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE typename P::Mask move(LaneElements<P>& elements, const ElementSeries<P>& s,
+                                              const friction::GmsSums<P>& sums, const VelocityStep<P>& step) {
   const P travel = value_of(s.position, batch_order, step.x);
   const P slipping = value_of(s.slipping, batch_order, step.x);
   const P fading = value_of(s.fading, batch_order, step.x);
-  LaneElements<At>{batch, at}.change([&](friction::GmsStateOf<P>& state) {
-    state.torque =
-        select(step.done, friction::torque_after(state, sums, travel, slipping, fading), state.torque);
+  typename P::Mask slides = travel == travel;
+  for (int i = 0; any(elements.have(i)); ++i) {
+    friction::GmsStateOf<P>& state = elements.states[i];
+    const P torque = friction::torque_after(state, sums, travel, slipping, fading);
+    state.torque = select(step.done, torque, state.torque);
     state.slips = state.slips & ~(step.done & step.halts);
-  });
-  auto slides = step.x == step.x;
-  for_each_element(batch, at, [&](int i) {
-    slides = slides & (to_mask(at.load(batch.elements.slips[i])) | ~have_element(batch, at, i));
-  });
-  at.store(batch.motion.gradual_slide, to_number<P>(slides));
+    slides = slides & (state.slips | ~elements.have(i));
+  }
+  return slides;
 }
 
 /// The step of one vector; see elements_kernel.
@@ -165,7 +161,7 @@ __attribute__((noinline)) void move_elements(BatchState& batch, const At& at, Fo
                                      at.load(batch.elements.attraction),
                                      at.load(c.sliding_damping)};
 
-  const LaneElements<At> elements{batch, at};
+  LaneElements<P> elements(batch.elements, at);
   const P unbalanced = torque - friction::torque_of_elements<P>(elements);
   const P direction = heading_under(batch, at, forcing, omega, unbalanced);
   const P decay_start = exp(-per_velocity_squared * omega * omega);
@@ -200,13 +196,15 @@ __attribute__((noinline)) void move_elements(BatchState& batch, const At& at, Fo
   end_at_halt(s.omega, at, step);
   const P halt = step.x;
   const Mask exact = last_terms_of(s.level) <= step.allowed * stiffest;
-  step.too_long = step.too_long | find_first_slip(batch, at, s, direction, ~step.too_long, exact, step.x);
+  step.too_long =
+      step.too_long | find_first_slip(elements, coulomb, at, s, direction, ~step.too_long, exact, step.x);
   step.halts = step.halts & (step.x == halt);
   step.done = ~step.too_long;
 
   store_motion(batch, at, s, applied, omega, step);
   at.store(batch.motion.rest_torque, P(__builtin_nan("")));
-  store_elements(batch, at, s, sums, step);
+  at.store(batch.motion.gradual_slide, to_number<P>(move(elements, s, sums, step)));
+  elements.store(batch.elements, at);
   add_events(batch, at, lost_in_steps<P>(batch, at));
 }
 

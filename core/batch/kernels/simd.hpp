@@ -248,6 +248,8 @@ struct Simd {
   }
   friend ZEROCOUNT_ALWAYS_INLINE Simd min(const Simd& a, const Simd& b) { return select(b < a, b, a); }
   friend ZEROCOUNT_ALWAYS_INLINE Simd max(const Simd& a, const Simd& b) { return select(a < b, b, a); }
+  /// a·(1/b), the reciprocal computed once for all a.
+  friend ZEROCOUNT_ALWAYS_INLINE Simd by_fixed(const Simd& a, const Simd& b) { return a * (Simd(1.0) / b); }
   /// −1, 0 or 1.
   friend ZEROCOUNT_ALWAYS_INLINE Simd sign(const Simd& a) {
     return select(a > Simd(0.0), Simd(1.0), select(a < Simd(0.0), Simd(-1.0), Simd(0.0)));

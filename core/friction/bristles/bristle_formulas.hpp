@@ -43,7 +43,7 @@ ZEROCOUNT_ALWAYS_INLINE Number bristle_coefficient(const BristleConstants<Number
   const Number per_order(numerics::reciprocal.of[k + 1]);
   const Number product = numerics::product_coefficient(&s.omega[0], &s.deflection[0], k);
   if constexpr (ConstantLevel) {
-    s.ratio[k] = product / of.level.coulomb;
+    s.ratio[k] = by_fixed(product, of.level.coulomb);
   } else {
     s.expand_level(of.level, &s.omega[0], k);
     s.ratio[k] = numerics::quotient_coefficient(product, &s.level[0], &s.ratio[0], k);

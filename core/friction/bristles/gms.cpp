@@ -162,7 +162,7 @@ bool GmsFriction::sliding() const {
 }
 
 double GmsFriction::step(const motion::TorqueCourse& torque, double duration) {
-  const Elements elements{elements_};
+  Elements elements{elements_};
   const bool constant = motion::is_steady(torque);
   if (constant && rest_torque_ == torque.now) return duration;
   rest_torque_.reset();

@@ -51,7 +51,7 @@ ZEROCOUNT_ALWAYS_INLINE Number torque_of_elements(const Elements& elements) {
 /// Sets elements within rounding of their level in this direction to the level; they slip.
 /// @param direction s, or 0. @param level g(ω), N m. @returns the sums afterwards.
 template <class Number, class Elements>
-ZEROCOUNT_ALWAYS_INLINE GmsSums<Number> begin_to_slip(Elements elements, const Number& direction,
+ZEROCOUNT_ALWAYS_INLINE GmsSums<Number> begin_to_slip(Elements& elements, const Number& direction,
                                                       const Number& level) {
   constexpr double rounding = 1e-12;
   const Number zero(0.0);
@@ -74,7 +74,7 @@ ZEROCOUNT_ALWAYS_INLINE GmsSums<Number> begin_to_slip(Elements elements, const N
 /// The rest rule of GmsFriction: the elements that carry a rotor at rest take over what the torque exceeds
 /// theirs by. @param level g(0), N m. @param rest ε, rad. @returns whether the rotor is at rest.
 template <class Number, class Elements, class Mask>
-ZEROCOUNT_ALWAYS_INLINE Mask rest_on_elements(Elements elements, const Number& torque, const Number& omega,
+ZEROCOUNT_ALWAYS_INLINE Mask rest_on_elements(Elements& elements, const Number& torque, const Number& omega,
                                               const Number& level, const Number& inertia, const Number& rest,
                                               const Mask& load_is_quiet) {
   const auto holds = [&](const GmsStateOf<Number>& state) {

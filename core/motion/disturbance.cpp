@@ -58,7 +58,7 @@ double vibration_beyond(const Disturbance& disturbance, std::size_t order, doubl
 RippleSeries::RippleSeries(std::span<const Ripple> ripples, double theta) {
   waves_.reserve(ripples.size());
   for (const Ripple& ripple : ripples) {
-    Wave wave{ripple.amplitude, ripple.per_angle, {}, {}};
+    Wave wave{{}, ripple.amplitude, ripple.per_angle};
     wave.sine[0] = numerics::sin(angle(ripple, theta));
     wave.cosine[0] = numerics::cos(angle(ripple, theta));
     waves_.push_back(wave);
@@ -67,16 +67,7 @@ RippleSeries::RippleSeries(std::span<const Ripple> ripples, double theta) {
 
 void RippleSeries::expand(const numerics::Series& omega, std::size_t k) {
   if (k == 0) return;
-  for (Wave& wave : waves_) {
-    double sine = 0.0;
-    double cosine = 0.0;
-    for (std::size_t j = 0; j < k; ++j) {
-      sine += omega[j] * wave.cosine[k - 1 - j];
-      cosine -= omega[j] * wave.sine[k - 1 - j];
-    }
-    wave.sine[k] = wave.per_angle * sine * numerics::reciprocal[k];
-    wave.cosine[k] = wave.per_angle * cosine * numerics::reciprocal[k];
-  }
+  for (Wave& wave : waves_) wave.expand(wave.per_angle, omega.data(), k);
 }
 
 double RippleSeries::value(std::size_t k, double sum) const {
@@ -92,16 +83,9 @@ double RippleSeries::slope(std::size_t k) const {
 
 DisturbanceSeries::DisturbanceSeries(const VaryingTorque& torque) : ripple_(torque.of.ripple, torque.theta) {
   for (const Vibration& line : torque.of.vibration) {
-    double sine = line.amplitude * numerics::sin(angle(line, torque.time));
-    double cosine = line.amplitude * numerics::cos(angle(line, torque.time));
-    vibration_[0] += sine;
-    for (std::size_t k = 1; k <= numerics::series_order; ++k) {
-      const double step = line.rate * numerics::reciprocal[k];
-      const double next = step * cosine;  // the derivatives of sin are cos, −sin, …
-      cosine = -step * sine;
-      sine = next;
-      vibration_[k] += sine;
-    }
+    const double sine = line.amplitude * numerics::sin(angle(line, torque.time));
+    const double cosine = line.amplitude * numerics::cos(angle(line, torque.time));
+    add_line(line.rate, sine, cosine, numerics::series_order, vibration_);
   }
 }
 

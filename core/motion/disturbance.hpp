@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/motion/disturbance_formulas.hpp"
 #include "core/numerics/power_series.hpp"
 
 namespace zerocount::motion {
@@ -57,9 +58,7 @@ double value(std::span<const Ripple> ripples, double theta);
 /// Its derivative by θ.
 double slope(std::span<const Ripple> ripples, double theta);
 
-/// The Taylor series in time of ripples, given that of ω = dθ/dt. With s = sin(q·θ + φ) and c its cosine,
-///
-///   ds/dt = q·ω·c,   dc/dt = −q·ω·s.
+/// The Taylor series in time of ripples, given that of ω = dθ/dt.
 class RippleSeries {
  public:
   RippleSeries(std::span<const Ripple> ripples, double theta);
@@ -72,11 +71,9 @@ class RippleSeries {
   double slope(std::size_t k) const;
 
  private:
-  struct Wave {
+  struct Wave : WaveSeriesOf<numerics::Series> {
     double amplitude;
     double per_angle;
-    numerics::Series sine;
-    numerics::Series cosine;
   };
 
   std::vector<Wave> waves_;

@@ -3,15 +3,13 @@
 #include "core/batch/kernels/lane_group.hpp"
 #include "core/batch/kernels/series.hpp"
 #include "core/batch/kernels/trigonometry.hpp"
+#include "core/motion/disturbance_formulas.hpp"
 
 /// The torque on the rotor as a series in the fraction of a step.
 namespace zerocount::batch {
 
-/// A torque that varies (CourseLanes). With s = sin(q·θ + φ) and c its cosine a ripple obeys
-///
-///   ds/dt = q·ω·c,   dc/dt = −q·ω·s.
-///
-/// Over a short travel x it is a parabola, A·(s + c·qx − s·(qx)²/2), whose error is below A·|qx|³/6.
+/// A torque that varies (CourseLanes). Over a short travel x a ripple A·s is a parabola, A·(s + c·qx −
+/// s·(qx)²/2), whose error is below A·|qx|³/6.
 template <class P>
 struct VaryingTorque {
   using Mask = typename P::Mask;
@@ -20,8 +18,7 @@ struct VaryingTorque {
   int ripples;
   P amplitude[max_lane_ripples];
   P per_travel[max_lane_ripples];  ///< q by the unit of `velocity`
-  P sine[max_lane_ripples][batch_order];
-  P cosine[max_lane_ripples][batch_order];
+  motion::WaveSeriesOf<P[batch_order]> waves[max_lane_ripples];
 
   Mask parabolic;      ///< lanes whose ripples are parabolas; of them:
   bool has_parabolas;  ///< there are some
@@ -41,8 +38,8 @@ struct VaryingTorque {
     if (!has_parabolas) return;
     for (int i = 0; i < ripples; ++i) {
       const P q = per_travel[i];
-      linear = linear + amplitude[i] * cosine[i][0] * q;
-      quadratic = quadratic - P(0.5) * (amplitude[i] * sine[i][0] * q * q);
+      linear = linear + amplitude[i] * waves[i].cosine[0] * q;
+      quadratic = quadratic - P(0.5) * (amplitude[i] * waves[i].sine[0] * q * q);
       cubic = cubic + P(1.0 / 6.0) * abs(amplitude[i] * q * q * q);
     }
   }
@@ -74,17 +71,8 @@ struct VaryingTorque {
     P torque = fixed[k];
 #pragma GCC unroll 1
     for (int i = 0; i < ripples; ++i) {
-      P of_sine(0.0);
-      P of_cosine(0.0);
-#pragma GCC unroll 1
-      for (int j = 0; j < k; ++j) {
-        of_sine = of_sine + velocity[j] * cosine[i][k - 1 - j];
-        of_cosine = of_cosine - velocity[j] * sine[i][k - 1 - j];
-      }
-      const P factor = per_travel[i] * P(numerics::reciprocal.of[k]);
-      sine[i][k] = factor * of_sine;
-      cosine[i][k] = factor * of_cosine;
-      torque = torque + amplitude[i] * sine[i][k];
+      waves[i].expand(per_travel[i], velocity, static_cast<std::size_t>(k));
+      torque = torque + amplitude[i] * waves[i].sine[k];
     }
     return torque;
   }
@@ -111,8 +99,8 @@ ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, 
     const int i = torque.ripples++;
     torque.amplitude[i] = unit * at.load(c.ripples[i].amplitude);
     torque.per_travel[i] = travel_unit * at.load(c.ripples[i].per_angle);
-    torque.sine[i][0] = at.load(c.ripples[i].sine);
-    torque.cosine[i][0] = at.load(c.ripples[i].cosine);
+    torque.waves[i].sine[0] = at.load(c.ripples[i].sine);
+    torque.waves[i].cosine[0] = at.load(c.ripples[i].cosine);
   }
   torque.set_parabolic(P::Mask::of_bits(0));
 }
@@ -193,18 +181,7 @@ ZEROCOUNT_ALWAYS_INLINE void add_lines(const BatchState& batch, const At& at, P*
     const P amplitude = at.load(line.amplitude);
     P sine, cosine;
     sine_and_cosine(rate * time + at.load(line.phase), sine, cosine);
-    sine = amplitude * sine;
-    cosine = amplitude * cosine;
-    vibration[0] = vibration[0] + sine;
-    const P turn = rate * sample_time;
-#pragma GCC unroll 1
-    for (int k = 1; k < batch_order; ++k) {
-      const P step = turn * P(numerics::reciprocal.of[k]);
-      const P next = step * cosine;  // the derivatives of sin are cos, −sin, …
-      cosine = -step * sine;
-      sine = next;
-      vibration[k] = vibration[k] + sine;
-    }
+    motion::add_line(rate * sample_time, amplitude * sine, amplitude * cosine, batch_order - 1, vibration);
   }
 }
 

@@ -69,18 +69,42 @@ void store_contact_parameters(BatchState& batch, int lane, const LaneTrial& tria
   c.max_creep_ratio[lane] = 8.0 * contact.alpha * c.damping[lane] / contact.k1;
   c.per_lambda[lane] = 1.0 / contact.lambda;
   c.creep_exponent[lane] = contact.n;
-  c.breakaway[lane] = contact.breakaway;
-  c.coulomb[lane] = contact.coulomb_ratio * contact.breakaway;
-  c.fast_velocity[lane] = friction::fast_by_stribeck_velocity * contact.stribeck_velocity;
+  store_level(batch, lane, contact);
   c.max_oscillation[lane] = std::max(batch.time.rest[lane], std::sqrt(batch.time.rest[lane] / contact.beta));
-  c.per_velocity_squared[lane] = 1.0 / (contact.stribeck_velocity * contact.stribeck_velocity);
 }
 
 void remember_depth(LaneTrial& trial) {
   trial.deepest = std::max(trial.deepest, static_cast<std::int64_t>(trial.plant->spring().depth()));
 }
 
+/// Copies the second mass, if any, from the batch state.
+void load_second_mass(const BatchState& batch, int lane, std::optional<motion::Load>& load) {
+  if (!load) return;
+  load->twist = batch.load.twist[lane];
+  load->omega = batch.load.omega[lane];
+}
+
+/// Advances the plant, which is up to date, by the time to the next stop.
+template <class Plant>
+void advance(BatchState& batch, int lane, LaneTrial& trial, Plant& plant,
+             const motion::TorqueCourse& torque) {
+  const std::int64_t before = plant.breakaways();
+  if (trial.drive) plant.set_time(time_of(batch, lane, trial));
+  plant.advance(torque, batch.time.time_to_stop[lane], plant::max_steps_of_sample);
+  trial.breakaways += plant.breakaways() - before;
+  batch.time.next_step[lane] = batch.time.sample_time[lane];
+  batch.time.time_to_stop[lane] = 0.0;
+}
+
 }  // namespace
+
+void store_level(BatchState& batch, int lane, const friction::FrictionParameters& contact) {
+  ContactLanes& c = batch.contact;
+  c.breakaway[lane] = contact.breakaway;
+  c.coulomb[lane] = contact.coulomb_ratio * contact.breakaway;
+  c.fast_velocity[lane] = friction::fast_by_stribeck_velocity * contact.stribeck_velocity;
+  c.per_velocity_squared[lane] = 1.0 / (contact.stribeck_velocity * contact.stribeck_velocity);
+}
 
 void stop_at_next_sample(BatchState& batch, int lane) {
   TimeLanes& time = batch.time;
@@ -114,10 +138,7 @@ void load_motion(const BatchState& batch, int lane, LaneTrial& trial) {
   motion.slide_direction = m.slide_direction[lane];
   motion.breakaway_spring_torque = trial.breakaway_spring_torque;
   trial.plant->set_motion(motion);
-  if (std::optional<motion::Load>& load = trial.plant->load()) {
-    load->twist = batch.load.twist[lane];
-    load->omega = batch.load.omega[lane];
-  }
+  load_second_mass(batch, lane, trial.plant->load());
 }
 
 void store_motion(BatchState& batch, int lane, LaneTrial& trial) {
@@ -180,6 +201,11 @@ void break_away(BatchState& batch, int lane, LaneTrial& trial) {
 }
 
 void re_stick(BatchState& batch, int lane, LaneTrial& trial) {
+  if (trial.motion == LaneMotion::coulomb) {
+    load_motion(batch, lane, *trial.coulomb);
+    trial.coulomb->stand_still();
+    return store_contact(batch, lane, *trial.coulomb);
+  }
   load_motion(batch, lane, trial);
   trial.plant->re_stick();
   store_contact(batch, lane, trial);
@@ -187,20 +213,24 @@ void re_stick(BatchState& batch, int lane, LaneTrial& trial) {
 
 bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const motion::TorqueCourse& torque) {
   stop_at_next_sample(batch, lane);
+  if (trial.motion == LaneMotion::coulomb) {
+    CoulombPlant& plant = *trial.coulomb;
+    load_motion(batch, lane, plant);
+    load_second_mass(batch, lane, plant.load());
+    advance(batch, lane, trial, plant, torque);
+    store_contact(batch, lane, plant);
+    if (plant.load()) store_load(batch, lane, *plant.load());
+    return plant.finite();
+  }
   load_motion(batch, lane, trial);
-  const std::int64_t before = trial.plant->breakaways();
   trial.plant->forget_deepest();
-  if (trial.drive) trial.plant->set_time(time_of(batch, lane, trial));
-  trial.plant->advance(torque, batch.time.time_to_stop[lane], plant::max_steps_of_sample);
-  trial.breakaways += trial.plant->breakaways() - before;
+  advance(batch, lane, trial, *trial.plant, torque);
   trial.deepest = std::max(trial.deepest, trial.plant->deepest());
   store_contact(batch, lane, trial);
   if (trial.plant->rest()) {
     batch.motion.rest_torque[lane] = trial.plant->rest()->torque;
     forget_ahead(batch, lane, trial);
   }
-  batch.time.next_step[lane] = batch.time.sample_time[lane];
-  batch.time.time_to_stop[lane] = 0.0;
   return trial.plant->finite();
 }
 

@@ -11,17 +11,6 @@ namespace {
 /// Samples that the kernel of noisy lanes at rest may pass in one call.
 constexpr int max_passed_samples = 256;
 
-/// Advances the lane to its next stop by the scalar plant. Runs its trial anew if the motion does not stay
-/// finite. @returns whether it does.
-bool follow_reference(RunningBatch& run, int lane) {
-  const bool varies = run.lanes.varying.contains(lane);
-  const motion::TorqueCourse torque =
-      varies ? present_course(run.state, lane) : motion::constant_torque(run.state.motion.torque[lane]);
-  if (advance_by_reference(run.state, lane, run.trial_of(lane), torque)) return true;
-  fall_back_to_scalar(run, lane);
-  return false;
-}
-
 /// Applies the rest rule. @returns whether the lane was at rest; then it is at a sampling instant.
 bool rests(RunningBatch& run, int lane) {
   if (!run.lanes.varying.contains(lane)) return come_to_rest(run, lane);
@@ -114,16 +103,8 @@ void end_sliding_steps(RunningBatch& run) {
   for (int i = 0; i < run.state.event_count; ++i) {
     const int lane = run.state.event_lanes[i];
     const int events = run.state.events[lane];
-    LaneTrial& trial = run.trial_of(lane);
-    const bool has_hook = trial.motion == LaneMotion::contact;
-    if ((events & velocity_zero) != 0) (has_hook ? re_stick : stand_still)(run.state, lane, trial);
-    if ((events & beyond_kernel) != 0) {
-      if (!has_hook) {
-        fall_back_to_scalar(run, lane);
-        continue;
-      }
-      if (!follow_reference(run, lane)) continue;
-    }
+    if ((events & velocity_zero) != 0) re_stick(run.state, lane, run.trial_of(lane));
+    if ((events & beyond_kernel) != 0 && !follow_reference(run, lane)) continue;
     set_motion(run, lane);
   }
 }
@@ -214,6 +195,15 @@ LaneSet follow_descriptions(RunningBatch& run, const LaneSet& ahead) {
 }
 
 }  // namespace
+
+bool follow_reference(RunningBatch& run, int lane) {
+  const bool varies = run.lanes.varying.contains(lane);
+  const motion::TorqueCourse torque =
+      varies ? present_course(run.state, lane) : motion::constant_torque(run.state.motion.torque[lane]);
+  if (advance_by_reference(run.state, lane, run.trial_of(lane), torque)) return true;
+  fall_back_to_scalar(run, lane);
+  return false;
+}
 
 std::array<std::pair<Forcing, LaneSet>, 4> by_forcing(const RunningBatch& run, const LaneSet& lanes) {
   const LaneSet loaded = lanes.in_both(run.lanes.loaded);

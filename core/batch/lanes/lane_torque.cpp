@@ -90,6 +90,7 @@ void start_drive(BatchState& batch, int lane, LaneTrial& trial) {
     to.sine[lane] = to.cosine[lane] = 0.0;
   }
   if (trial.motion == LaneMotion::contact) trial.plant->disturb(varying);
+  if (trial.motion == LaneMotion::coulomb) trial.coulomb->disturb(varying);
 }
 
 motion::TorqueCourse present_course(const BatchState& batch, int lane) {

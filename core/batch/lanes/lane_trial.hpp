@@ -20,6 +20,8 @@ namespace zerocount::batch {
 
 /// The scalar plant of a lane with a hook.
 using LanePlant = plant::PlantWith<friction::PreslidingFriction>;
+/// That of a lane with Coulomb friction alone.
+using CoulombPlant = plant::PlantWith<friction::CoulombFriction>;
 
 /// The number of samples for which the motion of a lane at rest is computed at once (CreepAheadLanes).
 struct CreepAhead {
@@ -40,11 +42,10 @@ struct LaneTrial {
   /// before reading anything else.
   std::optional<LanePlant> plant;
   CreepAhead ahead;
-  friction::FrictionParameters standing{};  ///< of the contact, in lanes with LaneMotion::coulomb
-  std::int64_t contacts{0};                 ///< since the start, in those lanes
-  double elongation_tolerance{0.0};         ///< MotionTolerance::elongation, rad
-  double breakaway_spring_torque{0.0};      ///< σb of the slide, N m
-  double read_twist{0.0};                   ///< LoopLanes::read_twist at the last sample, rad
+  std::optional<CoulombPlant> coulomb;  ///< in lanes with LaneMotion::coulomb; load_motion() likewise
+  double elongation_tolerance{0.0};     ///< MotionTolerance::elongation, rad
+  double breakaway_spring_torque{0.0};  ///< σb of the slide, N m
+  double read_twist{0.0};               ///< LoopLanes::read_twist at the last sample, rad
 
   std::int64_t breakaways{0};  ///< in this move
   bool slid_at_start{false};   ///< of this move
@@ -69,6 +70,9 @@ void store_motion(BatchState& batch, int lane, LaneTrial& trial);
 /// store_motion(), and the contact's parameters, which a slide or a scalar step may have changed.
 void store_contact(BatchState& batch, int lane, LaneTrial& trial);
 
+/// Copies the level of friction of a slide into the batch state.
+void store_level(BatchState& batch, int lane, const friction::FrictionParameters& contact);
+
 /// Copies the state of the second mass into the batch state.
 void store_load(BatchState& batch, int lane, const motion::Load& load);
 
@@ -84,8 +88,8 @@ void close_loop(BatchState& batch, int lane, LaneTrial& trial);
 void end_creep(BatchState& batch, int lane, LaneTrial& trial);
 void break_away(BatchState& batch, int lane, LaneTrial& trial);
 void re_stick(BatchState& batch, int lane, LaneTrial& trial);
-/// Advances to the next stop by LanePlant::advance. @param torque on the rotor, N m, without a disturbance
-/// that varies. @returns whether the motion stayed finite.
+/// Advances to the next sample by the lane's scalar plant. @param torque on the rotor, N m, without a
+/// disturbance that varies. @returns whether the motion stayed finite.
 bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const motion::TorqueCourse& torque);
 
 /// Starts the trial that `trial` names, with its first move, in the lane. (lane_start.cpp)
@@ -96,8 +100,8 @@ void start_slides(const BatchState& batch, int lane, LaneTrial& trial);
 
 // Lanes with LaneMotion::coulomb. (lane_coulomb.cpp)
 void start_coulomb(BatchState& batch, int lane, LaneTrial& trial);
-/// Ends the slide: a new contact forms at θ.
-void stand_still(BatchState& batch, int lane, LaneTrial& trial);
+void load_motion(const BatchState& batch, int lane, CoulombPlant& plant);
+void store_contact(BatchState& batch, int lane, const CoulombPlant& plant);
 
 /// Stores a stream of random numbers of the trial in the lane. (lane_start.cpp)
 void store_random(RandomLanes& to, int lane, const random::TrialRandomness& of, const random::RandomKey& key);

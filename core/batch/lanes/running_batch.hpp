@@ -121,6 +121,10 @@ void move_free(RunningBatch& run);
 /// Inserts the lane, which has a trial, into the set of its motion. (lane_steps.cpp)
 void set_motion(RunningBatch& run, int lane);
 
+/// Advances the lane to its next sample by its scalar plant. Runs its trial anew if the motion does not stay
+/// finite. @returns whether it does. (lane_steps.cpp)
+bool follow_reference(RunningBatch& run, int lane);
+
 /// Divides lanes by what acts on them. (lane_steps.cpp)
 std::array<std::pair<Forcing, LaneSet>, 4> by_forcing(const RunningBatch& run, const LaneSet& lanes);
 /// Computes the torques whose series the steps of these lanes follow. (lane_steps.cpp)

@@ -28,13 +28,23 @@ double CoulombFriction::slide(const motion::TorqueCourse& torque, double duratio
   const SlideStep step = slide_step(slide, plant_.inertia, torque, tolerance_, duration);
   theta_ = slide.theta;
   omega_ = slide.omega;
-  if (step.ended) {
-    contact_ = friction_at(friction_, position_ + theta_, ++contact_number_);
-    omega_ = 0.0;
-    sliding_ = false;
-    spent_ = leads_nowhere(slide_start_, theta_, tolerance_);
-  }
+  if (step.ended) stand_still();
   return step.time;
+}
+
+void CoulombFriction::stand_still() {
+  contact_ = friction_at(friction_, position_ + theta_, ++contact_number_);
+  omega_ = 0.0;
+  sliding_ = false;
+  spent_ = leads_nowhere(slide_start_, theta_, tolerance_);
+}
+
+void CoulombFriction::set_motion(const CoulombMotion& motion) {
+  theta_ = motion.theta;
+  omega_ = motion.omega;
+  sliding_ = motion.direction != 0.0;
+  if (sliding_) direction_ = motion.direction;
+  spent_ = motion.spent;
 }
 
 bool CoulombFriction::torque_drives(double direction, const motion::TorqueCourse& torque) const {

@@ -7,6 +7,14 @@
 
 namespace zerocount::friction {
 
+/// Motion with which an engine of its own goes on.
+struct CoulombMotion {
+  double theta;      ///< rad
+  double omega;      ///< rad/s
+  double direction;  ///< of the slide, −1 or 1; 0 while the rotor stands
+  bool spent;        ///< StandingContact::spent
+};
+
 /// Amonton–Coulomb friction with a static level: θ is constant while |u| ≤ Fs = breakaway. When |u| passes Fs
 /// the rotor slides towards sgn(u), by Slide, until ω = 0; there a new contact forms, with the parameters of
 /// that place.
@@ -31,6 +39,12 @@ class CoulombFriction : public WithoutCreepAndReversals {
                   const motion::PlantStart& start, const motion::MotionTolerance& tolerance);
 
   double step(const motion::TorqueCourse& torque, double duration);
+
+  CoulombMotion motion() const { return {theta_, omega_, sliding_ ? direction_ : 0.0, spent_}; }
+  /// Goes on from this motion, within the present contact.
+  void set_motion(const CoulombMotion& motion);
+  /// Ends the slide: a new contact forms at θ.
+  void stand_still();
 
   double theta() const { return theta_; }
   double omega() const { return omega_; }

@@ -67,7 +67,7 @@ Scale scale_of(const layout::Measure& row, bool quality) {
   return is_count ? Scale::counts : Scale::plain;
 }
 
-using records::Separator;
+using tables::Separator;
 
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
 
@@ -282,7 +282,7 @@ void MoveLog::read_header(std::string_view line) {
   for (const auto& [mark, separator] :
        {std::pair(',', Separator::comma), {';', Separator::semicolon}, {'\t', Separator::tab}})
     if (line.find(mark) != std::string_view::npos) separator_ = separator;
-  for (const std::string_view cell : records::cells_of(line, separator_)) {
+  for (const std::string_view cell : tables::cells_of(line, separator_)) {
     const ColumnHead head = column_head(cell);
     const std::optional<MonitoredMeasure> measure = measure_named(head.name);
     if (!group_.empty() && (head.name == group_ || cell == group_)) {
@@ -318,7 +318,7 @@ void MoveLog::read_header(std::string_view line) {
 }
 
 void MoveLog::read_row(std::string_view line) {
-  std::vector<std::string_view> cells = records::cells_of(line, separator_);
+  std::vector<std::string_view> cells = tables::cells_of(line, separator_);
   if (cells.size() == heads_.size() + 1 && cells.back().empty()) cells.pop_back();
   if (cells.size() != heads_.size())
     throw Failure(ExitCode::bad_data, fmt::format("{}:{}: a row of {} cells; expected {}, as the header has",

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/records/text_table.hpp"
+#include "experiments/tables/text_table.hpp"
 #include "results/layout/measure_table.hpp"
 
 namespace zerocount::monitor {
@@ -149,7 +149,7 @@ class MoveLog : public Moves {
   };
 
   std::string group_;
-  records::Separator separator_{records::Separator::comma};
+  tables::Separator separator_{tables::Separator::comma};
   std::vector<std::string> heads_;      ///< of all columns
   std::vector<std::size_t> column_at_;  ///< [cell] its place among the columns; npos if it has none
   std::vector<std::string> others_;

@@ -34,12 +34,13 @@ const ColumnMapping* mapping_of(const SeriesChoice& choice, std::initializer_lis
   return nullptr;
 }
 
-[[noreturn]] void refuse_column(const ColumnSource& source, const std::string& reason) {
+[[noreturn]] void refuse_column(const tables::ColumnSource& source, const std::string& reason) {
   throw Failure(ExitCode::bad_input, fmt::format("{}: {}", source.name(), reason));
 }
 
 /// The unit that the file says; `usual` if it says none.
-text::Unit unit_in_file(const ColumnSource& source, const std::string& column, const text::Unit& usual) {
+text::Unit unit_in_file(const tables::ColumnSource& source, const std::string& column,
+                        const text::Unit& usual) {
   const std::string name = source.unit(column);
   if (name.empty()) return usual;
   if (const std::optional<text::Unit> unit = text::unit_named(name)) return *unit;
@@ -51,7 +52,7 @@ text::Unit unit_in_file(const ColumnSource& source, const std::string& column, c
 
 /// Finishes the column: a unit of another dimension needs factors. An encoder's counts need none, because the
 /// size of a count may be given.
-FoundColumn finished(const ColumnSource& source, FoundColumn found, std::optional<double> factor) {
+FoundColumn finished(const tables::ColumnSource& source, FoundColumn found, std::optional<double> factor) {
   const text::Dimension dimension = dimension_of(found.quantity).value();
   const bool own = found.unit.dimension == dimension;
   const bool of_encoder = dimension == text::Dimension::angle || dimension == text::Dimension::length;
@@ -82,7 +83,7 @@ std::string_view count_size_option(bool linear) {
   return linear ? "--resolution" : "--counts-per-revolution";
 }
 
-void require_column(const ColumnSource& source, const std::string& column) {
+void require_column(const tables::ColumnSource& source, const std::string& column) {
   if (source.has(column)) return;
   refuse_column(
       source,
@@ -90,7 +91,8 @@ void require_column(const ColumnSource& source, const std::string& column) {
                   seems_to_have_factor(column) ? "; factors stand after a unit, as in current[A]*0.87" : ""));
 }
 
-FoundColumn mapped_column(const ColumnSource& source, const ColumnMapping& mapping, const text::Unit& usual) {
+FoundColumn mapped_column(const tables::ColumnSource& source, const ColumnMapping& mapping,
+                          const text::Unit& usual) {
   require_column(source, mapping.column);
   FoundColumn found{mapping.quantity, mapping.column,
                     mapping.unit ? *mapping.unit : unit_in_file(source, mapping.column, usual)};
@@ -98,7 +100,7 @@ FoundColumn mapped_column(const ColumnSource& source, const ColumnMapping& mappi
 }
 
 /// The first of the names that the source has, or the chosen one.
-FoundColumn usual_column(const ColumnSource& source, Quantity quantity,
+FoundColumn usual_column(const tables::ColumnSource& source, Quantity quantity,
                          const std::optional<std::string>& chosen, const std::vector<std::string>& names) {
   const std::vector<std::string> candidates = chosen ? std::vector{*chosen} : names;
   const auto name = std::find_if(candidates.begin(), candidates.end(),
@@ -116,7 +118,7 @@ FoundColumn usual_column(const ColumnSource& source, Quantity quantity,
   return finished(source, {quantity, *name, unit_in_file(source, *name, usual)}, std::nullopt);
 }
 
-std::vector<double> scaled_numbers(const ColumnSource& source, const FoundColumn& column) {
+std::vector<double> scaled_numbers(const tables::ColumnSource& source, const FoundColumn& column) {
   std::vector<double> values = source.numbers(column.column);
   if (column.factor == 1.0) return values;
   for (double& value : values) value *= column.factor;
@@ -125,7 +127,7 @@ std::vector<double> scaled_numbers(const ColumnSource& source, const FoundColumn
 
 /// The unit of the readings where neither the mapping nor the file says one. Whole numbers are counts if
 /// their size is given, and nothing without: an angle in rad, or a position in m, has decimals.
-text::Unit unit_of_readings(const ColumnSource& source, const ColumnMapping& mapping,
+text::Unit unit_of_readings(const tables::ColumnSource& source, const ColumnMapping& mapping,
                             const SeriesChoice& choice) {
   const std::vector<double> values = source.numbers(mapping.column);
   const bool whole = std::ranges::all_of(values, [](double value) { return value == std::round(value); }) &&
@@ -149,7 +151,7 @@ text::Unit unit_of_readings(const ColumnSource& source, const ColumnMapping& map
 }
 
 /// The column of the encoder's readings.
-FoundColumn angle_column(const ColumnSource& source, const SeriesChoice& choice, bool linear) {
+FoundColumn angle_column(const tables::ColumnSource& source, const SeriesChoice& choice, bool linear) {
   if (const ColumnMapping* mapping = mapping_of(choice, {Quantity::angle, Quantity::position})) {
     require_column(source, mapping->column);
     const bool named = mapping->unit || !source.unit(mapping->column).empty();
@@ -162,7 +164,7 @@ FoundColumn angle_column(const ColumnSource& source, const SeriesChoice& choice,
   return usual_column(source, linear ? Quantity::position : Quantity::angle, choice.angle, names);
 }
 
-void read_time(const ColumnSource& source, const SeriesChoice& choice, RawSeries& series) {
+void read_time(const tables::ColumnSource& source, const SeriesChoice& choice, RawSeries& series) {
   if (choice.sample_time) {
     for (std::size_t k = 0; k < series.torque.size(); ++k) {
       series.time.push_back(static_cast<double>(k) * *choice.sample_time);
@@ -179,7 +181,7 @@ void read_time(const ColumnSource& source, const SeriesChoice& choice, RawSeries
   series.time = scaled_numbers(source, usual_column(source, Quantity::time, std::nullopt, {"t", "time"}));
 }
 
-void read_torque(const ColumnSource& source, const SeriesChoice& choice, RawSeries& series) {
+void read_torque(const tables::ColumnSource& source, const SeriesChoice& choice, RawSeries& series) {
   const ColumnMapping* mapping =
       mapping_of(choice, {Quantity::torque, Quantity::drive_torque, Quantity::force, Quantity::drive_force});
   const FoundColumn column =
@@ -192,7 +194,7 @@ void read_torque(const ColumnSource& source, const SeriesChoice& choice, RawSeri
   series.torque_kind = of_motor ? TorqueKind::motor : TorqueKind::commanded;
 }
 
-void read_angle(const ColumnSource& source, const SeriesChoice& choice, RawSeries& series) {
+void read_angle(const tables::ColumnSource& source, const SeriesChoice& choice, RawSeries& series) {
   FoundColumn column = angle_column(source, choice, series.linear);
   if (column.unit.dimension == text::Dimension::count) {
     const std::string_view option = count_size_option(series.linear);
@@ -212,7 +214,7 @@ void read_angle(const ColumnSource& source, const SeriesChoice& choice, RawSerie
 }
 
 /// True if the columns are those of a linear axis.
-bool is_linear(const ColumnSource& source, const SeriesChoice& choice) {
+bool is_linear(const tables::ColumnSource& source, const SeriesChoice& choice) {
   using enum Quantity;
   if (choice.linear || mapping_of(choice, {force, drive_force, position}) != nullptr) return true;
   if (mapping_of(choice, {torque, drive_torque, angle}) != nullptr) return false;
@@ -287,7 +289,7 @@ void put_oldest_first(RawSeries& series, std::vector<double>& repetition) {
 }
 
 /// The flags of the column `mode` of a trace. Other files may have another column of that name.
-std::vector<bool> sliding_flags(const ColumnSource& source) {
+std::vector<bool> sliding_flags(const tables::ColumnSource& source) {
   if (!source.has("mode")) return {};
   std::vector<bool> slides = source.equals("mode", "slide");
   std::vector<bool> known = source.equals("mode", "stick");
@@ -352,7 +354,7 @@ double delay_of(const RawSeries& series, const SeriesChoice& choice, double othe
                             series.name));
 }
 
-std::vector<RawSeries> read_columns(const ColumnSource& source, const SeriesChoice& choice) {
+std::vector<RawSeries> read_columns(const tables::ColumnSource& source, const SeriesChoice& choice) {
   RawSeries series;
   series.name = source.name();
   series.lines = source.lines();

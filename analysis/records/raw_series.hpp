@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "analysis/records/column_mapping.hpp"
-#include "analysis/records/text_table.hpp"
 #include "core/motion/plant_start.hpp"
+#include "experiments/tables/text_table.hpp"
 
 namespace zerocount::records {
 
@@ -55,16 +55,16 @@ bool exclude(RawSeries& series, const ExcludedTime& interval);
 
 /// The user's choices for the interpretation of a file.
 struct SeriesChoice {
-  std::vector<ColumnMapping> columns{};  ///< at most one of each quantity
-  std::optional<Separator> separator{};  ///< of a text
-  std::optional<double> sample_time{};   ///< s: the file has no times, sample k is at k·T
-  std::optional<std::string> torque;     ///< column: torque or drive_torque
-  std::optional<std::string> angle;      ///< column: count or theta
-  std::optional<double> count_size;      ///< rad, or m of a linear axis
-  bool linear{false};                    ///< the usual columns are those of a linear axis
-  bool rotary{false};                    ///< they are those of a rotary axis
-  std::optional<double> bandwidth;       ///< Hz
-  std::optional<double> delay;           ///< of the commanded torque, samples
+  std::vector<ColumnMapping> columns{};          ///< at most one of each quantity
+  std::optional<tables::Separator> separator{};  ///< of a text
+  std::optional<double> sample_time{};           ///< s: the file has no times, sample k is at k·T
+  std::optional<std::string> torque;             ///< column: torque or drive_torque
+  std::optional<std::string> angle;              ///< column: count or theta
+  std::optional<double> count_size;              ///< rad, or m of a linear axis
+  bool linear{false};                            ///< the usual columns are those of a linear axis
+  bool rotary{false};                            ///< they are those of a rotary axis
+  std::optional<double> bandwidth;               ///< Hz
+  std::optional<double> delay;                   ///< of the commanded torque, samples
   std::optional<int> dac_bits;
   std::optional<double> preload;    ///< N m
   std::optional<double> hardening;  ///< rad
@@ -89,7 +89,7 @@ double delay_of(const RawSeries& series, const SeriesChoice& choice, double othe
 /// Rows with the newest first are reversed, and a counter that wraps is continued: see unwrap().
 /// @throws Failure: bad_input if columns are missing or their units do not fit, or if a delay is chosen for
 /// the motor torque; and the failures of the source.
-std::vector<RawSeries> read_columns(const ColumnSource& source, const SeriesChoice& choice);
+std::vector<RawSeries> read_columns(const tables::ColumnSource& source, const SeriesChoice& choice);
 
 /// Continues the angle across the steps with which a counter or a single-turn encoder wraps: by a revolution
 /// of a rotary axis, or by 2¹⁶ or 2³² counts. They are longer than a quarter of that, and less it they are

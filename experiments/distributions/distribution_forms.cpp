@@ -3,60 +3,27 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiments/parameters/unknown_key.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 
 namespace zerocount::distributions {
 namespace {
 
+using shapes::Shape;
+using Form = Shape::Form;
 using Numbers = std::vector<double>;
 
 // Up to this limit a double represents whole numbers exactly.
 constexpr std::int64_t max_whole_number = std::int64_t{1} << 53;
 
-std::optional<double> read_one(const DistributionForm& form, const yaml::Field& field,
-                               yaml::Problems& problems) {
-  if (!form.whole_numbers) return yaml::read_real(field, numerics::all_numbers(), problems);
-  const auto whole = yaml::read_whole(field, -max_whole_number, max_whole_number, problems);
-  if (!whole) return std::nullopt;
-  return static_cast<double>(*whole);
-}
-
-std::optional<Numbers> read_list(const DistributionForm& form, const yaml::Field& field,
-                                 yaml::Problems& problems) {
-  const std::string expected = fmt::format("{}: {}", form.name, shown_value(form));
-  if (!yaml::check_list(field, expected, problems)) return std::nullopt;
-  const std::size_t count = field.node->items.size();
-  if (!form.keys.empty() && count != form.keys.size()) {
-    problems.add(field, fmt::format("found a list of {}", count), expected);
-    return std::nullopt;
-  }
-  Numbers numbers;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (const auto number = read_one(form, yaml::item_of(field, i), problems)) numbers.push_back(*number);
-  }
-  if (numbers.size() != count) return std::nullopt;
-  return numbers;
-}
-
-// The values of `keys` in the map, in their order.
-std::optional<Numbers> read_keys(const DistributionForm& form, const yaml::Field& field,
-                                 yaml::Problems& problems) {
-  const std::string expected = fmt::format("{}: {}", form.name, shown_value(form));
-  if (!yaml::check_map(field, expected, problems)) return std::nullopt;
-  const std::vector<std::string> known(form.keys.begin(), form.keys.end());
-  parameters::check_keys(field, known, problems);
-  Numbers numbers;
-  for (const std::string& key : known) {
-    const auto value = yaml::find_field(field, key);
-    if (!value) {
-      problems.add(field, fmt::format("{} is missing", key), expected);
-    } else if (const auto number = read_one(form, *value, problems)) {
-      numbers.push_back(*number);
-    }
-  }
-  if (numbers.size() != known.size()) return std::nullopt;
-  return numbers;
+// A list, or a map, of real numbers with these names.
+Shape numbers(Form form, std::string_view name, const std::vector<std::string_view>& keys) {
+  const std::string shown = fmt::format("{}", fmt::join(keys, ", "));
+  std::vector<Shape> parts;
+  for (const std::string_view key : keys)
+    parts.push_back(shapes::real(numerics::all_numbers(), {key, "", "a number"}));
+  return shapes::of(form, {},
+                    fmt::format("{}: {}", name, form == Form::map ? "{" + shown + "}" : "[" + shown + "]"),
+                    std::move(parts));
 }
 
 template <class Kind, std::size_t... index>
@@ -73,38 +40,34 @@ Distribution make_choice(const Numbers& n) {
 }
 
 std::vector<DistributionForm> make_forms() {
-  using enum DistributionForm::Syntax;
+  using enum Form;
+  const auto with = [](std::string_view name, Form form, const std::vector<std::string_view>& keys,
+                       std::string_view meaning, Distribution (*make)(const Numbers&)) {
+    return DistributionForm{name, numbers(form, name, keys), meaning, make};
+  };
+  const Shape whole = shapes::whole(-max_whole_number, max_whole_number);
   return {
-      {"uniform", list, {"low", "high"}, "uniform from low to below high", make<Uniform, 0, 1>},
-      {"log_uniform", list, {"low", "high"}, "the logarithm is uniform; 0 < low", make<LogUniform, 0, 1>},
-      {"normal", map, {"mean", "sd"}, "Gaussian", make<Normal, 0, 1>},
-      {"truncated_normal",
-       map,
-       {"mean", "sd", "low", "high"},
-       "Gaussian with this mean and sd, conditioned on low to below high",
-       make<TruncatedNormal, 0, 1, 2, 3>},
-      {"lognormal",
-       map,
-       {"median", "cv"},
-       "the logarithm is Gaussian; cv is the standard deviation over the mean of the variable itself",
-       make<Lognormal, 0, 1>},
-      {"triangular",
-       list,
-       {"low", "mode", "high"},
-       "density that rises linearly from low to mode and falls linearly to high",
-       make<Triangular, 0, 1, 2>},
-      {"integers",
-       list,
-       {"low", "high"},
-       "each whole number from low to high, both included, equally likely",
-       make_integers,
-       true},
-      {"choice", list, {}, "each value of the list equally likely", make_choice},
-      {interval_name,
-       list,
-       {"low", "high"},
-       "from low to high without a distribution; only per: world, spread evenly over the worlds",
-       make<Uniform, 0, 1>},
+      with("uniform", tuple, {"low", "high"}, "uniform from low to below high", make<Uniform, 0, 1>),
+      with("log_uniform", tuple, {"low", "high"}, "the logarithm is uniform; 0 < low",
+           make<LogUniform, 0, 1>),
+      with("normal", map, {"mean", "sd"}, "Gaussian", make<Normal, 0, 1>),
+      with("truncated_normal", map, {"mean", "sd", "low", "high"},
+           "Gaussian with this mean and sd, conditioned on low to below high",
+           make<TruncatedNormal, 0, 1, 2, 3>),
+      with("lognormal", map, {"median", "cv"},
+           "the logarithm is Gaussian; cv is the standard deviation over the mean of the variable itself",
+           make<Lognormal, 0, 1>),
+      with("triangular", tuple, {"low", "mode", "high"},
+           "density that rises linearly from low to mode and falls linearly to high",
+           make<Triangular, 0, 1, 2>),
+      {"integers", shapes::of(tuple, {}, "integers: [low, high]", {whole, whole}),
+       "each whole number from low to high, both included, equally likely", make_integers, true},
+      {"choice",
+       shapes::of(list, {.min_count = 1}, "choice: [value, ...]", {shapes::real(numerics::all_numbers())}),
+       "each value of the list equally likely", make_choice},
+      with(interval_name, tuple, {"low", "high"},
+           "from low to high without a distribution; only per: world, spread evenly over the worlds",
+           make<Uniform, 0, 1>),
   };
 }
 
@@ -116,9 +79,7 @@ std::span<const DistributionForm> distribution_forms() {
 }
 
 std::string shown_value(const DistributionForm& form) {
-  if (form.keys.empty()) return "[value, ...]";
-  const std::string keys = fmt::format("{}", fmt::join(form.keys, ", "));
-  return form.syntax == DistributionForm::Syntax::map ? "{" + keys + "}" : "[" + keys + "]";
+  return form.shape.expected.substr(form.name.size() + 2);
 }
 
 std::string distribution_names() {
@@ -129,10 +90,14 @@ std::string distribution_names() {
 
 std::optional<Distribution> read_distribution(const DistributionForm& form, const yaml::Field& field,
                                               yaml::Problems& problems) {
-  const auto numbers = form.syntax == DistributionForm::Syntax::map ? read_keys(form, field, problems)
-                                                                    : read_list(form, field, problems);
-  if (!numbers) return std::nullopt;
-  Distribution distribution = form.make(*numbers);
+  if (!shapes::read(field, form.shape, problems)) return std::nullopt;
+  Numbers numbers;
+  if (form.shape.form == Form::map) {
+    for (const Shape& part : form.shape.parts)
+      numbers.push_back(shapes::number_of(yaml::find_field(field, part.name).value()));
+  }
+  for (const yaml::Field& item : shapes::items_of(field)) numbers.push_back(shapes::number_of(item));
+  Distribution distribution = form.make(numbers);
   const auto fault = find_fault(distribution);
   if (fault) {
     problems.add(field, fault->what, fault->expected);

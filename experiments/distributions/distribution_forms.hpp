@@ -8,22 +8,17 @@
 
 #include "experiments/distributions/distribution.hpp"
 #include "experiments/distributions/random_field.hpp"
-#include "experiments/yaml/scalars.hpp"
+#include "experiments/shapes/shape.hpp"
 
 namespace zerocount::distributions {
 
 /// Name of the form of a value that has bounds and no distribution: it is spread evenly over the worlds.
 inline constexpr std::string_view interval_name = "interval";
 
-/// Syntax of one distribution in a manifest: a map with the single key `name`.
+/// One distribution in a manifest: a map with the single key `name`.
 struct DistributionForm {
-  enum class Syntax {
-    list,  ///< its value is a list of the parameters in the order of `keys`
-    map    ///< its value is a map of the keys
-  };
   std::string_view name;
-  Syntax syntax{Syntax::list};
-  std::vector<std::string_view> keys;  ///< names of the parameters; empty: a list of any length
+  shapes::Shape shape;  ///< of its value: a list, or a map, of the numbers from which it is made
   std::string_view meaning;
   Distribution (*make)(const std::vector<double>& numbers){nullptr};
   bool whole_numbers{false};  ///< parameters and draws are whole numbers
@@ -55,6 +50,9 @@ struct ProfileForm {
   ProfileDescription description;    ///< with mean 1 if the mean is drawn
   std::optional<Distribution> mean;  ///< set if the mean is drawn
 };
+
+/// The form of the value of the key `profile`.
+const shapes::Shape& profile_shape();
 
 /// The value of the key `profile`. Reports errors and returns nothing then.
 /// @param period of the field, rad or m.

@@ -1,16 +1,14 @@
+#include <algorithm>
+#include <array>
 #include <numbers>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "experiments/distributions/distribution_forms.hpp"
-#include "experiments/parameters/unknown_key.hpp"
 
 namespace zerocount::distributions {
 namespace {
-
-constexpr std::string_view profile_shown = "profile: {mean, cv, correlation_length, marginal}";
 
 // The only entry of the map, which names a distribution.
 std::optional<Distribution> read_drawn_mean(const yaml::Field& field, yaml::Problems& problems) {
@@ -44,44 +42,44 @@ std::optional<Distribution> read_drawn_mean(const yaml::Field& field, yaml::Prob
   return distribution;
 }
 
-void read_marginal(const yaml::Field& field, ProfileDescription& description, yaml::Problems& problems) {
-  const std::string& text = field.node->text;
-  description.marginal = text == "normal" ? friction::Marginal::normal : friction::Marginal::lognormal;
-  if (text == "normal" || text == "lognormal") return;
-  problems.add(field, fmt::format("unknown marginal {}", yaml::in_quotes(yaml::flow_text(*field.node))),
-               "normal or lognormal");
-}
+constexpr std::array<std::string_view, 2> marginals{"normal", "lognormal"};
 
 }  // namespace
 
+const shapes::Shape& profile_shape() {
+  using Form = shapes::Shape::Form;
+  constexpr const char* shown = "profile: {mean, cv, correlation_length, marginal}";
+  static const shapes::Shape shape =
+      shapes::of(Form::map, {}, shown,
+                 {{"mean", "", shown},
+                  shapes::real({.low = 0.0, .high = 10.0, .high_included = true}, {"cv", "", shown}),
+                  shapes::real(numerics::above(0.0), {"correlation_length", "", shown}),
+                  shapes::of(Form::label, {.name = "marginal", .labels = marginals})});
+  return shape;
+}
+
 std::optional<ProfileForm> read_profile(const yaml::Field& field, double period, yaml::Problems& problems) {
-  static const std::vector<std::string> known{"mean", "cv", "correlation_length", "marginal"};
-  if (!yaml::check_map(field, std::string(profile_shown), problems)) return std::nullopt;
   const std::size_t before = problems.size();
+  shapes::Shape shape = profile_shape();
+  const double scale = period / (2.0 * std::numbers::pi);
+  std::ranges::find(shape.parts, "correlation_length", &shapes::Shape::name)->range =
+      numerics::closed(scale * min_correlation_length, scale * max_correlation_length);
+  shapes::read(field, shape, problems);
   ProfileForm form;
-  form.description.period = period;
-  const auto number = [&](std::string_view key, const numerics::Interval& range, double& to) {
-    if (const auto value = yaml::find_field(field, key)) {
-      to = yaml::read_real(*value, range, problems).value_or(to);
-    } else {
-      problems.add(field, fmt::format("{} is missing", key), profile_shown);
-    }
-  };
   const auto mean = yaml::find_field(field, "mean");
   if (mean && mean->node->kind == yaml::YamlNode::Kind::map) {
     form.mean = read_drawn_mean(*mean, problems);
-  } else {
-    number("mean", numerics::above(0.0), form.description.mean);
+  } else if (mean) {
+    form.description.mean = yaml::read_real(*mean, numerics::above(0.0), problems).value_or(1.0);
   }
-  number("cv", {.low = 0.0, .high = 10.0, .high_included = true}, form.description.cv);
-  const double scale = period / (2.0 * std::numbers::pi);
-  number("correlation_length",
-         numerics::closed(scale * min_correlation_length, scale * max_correlation_length),
-         form.description.correlation_length);
-  parameters::check_keys(field, known, problems);
-  if (const auto marginal = yaml::find_field(field, "marginal"))
-    read_marginal(*marginal, form.description, problems);
   if (problems.size() != before) return std::nullopt;
+  form.description.period = period;
+  form.description.cv = shapes::number_of(yaml::find_field(field, "cv").value());
+  form.description.correlation_length =
+      shapes::number_of(yaml::find_field(field, "correlation_length").value());
+  const auto marginal = yaml::find_field(field, "marginal");
+  if (marginal && marginal->node->text == marginals[0])
+    form.description.marginal = friction::Marginal::normal;
   return form;
 }
 

@@ -11,6 +11,9 @@
 
 namespace zerocount::manifest {
 
+/// Reports keys that a study cannot have together, by the table of them.
+void check_exclusions(const yaml::Field& root, yaml::Problems& problems);
+
 /// Checks that involve several parameters, at every design point and for all values that can be drawn: values
 /// must be consistent (value_rules.hpp), every given key must have an effect at some point
 /// (effect_rules.hpp), and required values must be given. A problem is reported at the

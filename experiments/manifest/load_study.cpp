@@ -12,8 +12,7 @@
 #include "experiments/manifest_text/manifest_values.hpp"
 #include "experiments/manifest_text/overrides.hpp"
 #include "experiments/sections/joint_draws.hpp"
-#include "experiments/sections/spectrum.hpp"
-#include "experiments/sections/torque_record.hpp"
+#include "experiments/sections/named_tables.hpp"
 #include "experiments/yaml/text_file.hpp"
 
 namespace zerocount::manifest {
@@ -74,9 +73,7 @@ study::Study read_study(std::string text, std::string_view source,
   root = manifest_text::apply_overrides(root, given_overrides, override_sources, problems);
   std::vector<std::string> overrides = given_overrides;
   if (root) {
-    std::vector<std::string> tables = sections::spectrum_overrides(*root, companions.samples, problems);
-    for (std::string& record : sections::torque_record_overrides(*root, companions.samples, problems))
-      tables.push_back(std::move(record));
+    const std::vector<std::string> tables = sections::table_overrides(*root, companions.samples, problems);
     root = with_place_of_name(manifest_text::apply_overrides(root, tables, override_sources, problems), *root,
                               "command.torque.file", problems);
     overrides.insert(overrides.end(), tables.begin(), tables.end());

@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "experiments/designs/saltelli.hpp"
-#include "experiments/keys/key_reading.hpp"
+#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/keys/values.hpp"
 #include "experiments/manifest/checks.hpp"
 #include "experiments/parameters/unknown_key.hpp"
@@ -50,26 +50,13 @@ void check_version(Manifest& m) {
                    fmt::format("version {}{}", keys::manifest_version, newer ? ", or a newer program" : ""));
 }
 
-void read_name(Manifest& m) {
-  const auto field = yaml::find_field(m.root, "name");
-  if (!field) return;
-  m.study().name = yaml::read_line(*field, m.problems()).value_or("");
-  if (field->node->kind == yaml::YamlNode::Kind::scalar &&
-      field->node->text.find_first_not_of(" \t\r\n") == std::string::npos) {
-    m.problems().add(*field, "the name is empty", "a name for the study");
-  }
-}
-
 // Reads the keys with one value that do not depend on others.
 void read_values(Manifest& m) {
   check_version(m);
-  read_name(m);
-  if (const auto seed = yaml::find_field(m.root, "seed"))
-    m.study().seed = yaml::read_seed(*seed, m.problems()).value_or(0);
-  for (const keys::GeneralKey& key : keys::general_keys()) {
+  for (const shapes::Shape& key : keys::general_keys()) {
     const bool is_of_section = key.name.find('.') != std::string_view::npos;
-    if (!is_of_section && key.form != keys::GeneralKey::Form::map)
-      keys::read_keys(m.root, {&key, 1}, m.reading);
+    if (!is_of_section && (key.set || !yaml::find_field(m.root, key.name)))
+      shapes::read_keys(m.root, {&key, 1}, m.problems(), &m.reading);
   }
   m.reading.groups = {.rigs = yaml::find_field(m.root, "rigs").has_value(),
                       .worlds = yaml::find_field(m.root, "worlds").has_value(),
@@ -83,18 +70,13 @@ void read_study_units(const yaml::Field& root, keys::Reading& reading) {
   const bool linear = plan.units.axis == parameters::AxisKind::linear;
   if (linear) plan.period.reset();
   if (const auto travel = yaml::find_field(root, "travel")) {
-    const auto length = yaml::read_real(*travel, keys::find_general_key("travel")->range, reading.problems);
-    if (linear) {
-      plan.period = length;
-    } else {
-      reading.problems.add(*travel, "a rotary axis has no travel: the period of its profiles is a revolution",
-                           "axis: linear, or the key left out");
-    }
+    const bool sound = shapes::read(*travel, keys::shape_of("travel"), reading.problems);
+    if (linear && sound) plan.period = shapes::number_of(*travel);
   }
   for (const std::string_view section : {"controller", "command"}) {
     const auto map = yaml::find_field(root, section);
     const auto units = map ? yaml::find_field(*map, "units") : std::nullopt;
-    if (units) keys::read_key(*units, *keys::find_general_key(units->path), reading);
+    if (units) shapes::read(*units, keys::shape_of(units->path), reading.problems, &reading);
   }
   if (plan.units.targets == parameters::TargetUnits::si) study::use_si_positions(plan.table);
 }
@@ -207,35 +189,6 @@ void check_turns(Manifest& m) {
     const auto limit = yaml::find_field(yaml::find_field(m.root, "stop").value(), "max_trials");
     if (limit) require_equal_turns(m, *limit, m.study().stop->max_trials);
   }
-  if (m.study().design == study::Design::saltelli && m.study().rigs > 0) {
-    const yaml::Field design = yaml::find_field(m.root, "design").value();
-    m.problems().add(design,
-                     "this design changes one factor at a time, but the trials of a machine share factors",
-                     "monte_carlo, latin_hypercube or sobol with machines");
-  }
-}
-
-// Refuses what does not tell conditions, and ages, apart.
-void check_conditions(Manifest& m) {
-  if (!m.plan().has_conditions()) return;
-  const std::string_view turns = m.study().ages.at.empty() ? "conditions" : "ages";
-  if (m.study().design == study::Design::saltelli) {
-    m.problems().add(
-        yaml::find_field(m.root, "design").value(),
-        fmt::format("this design changes one factor at a time, but the trials of all {} share factors",
-                    turns),
-        fmt::format("monte_carlo, latin_hypercube or sobol with {}", turns));
-  }
-  if (m.study().stop) {
-    m.problems().add(yaml::find_field(m.root, "stop").value(),
-                     fmt::format("sequential stopping does not tell {} apart", turns),
-                     fmt::format("a fixed number of trials, or a study without {}", turns));
-  }
-  if (m.plan().sequence) {
-    m.problems().add(yaml::find_field(yaml::find_field(m.root, "command").value(), "sequence").value(),
-                     fmt::format("the values of ISO 230-2 do not tell {} apart", turns),
-                     fmt::format("command.targets, or a study without {}", turns));
-  }
 }
 
 // Every world must have the same number of rigs, or of trials.
@@ -254,11 +207,6 @@ void check_worlds(Manifest& m) {
   } else if (units > 0 && units < m.study().worlds) {
     m.problems().add(field, fmt::format("the study has only {} {}", units, name),
                      fmt::format("at most {}", units));
-  }
-  if (m.study().design == study::Design::saltelli) {
-    m.problems().add(yaml::find_field(m.root, "design").value(),
-                     "this design changes one factor at a time, but the trials of a world share factors",
-                     "monte_carlo, latin_hypercube or sobol with worlds");
   }
 }
 
@@ -283,34 +231,11 @@ void warn_of_equal_ages(Manifest& m) {
 
 void read_retained(Manifest& m) {
   const auto field = yaml::find_field(m.root, "retain");
-  if (!field || !yaml::check_map(*field, "retain: {trials: [..]}", m.problems())) return;
-  parameters::check_keys(*field, std::vector<std::string>{"trials"}, m.problems());
-  const auto list = yaml::find_field(*field, "trials");
-  if (!list || !yaml::check_list(*list, "a list of trial indices", m.problems())) return;
-  std::vector<std::int64_t>& kept = m.study().retained_trials;
-  for (std::size_t i = 0; i < list->node->items.size(); ++i) {
-    const std::int64_t last = std::max<std::int64_t>(m.study().trials - 1, 0);
-    if (const auto index = yaml::read_whole(yaml::item_of(*list, i), 0, last, m.problems()))
-      kept.push_back(*index);
-  }
-  std::sort(kept.begin(), kept.end());
-  if (std::adjacent_find(kept.begin(), kept.end()) != kept.end())
-    m.problems().add(*list, "duplicate trial", "each trial once");
-}
-
-// Refuses other keys that need every trial after the run.
-void check_retention(Manifest& m) {
-  if (m.study().retention == study::Retention::trials) return;
-  const auto refuse = [&](std::string_view what, const char* expected) {
-    m.problems().add(yaml::find_field(m.root, "keep").value(), std::string(what), expected);
-  };
-  constexpr const char* trials = "keep: trials";
-  if (!m.study().retained_trials.empty()) refuse("retain needs every trial", trials);
-  if (m.study().stop) refuse("stop needs every trial", trials);
-  if (m.plan().sequence) refuse("command.sequence needs every trial", trials);
-  if (m.study().design == study::Design::saltelli) refuse("design: saltelli needs every trial", trials);
-  if (m.study().retention == study::Retention::failures && m.plan().open_loop)
-    refuse("trials of torque levels have no verdict, so none fails", "keep: statistics or trials");
+  if (!field) return;
+  shapes::Shape retain = keys::shape_of("retain");
+  shapes::limit_items(retain, "trials", m.study().trials - 1);
+  shapes::read(*field, retain, m.problems(), &m.reading);
+  std::ranges::sort(m.study().retained_trials);
 }
 
 void read_observed(Manifest& m) {
@@ -332,6 +257,7 @@ study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sect
                        problems))
     return {};
   parameters::check_keys(m.root, keys::keys_below(""), problems);
+  check_exclusions(m.root, problems);
   read_values(m);
   read_study_units(m.root, m.reading);
   sections::read_ages(m.root, m.reading);
@@ -350,7 +276,6 @@ study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sect
                             samples != nullptr ? samples->columns : std::vector<yaml::Place>{}, m.reading);
   check_trial_count(m);
   check_turns(m);
-  check_conditions(m);
   check_worlds(m);
   read_observed(m);
   realise_profiles(m.reading.profiles, study, companions.rotors, *plan);
@@ -360,7 +285,6 @@ study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sect
   check_ages(m.places, m.reading);
   check_travel(m.root, m.reading);
   if (problems.empty()) check_rows(m);
-  if (problems.empty()) check_retention(m);
   if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, study);
   if (problems.empty()) warn_of_equal_worlds(m);
   warn_of_equal_ages(m);

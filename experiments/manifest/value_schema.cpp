@@ -17,37 +17,18 @@
 namespace zerocount::manifest {
 namespace {
 
-Json list_of_exactly(Json item, std::size_t count) {
-  Json schema = list_of(std::move(item), count);
-  schema["maxItems"] = count;
-  return schema;
-}
-
-Json distribution_schema(const distributions::DistributionForm& form) {
-  const Json number{{"type", form.whole_numbers ? "integer" : "number"}};
-  if (form.keys.empty()) return list_of(number, 1);
-  if (form.syntax == distributions::DistributionForm::Syntax::list)
-    return list_of_exactly(number, form.keys.size());
-  Json properties = Json::object();
-  for (const std::string_view key : form.keys) properties[std::string(key)] = number;
-  return object_of(std::move(properties), Json(form.keys));
-}
-
 Json form_schema(const distributions::DistributionForm& form) {
   const std::string name(form.name);
-  return object_of({{name, distribution_schema(form)}}, {name});
+  return object_of({{name, shapes::schema_of(form.shape, {})}}, {name});
 }
 
-Json profile_schema() {
+// The mean of a profile: a number, or a distribution.
+Json mean_schema(const shapes::Shape&) {
   Json means = Json::array({number_in(numerics::above(0))});
   for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
     if (form.name != distributions::interval_name) means.push_back(form_schema(form));
   }
-  return object_of({{"mean", {{"anyOf", std::move(means)}}},
-                    {"cv", number_in({.low = 0, .high = 10, .high_included = true})},
-                    {"correlation_length", number_in(numerics::above(0))},
-                    {"marginal", {{"enum", {"normal", "lognormal"}}}}},
-                   {"mean", "cv", "correlation_length"});
+  return {{"anyOf", std::move(means)}};
 }
 
 // Schema of `per`; a parameter may allow only some of the values.
@@ -83,36 +64,6 @@ std::string description_of(const parameters::Parameter& parameter) {
 
 }  // namespace
 
-Json object_of(Json properties) {
-  return object_of(std::move(properties), Json::array());
-}
-
-Json object_of(Json properties, Json required) {
-  Json schema{{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
-  if (!required.empty()) schema["required"] = std::move(required);
-  return schema;
-}
-
-Json list_of(Json item, std::size_t min_items) {
-  return {{"type", "array"}, {"items", std::move(item)}, {"minItems", min_items}};
-}
-
-void limit(Json& schema, const numerics::Interval& range, bool whole) {
-  const auto number = [&](double value) -> Json {
-    return whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
-  };
-  if (std::isfinite(range.low))
-    schema[range.low_included ? "minimum" : "exclusiveMinimum"] = number(range.low);
-  if (std::isfinite(range.high))
-    schema[range.high_included ? "maximum" : "exclusiveMaximum"] = number(range.high);
-}
-
-Json number_in(const numerics::Interval& range) {
-  Json schema{{"type", "number"}};
-  limit(schema, range, false);
-  return schema;
-}
-
 Json rate_schema() {
   Json rates = Json::array({number_in(numerics::all_numbers())});
   for (const distributions::DistributionForm& form : distributions::distribution_forms())
@@ -132,7 +83,7 @@ Json definitions() {
     all[name]["properties"][std::string(keys::aging_key)] = reference(keys::aging_key);
     all[name]["description"] = form.meaning;
   }
-  all["profile"] = object_of({{"profile", profile_schema()},
+  all["profile"] = object_of({{"profile", shapes::schema_of(distributions::profile_shape(), mean_schema)},
                               {per, per_schema(keys::draw_level_labels_of_profiles)},
                               {std::string(keys::aging_key), reference(keys::aging_key)}},
                              {"profile"});
@@ -145,8 +96,7 @@ Json value_schema(const parameters::Parameter& parameter) {
   if (parameter.kind == parameters::ParameterKind::boolean) return {{"type", "boolean"}};
   if (parameter.kind == parameters::ParameterKind::enumeration) return {{"enum", parameter.labels}};
   const bool whole = parameter.kind == parameters::ParameterKind::whole_number;
-  Json number{{"type", whole ? "integer" : "number"}};
-  limit(number, parameter.range, whole);
+  Json number = number_in(parameter.range, whole);
   Json forms = Json::array({number});
   if (!whole)
     forms.push_back(object_of({{std::string(keys::value_key), std::move(number)},
@@ -154,7 +104,7 @@ Json value_schema(const parameters::Parameter& parameter) {
                               {keys::value_key, keys::aging_key}));
   if (parameter.none) forms.push_back({{"const", "none"}});
   for (const distributions::DistributionForm& form : distributions::distribution_forms()) {
-    if (!whole || form.whole_numbers || form.keys.empty()) forms.push_back(reference(form.name));
+    if (!whole || form.whole_numbers || form.name == "choice") forms.push_back(reference(form.name));
   }
   if (parameter.profiled != nullptr) forms.push_back(reference("profile"));
   return {{"anyOf", std::move(forms)}};

@@ -3,33 +3,19 @@
 #include <cstddef>
 #include <string_view>
 
-#include <nlohmann/json_fwd.hpp>
-
-#include "core/numerics/interval.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/shapes/shape_schema.hpp"
 
 /// JSON Schemas of the values of parameters. Those of maps and lists are made of them.
 namespace zerocount::manifest {
 
-using Json = nlohmann::ordered_json;
+using shapes::Json;
+using shapes::list_of;
+using shapes::number_in;
+using shapes::object_of;
 
 /// The dotted path of the rate of an aging, as a regular expression: "friction.k1.aging".
 constexpr std::string_view rate_pattern = R"(^[a-z_0-9.]+\.aging$)";
-
-/// A map of these keys only.
-Json object_of(Json properties);
-
-/// A map of these keys only; those of `required` must be there.
-Json object_of(Json properties, Json required);
-
-/// A list of at least `min_items`.
-Json list_of(Json item, std::size_t min_items);
-
-/// Adds the limits of a number to its schema.
-void limit(Json& schema, const numerics::Interval& range, bool whole);
-
-/// A number in an interval.
-Json number_in(const numerics::Interval& range);
 
 /// The rate of an aging: a number or a distribution.
 Json rate_schema();

@@ -8,14 +8,12 @@
 
 #include <fmt/format.h>
 
+#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::sections {
 namespace {
 
-constexpr std::size_t max_conditions = 1000;
-constexpr std::string_view expected_conditions =
-    "a map from names to overrides: {empty: {}, loaded: {plant.inertia: 4.6}}";
 constexpr OptionWords words{"condition", "a condition cannot override this key"};
 
 /// Index of the option that has this assignment.
@@ -99,14 +97,8 @@ void take_levels(const yaml::Field& overrides, std::size_t first, SweptAxis& axi
 SweptAxis read_conditions(const yaml::Field& field, const std::vector<SweptAxis>& swept,
                           keys::Reading& reading) {
   SweptAxis axis{.name = "condition", .place = field.node->place};
-  if (!yaml::check_map(field, std::string(expected_conditions), reading.problems)) return axis;
-  const auto& entries = field.node->entries;
-  if (entries.empty() || entries.size() > max_conditions) {
-    reading.problems.add(field, fmt::format("found {} conditions", entries.size()),
-                         fmt::format("1 to {}: {}", max_conditions, expected_conditions));
-    return axis;
-  }
-  for (const yaml::YamlEntry& entry : entries) {
+  if (!shapes::read(field, keys::shape_of("conditions"), reading.problems)) return axis;
+  for (const yaml::YamlEntry& entry : field.node->entries) {
     const std::size_t first = axis.axis.assignments.size();
     const std::size_t options = axis.labels.size();
     read_option(field, entry, words, axis, reading);

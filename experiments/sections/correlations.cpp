@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "experiments/keys/draw_level.hpp"
+#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/sections/joint_draws.hpp"
 #include "experiments/study/copula.hpp"
 #include "experiments/study/point_limits.hpp"
@@ -14,8 +15,6 @@
 
 namespace zerocount::sections {
 namespace {
-
-constexpr const char* entry_form = "[first parameter, second parameter, coefficient]";
 
 struct Pair {
   std::uint32_t first{0};  // slots
@@ -72,29 +71,28 @@ bool is_unreadable(const study::StudyPlan& plan, std::size_t slot) {
 
 // The slot of a parameter that is drawn at some design point, and that a copula can have.
 std::optional<std::uint32_t> read_drawn(const yaml::Field& field, keys::Reading& reading) {
-  const auto name = yaml::read_line(field, reading.problems);
-  if (!name) return std::nullopt;
+  const std::string& name = field.node->text;
   const std::vector<std::string> known = drawn_names(reading.plan);
-  const auto slots = study::find_slots(*name, reading.plan.table);
+  const auto slots = study::find_slots(name, reading.plan.table);
   if (slots && slots->count == 1 && is_unreadable(reading.plan, slots->first)) return std::nullopt;
-  if (std::find(known.begin(), known.end(), *name) == known.end() || !slots || slots->count != 1) {
+  if (std::find(known.begin(), known.end(), name) == known.end() || !slots || slots->count != 1) {
     const std::string nearest =
-        known.empty() ? "" : fmt::format(", nearest known: {}", yaml::nearest_name(*name, known));
+        known.empty() ? "" : fmt::format(", nearest known: {}", yaml::nearest_name(name, known));
     reading.problems.add(
-        field, fmt::format("{} is not a drawn parameter{}", yaml::in_quotes(*name), nearest),
+        field, fmt::format("{} is not a drawn parameter{}", yaml::in_quotes(name), nearest),
         known.empty() ? "parameters with distributions" : fmt::format("one of {}", fmt::join(known, ", ")));
     return std::nullopt;
   }
   const std::vector<std::uint32_t>& sampled = reading.plan.sampled_slots;
   if (std::find(sampled.begin(), sampled.end(), slots->first) != sampled.end()) {
-    reading.problems.add(field, fmt::format("{} cannot be correlated: its value comes from samples", *name),
+    reading.problems.add(field, fmt::format("{} cannot be correlated: its value comes from samples", name),
                          "a distribution of its own");
     return std::nullopt;
   }
   for (const study::Value* value : study::values_of(reading.plan, slots->first)) {
     const std::string fault = fault_of(*value);
     if (fault.empty()) continue;
-    reading.problems.add(field, fmt::format("{} cannot be correlated: {}", *name, fault),
+    reading.problems.add(field, fmt::format("{} cannot be correlated: {}", name, fault),
                          "a distribution drawn for each world, machine or trial");
     return std::nullopt;
   }
@@ -102,21 +100,14 @@ std::optional<std::uint32_t> read_drawn(const yaml::Field& field, keys::Reading&
 }
 
 std::optional<Pair> read_pair(const yaml::Field& entry, keys::Reading& reading) {
-  yaml::Problems& problems = reading.problems;
-  if (!yaml::check_list(entry, entry_form, problems)) return std::nullopt;
-  if (entry.node->items.size() != 3) {
-    problems.add(entry, fmt::format("the entry has {} values", entry.node->items.size()), entry_form);
-    return std::nullopt;
-  }
   const auto first = read_drawn(yaml::item_of(entry, 0), reading);
   const auto second = read_drawn(yaml::item_of(entry, 1), reading);
-  const auto coefficient = yaml::read_real(yaml::item_of(entry, 2), {.low = -1.0, .high = 1.0}, problems);
-  if (!first || !second || !coefficient) return std::nullopt;
+  if (!first || !second) return std::nullopt;
   if (*first == *second) {
-    problems.add(entry, "a parameter cannot be correlated with itself", "two different parameters");
+    reading.problems.add(entry, "a parameter cannot be correlated with itself", "two different parameters");
     return std::nullopt;
   }
-  return Pair{*first, *second, *coefficient};
+  return Pair{*first, *second, shapes::number_of(yaml::item_of(entry, 2))};
 }
 
 // How often the values of the slots are drawn, if equally often for all of them at all points.
@@ -182,19 +173,14 @@ void make_copula(const yaml::Field& list, const std::vector<Pair>& pairs, keys::
 void read_correlations(const yaml::Field& root, keys::Reading& reading) {
   const auto list = yaml::find_field(root, "correlation");
   if (!list) return;
-  const std::string expected = fmt::format("a list of entries {}", entry_form);
-  if (!yaml::check_list(*list, expected, reading.problems)) return;
-  if (list->node->items.empty()) return;
-  if (reading.study.design == study::Design::saltelli) {
-    reading.problems.add(*list, "the design saltelli needs independent parameters", "another design");
-    return;
-  }
+  const shapes::Shape& shape = keys::shape_of("correlation");
+  if (!yaml::check_list(*list, shape.expected, reading.problems) || list->node->items.empty()) return;
   std::vector<Pair> pairs;
   std::set<std::set<std::uint32_t>> seen;
   bool complete = true;
-  for (std::size_t i = 0; i < list->node->items.size(); ++i) {
-    const yaml::Field entry = yaml::item_of(*list, i);
-    const auto pair = read_pair(entry, reading);
+  for (const yaml::Field& entry : shapes::items_of(*list)) {
+    const auto pair =
+        shapes::read(entry, shape.parts.front(), reading.problems) ? read_pair(entry, reading) : std::nullopt;
     complete = complete && pair;
     if (!pair) continue;
     if (!seen.insert({pair->first, pair->second}).second) {

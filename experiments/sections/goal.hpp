@@ -4,9 +4,6 @@
 
 namespace zerocount::sections {
 
-/// Reads `verdict.bands`, the error bands of the study.
-void read_bands(const yaml::Field& field, trial::ErrorBands& bands, yaml::Problems& problems);
-
 /// Reads `goal`, or `goals`, of the manifest. Adds their bands and tolerances to those of the plan. The
 /// study's rigs and all parameters must be read already.
 void read_goals(const yaml::Field& root, keys::Reading& reading);

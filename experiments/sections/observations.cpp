@@ -5,46 +5,33 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "experiments/parameters/unknown_key.hpp"
+#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 
 namespace zerocount::sections {
 namespace {
-
-constexpr const char* counts_form = "a text, or counts: {successes: 9, of: 10}";
 
 struct Observation {
   std::string text;
   std::optional<study::ObservedCounts> counts;
 };
 
-std::optional<std::int64_t> read_count(const yaml::Field& counts, std::string_view key, std::int64_t low,
-                                       std::int64_t high, yaml::Problems& problems) {
-  const auto field = yaml::find_field(counts, key);
-  if (field) return yaml::read_whole(*field, low, high, problems);
-  problems.add(counts, fmt::format("the key '{}' is missing", key), counts_form);
-  return std::nullopt;
-}
-
-Observation read_counts(const yaml::Field& field, bool open_loop, yaml::Problems& problems) {
-  parameters::check_keys(field, std::vector<std::string>{"successes", "of", "text"}, problems);
+Observation observation_in(const yaml::Field& field, bool open_loop, yaml::Problems& problems) {
+  if (field.node->kind == yaml::YamlNode::Kind::scalar) return {field.node->text, std::nullopt};
   if (open_loop) problems.add(field, "an open-loop study has no successes to compare with", "a text");
-  const auto of = read_count(field, "of", 1, max_observed_trials, problems);
-  const auto successes = read_count(field, "successes", 0, of.value_or(max_observed_trials), problems);
-  if (!of || !successes) return {};
-  Observation observation{fmt::format("{} of {} succeeded", *successes, *of),
-                          study::ObservedCounts{*successes, *of}};
-  if (const auto text = yaml::find_field(field, "text"))
-    observation.text += "; " + yaml::read_text(*text, problems).value_or("");
-  return observation;
-}
-
-Observation read_observation(const yaml::Field& field, bool open_loop, yaml::Problems& problems) {
-  if (field.node->kind == yaml::YamlNode::Kind::map) return read_counts(field, open_loop, problems);
-  return {yaml::read_text(field, problems).value_or(""), std::nullopt};
+  const yaml::Field successes = yaml::find_field(field, "successes").value();
+  const study::ObservedCounts counts{shapes::whole_of(successes),
+                                     shapes::whole_of(yaml::find_field(field, "of").value())};
+  if (counts.successes > counts.of)
+    problems.add(successes, fmt::format("'{}' is out of range", counts.successes),
+                 fmt::format("a whole number from 0 to {}", counts.of));
+  std::string text = fmt::format("{} of {} succeeded", counts.successes, counts.of);
+  if (const auto more = yaml::find_field(field, "text")) text += "; " + more->node->text;
+  return {std::move(text), counts};
 }
 
 void record(study::Study& study, const std::string& label, const Observation& observation) {
@@ -56,7 +43,7 @@ void record(study::Study& study, const std::string& label, const Observation& ob
 
 void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& axes, keys::Reading& reading) {
   yaml::Problems& problems = reading.problems;
-  if (!yaml::check_map(field, "a map from cases or point labels to observations", problems)) return;
+  if (!shapes::read(field, keys::shape_of("observed"), problems)) return;
   const std::vector<std::string> labels = label_points(axes);
   const bool has_cases = !axes.empty() && axes.front().cases;
   const std::vector<std::string> cases = has_cases ? axes.front().labels : std::vector<std::string>{};
@@ -64,7 +51,7 @@ void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& a
   known.insert(known.end(), labels.begin(), labels.end());
   std::map<std::string, Observation> found;
   for (const yaml::YamlEntry& entry : field.node->entries) {
-    found[entry.key] = read_observation(yaml::entry_of(field, entry), reading.plan.open_loop, problems);
+    found[entry.key] = observation_in(yaml::entry_of(field, entry), reading.plan.open_loop, problems);
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
     problems.add(
         entry.place, yaml::entry_of(field, entry).path,

@@ -6,9 +6,6 @@
 
 namespace zerocount::sections {
 
-/// Maximum number of trials in an observation.
-inline constexpr std::int64_t max_observed_trials = 1'000'000;
-
 /// Reads `observed`, a map from cases or point labels to observations on a real rig: study.observed and
 /// study.observed_counts. An observation is a text, or counts: {successes: 9, of: 10, text: what else}. That
 /// of a case applies to all its points, except those with one of their own.

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "experiments/keys/manifest_keys.hpp"
+
 namespace zerocount::sections {
 
 PluginLoader known_plugin(std::shared_ptr<const plugin::ControllerPlugin> plugin) {
@@ -14,14 +16,12 @@ PluginLoader known_plugin(std::shared_ptr<const plugin::ControllerPlugin> plugin
 void read_plugin(const yaml::Field& root, const PluginLoader& load, keys::Reading& reading) {
   const auto controller = yaml::find_field(root, "controller");
   const auto field = controller ? yaml::find_field(*controller, "plugin") : std::nullopt;
-  if (!field) return;
-  const auto path = yaml::read_line(*field, reading.problems);
-  if (!path) return;
+  if (!field || !shapes::read(*field, keys::shape_of("controller.plugin"), reading.problems)) return;
   if (!load) {
     reading.problems.add(*field, "this command does not load plugins", "the command check, run or trace");
     return;
   }
-  const LoadedPlugin loaded = load(*path);
+  const LoadedPlugin loaded = load(field->node->text);
   if (const auto* fault = std::get_if<plugin::PluginFault>(&loaded)) {
     reading.problems.add(*field, fault->what, fault->expected);
     reading.plugin_failed = true;

@@ -1,124 +1,59 @@
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "core/text/trimmed.hpp"
 #include "experiments/keys/draw_level.hpp"
+#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/manifest_text/overrides.hpp"
-#include "experiments/parameters/unknown_key.hpp"
 #include "experiments/sections/joint_draws.hpp"
+#include "experiments/sections/named_tables.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::sections {
 namespace {
 
-constexpr const char* samples_form = "the name of a file, or {file: posterior.csv, per: rig}";
-
-struct Cell {
-  std::string_view text;
-  yaml::Place place;
-};
-
-std::string_view without_quotes(std::string_view text) {
-  const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
-  return quoted ? text.substr(1, text.size() - 2) : text;
+yaml::Place place_in(const SamplesTable& samples, std::size_t line, std::size_t column) {
+  return {samples.source, static_cast<int>(line), static_cast<int>(column)};
 }
 
-std::vector<Cell> cells_of(std::string_view line, int number, std::string_view source) {
-  std::vector<Cell> cells;
-  std::size_t begin = 0;
-  while (true) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    cells.push_back({without_quotes(text::trimmed(line.substr(begin, end - begin))),
-                     {source, number, static_cast<int>(begin) + 1}});
-    if (end == line.size()) return cells;
-    begin = end + 1;
-  }
-}
-
-/// The rows of a table of comma-separated cells, the header first. Empty lines and those that begin with #
-/// are left out.
-std::vector<std::vector<Cell>> rows_of(std::string_view text, std::string_view source) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  std::vector<std::vector<Cell>> rows;
-  for (int number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
-    if (!text::trimmed(line).empty() && !line.starts_with('#'))
-      rows.push_back(cells_of(line, number, source));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return rows;
-}
-
-bool check_shape(const std::vector<std::vector<Cell>>& rows, const SamplesTable& table,
-                 yaml::Problems& problems) {
-  const std::size_t draws = rows.empty() ? 0 : rows.size() - 1;
-  if (draws == 0 || draws > max_samples) {
-    problems.add({table.source, 1, 1}, "samples", fmt::format("the table has {} draws", draws),
-                 fmt::format("a header with dotted paths, and 1 to {} rows of numbers", max_samples));
-    return false;
-  }
-  for (const std::vector<Cell>& row : rows) {
-    if (row.size() == rows.front().size()) continue;
-    problems.add(row.front().place, "samples",
-                 fmt::format("the row has {} cells, and the header {}", row.size(), rows.front().size()),
-                 "a number for each column");
-    return false;
-  }
-  return true;
-}
-
-yaml::YamlPointer scalar(const Cell& cell) {
+std::shared_ptr<yaml::YamlNode> node_at(const yaml::Place& place, yaml::YamlNode::Kind kind) {
   auto node = std::make_shared<yaml::YamlNode>();
-  node->kind = yaml::YamlNode::Kind::scalar;
-  node->place = cell.place;
-  node->text = cell.text;
-  return node;
-}
-
-std::shared_ptr<yaml::YamlNode> map_at(const yaml::Place& place) {
-  auto node = std::make_shared<yaml::YamlNode>();
-  node->kind = yaml::YamlNode::Kind::map;
+  node->kind = kind;
   node->place = place;
   return node;
 }
 
 /// {choice: [the cells of the column]}, with the key `per` of the samples.
-yaml::YamlPointer choice_of(const std::vector<std::vector<Cell>>& rows, std::size_t column,
-                            const std::optional<yaml::Field>& per) {
-  const yaml::Place& place = rows.front()[column].place;
-  auto list = std::make_shared<yaml::YamlNode>();
-  list->kind = yaml::YamlNode::Kind::list;
-  list->place = place;
-  for (std::size_t row = 1; row < rows.size(); ++row) list->items.push_back(scalar(rows[row][column]));
-  auto value = map_at(place);
-  value->entries.push_back({"choice", place, std::move(list)});
-  if (per) {
-    auto node = std::make_shared<yaml::YamlNode>(*per->node);
-    value->entries.push_back({std::string(keys::per_key), place, std::move(node)});
+yaml::YamlPointer choice_of(const SamplesTable& samples, const tables::TextTable& table, std::size_t column,
+                            const yaml::Place& place) {
+  const auto list = node_at(place, yaml::YamlNode::Kind::list);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const auto cell =
+        node_at(place_in(samples, table.line(row), table.place(row, column)), yaml::YamlNode::Kind::scalar);
+    cell->text = table.cell(row, column);
+    list->items.push_back(cell);
   }
+  const auto value = node_at(place, yaml::YamlNode::Kind::map);
+  value->entries.push_back({"choice", place, list});
+  if (const auto per = yaml::find_field(samples.field, keys::per_key))
+    value->entries.push_back(
+        {std::string(keys::per_key), place, std::make_shared<yaml::YamlNode>(*per->node)});
   return value;
 }
 
 /// True if the column can have this name; reports an error if it cannot.
-bool check_name(const Cell& name, const std::set<std::string_view>& earlier, const yaml::YamlPointer& root,
+bool check_name(std::string_view name, const yaml::Place& place, const yaml::YamlPointer& root,
                 yaml::Problems& problems) {
   const char* const expected = "the dotted path of a parameter, such as friction.k1";
-  if (!manifest_text::is_dotted_path(name.text)) {
-    problems.add(name.place, "samples", fmt::format("the column {} has no name", yaml::in_quotes(name.text)),
-                 expected);
-  } else if (earlier.contains(name.text)) {
-    problems.add(name.place, name.text, "duplicate column", "each parameter once");
-  } else if (!parameters::find_parameter(name.text) && !name.text.starts_with("controller.parameters.")) {
-    problems.add(name.place, name.text, "unknown parameter, or an item of a list", expected);
-  } else if (manifest_text::has_value_at(*root, name.text)) {
-    problems.add(name.place, name.text, "the manifest also gives this parameter a value",
+  if (!manifest_text::is_dotted_path(name)) {
+    problems.add(place, "samples", fmt::format("the column {} has no name", yaml::in_quotes(name)), expected);
+  } else if (!parameters::find_parameter(name) && !name.starts_with("controller.parameters.")) {
+    problems.add(place, name, "unknown parameter, or an item of a list", expected);
+  } else if (manifest_text::has_value_at(*root, name)) {
+    problems.add(place, name, "the manifest also gives this parameter a value",
                  "the column or the key in the manifest, not both");
   } else {
     return true;
@@ -126,28 +61,28 @@ bool check_name(const Cell& name, const std::set<std::string_view>& earlier, con
   return false;
 }
 
-/// The file and `per` of the key; reports an error if they cannot be read.
-std::optional<yaml::Field> find_file(const yaml::Field& field, yaml::Problems& problems) {
-  if (field.node->kind != yaml::YamlNode::Kind::map) return field;
-  parameters::check_keys(field, std::vector<std::string>{"file", std::string(keys::per_key)}, problems);
-  auto file = yaml::find_field(field, "file");
-  if (!file) problems.add(field, "the key 'file' is missing", samples_form);
-  return file;
-}
-
-std::optional<std::string> read_table(const yaml::Field& file, const SamplesReader& read,
-                                      yaml::Problems& problems) {
-  const auto path = yaml::read_line(file, problems);
-  if (!path) return std::nullopt;
+/// The table of the samples; nothing after a report.
+std::optional<tables::TextTable> read_samples(const yaml::Field& file, const SamplesReader& read,
+                                              SamplesTable& samples, yaml::Problems& problems) {
   if (!read) {
     problems.add(file, "this command does not read samples", "the command check, run or trace");
     return std::nullopt;
   }
-  std::string text = read(*path, "a table of samples");
+  std::string text = read(file.node->text, "a table of samples");
   const bool zero = text.find('\0') != std::string::npos;
-  if (!zero && text.size() <= max_samples_size) return text;
-  problems.add(file, zero ? "the file contains a zero byte" : "the file is too large",
-               fmt::format("a table of comma-separated numbers of at most {} bytes", max_samples_size));
+  if (zero || text.size() > max_samples_size) {
+    problems.add(file, zero ? "the file contains a zero byte" : "the file is too large",
+                 fmt::format("a table of comma-separated numbers of at most {} bytes", max_samples_size));
+    return std::nullopt;
+  }
+  samples.samples.text = text;
+  const std::string expected =
+      fmt::format("a header with dotted paths, and 1 to {} rows of numbers", max_samples);
+  const yaml::Field named{file.node, "samples"};
+  auto table = read_table(named, std::move(text), expected, problems);
+  if (!table || (table->rows() > 0 && table->rows() <= max_samples)) return table;
+  problems.add(place_in(samples, 1, 1), "samples", fmt::format("the table has {} draws", table->rows()),
+               expected);
   return std::nullopt;
 }
 
@@ -189,40 +124,29 @@ bool check_not_swept(const SamplesTable& table, const std::vector<std::uint32_t>
 void insert_samples(yaml::YamlPointer& root, const SamplesReader& read, std::optional<SamplesTable>& table,
                     yaml::Problems& problems) {
   const auto field = yaml::find_field({root.get(), ""}, "samples");
-  if (!field) return;
-  const auto file = find_file(*field, problems);
-  if (!file) return;
-  auto text = read_table(*file, read, problems);
-  if (!text) return;
-  SamplesTable& read_in = table.emplace();
-  read_in.samples.file = file->node->text;
-  read_in.samples.text = std::move(*text);
-  read_in.source = read_in.samples.file;
-  read_in.field = *field;
-  const std::vector<std::vector<Cell>> rows = rows_of(read_in.samples.text, read_in.source);
-  if (!check_shape(rows, read_in, problems)) return;
-  read_in.samples.rows = static_cast<std::int64_t>(rows.size()) - 1;
-  const auto per = yaml::find_field(*field, keys::per_key);
-  std::set<std::string_view> names;
+  if (!field || !shapes::read(*field, keys::shape_of("samples"), problems)) return;
+  const yaml::Field file = yaml::find_field(*field, "file").value_or(*field);
+  SamplesTable& samples = table.emplace();
+  samples.samples.file = samples.source = file.node->text;
+  samples.field = *field;
+  const auto read_in = read_samples(file, read, samples, problems);
+  if (!read_in) return;
+  samples.samples.rows = static_cast<std::int64_t>(read_in->rows());
   yaml::YamlPointer changed = root;
-  for (std::size_t column = 0; column < rows.front().size(); ++column) {
-    const Cell& name = rows.front()[column];
-    if (!check_name(name, names, root, problems)) continue;
-    names.insert(name.text);
-    read_in.samples.parameters.emplace_back(name.text);
-    read_in.columns.push_back(name.place);
-    if (auto with =
-            manifest_text::with_value(changed, name.text, choice_of(rows, column, per), name.place, problems))
+  for (std::size_t column = 0; column < read_in->columns(); ++column) {
+    const std::string_view name = read_in->header_cell(column);
+    const yaml::Place place = place_in(samples, read_in->header_line(), read_in->place_in_header(column));
+    if (!check_name(name, place, root, problems)) continue;
+    samples.samples.parameters.emplace_back(name);
+    samples.columns.push_back(place);
+    if (auto with = manifest_text::with_value(changed, name, choice_of(samples, *read_in, column, place),
+                                              place, problems))
       changed = std::move(with);
   }
   root = std::move(changed);
 }
 
 void join_samples(const SamplesTable& table, const std::vector<SweptAxis>& axes, keys::Reading& reading) {
-  if (reading.study.design == study::Design::saltelli) {
-    reading.problems.add(table.field, "the design saltelli needs independent parameters", "another design");
-    return;
-  }
   std::vector<std::uint32_t> slots;
   for (const std::string& name : table.samples.parameters) {
     const auto range = study::find_slots(name, reading.plan.table);

@@ -7,11 +7,9 @@
 
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/keys/aging.hpp"
-#include "experiments/keys/key_reading.hpp"
+#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/parameters/unknown_key.hpp"
-#include "experiments/sections/goal.hpp"
-#include "experiments/sections/spectrum.hpp"
-#include "experiments/sections/torque_record.hpp"
+#include "experiments/sections/named_tables.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::sections {
@@ -72,15 +70,11 @@ void complete_moves(SectionReading& s) {
 }
 
 // Reads the torque that command.torque.file has in place of levels. A name that is still there is that of a
-// table whose problems are reported already; see torque_record_overrides().
+// table whose problems are reported already; see table_overrides().
 void read_recorded_torque(SectionReading& s, const yaml::Field& field) {
   s.places.torque_record = field.node->place;
   if (field.node->kind != yaml::YamlNode::Kind::scalar || s.problems().empty())
     s.plan().common.command.torque.record = read_torque_record(field, s.problems());
-  const auto torque = yaml::find_field(yaml::find_field(s.root, "command").value(), "torque").value();
-  if (const auto levels = yaml::find_field(torque, "levels"))
-    s.problems().add(*levels, "it has no effect: command.torque.file defines the torque",
-                     "command.torque.file, or levels with their rate");
 }
 
 void read_parameter(SectionReading& s, const yaml::Field& field, std::size_t row) {
@@ -211,13 +205,11 @@ void read_plugin_parameters(SectionReading& s, const yaml::Field& map) {
 
 // Reads the keys of sections that are not parameters. controller.units and command.units are read earlier,
 // before all values.
-void read_general_key(SectionReading& s, const yaml::Field& field, const keys::GeneralKey& key) {
-  if (field.path == "verdict.bands") {
-    read_bands(field, s.plan().common.verdict.bands, s.problems());
-  } else if (field.path == "command.torque.file") {
+void read_general_key(SectionReading& s, const yaml::Field& field, const shapes::Shape& key) {
+  if (field.path == "command.torque.file") {
     read_recorded_torque(s, field);
   } else if (!field.path.ends_with(".units")) {
-    keys::read_key(field, key, s.reading);
+    shapes::read(field, key, s.problems(), &s.reading);
   }
 }
 
@@ -262,7 +254,7 @@ void read_section(SectionReading& s, const yaml::Field& section) {
       read_elements(s, field, *list);
     } else if (field.path == "controller.parameters") {
       read_plugin_parameters(s, field);
-    } else if (const keys::GeneralKey* const general = keys::find_general_key(field.path)) {
+    } else if (const shapes::Shape* const general = keys::find_general_key(field.path)) {
       read_general_key(s, field, *general);
     } else {
       read_section(s, field);
@@ -306,22 +298,6 @@ void choose_form(SectionReading& s, const yaml::Field& command) {
                                 : form == "sequence" ? "command.sequence.targets"
                                                      : "command.targets";
   s.plan().list.row = parameters::find_parameter(list).value();
-}
-
-void check_plugin_closes_the_loop(SectionReading& s) {
-  if (!s.plan().open_loop || !s.plan().plugin) return;
-  const yaml::Field controller = yaml::find_field(s.root, "controller").value();
-  s.problems().add(yaml::find_field(controller, "plugin").value(),
-                   "it has no effect: the loop is open with command.torque",
-                   "command.targets or command.sequence, or the key left out");
-}
-
-// Torque levels have the unit of torque.
-void check_units_of_targets(SectionReading& s, const yaml::Field& command) {
-  const auto units = s.plan().open_loop ? yaml::find_field(command, "units") : std::nullopt;
-  if (units)
-    s.problems().add(*units, "it has no effect: the loop is open with command.torque",
-                     "command.targets or command.sequence, or the key left out");
 }
 
 // Reports the keys of the form chosen that are missing.
@@ -371,9 +347,7 @@ void read_sections(const yaml::Field& root, keys::Reading& reading, keys::PlanPl
     if (section) read_section(s, *section);
   }
   complete_moves(s);
-  check_plugin_closes_the_loop(s);
   if (!command) return;
-  check_units_of_targets(s, *command);
   check_form_complete(s, *command);
   check_sequence_length(s, *command);
 }

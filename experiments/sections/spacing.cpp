@@ -26,26 +26,22 @@ double spaced(const Spacing& spacing, std::size_t i) {
 
 }  // namespace
 
-std::optional<Spacing> read_spacing(const yaml::Field& field, const std::string& name, std::size_t max_values,
-                                    yaml::Problems& problems) {
-  const bool logarithmic = name == "logspace";
+shapes::Shape spacing_shape(bool logarithmic) {
+  const std::string_view name = logarithmic ? "logspace" : "linspace";
+  const shapes::Shape end = shapes::real(logarithmic ? numerics::above(0.0) : numerics::all_numbers());
   const std::string expected = fmt::format("{}: [first value, last value, number of values]", name);
-  if (!yaml::check_list(field, expected, problems)) return std::nullopt;
-  if (field.node->items.size() != 3) {
-    problems.add(field, fmt::format("found a list of {}", field.node->items.size()), expected);
-    return std::nullopt;
-  }
-  const numerics::Interval range = logarithmic ? numerics::above(0.0) : numerics::all_numbers();
-  const auto from = yaml::read_real(yaml::item_of(field, 0), range, problems);
-  const auto to = yaml::read_real(yaml::item_of(field, 1), range, problems);
-  const auto count =
-      yaml::read_whole(yaml::item_of(field, 2), 2, static_cast<std::int64_t>(max_values), problems);
-  if (!from || !to || !count) return std::nullopt;
-  if (*from == *to) {
-    problems.add(field, "the first and the last value are equal", "different values");
-    return std::nullopt;
-  }
-  return Spacing{*from, *to, static_cast<std::size_t>(*count), logarithmic};
+  return shapes::of(shapes::Shape::Form::tuple, {name, "", expected}, expected,
+                    {end, end, shapes::whole(2, static_cast<std::int64_t>(max_points))});
+}
+
+std::optional<Spacing> read_spacing(const yaml::Field& field, bool logarithmic, yaml::Problems& problems) {
+  if (!shapes::read(field, spacing_shape(logarithmic), problems)) return std::nullopt;
+  const std::vector<yaml::Field> values = shapes::items_of(field);
+  const Spacing spacing{shapes::number_of(values[0]), shapes::number_of(values[1]),
+                        shapes::whole_of<std::size_t>(values[2]), logarithmic};
+  if (spacing.from != spacing.to) return spacing;
+  problems.add(field, "the first and the last value are equal", "different values");
+  return std::nullopt;
 }
 
 std::vector<double> spaced_values(const Spacing& spacing) {

@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "experiments/yaml/scalars.hpp"
+#include "experiments/shapes/shape.hpp"
 
 namespace zerocount::sections {
+
+constexpr std::size_t max_points = 1'000'000;  ///< of a sweep
 
 /// `count` numbers from `from` to `to`, both included, with equal distances or (logarithmic) equal ratios.
 struct Spacing {
@@ -16,10 +18,11 @@ struct Spacing {
   bool logarithmic{false};
 };
 
-/// The spacing in `field`, the value of the key `name`, linspace or logspace: [first value, last value,
-/// number of values]. At most `max_values` values. Reports errors and returns nothing then.
-std::optional<Spacing> read_spacing(const yaml::Field& field, const std::string& name, std::size_t max_values,
-                                    yaml::Problems& problems);
+/// The value of the key linspace, or logspace: [first value, last value, number of values].
+shapes::Shape spacing_shape(bool logarithmic);
+
+/// The spacing in `field`, the value of that key. Reports errors and returns nothing then.
+std::optional<Spacing> read_spacing(const yaml::Field& field, bool logarithmic, yaml::Problems& problems);
 
 /// The numbers; those between the ends are rounded to 15 significant digits.
 std::vector<double> spaced_values(const Spacing& spacing);

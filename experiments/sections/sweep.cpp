@@ -85,7 +85,7 @@ void read_spaced(const yaml::Field& sweep, const yaml::Field& field, const study
     return;
   }
   const yaml::Field inner = yaml::entry_of(field, entries[0]);
-  const auto spacing = read_spacing(inner, entries[0].key, max_points, state.reading.problems);
+  const auto spacing = read_spacing(inner, entries[0].key == "logspace", state.reading.problems);
   if (!spacing || !check_point_count(sweep, spacing->count, state)) return;
   const std::vector<double> values = spaced_values(*spacing);
   std::vector<std::string> labels = spaced_labels(axis.name, values);

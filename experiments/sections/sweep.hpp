@@ -9,8 +9,6 @@
 
 namespace zerocount::sections {
 
-constexpr std::size_t max_points = 1'000'000;
-
 /// Reads `sweep: {grid, cases}`. The cases are the slowest axis, followed by the keys of the grid in their
 /// order, the last one fastest. If both give a value to a parameter, the grid takes precedence, with a
 /// warning. A product of more than max_points is an error, found without expanding it. `linspace: [a, b, n]`

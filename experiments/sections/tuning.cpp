@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -8,9 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "experiments/keys/key_reading.hpp"
+#include "experiments/keys/manifest_keys.hpp"
 #include "experiments/parameters/study_units.hpp"
-#include "experiments/parameters/unknown_key.hpp"
 #include "experiments/rules/effect_rules.hpp"
 #include "experiments/sections/goal.hpp"
 #include "experiments/study/study_table.hpp"
@@ -18,44 +16,24 @@
 namespace zerocount::sections {
 namespace {
 
-constexpr const char* expected_range = "a range such as [0, 1000] or {log: [5.0e+3, 3.0e+5]}";
-constexpr const char* expected_free =
-    "a map of parameters and ranges: {controller.ki: {log: [5.0e+3, 3.0e+5]}}";
-const std::array<std::string, 1> log_keys{"log"};
-
-/// The two ends of a range in ascending order.
-void read_ends(const yaml::Field& field, const numerics::Interval& allowed, study::FreeParameter& parameter,
-               yaml::Problems& problems) {
-  if (!yaml::check_list(field, expected_range, problems)) return;
-  if (field.node->items.size() != 2) {
-    problems.add(field, fmt::format("found a list of {}", field.node->items.size()), expected_range);
-    return;
-  }
-  const auto low = yaml::read_real(yaml::item_of(field, 0), allowed, problems);
-  const auto high = yaml::read_real(yaml::item_of(field, 1), allowed, problems);
+/// The range of a parameter, whose ends must be in order, allowed and, of a whole number, whole.
+void take_range(const yaml::Field& field, const numerics::Interval& allowed, study::FreeParameter& parameter,
+                yaml::Problems& problems) {
+  const auto log = yaml::find_field(field, "log");
+  const yaml::Field ends = log.value_or(field);
+  parameter.logarithmic = log.has_value();
+  const auto low = yaml::read_real(yaml::item_of(ends, 0), allowed, problems);
+  const auto high = yaml::read_real(yaml::item_of(ends, 1), allowed, problems);
   if (!low || !high) return;
   parameter.low = *low;
   parameter.high = *high;
-  if (!(*low < *high)) problems.add(field, fmt::format("{} is not below {}", *low, *high), expected_range);
+  if (!(*low < *high))
+    problems.add(ends, fmt::format("{} is not below {}", *low, *high),
+                 keys::shape_of("tune.free").parts.front().expected);
   if (parameter.logarithmic && !(*low > 0.0))
-    problems.add(field, fmt::format("{} is not above 0", *low), "a logarithmic range above 0");
+    problems.add(ends, fmt::format("{} is not above 0", *low), "a logarithmic range above 0");
   if (parameter.whole && (*low != std::floor(*low) || *high != std::floor(*high)))
-    problems.add(field, "an end is not a whole number", "whole numbers");
-}
-
-void read_range(const yaml::Field& field, const numerics::Interval& allowed, study::FreeParameter& parameter,
-                yaml::Problems& problems) {
-  if (field.node->kind == yaml::YamlNode::Kind::map) {
-    parameters::check_keys(field, log_keys, problems);
-    if (const auto ends = yaml::find_field(field, "log")) {
-      parameter.logarithmic = true;
-      read_ends(*ends, allowed, parameter, problems);
-    } else {
-      problems.add(field, "the map has no key log", expected_range);
-    }
-    return;
-  }
-  read_ends(field, allowed, parameter, problems);
+    problems.add(ends, "an end is not a whole number", "whole numbers");
 }
 
 /// Whether the value at the slot is one number at all points. Whether a condition overrides it is told there.
@@ -71,8 +49,6 @@ bool is_one_number(const study::StudyPlan& plan, std::size_t slot) {
 
 void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuning& tuning,
                yaml::Problems& problems) {
-  if (!yaml::check_map(map, expected_free, problems)) return;
-  if (map.node->entries.empty()) problems.add(map, "no parameter is free", expected_free);
   for (const yaml::YamlEntry& entry : map.node->entries) {
     const yaml::Field field = yaml::entry_of(map, entry);
     const auto slots = study::find_slots(entry.key, plan.table);
@@ -105,7 +81,7 @@ void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuni
     study::FreeParameter parameter{.name = std::string(row.name),
                                    .unit = parameters::unit_of(row, plan.units),
                                    .whole = row.kind == parameters::ParameterKind::whole_number};
-    read_range(field, row.range, parameter, problems);
+    take_range(field, row.range, parameter, problems);
     tuning.free.push_back(parameter);
   }
 }
@@ -132,9 +108,11 @@ void check_effects_of_free(const yaml::Field& map, const study::Tuning& tuning, 
 void read_tuning(const yaml::Field& field, keys::Reading& reading) {
   std::optional<study::Tuning>& tuning = reading.study.tuning;
   tuning.emplace();
-  keys::read_key(field, *keys::find_general_key("tune"), reading);
+  shapes::read(field, keys::shape_of("tune"), reading.problems, &reading);
   if (field.node->kind != yaml::YamlNode::Kind::map) return tuning.reset();
-  if (const auto free = yaml::find_field(field, "free")) {
+  yaml::Problems reported;
+  if (const auto free = yaml::find_field(field, "free");
+      free && shapes::read(*free, keys::shape_of("tune.free"), reported)) {
     read_free(*free, reading.plan, *tuning, reading.problems);
     check_effects_of_free(*free, *tuning, reading);
   }

@@ -12,9 +12,9 @@
 #include <fmt/ranges.h>
 
 #include "analysis/records/dataset_file.hpp"
-#include "analysis/records/text_table.hpp"
 #include "core/failure/failure.hpp"
 #include "core/text/number_text.hpp"
+#include "experiments/tables/text_table.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/hdf5/array_file.hpp"
 #include "results/reading/all_trials_file.hpp"
@@ -186,7 +186,7 @@ std::vector<command_line::OptionSpec> column_options() {
            "repeated",
            true},
           {"separator", "NAME", "separator of the cells: comma, semicolon, tab or blanks (default: detected)",
-           false, 1, records::separator_names()},
+           false, 1, tables::separator_names()},
           {"sample-time", "T", "sample time of a record without a column for the time, s"},
           {"exclude", "FROM:TO", "times to leave out, s; may be repeated", true}};
 }
@@ -198,9 +198,9 @@ void set_columns(const command_line::Arguments& arguments, records::SeriesChoice
     choice.columns.push_back(parsed.mapping);
   }
   if (arguments.has("separator")) {
-    const std::vector<std::string> names = records::separator_names();
+    const std::vector<std::string> names = tables::separator_names();
     const auto found = std::find(names.begin(), names.end(), arguments.choice("separator"));
-    choice.separator = static_cast<records::Separator>(found - names.begin());
+    choice.separator = static_cast<tables::Separator>(found - names.begin());
   }
   if (const std::optional<std::string> text = arguments.value("sample-time")) {
     choice.sample_time = text::parse_number<double>(*text);
@@ -235,7 +235,7 @@ std::vector<records::RawSeries> read_all_series(const command_line::Arguments& a
       for (records::RawSeries& series :
            files[i] == RecordFile::datasets
                ? records::read_columns(records::DatasetFile(path), choice)
-               : records::read_columns(records::TextTable(path, choice.separator), choice))
+               : records::read_columns(tables::TextTable(path, choice.separator), choice))
         found.push_back(std::move(series));
       continue;
     }

@@ -79,7 +79,7 @@ void print_keys() {
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     if (!parameter.element) print_line(fmt::format("{}=", parameter.name));
   }
-  for (const keys::GeneralKey& key : keys::general_keys()) {
+  for (const shapes::Shape& key : keys::general_keys()) {
     if (key.name != "zerocount") print_line(fmt::format("{}=", key.name));
   }
 }

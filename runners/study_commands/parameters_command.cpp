@@ -24,13 +24,13 @@ struct ParameterTables {
   std::string headline;
   std::vector<manifest::ListedParameter> parameters;
   std::vector<manifest::ListedDistribution> distributions{};
-  std::span<const keys::GeneralKey> keys{};
+  std::span<const shapes::Shape> keys{};
 };
 
 document::AnswerDescription<ParameterTables> parameters_answer() {
   using Parameter = manifest::ListedParameter;
   using Distribution = manifest::ListedDistribution;
-  using Key = keys::GeneralKey;
+  using Key = shapes::Shape;
   document::AnswerDescription<ParameterTables> answer{
       {.name = "parameters", .meaning = "what a manifest can say", .csv_table = "parameters"}, {}};
   answer.items.headline(&ParameterTables::headline)

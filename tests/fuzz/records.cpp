@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "analysis/fit/records/checked_record.hpp"
-#include "analysis/records/text_table.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
+#include "experiments/tables/text_table.hpp"
 #include "runners/identification_commands/record_options.hpp"
 #include "tests/fuzz/expectation.hpp"
 #include "tests/fuzz/memory_file.hpp"
@@ -38,7 +38,7 @@ void read_record(const std::filesystem::path& path, const std::vector<std::strin
       {.name = "identify", .operands = "", .options = options, .min_operands = 0, .max_operands = 0}, words);
   records::SeriesChoice choice{.count_size = 0.00628};
   identification_commands::set_columns(arguments, choice);
-  const records::TextTable table(path, choice.separator);
+  const tables::TextTable table(path, choice.separator);
   fuzz::require_text(table.columns_text());
   std::vector<records::RawSeries> found = records::read_columns(table, choice);
   identification_commands::exclude_times(arguments, found);

@@ -34,7 +34,7 @@ SeriesChoice columns(const std::vector<std::string>& texts) {
 class ColumnSeries : public ::testing::Test {
  protected:
   std::vector<RawSeries> all(const std::string& text, const SeriesChoice& choice) {
-    return records::read_columns(records::TextTable(folder_.write("log.txt", text)), choice);
+    return records::read_columns(tables::TextTable(folder_.write("log.txt", text)), choice);
   }
   RawSeries one(const std::string& text, const SeriesChoice& choice) {
     const std::vector<RawSeries> found = all(text, choice);

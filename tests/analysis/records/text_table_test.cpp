@@ -1,5 +1,5 @@
 // Tables: what is read, and how each fault is named with its line.
-#include "analysis/records/text_table.hpp"
+#include "experiments/tables/text_table.hpp"
 
 #include <string>
 
@@ -13,8 +13,8 @@ namespace {
 
 class TextTables : public ::testing::Test {
  protected:
-  records::TextTable table(const std::string& text) {
-    return records::TextTable(folder_.write("data.csv", text));
+  tables::TextTable table(const std::string& text) {
+    return tables::TextTable(folder_.write("data.csv", text));
   }
 
   /// The message with which the text is refused, the column `x` read as numbers.
@@ -36,14 +36,14 @@ class TextTables : public ::testing::Test {
 };
 
 TEST_F(TextTables, NumbersReadBackToTheSameDouble) {
-  const records::TextTable read = table("x,y\n0.1,1\n-2.4e-4,+2\n 5e-324 ,3\n1.7976931348623157e308,4\n");
+  const tables::TextTable read = table("x,y\n0.1,1\n-2.4e-4,+2\n 5e-324 ,3\n1.7976931348623157e308,4\n");
   EXPECT_EQ(read.numbers("x"), (std::vector<double>{0.1, -2.4e-4, 5e-324, 1.7976931348623157e308}));
   EXPECT_EQ(read.numbers("y"), (std::vector<double>{1, 2, 3, 4}));
 }
 
 TEST_F(TextTables, TakesWhatOtherProgramsWrite) {
   // Byte order mark, carriage returns, quotation marks, comments, empty lines, units, no last line feed.
-  const records::TextTable read =
+  const tables::TextTable read =
       table("\xEF\xBB\xBF# a machine\r\n\"t [s]\", torque [N m] \r\n\r\n\"0.5\" , 1\r\n# more\r\n1.5,2");
   EXPECT_EQ(read.unit("t"), "s");
   EXPECT_EQ(read.unit("torque"), "N m");
@@ -54,7 +54,7 @@ TEST_F(TextTables, TakesWhatOtherProgramsWrite) {
 }
 
 TEST_F(TextTables, WordsAreCompared) {
-  const records::TextTable read = table("x,mode\n1,stick\n2,slide\n");
+  const tables::TextTable read = table("x,mode\n1,stick\n2,slide\n");
   EXPECT_EQ(read.equals("mode", "slide"), (std::vector<bool>{false, true}));
 }
 
@@ -82,7 +82,7 @@ TEST_F(TextTables, EverySeparatorIsDetected) {
        {"x,y [N m]\n0.001,1\n0.002,2\n", "x;y [N m]\n0.001;1\n0.002;2\n", "x\ty [N m]\n0.001\t1\n0.002\t2\n",
         "x y [N m]\n0.001 1\n  0.002   2 \n", "x;y [N m]\n0,001;1\n0,002;2\n",
         "x y [N m]\n0,001 1\n0,002 2\n", "x\ty [N m]\n1,0e-3\t1\n0,002\t2\n"}) {
-    const records::TextTable read = table(text);
+    const tables::TextTable read = table(text);
     EXPECT_EQ(read.numbers("x"), x) << text;
     EXPECT_EQ(read.numbers("y"), (std::vector<double>{1, 2})) << text;
     EXPECT_EQ(read.unit("y"), "N m") << text;
@@ -91,15 +91,15 @@ TEST_F(TextTables, EverySeparatorIsDetected) {
 
 // Blanks between decimal commas, where the rows have as many commas as the header.
 TEST_F(TextTables, DecimalCommasAreNotTakenForSeparators) {
-  const records::TextTable read = table("0,001 0,5 12\n0,002 -0,6 13\n");
+  const tables::TextTable read = table("0,001 0,5 12\n0,002 -0,6 13\n");
   EXPECT_EQ(read.numbers("#2"), (std::vector<double>{0.5, -0.6}));
   EXPECT_EQ(read.numbers("#3"), (std::vector<double>{12, 13}));
 }
 
 TEST_F(TextTables, AGivenSeparatorIsTaken) {
-  const records::TextTable read(folder_.write("data.csv", "x;y\n1,5;2\n"), records::Separator::semicolon);
+  const tables::TextTable read(folder_.write("data.csv", "x;y\n1,5;2\n"), tables::Separator::semicolon);
   EXPECT_EQ(read.numbers("x"), (std::vector<double>{1.5}));
-  EXPECT_THROW(records::TextTable(folder_ / "data.csv", records::Separator::tab), Failure);
+  EXPECT_THROW(tables::TextTable(folder_ / "data.csv", tables::Separator::tab), Failure);
 }
 
 TEST_F(TextTables, OneKindOfDecimalMark) {
@@ -111,14 +111,14 @@ TEST_F(TextTables, OneKindOfDecimalMark) {
 TEST_F(TextTables, ALineOfUnitsBelowTheHeader) {
   for (const std::string text : {"x;y;z\ns;mN m;-\n1;2;3\n", "% a machine\nx;y;z\n[s];[mN·m];\n1;2;3\n",
                                  "x;y [mN m];z\n(s);(kN);\n1;2;3\n"}) {
-    const records::TextTable read = table(text);
+    const tables::TextTable read = table(text);
     EXPECT_EQ(read.unit("x"), "s") << text;
     EXPECT_TRUE(read.unit("y") == "mN m" || read.unit("y") == "mN·m") << text;
     EXPECT_EQ(read.unit("z"), "") << text;
     EXPECT_EQ(read.numbers("z"), (std::vector<double>{3})) << text;
   }
   // A unit beside a known one may be unknown: who uses its column is told so.
-  const records::TextTable unknown = table("x;y\nabc;s\n1;2\n");
+  const tables::TextTable unknown = table("x;y\nabc;s\n1;2\n");
   EXPECT_EQ(unknown.unit("x"), "abc");
   EXPECT_EQ(unknown.numbers("x"), (std::vector<double>{1}));
   // A row that is not of units is a row of data.
@@ -126,7 +126,7 @@ TEST_F(TextTables, ALineOfUnitsBelowTheHeader) {
 }
 
 TEST_F(TextTables, UnitsInRoundBracketsIfTheyAreUnits) {
-  const records::TextTable read = table("Time (ms),torque (filtered),phi (°)\n1,2,3\n");
+  const tables::TextTable read = table("Time (ms),torque (filtered),phi (°)\n1,2,3\n");
   EXPECT_EQ(read.unit("Time"), "ms");
   EXPECT_EQ(read.unit("phi"), "°");
   EXPECT_EQ(read.numbers("torque (filtered)"), (std::vector<double>{2}));
@@ -140,7 +140,7 @@ TEST_F(TextTables, UnitsInRoundBracketsIfTheyAreUnits) {
 // What numpy.savetxt(header=…) writes, and what has no header at all.
 TEST_F(TextTables, WithoutAHeaderTheCommentAboveOrNumbersNameTheColumns) {
   EXPECT_EQ(table("# a machine\n# x y [A]\n1 2\n3 4\n").numbers("y"), (std::vector<double>{2, 4}));
-  const records::TextTable read = table("# of 3 November\n1 2\n3 4\n");
+  const tables::TextTable read = table("# of 3 November\n1 2\n3 4\n");
   EXPECT_EQ(read.numbers("#1"), (std::vector<double>{1, 3}));
   EXPECT_EQ(read.line(0), 2u);
   EXPECT_FALSE(read.has("#3"));
@@ -154,7 +154,7 @@ TEST_F(TextTables, TitlesAboveTheHeaderAreSkipped) {
                            "Device;X\nDate;2026-11-26\nSamples;2\nx;y;z\n1;2;0\n3;4;0\n",
                            "of November\nrate 2000 Hz\nx [mm],y [s]\n1,2\n3,4\n",
                            "Logger 3\nx\ty\nmm\ts\n1\t2\n3\t4\n", "a b c d\nx y\n1 2\n3 4\n"}) {
-    const records::TextTable read = table(text);
+    const tables::TextTable read = table(text);
     EXPECT_EQ(read.numbers("x"), (std::vector<double>{1, 3})) << text;
     EXPECT_EQ(read.numbers("y"), (std::vector<double>{2, 4})) << text;
   }
@@ -174,7 +174,7 @@ TEST_F(TextTables, RowsMayEndWithASeparatorThatTheHeaderHasNot) {
 }
 
 TEST_F(TextTables, TheUnitOfCountsInALineOfUnitsIsOne) {
-  const records::TextTable read = table("x,count\nmm,1\n1,2\n");
+  const tables::TextTable read = table("x,count\nmm,1\n1,2\n");
   EXPECT_EQ(read.rows(), 1u);
   EXPECT_EQ(read.unit("count"), "1");
 }
@@ -198,12 +198,12 @@ TEST_F(TextTables, WhatIsNoTableIsRefused) {
             ":3: a row of 1 cells; expected 2, as the header has");
   EXPECT_EQ(refusal("zerocount\n", ExitCode::bad_input),
             ":1: one cell only; expected columns separated by commas, semicolons, tabs or blanks");
-  EXPECT_EQ(refusal("x,x\n1,2\n", ExitCode::bad_input), ": two columns are named 'x'");
-  EXPECT_EQ(refusal("", ExitCode::bad_input), ": is empty; expected a table");
+  EXPECT_EQ(refusal("x,x\n1,2\n", ExitCode::bad_input), ":1: two columns are named 'x'; expected each once");
+  EXPECT_EQ(refusal("", ExitCode::bad_input), ":1: the table is empty; expected a table");
   EXPECT_EQ(refusal(std::string("a\0b\n", 4), ExitCode::bad_input),
-            ": is not text; expected a table of numbers, or a results file");
-  EXPECT_THROW(records::TextTable(folder_ / "nothing.csv"), Failure);
-  EXPECT_THROW(records::TextTable(folder_.path()), Failure);
+            ":1: the table is not text; expected a table of numbers, or a results file");
+  EXPECT_THROW(tables::TextTable(folder_ / "nothing.csv"), Failure);
+  EXPECT_THROW(tables::TextTable(folder_.path()), Failure);
 }
 
 }  // namespace

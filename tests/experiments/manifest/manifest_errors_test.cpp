@@ -31,7 +31,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"sweep: {gird: {}}", "6:9: sweep.gird | grid"},
                       Case{"observed: {all: {successes: 3, of: 2}}",
                            "6:29: observed.all.successes | from 0 to 2"},
-                      Case{"observed: {all: {successes: 3}}", "6:17: observed.all | the key 'of'"},
+                      Case{"observed: {all: {successes: 3}}", "6:17: observed.all.of | the key is missing"},
                       Case{"observed: {b: text}", "6:12: observed.b | nearest known: all"}));
 
 INSTANTIATE_TEST_SUITE_P(
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"controller: {delay: -1}", "6:21: controller.delay | at least 0 and at most 100"},
         Case{"encoder: {fine: 0}", "6:17: encoder.fine | from 1 to 1000000000000"},
         Case{"retain: {trials: [10]}", "6:19: retain.trials.0 | from 0 to 9"},
-        Case{"retain: {trials: [1, 1]}", "6:18: retain.trials | duplicate"},
+        Case{"retain: {trials: [1, 1]}", "6:22: retain.trials.1 | duplicate"},
         Case{"rigs: 1", "6:7: rigs | from 2 to 4294967296"},
         Case{"rigs: 4", "4:9: trials | cannot be divided equally"},
         Case{"friction: {k1: {uniform: [1, 2], per: rig}}", "6:39: friction.k1.per | has no machines"},
@@ -128,7 +128,8 @@ INSTANTIATE_TEST_SUITE_P(
              "6:26: friction.k1.profile | (0, inf)"},
         Case{"friction: {k1: {profile: {mean: 110, cv: 0.1, correlation_length: 7}}}",
              "6:67: friction.k1.profile.correlation_length | at least 0.001 and at most 6.283185307179586"},
-        Case{"friction: {k1: {profile: {mean: 110, cv: 0.1}}}", "6:26: friction.k1.profile | missing"},
+        Case{"friction: {k1: {profile: {mean: 110, cv: 0.1}}}",
+             "6:26: friction.k1.profile.correlation_length | missing"},
         Case{"friction: {k1: {profile: {mean: 110, cv: 0.1, correlation_length: 1, marginal: gauss}}}",
              "6:80: friction.k1.profile.marginal | 'gauss'"},
         Case{"plant: {inertia: {profile: {mean: 1, cv: 0.1, correlation_length: 1}}}",
@@ -139,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"friction: {k1: {uniform: [1, no]}}", "6:30: friction.k1.uniform.1 | truth value"},
         Case{"friction: {k1: {log_uniform: [0, 2]}}", "6:30: friction.k1.log_uniform | low is 0"},
         Case{"initial: {position: {normal: {mean: 0, sd: -1}}}", "6:30: initial.position.normal | sd is -1"},
-        Case{"initial: {position: {normal: {mean: 0}}}", "6:30: initial.position.normal | missing"},
+        Case{"initial: {position: {normal: {mean: 0}}}", "6:30: initial.position.normal.sd | missing"},
         Case{"initial: {position: {normal: [0, 1]}}", "6:30: initial.position.normal | a list"},
         Case{"friction: {k1: {lognormal: {median: 1, cv: 11}}}", "6:28: friction.k1.lognormal | cv is 11"},
         Case{"friction: {k1: {lognormal: {median: 1.0e308, cv: 1}}}",
@@ -200,7 +201,7 @@ TEST(ManifestErrors, ValuesThatCannotBeReadAreLikeNoOther) {
 TEST(ManifestErrors, NumbersOfTheStudyAreChecked) {
   EXPECT_TRUE(has_faults(refusal_of("zerocount: 0\nname: ''\nseed: -1\ntrials: 0\ncommand: {targets: []}\n"),
                          "1:12: zerocount | version 0\n"
-                         "2:7: name | the name is empty\n"
+                         "2:7: name | the text is empty\n"
                          "3:7: seed | from 0 to 18446744073709551615\n"
                          "4:9: trials | from 1 to 9007199254740992\n"
                          "5:20: command.targets | list of 0"));

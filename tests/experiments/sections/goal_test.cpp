@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
         GoalRefusal{"goal: {within: 0.1, moves: 0.9, bond: 1}", "6:33: goal.bond | unknown key"},
         GoalRefusal{"verdict: {bands: [1, 1]}", "6:22: verdict.bands.1 | not above 1"},
         GoalRefusal{"verdict: {bands: [0.5]}", "6:19: verdict.bands.0 | '0.5'"},
-        GoalRefusal{"verdict: {bands: []}", "6:18: verdict.bands | a list of 0"},
+        GoalRefusal{"verdict: {bands: []}", "6:18: verdict.bands | the list is empty"},
         GoalRefusal{"verdict: {bands: [0, 1, 2, 3, 4, 5, 6, 7, 8]}", "6:18: verdict.bands | a list of 9"},
         GoalRefusal{"verdict: {bands: [0, 1, 2, 3, 4, 5, 6, 7]}\ngoal: {band: 9, within: 0.1, moves: 0.9}",
                     "7:7: goal | one too many"},

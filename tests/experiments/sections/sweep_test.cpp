@@ -347,7 +347,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         CorrelationRefusal{"correlation: 0.5", "6:14: correlation | '0.5'"},
         CorrelationRefusal{"friction: {k1: {uniform: [90, 130]}}\ncorrelation: [[friction.k1, 0.5]]",
-                           "7:15: correlation.0 | 2 values"},
+                           "7:15: correlation.0 | list of 2"},
         CorrelationRefusal{
             "friction: {k1: {uniform: [90, 130]}}\ncorrelation: [[friction.k1, friction.k2, 0.5]]",
             "7:29: correlation.0.1 | nearest known"},

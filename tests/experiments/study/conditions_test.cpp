@@ -246,7 +246,7 @@ TEST(Conditions, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
     return refusal_of(manifest_with("conditions: " + conditions + "\n"), overrides);
   };
   const std::vector<std::pair<std::string, std::string>> faults{
-      {of("{}"), "16:13: conditions: found 0 conditions; expected 1 to"},
+      {of("{}"), "16:13: conditions: found no condition; expected 1 to"},
       {of("[a]"), "conditions: found a list"},
       {of("{a: {plant.inertai: 1}}"),
        "16:18: conditions.a.plant.inertai: unknown key, nearest known: plant.inertia"},

@@ -7,9 +7,36 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/records/dataset_file.hpp"
+#include "core/failure/failure.hpp"
 
-namespace zerocount::records {
+namespace zerocount::tables {
+
+/// A file with columns of numbers: a text, or an HDF5 file.
+class ColumnSource {
+ public:
+  virtual ~ColumnSource() = default;
+
+  /// Name of the file in messages.
+  virtual const std::string& name() const = 0;
+
+  /// True if there is such a column, by its name in the header, by its number from 1 ("#2"), or by its path.
+  virtual bool has(std::string_view column) const = 0;
+
+  /// The columns, for messages.
+  virtual std::string columns_text() const = 0;
+
+  /// The unit of the column according to the file; empty if it says none.
+  virtual std::string unit(std::string_view column) const = 0;
+
+  /// The column as finite numbers. @throws Failure (bad_data) that names what is none.
+  virtual std::vector<double> numbers(std::string_view column) const = 0;
+
+  /// For each row whether the cell is `word`; empty if the column is not of words.
+  virtual std::vector<bool> equals(std::string_view column, std::string_view word) const = 0;
+
+  /// [row] line in the file; empty for a file without lines.
+  virtual std::vector<std::size_t> lines() const = 0;
+};
 
 /// Separator of the cells of a line.
 enum class Separator {
@@ -17,6 +44,24 @@ enum class Separator {
   semicolon,
   tab,
   blanks  ///< one or more blanks or tabs; those in brackets or quotation marks separate nothing
+};
+
+/// A text that is not a table, or has a cell that is not what it should be.
+class TableFault : public Failure {
+ public:
+  TableFault(ExitCode code, std::string_view table, std::size_t line, std::string what, std::string expected,
+             std::size_t column = 1);
+
+  std::size_t line() const { return line_; }      ///< from 1
+  std::size_t column() const { return column_; }  ///< in bytes, from 1
+  const std::string& found() const { return found_; }
+  const std::string& expected() const { return expected_; }
+
+ private:
+  std::size_t line_;
+  std::size_t column_;
+  std::string found_;
+  std::string expected_;
 };
 
 /// Values of `--separator`, in the order of Separator.
@@ -46,6 +91,11 @@ class TextTable : public ColumnSource {
   /// header differ in the number of cells; machine_failed if the file cannot be read.
   explicit TextTable(const std::filesystem::path& path, std::optional<Separator> separator = std::nullopt);
 
+  /// A text that has been read, which may have one column only; a line of units below the header is a row.
+  /// @param name stands for the file in messages. @param expected what an empty text should be
+  /// @throws TableFault
+  TextTable(std::string name, std::string text, std::string_view expected);
+
   const std::string& name() const override { return name_; }
   bool has(std::string_view column) const override { return find(column) < columns_.size(); }
   std::string columns_text() const override;
@@ -59,6 +109,17 @@ class TextTable : public ColumnSource {
   std::size_t rows() const { return lines_.size(); }
   /// Line of a row in the file, from 1.
   std::size_t line(std::size_t row) const { return lines_[row]; }
+  std::size_t columns() const { return columns_.size(); }
+  /// Number of the column; that of columns() if there is none.
+  std::size_t find(std::string_view column) const;
+  std::string_view cell(std::size_t row, std::size_t column) const;
+  /// The number in a cell; NaN if it is none.
+  double number(std::size_t row, std::size_t column) const;
+  /// Where a cell begins in its line, in bytes from 1. The header has the line header_line().
+  std::size_t place(std::size_t row, std::size_t column) const;
+  std::size_t place_in_header(std::size_t column) const;
+  std::string_view header_cell(std::size_t column) const;  ///< with its unit
+  std::size_t header_line() const { return header_line_; }
 
  private:
   struct Column {
@@ -72,20 +133,24 @@ class TextTable : public ColumnSource {
     std::size_t number;
   };
 
-  std::size_t find(std::string_view column) const;
-  void read(const std::vector<Line>& content, std::string_view comment_above);
-  void read_header(std::string_view line);
+  void split(std::optional<Separator> separator, std::size_t min_columns, std::string_view expected);
+  void read(const std::vector<Line>& content, std::string_view comment_above, std::size_t min_columns);
+  void read_header(const Line& line);
   bool read_units(std::string_view line);
   void add_row(const Line& line);
-  std::string_view cell(std::size_t row, std::size_t column) const;
+  std::string_view line_of(std::size_t row) const;
+  std::string_view header() const { return std::string_view(text_).substr(header_start_, header_size_); }
 
   std::string name_;
   std::string text_;
   Separator separator_{Separator::comma};
   std::vector<Column> columns_;
   bool named_{true};
+  std::size_t header_line_{1};
+  std::size_t header_start_{0};  ///< offset in the text
+  std::size_t header_size_{0};
   std::vector<std::size_t> lines_;   ///< [row]
   std::vector<std::size_t> starts_;  ///< [row] offset in the text
 };
 
-}  // namespace zerocount::records
+}  // namespace zerocount::tables

@@ -1,19 +1,20 @@
-#include "analysis/records/text_table.hpp"
+#include "experiments/tables/text_table.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "core/text/number_text.hpp"
 #include "core/text/trimmed.hpp"
 #include "core/text/unit.hpp"
+#include "core/text/utf8.hpp"
 #include "experiments/yaml/text_file.hpp"
 
-namespace zerocount::records {
+namespace zerocount::tables {
 namespace {
 
 constexpr std::size_t max_faults_listed = 5;
@@ -186,12 +187,31 @@ std::vector<std::string> separator_names() {
   return {"comma", "semicolon", "tab", "blanks"};
 }
 
+TableFault::TableFault(ExitCode code, std::string_view table, std::size_t line, std::string what,
+                       std::string expected, std::size_t column)
+    : Failure(code, fmt::format("{}:{}: {}; expected {}", table, line, what, expected)),
+      line_(line),
+      column_(column),
+      found_(std::move(what)),
+      expected_(std::move(expected)) {}
+
 TextTable::TextTable(const std::filesystem::path& path, std::optional<Separator> separator)
     : name_(yaml::name_of_text(path)), text_(yaml::read_text(path, max_table_size, "a table")) {
   if (text_.size() > max_table_size) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: the file is too large; expected at most {} bytes", name_, max_table_size));
   }
+  constexpr std::size_t min_columns = 2;  // a quantity and its time, or two quantities
+  split(separator, min_columns, "a table");
+}
+
+TextTable::TextTable(std::string name, std::string text, std::string_view expected)
+    : name_(std::move(name)), text_(std::move(text)) {
+  split(std::nullopt, 1, expected);
+}
+
+void TextTable::split(std::optional<Separator> separator, std::size_t min_columns,
+                      std::string_view expected) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text_.find('\n') == std::string::npos) std::ranges::replace(text_, '\r', '\n');
   std::size_t at = text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
@@ -209,11 +229,10 @@ TextTable::TextTable(const std::filesystem::path& path, std::optional<Separator>
     at = end + 1;
   }
   if (content.empty())
-    throw Failure(ExitCode::bad_input, fmt::format("{}: is empty; expected a table", name_));
-  if (content.front().text.find('\0') != std::string_view::npos) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: is not text; expected a table of numbers, or a results file", name_));
-  }
+    throw TableFault(ExitCode::bad_input, name_, 1, "the table is empty", std::string(expected));
+  if (content.front().text.find('\0') != std::string_view::npos)
+    throw TableFault(ExitCode::bad_input, name_, 1, "the table is not text",
+                     "a table of numbers, or a results file");
   std::vector<std::string_view> lines;
   for (std::size_t i = 0; i + 1 < content.size() && i <= max_titles; ++i) lines.push_back(content[i].text);
   const std::size_t titles = titles_above_header(lines, content.back().text, separator);
@@ -221,33 +240,35 @@ TextTable::TextTable(const std::filesystem::path& path, std::optional<Separator>
   if (titles > 0) comment_above = {};
   separator_ = separator.value_or(
       separator_of(content.front().text, content.size() > 1 ? content[1].text : content.front().text));
-  read(content, comment_above);
+  read(content, comment_above, min_columns);
 }
 
-void TextTable::read(const std::vector<Line>& content, std::string_view comment_above) {
+void TextTable::read(const std::vector<Line>& content, std::string_view comment_above,
+                     std::size_t min_columns) {
+  header_line_ = content.front().number;
+  header_start_ = static_cast<std::size_t>(content.front().text.data() - text_.data());
+  header_size_ = content.front().text.size();
   const std::vector<std::string_view> first = cells_of(content.front().text, separator_);
-  if (first.size() == 1) {
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}:{}: one cell only; expected columns separated by commas, semicolons, tabs "
-                              "or blanks{}",
-                              name_, content.front().number,
-                              separator_ == Separator::comma ? "" : ", or another --separator"));
+  if (first.size() < min_columns) {
+    throw TableFault(ExitCode::bad_input, name_, content.front().number, "one cell only",
+                     fmt::format("columns separated by commas, semicolons, tabs or blanks{}",
+                                 separator_ == Separator::comma ? "" : ", or another --separator"));
   }
   std::size_t row = 1;
   if (all_numbers(first, separator_)) {
     row = 0;
     named_ = header_cells(comment_above, separator_).size() == first.size();
     if (!named_) columns_.resize(first.size());
-    if (named_) read_header(comment_above);
+    if (named_) read_header({comment_above, 0});
   } else {
-    read_header(content.front().text);
-    if (content.size() > 1 && read_units(content[1].text)) row = 2;
+    read_header(content.front());
+    if (min_columns > 1 && content.size() > 1 && read_units(content[1].text)) row = 2;
   }
   for (; row < content.size(); ++row) add_row(content[row]);
 }
 
-void TextTable::read_header(std::string_view line) {
-  for (const std::string& text : header_cells(line, separator_)) {
+void TextTable::read_header(const Line& line) {
+  for (const std::string& text : header_cells(line.text, separator_)) {
     std::string_view cell = text;
     std::string_view unit;
     std::pair<std::string_view, std::string_view> perhaps;
@@ -268,8 +289,9 @@ void TextTable::read_header(std::string_view line) {
   }
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (columns_[i].name.empty() || find(columns_[i].name) == i) continue;
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: two columns are named '{}'", name_, text::printable(columns_[i].name)));
+    throw TableFault(ExitCode::bad_input, name_, line.number,
+                     fmt::format("two columns are named '{}'", text::printable_lines(columns_[i].name)),
+                     "each once", place_in_header(i));
   }
 }
 
@@ -291,12 +313,10 @@ bool TextTable::read_units(std::string_view line) {
 }
 
 void TextTable::add_row(const Line& line) {
-  if (const std::size_t cells = cells_of_row(line.text, separator_, columns_.size());
-      cells != columns_.size()) {
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("{}:{}: a row of {} cells; expected {}, as the {} has", name_, line.number,
-                              cells, columns_.size(), named_ ? "header" : "first row"));
-  }
+  const std::size_t cells = cells_of_row(line.text, separator_, columns_.size());
+  if (cells != columns_.size())
+    throw TableFault(ExitCode::bad_data, name_, line.number, fmt::format("a row of {} cells", cells),
+                     fmt::format("{}, as the {} has", columns_.size(), named_ ? "header" : "first row"));
   lines_.push_back(line.number);
   starts_.push_back(static_cast<std::size_t>(line.text.data() - text_.data()));
 }
@@ -306,7 +326,7 @@ std::string TextTable::columns_text() const {
   std::string text;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const std::string& name = columns_[i].name;
-    text += (i == 0 ? "" : ", ") + (name.empty() ? fmt::format("#{}", i + 1) : text::printable(name));
+    text += (i == 0 ? "" : ", ") + (name.empty() ? fmt::format("#{}", i + 1) : text::printable_lines(name));
   }
   return text;
 }
@@ -333,14 +353,35 @@ std::size_t TextTable::find(std::string_view column) const {
   return number && *number >= 1 && *number <= columns_.size() ? *number - 1 : columns_.size();
 }
 
-std::string_view TextTable::cell(std::size_t row, std::size_t column) const {
+std::string_view TextTable::line_of(std::size_t row) const {
   std::string_view line = std::string_view(text_).substr(starts_[row]);
   line = line.substr(0, line.find('\n'));
   if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+std::string_view TextTable::cell(std::size_t row, std::size_t column) const {
+  std::string_view line = line_of(row);
   if (separator_ == Separator::blanks) line = text::trimmed(line);
   bool more = true;
   for (std::size_t i = 0; i < column; ++i) next_cell(line, separator_, more);
   return next_cell(line, separator_, more);
+}
+
+double TextTable::number(std::size_t row, std::size_t column) const {
+  return number_of(cell(row, column), separator_);
+}
+
+std::size_t TextTable::place(std::size_t row, std::size_t column) const {
+  return static_cast<std::size_t>(cell(row, column).data() - line_of(row).data()) + 1;
+}
+
+std::size_t TextTable::place_in_header(std::size_t column) const {
+  return static_cast<std::size_t>(header_cell(column).data() - header().data()) + 1;
+}
+
+std::string_view TextTable::header_cell(std::size_t column) const {
+  return cells_of(header(), separator_)[column];
 }
 
 std::vector<double> TextTable::numbers(std::string_view column) const {
@@ -358,7 +399,7 @@ std::vector<double> TextTable::numbers(std::string_view column) const {
     if (!comma && text.find(',') != std::string_view::npos) comma = row;
     if (std::isfinite(values.back())) continue;
     if (++fault_count > max_faults_listed) continue;
-    const std::string shown = text::printable(text.substr(0, 40));
+    const std::string shown = text::printable_lines(text.substr(0, 40));
     faults.push_back(fmt::format("{}:{}: {}: {} is not a finite number{}", name_, line(row), column,
                                  shown.empty() ? "an empty cell" : "'" + shown + "'",
                                  is_time_stamp(text) && faults.empty()
@@ -386,4 +427,4 @@ std::vector<bool> TextTable::equals(std::string_view column, std::string_view wo
   return equal;
 }
 
-}  // namespace zerocount::records
+}  // namespace zerocount::tables

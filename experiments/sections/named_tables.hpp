@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/trial/disturbance.hpp"
+#include "core/trial/torque_record.hpp"
+#include "experiments/sections/companions.hpp"
+#include "experiments/tables/text_table.hpp"
+#include "experiments/yaml/scalars.hpp"
+
+/// Tables of numbers that a manifest names, and the lists of pairs that it may have in their place.
+namespace zerocount::sections {
+
+/// The table in the file that `field` names, with the text `text`. Reports one that is none.
+/// @param expected what the table must have
+std::optional<tables::TextTable> read_table(const yaml::Field& field, std::string text,
+                                            std::string_view expected, yaml::Problems& problems);
+
+/// Reads the key command.torque.file as a list of pairs [time in s, torque in N m (N on a linear axis)]; null
+/// after errors, which it reports.
+std::shared_ptr<const trial::TorqueRecord> read_torque_record(const yaml::Field& list,
+                                                              yaml::Problems& problems);
+
+/// Whether an element of disturbance.vibration or disturbance.load.vibration is {spectrum: [[frequency,
+/// density], …], lines: 100}.
+bool is_spectrum(const yaml::Field& element);
+
+/// Reads such an element; null after errors, which it reports.
+std::shared_ptr<const trial::SpectrumParameters> read_spectrum(const yaml::Field& element,
+                                                               yaml::Problems& problems);
+
+/// Overrides that put pairs in place of the files that command.torque.file and spectra name, such as
+/// "disturbance.vibration.0.spectrum=[[1, 1e-10], [100, 1e-12]]", and command.hold as long as the recorded
+/// torque where the manifest gives none. With them a study is whole without these files.
+///
+/// The table of a torque has a header: a column t or time, and torque or drive_torque, on a linear axis also
+/// force or drive_force, each with its unit in brackets or else in SI units; its first time becomes 0. Other
+/// columns are not read. The table of a spectrum has the columns frequency and density, under any names.
+std::vector<std::string> table_overrides(const yaml::YamlNode& root, const SamplesReader& read,
+                                         yaml::Problems& problems);
+
+}  // namespace zerocount::sections

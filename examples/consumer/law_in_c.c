@@ -25,7 +25,7 @@ static int failed(void) {
 int main(void) {
   zerocount_study* study = NULL;
   zerocount_job* job = NULL;
-  integral control = {.law = {.step = step, .context = &control}};
+  integral control = {.law = {.size = sizeof(zerocount_law), .step = step, .context = &control}};
   if (zerocount_abi_version() != ZEROCOUNT_ABI) return 1;
   if (zerocount_read_study(manifest, strlen(manifest), "example", ".", NULL, 0, &study) != 0) return failed();
   if (zerocount_start_trial(study, 0, 0, &control.law, &job) != 0) return failed();

@@ -19,7 +19,7 @@ LOW, HIGH = np.array([5e3, 0.0, 0.0]), np.array([3e5, 1000.0, 2.0])  # N m/(rad 
 def main(manifest):
     axis = zc.study(manifest).without("sweep").set({"controller.ki": 1e4})
     f = zc.sample(axis, outcome=lambda measures: np.nan_to_num(measures["band_settling_time[1]"], nan=HOLD).max(axis=1))
-    machines = f.draw(200, seed=1)
+    machines = f.draw(200, rng=1)
 
     def settled_95(place):
         """95 % of these moves are within one count for good after this time, s."""
@@ -33,7 +33,7 @@ def main(manifest):
     time, gains = settled_95(found.x)
     print(f"on these machines 95 % of the moves settle within {1e3 * time:.1f} ms")
     print(", ".join(f"{key.removeprefix('controller.')} {value:.4g}" for key, value in gains.items()))
-    others = np.quantile(f.set(gains)(f.draw(2000, seed=2), first=1000), 0.95)
+    others = np.quantile(f.set(gains)(f.draw(2000, rng=2), first=1000), 0.95)
     print(f"on 2000 others within {1e3 * others:.1f} ms")
 
 

@@ -22,6 +22,9 @@ constexpr std::int64_t trials_at_a_time = 64;
 
 /// Lets the law decide in place of the study's control law.
 void use_law(trial::TrialParameters& parameters, zerocount_law& law) {
+  if (law.size != sizeof law)
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("zerocount_law has {} bytes; expected {}", law.size, sizeof law));
   if (loop::has_coarse_phase(parameters.controller)) {
     throw Failure(ExitCode::bad_input,
                   "the study has two phases of control, and a law of one's own has one; expected a study "

@@ -150,5 +150,7 @@ def test_points_have_the_names_that_tables_print(axis: zc.Study, first: zc.Resul
         assert first.judge(name).point == 2
         assert zc.ask("judge", first, point=name).point == 2
         assert axis.at(name).settings == {"controller.ki": "11767.7344682513"}
-    with pytest.raises(zc.ManifestError):
-        first.point("3 (ki=11767.7)")
+    for ask in (lambda: first.point("3 (ki=11767.7)"), lambda: zc.sample(axis, 2, outcome="speed"), lambda: first.plot("no-such")):
+        with pytest.raises(KeyError, match="there is no") as raised:
+            ask()
+        assert isinstance(raised.value, zc.ManifestError) and str(raised.value) == raised.value.message

@@ -121,6 +121,27 @@ def test_a_sample_has_what_the_trace_records(axis: zc.Study) -> None:
     assert np.array_equal(np.flatnonzero(new), [2000])
 
 
+def test_a_law_reads_the_encoder_of_the_other_mass() -> None:
+    """With an encoder on each mass a law is given the resolution and the counts of both."""
+    study = zc.study(
+        {
+            "zerocount": 1, "name": "two-encoders", "seed": 1, "trials": 1, "controller": {"ki": 2e-5},
+            "plant": {"load": {"inertia": 1e-3, "stiffness": 1000, "damping": 0.05}},
+            "encoder": {"fine": 1000000, "load": {"counts_per_revolution": 360000}},
+            "command": {"targets": [2000], "hold": 0.2},
+        }
+    )  # fmt: skip
+    seen: list[tuple[float, float]] = []
+
+    def law(setup: zc.Setup) -> Callable[[zc.LoopSample], float]:
+        assert setup.other_resolution == pytest.approx(2 * np.pi / 360000, rel=1e-15)
+        return lambda sample: seen.append((sample.count, sample.other_count)) or 2e-5 * sample.error
+
+    t = zc.trial(study, 0, 0, law)
+    count, other = map(np.array, zip(*seen))
+    assert np.array_equal(count, t.samples["count"]) and np.array_equal(other, t.samples["load_count"]) and other.max() > 20
+
+
 def test_a_law_is_set_up_once(axis: zc.Study) -> None:
     """A law is called once for a trial, before its first sample."""
     calls: list[str] = []

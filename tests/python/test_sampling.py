@@ -82,7 +82,7 @@ def test_draws_have_the_distributions_of_the_manifest(every_kind: zc.Study) -> N
     """Drawn values have the distribution of their key, by SciPy, and the forms are those of the manifest."""
     f = zc.sample(every_kind)
     assert sorted(f.names) == sorted(EVERY_KIND)
-    x = f.draw(20000, seed=7)
+    x = f.draw(20000, rng=7)
     for name, unit, form, values in zip(f.names, f.units, f.distributions, x.T):
         assert repr(form).replace("(", "[").replace(")", "]") == repr(EVERY_KIND[name])
         assert unit == next(column["unit"] for column in every_kind.checked.inputs if column["name"] == name)
@@ -94,7 +94,12 @@ def test_draws_have_the_distributions_of_the_manifest(every_kind: zc.Study) -> N
         else:
             probability = scipy.stats.kstest(values, scipy_of(form).cdf).pvalue
         assert 1e-3 < probability, name
-    assert same(x, f.draw(20000, seed=7)) and not same(x, f.draw(20000, seed=8))
+    assert same(x, f.draw(20000, rng=7)) and not same(x, f.draw(20000, rng=8))
+    assert same(x, f.draw(20000, rng=np.random.default_rng(7)))
+    with pytest.warns(DeprecationWarning, match="seed is called rng"):
+        assert same(x, f.draw(20000, seed=7))
+    with pytest.raises(zc.ArgumentError, match="draw: rng is 'x'.*expected a whole number or a Generator of NumPy"):
+        f.draw(3, rng="x")  # type: ignore[arg-type]
 
 
 def test_draws_have_the_correlations_of_the_manifest(every_kind: zc.Study) -> None:
@@ -105,7 +110,7 @@ def test_draws_have_the_correlations_of_the_manifest(every_kind: zc.Study) -> No
         i, j = f.names.index(one), f.names.index(other)
         expected[i, j] = expected[j, i] = coefficient
     assert np.allclose(f.correlations, expected, atol=1e-12)
-    x = f.draw(20000, seed=3)
+    x = f.draw(20000, rng=3)
     continuous = [place for place, form in enumerate(f.distributions) if not is_discrete(form)]
     scores = np.column_stack([scipy.stats.norm.ppf(scipy_of(f.distributions[place]).cdf(x[:, place])) for place in continuous])
     found = np.corrcoef(scores.T)
@@ -137,7 +142,7 @@ def test_openturns_has_the_same_distribution(every_kind: zc.Study) -> None:
 def test_openturns_has_the_same_function(every_kind: zc.Study) -> None:
     """The function for OpenTURNS gives what a call gives, for a sample and for a point."""
     f = zc.sample(every_kind, outcome="peak_torque")
-    x = f.draw(40, seed=2)
+    x = f.draw(40, rng=2)
     function = f.function
     assert list(function.getInputDescription()) == f.names and list(function.getOutputDescription()) == ["peak_torque"]
     assert same(np.array(function(openturns.Sample(x))).ravel(), f(x))
@@ -175,7 +180,7 @@ def test_the_success_over_draws_is_that_of_the_study(first: zc.Results) -> None:
     for point in (2, 4):
         f, row = zc.sample(first.study, point), first.table.loc[point]
         n, rate = 2000, row["success_rate"]
-        mean = f(f.draw(n, seed=point)).mean()
+        mean = f(f.draw(n, rng=point)).mean()
         assert abs(mean - rate) < 4 * math.sqrt(rate * (1 - rate) * (1 / n + 1 / 200))  # 400 trials on 200 machines
 
 
@@ -194,7 +199,7 @@ def test_a_profile_is_its_mean_and_its_score(folder: pathlib.Path) -> None:
     score, mean = (score, mean) if "normal" in f.distributions[score] else (mean, score)
     assert f.distributions[score] == {"normal": {"mean": 0.0, "sd": 1.0}} and f.units[score] == "1"
     assert f.distributions[mean] == {"lognormal": {"median": 110.0, "cv": 0.1}}
-    x = f.draw(1500, seed=1)
+    x = f.draw(1500, rng=1)
     rate = study.run(folder / "profile.h5").table.loc[0, "success_rate"]
     assert 0.1 < rate < 0.9 and abs(f(x).mean() - rate) < 4 * math.sqrt(2 * rate * (1 - rate) / 1500)
     x[:, mean] = 110
@@ -251,7 +256,7 @@ def noisy(axis: zc.Study) -> zc.Study:
 def test_equal_numbers_give_equal_outcomes(noisy: zc.Study) -> None:
     """An outcome depends on the values and the number of its trial, not on threads, blocks or order."""
     f = zc.sample(noisy, 3, outcome="peak_torque")
-    x = f.draw(150, seed=4)
+    x = f.draw(150, rng=4)
     expected = f(x, first=1000)
     for threads in (1, 2, 5):
         assert same(zc.sample(noisy, 3, outcome="peak_torque", threads=threads)(x, first=1000), expected)
@@ -265,7 +270,7 @@ def test_equal_numbers_give_equal_outcomes(noisy: zc.Study) -> None:
 def test_set_keeps_the_machines(noisy: zc.Study) -> None:
     """Other gains are tried on the same machines with the same noise; the point of a sweep can have another gain."""
     f = zc.sample(noisy, 3, outcome="peak_torque")
-    x = f.draw(60, seed=5)
+    x = f.draw(60, rng=5)
     for settings in ({"controller.kp": 20.0}, {"controller.delay": 2}, {"controller.ki": 3e4}):
         g = f.set(settings)
         assert (g.names, g.distributions, g.outcome) == (f.names, f.distributions, f.outcome) and same(g.correlations, f.correlations)

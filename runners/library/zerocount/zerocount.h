@@ -81,6 +81,7 @@ ZEROCOUNT_EXPORT int32_t zerocount_values_at_scores(const zerocount_study* study
 
 /* A control law in place of that of the manifest. Filters, feedforward and observer act on its torque. */
 typedef struct zerocount_law {
+  uint32_t size; /* of this struct, bytes: sizeof(zerocount_law) */
   /* The wanted torque (N m; N on a linear axis) at the sample. NaN: the law cannot go on, and is not called
    * again. */
   double (*step)(void* context);

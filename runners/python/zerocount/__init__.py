@@ -13,7 +13,16 @@ from . import arguments as _arguments
 from .answers import Answer
 from .asking import ask
 from .comparison import Comparison, compare
-from .errors import ArgumentError, DataError, Error, MachineError, ManifestError, Problem, TooLittleDataError
+from .errors import (
+    ArgumentError,
+    DataError,
+    Error,
+    MachineError,
+    ManifestError,
+    Problem,
+    TooLittleDataError,
+    UnknownNameError,
+)
 from .figures import Figure
 from .identification import Identification, LawIdentification, SlidingIdentification, identify
 from .laws import trial
@@ -51,6 +60,7 @@ __all__ = [
     "TooLittleDataError",
     "Trace",
     "Tuning",
+    "UnknownNameError",
     "__version__",
     "ask",
     "compare",

@@ -50,6 +50,7 @@ _KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "str": (_is_text, "a text"),
     "int": (_is_whole, "a whole number"),
     "float": (_is_number, "a number"),
+    "np.random.Generator": (lambda value: hasattr(value, "standard_normal"), "a Generator of NumPy"),
     "os.PathLike": (lambda value: isinstance(value, os.PathLike), "a path"),
     "Mapping": (_is_mapping, "a mapping by texts"),
     "Sequence": (_is_list, "a list"),

@@ -84,6 +84,12 @@ class ArgumentError(ManifestError, TypeError):
     """An argument of a function is of another type than it can have."""
 
 
+class UnknownNameError(ManifestError, KeyError):
+    """There is no point, measure or figure of this name."""
+
+    __str__ = Exception.__str__  # a KeyError shows a text in quotes
+
+
 class DataError(Error, ValueError):
     """Results or records are missing, incomplete, damaged or incompatible (exit code 4)."""
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from . import program
 from .datasets import state_of
 from .drawing import drawn
-from .errors import MachineError, ManifestError
+from .errors import MachineError, UnknownNameError
 
 if TYPE_CHECKING:
     import matplotlib.figure  # type: ignore[import]
@@ -137,6 +137,6 @@ def figure(path: str | os.PathLike[str], name: str | None, point: int | None) ->
         other for other in known if name is not None and other.startswith(name)
     ]
     if not fitting:
-        raise ManifestError(f"{path}: there is no figure {name!r}; expected one of {', '.join(known)}", 2)
+        raise UnknownNameError(f"{path}: there is no figure {name!r}; expected one of {', '.join(known)}", 2)
     options = [os.fspath(path), "--figure", fitting[0]] + (["--point", str(point)] if point is not None else [])
     return Figure(fitting[0], tuple(options))

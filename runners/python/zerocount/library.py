@@ -28,6 +28,7 @@ class _Law(ctypes.Structure):
     """``zerocount_law``."""
 
     _fields_ = [
+        ("size", ctypes.c_uint32),
         ("step", ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_void_p)),
         ("context", ctypes.c_void_p),
         ("setup", ctypes.c_ubyte * SETUP_BYTES.size),
@@ -131,7 +132,7 @@ class Library:
         job = Handle(self._all.zerocount_free_job)
         if law is None:
             return self._finished(job, "start_trial", study, point, trial, None)
-        memory, raised = _Law(), list[BaseException]()
+        memory, raised = _Law(size=ctypes.sizeof(_Law)), list[BaseException]()
         steps = torques(law, memory.setup, memory.sample, raised)
         next(steps)
         memory.step = type(memory.step)(steps.send)

@@ -24,6 +24,8 @@ class Setup(NamedTuple):
         That the converter can give, N m.
     initial_integral : float
         ``initial.integral`` of the manifest, N m.
+    other_resolution : float
+        Of the encoder of the other mass, rad per count; 0 where there is none.
     """
 
     sample_time: float
@@ -32,6 +34,7 @@ class Setup(NamedTuple):
     lowest_torque: float
     highest_torque: float
     initial_integral: float
+    other_resolution: float
 
 
 class Sample(NamedTuple):
@@ -55,6 +58,8 @@ class Sample(NamedTuple):
         Of the reference before it is rounded, rad/s and rad/s².
     new_target : bool
         Whether this is the first sample with another target.
+    other_count : float
+        Of the encoder of the other mass, counts of it; 0 where there is none.
     """
 
     k: int
@@ -66,14 +71,15 @@ class Sample(NamedTuple):
     velocity: float
     acceleration: float
     new_target: bool
+    other_count: float
 
 
 ControlLaw = Callable[[Setup], Callable[[Sample], float]]
 """A control law: is given the setup of a trial, and returns the function that gives the torque (N m) of a sample."""
 
 # zerocount_setup, of which its size and the parameters are left out, and zerocount_sample.
-SETUP_BYTES = struct.Struct("=16x6d")
-SAMPLE_BYTES = struct.Struct("=q7d?7x")
+SETUP_BYTES = struct.Struct("=16x7d")
+SAMPLE_BYTES = struct.Struct("=q7d?7xd")
 
 
 def torques(law: ControlLaw, setup: Any, sample: Any, raised: list[BaseException]) -> Generator[float, None, None]:

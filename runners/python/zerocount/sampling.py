@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import os
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +14,7 @@ import numpy.typing as npt
 
 from .checked import CheckedStudy
 from .datasets import Array
-from .errors import ManifestError
+from .errors import ManifestError, UnknownNameError
 from .optional import required
 from .tables import combined, short_name, succeeded
 
@@ -179,23 +180,28 @@ class Sample:
             raise ManifestError(f"the variables would not be the same {', '.join(self.names)}; set what is none of them", 2)
         return result
 
-    def draw(self, trials: int, *, seed: int = 0) -> Numbers:
+    def draw(self, size: int, *, rng: int | np.random.Generator = 0, seed: int | None = None) -> Numbers:
         """Values of the variables from their joint distribution.
 
         Parameters
         ----------
-        trials : int
-            How many.
-        seed : int
-            Of NumPy's generator.
+        size : int
+            Number of trials.
+        rng : int or numpy.random.Generator
+            Source of random numbers, or its seed.
+        seed : int, optional
+            Deprecated: ``rng``.
 
         Returns
         -------
         numpy.ndarray
             ``[trial, variable]``.
         """
+        if seed is not None:
+            warnings.warn("draw: seed is called rng", DeprecationWarning, stacklevel=3)
         factor = np.linalg.cholesky(self.correlations)
-        scores = np.random.default_rng(seed).standard_normal((trials, len(self.names))) @ factor.T
+        source = np.random.default_rng(rng if seed is None else seed)
+        scores = source.standard_normal((size, len(self.names))) @ factor.T
         return self._checked.values_at_scores(0, scores)
 
     @property
@@ -282,7 +288,7 @@ def sample(
     if threads is not None and threads < 1:
         raise ManifestError(f"threads = {threads} is out of range; expected at least 1", 2)
     if isinstance(outcome, str) and outcome != "success" and outcome not in measures:
-        raise ManifestError(f"there is no measure {outcome!r}; expected success or one of {', '.join(measures)}", 2)
+        raise UnknownNameError(f"there is no measure {outcome!r}; expected success or one of {', '.join(measures)}", 2)
     return Sample(
         variables["names"],
         variables["kinds"],

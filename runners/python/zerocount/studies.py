@@ -14,7 +14,7 @@ from . import program
 from .answer_types import CheckAnswer
 from .asking import ask
 from .checked import CheckedStudy, checked_study, manifest_tree
-from .errors import MachineError, ManifestError
+from .errors import MachineError, ManifestError, UnknownNameError
 from .manifests import flow_text, yaml_text
 from .options import options
 from .progress import progress_bar
@@ -507,7 +507,8 @@ def point_number(point: int | str, labels: list[str], where: object) -> int:
         return named
     if hasattr(point, "__index__") and 0 <= operator.index(point) < len(labels):
         return operator.index(point)
-    raise ManifestError(f"{where}: there is no point {point!r}; expected 0 to {len(labels) - 1} or a label", 2)
+    message = f"{where}: there is no point {point!r}; expected 0 to {len(labels) - 1} or a label"
+    raise UnknownNameError(message, 2) if isinstance(point, str) else ManifestError(message, 2)
 
 
 def _point_named(name: str, labels: list[str]) -> int | None:

@@ -68,7 +68,8 @@ struct Session {
 
 /// A proportional law, or one that cannot go on after some samples.
 struct Law {
-  zerocount_law law{.step = &Law::step, .context = this, .setup = {}, .sample = {}};
+  zerocount_law law{
+      .size = sizeof(zerocount_law), .step = &Law::step, .context = this, .setup = {}, .sample = {}};
   double gain{1e-4};
   int samples_left{1 << 30};
 
@@ -155,6 +156,9 @@ TEST(CInterface, ALawDecidesTheTorqueUntilItCannotGoOn) {
   ASSERT_EQ(zerocount_start_trial(s.study, 0, 4, &law.law, &s.job), 0);
   EXPECT_LE(s.result()["samples/error"].size(), 101U);
   EXPECT_EQ(law.samples_left, -1) << "it is not called after NaN";
+
+  law.law.size -= 8;
+  EXPECT_EQ(zerocount_start_trial(s.study, 0, 4, &law.law, &s.job), 2) << "a law of another interface";
 }
 
 TEST(CInterface, AJobThatIsFreedStops) {

@@ -16,12 +16,12 @@ struct TrialRandomness {
   RandomKey fine_missed{};
   RandomKey coarse_noise{};
   RandomKey coarse_missed{};
-  RandomKey other_noise{};
-  RandomKey other_missed{};
   RandomKey dac_noise{};
   RandomKey missed_samples{};
   RandomKey jitter{};
   RandomKey spectrum{};
+  RandomKey other_noise{};
+  RandomKey other_missed{};
 };
 
 }  // namespace zerocount::random

@@ -30,7 +30,7 @@ struct LoopParts {
     const double T = 1.0 / controller.sample_rate;
     const double resolution = loop::fine_resolution({});
     return OpenLoop(hold_plant(stiffness, damping, plant, resolution, T, drive, controller.delay),
-                    loop::linear_chain(controller, resolution))
+                    loop::linear_chain(controller, {}))
         .at_angle(2.0 * pi * frequency * T);
   }
 };

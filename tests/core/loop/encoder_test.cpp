@@ -108,7 +108,7 @@ TEST_EACH_SEED(MeasurementProperties, IdealEncodersReadAsTheyAlwaysDid) {
   }
   EXPECT_EQ(ideal.disagreements(), 0);
   EXPECT_EQ(idle.disagreements(), 0);
-  EXPECT_DOUBLE_EQ(ideal.fine_resolution() * ideal.fine_per_coarse(), ideal.coarse_resolution());
+  EXPECT_DOUBLE_EQ(ideal.fine_resolution() * ideal.fine_per_coarse(), coarse_resolution(encoders));
 }
 
 // Beyond all sense, but not beyond the numbers: a count stays one that others can be taken from.

@@ -215,7 +215,9 @@ TEST(SlidingLoop, HasNoDerivativeInTheFineOfTwoPhases) {
 
 // The linear loop assembled from the blocks of a controller, with blocks that only the tests know.
 
-constexpr loop::ControlStart wide{0.0, {-1e300, 1e300}, 2.0 * std::numbers::pi / 1'620'000};
+constexpr double count_of_paper = 2.0 * std::numbers::pi / 1'620'000;
+constexpr loop::ControlStart wide{
+    .integral_range = {-1e300, 1e300}, .resolution = count_of_paper, .velocity_resolution = count_of_paper};
 
 HeldPlant paper_rig(double delay) {
   return hold_plant(300.0, 0.2, {}, 2.0 * std::numbers::pi / 1'620'000, 5e-4, {1.1, 400.0}, delay);
@@ -231,7 +233,8 @@ double growth_in_time(Chain chain, const HeldPlant& plant) {
   const auto largest_of_next = [&](int samples) {
     double largest = 0.0;
     for (int k = 0; k < samples; ++k) {
-      in_force = chain.step({-x(0), x(0), in_force});
+      in_force =
+          chain.step({.error = -x(0), .count = x(0), .torque_in_force = in_force, .velocity_count = x(0)});
       pending.push_back(in_force);
       x = plant.A * x + plant.b_before * pending[0] + plant.b * pending[1];
       pending.pop_front();

@@ -71,11 +71,14 @@ class WrittenController : public ::testing::Test {
     folder_.write(name, controller_code::structured_text(chain, program, name));
     std::string samples;
     plugin::ControllerPlugin recording = *controller_code::law_of(program);
-    recording.start = [&samples, start = recording.start](const zerocount_setup& setup) {
-      return [&samples, step = start(setup)](const zerocount_sample& now) {
+    recording.start = [&samples, two_encoders = chain.controller.velocity_by_other,
+                       start = recording.start](const zerocount_setup& setup) {
+      return [&samples, two_encoders, step = start(setup)](const zerocount_sample& now) {
         const double wanted = step(now);
-        samples += fmt::format("{:a} {:a} {:a} {:a} {:a} {:a} {:a}\n", now.error, now.count, now.velocity,
-                               now.acceleration, now.torque, static_cast<double>(now.new_target), wanted);
+        samples += fmt::format("{:a} {:a} {:a} {:a} {:a} {:a} ", now.error, now.count, now.velocity,
+                               now.acceleration, now.torque, static_cast<double>(now.new_target));
+        if (two_encoders) samples += fmt::format("{:a} ", now.other_count);
+        samples += fmt::format("{:a}\n", wanted);
         return wanted;
       };
     };
@@ -111,11 +114,20 @@ TEST_F(WrittenController, DecidesAsItsSimulation) {
   int trials = 0;
   for (int kind = 0; kind < block_kinds; ++kind) {
     for (int i = 0; i < 4; ++i) {
-      const loop::ControllerParameters controller = random_controller(static_cast<BlockKind>(kind), draw);
+      loop::ControllerParameters controller = random_controller(static_cast<BlockKind>(kind), draw);
+      loop::EncoderParameters encoder;
+      if (controller.blocks.structure == loop::ControlStructure::cascade && draw.chance(0.5)) {
+        encoder.other = {50000.0, 2.0 * std::numbers::pi};
+        controller.velocity_by_other = true;
+      }
       loop::DacParameters dac;
       if (i % 2 == 1) dac.limit = draw.log_uniform(1e-2, 1.0);
-      const controller_code::ControllerToWrite chain{
-          controller, loop::fine_resolution(loop::EncoderParameters{}), dac, 0.01, "test"};
+      const controller_code::ControllerToWrite chain{controller,
+                                                     loop::fine_resolution(encoder),
+                                                     loop::velocity_resolution(encoder, controller),
+                                                     dac,
+                                                     0.01,
+                                                     "test"};
       for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
         const bool single = precision == Precision::single_precision;
         if (single && i >= 2) continue;
@@ -126,6 +138,8 @@ TEST_F(WrittenController, DecidesAsItsSimulation) {
         for (int j = 0; j < 3; ++j) {
           p = trial_with(controller, draw);
           p.dac = dac;
+          p.encoder = encoder;
+          if (controller.velocity_by_other) p.plant.load = {1e-4, 2000.0, 0.05};
           if (single) p.controller = with_law(controller, controller_code::law_of(program));
           const std::vector<trial::SampleRecord> simulated = samples_of(p);
           p.controller = with_law(controller, library);
@@ -150,8 +164,8 @@ TEST_F(WrittenController, DecidesAsItsSimulation) {
 TEST_F(WrittenController, HasNoTermWithoutAGain) {
   loop::ControllerParameters controller;
   controller.ki = 3.0e-5;
-  const controller_code::ControllerToWrite chain{controller, 1.0e-7, {},
-                                                 0.0,        "test", parameters::AxisKind::linear};
+  const controller_code::ControllerToWrite chain{
+      controller, 1.0e-7, 1.0e-7, {}, 0.0, "test", parameters::AxisKind::linear};
   const std::string code =
       controller_code::c_code(chain, controller_code::chain_program(chain, Precision::double_precision));
   for (const char* const absent : {"kp", "kd", "last_count", "0x", "N m", "rad", "torque *", "feedforward"})

@@ -136,6 +136,8 @@ std::vector<double> output_of(const LinearChain& stages, const std::vector<Input
         return signal([](const Input& i) { return i.feedback.error; });
       case LoopSignal::count:
         return signal([](const Input& i) { return i.feedback.count; });
+      case LoopSignal::velocity_count:
+        return signal([](const Input& i) { return i.feedback.velocity_count; });
       case LoopSignal::torque_in_force:
         break;
     }
@@ -158,7 +160,9 @@ std::vector<Input> random_inputs(std::mt19937_64& random, std::size_t samples) {
   std::vector<Input> inputs(1);
   while (inputs.size() < samples) {
     const double count = std::round(100.0 * normal(random));
-    inputs.push_back({{20.0 - count, count, 0.3 * normal(random)}, 0.3 * normal(random)});
+    Feedback feedback{20.0 - count, count, 0.3 * normal(random)};
+    feedback.velocity_count = std::round(100.0 * normal(random));
+    inputs.push_back({feedback, 0.3 * normal(random)});
   }
   return inputs;
 }
@@ -212,7 +216,8 @@ class RandomControl {
   std::mt19937_64 random_;
 };
 
-constexpr ControlStart at_rest{0.0, {-1e9, 1e9}, 3.9e-6};
+constexpr ControlStart at_rest{
+    .integral_range = {-1e9, 1e9}, .resolution = 3.9e-6, .velocity_resolution = 7.1e-6};
 
 template <ControlBlock Block>
 void expect_its_linear_form(RandomControl& random) {

@@ -58,17 +58,18 @@ struct RandomHistory {
 struct InitialConditions {
   /// Position of the mass that closes the loop within a count of the fine encoder, in [0, 1).
   double encoder_phase{0.5};
-  double other_encoder_phase{0.5};  ///< of the other mass in a count of EncoderParameters::other, in [0, 1)
-  double position{0.0};             ///< position of the contact on the rotor, rad; selects from the profiles
-  double hardening{0.0};            ///< xh, rad
-  double preload{0.0};  ///< torque of a slow load-and-unload from virgin before t = 0, without creep, N m
+  double position{0.0};   ///< position of the contact on the rotor, rad; selects from the profiles
+  double hardening{0.0};  ///< xh, rad
+  double preload{0.0};    ///< torque of a slow load-and-unload from virgin before t = 0, without creep, N m
   RandomHistory history{};
   double velocity{0.0};  ///< ω, rad/s
   double integral{0.0};  ///< I of the controller before the first sample, N m
   InitialMode mode{InitialMode::stick};
   double gap{0.0};  ///< twist of the coupling over its gap, −½ to ½
-  /// The contact has been loaded slowly from virgin to the constant disturbance, and carries it at t = 0.
+  /// The contact has been loaded slowly from virgin to the constant disturbance, and carries it at t = 0;
+  /// with a second mass also what acts on that (held_start).
   bool holding{false};
+  double other_encoder_phase{0.5};  ///< of the other mass in a count of EncoderParameters::other, in [0, 1)
 };
 
 /// Criteria of the verdict on a move.

@@ -1,5 +1,11 @@
 #include "core/trial/rig.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "core/numerics/bisection.hpp"
 #include "core/trial/random_history.hpp"
 
 namespace zerocount::trial {
@@ -12,23 +18,67 @@ constexpr double motion_tolerance_in_counts = 1e-11;
 /// Amplitude of an oscillation that counts as rest, in fine counts: a hundredth of the required accuracy.
 constexpr double rest_in_counts = 1e-8;
 
+/// The twist δ at which the coupling carries what acts on the load at rest, and that torque τL, N m.
+struct HeldLoad {
+  double twist;
+  double torque;
+};
+
+HeldLoad held_load(const TrialParameters& p, std::span<const motion::Ripple> error) {
+  const motion::LoadParameters& load = p.plant.load;
+  const DisturbanceParameters& disturbance = p.load_side.disturbance;
+  const std::vector<motion::Ripple> ripples = ripples_of(disturbance.ripple, p.initial.position);
+  const auto torque_at = [&](double twist) {
+    return disturbance.torque + motion::value(ripples, motion::value(error, 0.0) - twist);
+  };
+  // kL·h(δ) + τL, which has both signs between the ends of the search.
+  const auto unbalance = [&](double twist) {
+    const double stretch = std::max(std::abs(twist) - 0.5 * load.gap, 0.0);
+    return load.stiffness * std::copysign(stretch, twist) + torque_at(twist);
+  };
+  if (unbalance(0.0) == 0.0) return {0.0, 0.0};
+  double most = std::abs(disturbance.torque);
+  for (const motion::Ripple& ripple : ripples) most += std::abs(ripple.amplitude);
+  const double end = 0.5 * load.gap + 1.01 * most / load.stiffness;
+  const auto [below, above] = numerics::bisect(
+      {-end, end}, [&](double twist) { return unbalance(twist) < 0.0; }, numerics::within(0.0));
+  const double twist = std::abs(unbalance(below)) < std::abs(unbalance(above)) ? below : above;
+  return {twist, torque_at(twist)};
+}
+
+/// The torque below which a contact of the trial stands, N m.
+double holding_limit(const TrialParameters& p) {
+  if (!friction::has_friction(p.friction.model)) return 0.0;
+  const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
+  // The bristle of dahl yields at the Coulomb level.
+  return p.friction.model == friction::FrictionModel::dahl ? contact.breakaway * contact.coulomb_ratio
+                                                           : contact.breakaway;
+}
+
 }  // namespace
 
+HeldStart held_start(const TrialParameters& p) {
+  if (!p.initial.holding) return {0.0, p.initial.gap * p.plant.load.gap, 0.0};
+  if (!motion::has_load(p.plant)) return {p.disturbance.torque, 0.0, 0.0};
+  const std::vector<motion::Ripple> error = ripples_of(p.load_side.error, p.initial.position);
+  const HeldLoad load = held_load(p, error);
+  const double torque = p.disturbance.torque + (1.0 + motion::slope(error, 0.0)) * load.torque;
+  if (std::abs(torque) < holding_limit(p)) return {torque, load.twist, 0.0};
+  return {0.0, load.twist, -torque};
+}
+
 motion::PlantStart plant_start(const TrialParameters& p) {
-  return {p.initial.position,
-          p.initial.hardening,
-          p.initial.preload,
-          draw_history(p.initial.history, p.randomness),
-          p.initial.velocity,
-          p.initial.mode == InitialMode::slide,
-          p.initial.holding ? p.disturbance.torque : 0.0};
+  return {p.initial.position,   p.initial.hardening,
+          p.initial.preload,    draw_history(p.initial.history, p.randomness),
+          p.initial.velocity,   p.initial.mode == InitialMode::slide,
+          held_start(p).contact};
 }
 
 motion::LoadSide load_side(const TrialParameters& p) {
   const double position = p.initial.position;
   return {ripples_of(p.load_side.error, position),
           disturbance_of(p.load_side.disturbance, position, p.randomness, random_lines(p.disturbance)),
-          p.initial.gap * p.plant.load.gap};
+          held_start(p).twist};
 }
 
 motion::MotionTolerance motion_tolerance(double resolution) {

@@ -155,11 +155,6 @@ std::vector<EffectRule> rules_of_the_loop() {
        .has_effect = [](Limits l) { return can_be_positive(l[0]); },
        .what = "it has no effect: no point has a dither",
        .expected = "controller.dither.amplitude above 0, or the key left out"},
-      {.keys = {"initial.holding"},
-       .depends_on = {"disturbance.torque"},
-       .has_effect = [](Limits l) { return l[0].low != 0.0 || l[0].high != 0.0; },
-       .what = "it has no effect: disturbance.torque is 0 at every point",
-       .warn_only = true},
   };
 }
 
@@ -426,6 +421,22 @@ bool has_ripple(const study::StudyPlan& plan) {
   });
 }
 
+EffectRule rule_of_holding(const study::StudyPlan& plan) {
+  const bool tilts = std::ranges::any_of(plan.table.rows, [](const auto& row) {
+    return parameters::has_value(row) && row.name.starts_with("disturbance.load.ripple.");
+  });
+  return {.keys = {"initial.holding"},
+          .depends_on = {"disturbance.torque", "disturbance.load.torque"},
+          .has_effect =
+              [tilts](Limits l) {
+                return tilts || std::ranges::any_of(l, [](const auto& torque) {
+                         return torque.low != 0.0 || torque.high != 0.0;
+                       });
+              },
+          .what = "it has no effect: nothing constant acts on the axis at any point",
+          .warn_only = true};
+}
+
 // The position on the rotor selects from friction profiles and from encoder errors fixed to the rotor.
 EffectRule rule_of_the_position(const study::StudyPlan& plan) {
   const bool has_profile = !plan.profiles.empty() || has_ripple(plan);
@@ -448,6 +459,7 @@ EffectRule rule_of_the_position(const study::StudyPlan& plan) {
 std::vector<EffectRule> effect_rules(const study::StudyPlan& plan) {
   std::vector<EffectRule> rules = rules_of_the_command(plan);
   rules.push_back(rule_of_the_position(plan));
+  rules.push_back(rule_of_holding(plan));
   rules.push_back(rule_of_the_limit());
   rules.push_back(rule_of_the_load());
   rules.push_back(rule_of_the_initial_gap());

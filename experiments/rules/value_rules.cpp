@@ -9,7 +9,6 @@
 #include "core/friction/law.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/rules/plausibility.hpp"
-#include "experiments/study/effects.hpp"
 
 namespace zerocount::rules {
 namespace {
@@ -121,18 +120,8 @@ std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
   };
 }
 
-// Whether the second mass can have a constant torque or a ripple at any point.
-bool pushes_the_load(const study::StudyPlan& plan) {
-  return std::ranges::any_of(plan.table.rows, [&](const parameters::Parameter& row) {
-    const bool stands =
-        row.name == "disturbance.load.torque" ||
-        (row.name.starts_with("disturbance.load.ripple.") && row.name.ends_with(".amplitude"));
-    return stands && parameters::has_value(row) && study::acts_somewhere(plan, row.name);
-  });
-}
-
 // The contact that carries the constant disturbance at the start.
-std::vector<ValueRule> rules_of_holding(const study::StudyPlan& plan) {
+std::vector<ValueRule> rules_of_holding(const std::string& torque_unit) {
   enum : std::size_t {
     holding,
     torque,
@@ -143,40 +132,41 @@ std::vector<ValueRule> rules_of_holding(const study::StudyPlan& plan) {
     reversals,
     integral,
     velocity,
-    gap
+    gap,
+    load
   };
-  const std::string torque_unit = parameters::unit_on(plan.units.axis, "N m");
   return {
       {{"initial.holding", "disturbance.torque", "friction.breakaway", "friction.coulomb_ratio",
         "friction.model", "initial.preload", "initial.history.reversals", "initial.integral",
-        "initial.velocity", "initial.gap"},
+        "initial.velocity", "initial.gap", "plant.load.inertia"},
        false,
-       [torque_unit, load_is_pushed = pushes_the_load(plan)](Limits l, Limits) -> Faults {
+       [torque_unit](Limits l, Limits) -> Faults {
          if (l[holding].high == 0.0) return {};
          const auto law = static_cast<friction::FrictionModel>(static_cast<int>(l[model].low));
-         if (!friction::has_friction(law))
+         // With a second mass, the integral holds what the contact cannot.
+         const bool has_load = l[load].low > 0.0;
+         if (!has_load && !friction::has_friction(law))
            return {{"nothing holds an axis without friction", "another friction.model, or the key left out"}};
          Faults faults;
          const double largest = max_abs(l[torque]);
          // The bristle of dahl yields at the Coulomb level.
          const double level = l[breakaway].low * (law == friction::FrictionModel::dahl ? l[ratio].low : 1.0);
-         if (level == 0.0 && largest > 0.0)
+         if (!has_load && level == 0.0 && largest > 0.0)
            faults.push_back({fmt::format("a disturbance of {} {} can reach the friction that is to hold it: "
                                          "friction.breakaway is drawn without a smallest value above 0",
                                          largest, torque_unit),
                              fmt::format("a distribution of friction.breakaway with a smallest value above "
                                          "that, such as uniform or truncated_normal")});
-         else if (largest >= level && largest > 0.0)
+         else if (!has_load && largest >= level && largest > 0.0)
            faults.push_back({fmt::format("a disturbance of {} {} can reach the friction of {} {} that is to "
                                          "hold it",
                                          largest, torque_unit, level, torque_unit),
                              "|disturbance.torque| below friction.breakaway"});
          if (max_abs(l[velocity]) > 0.0)
            faults.push_back({"an axis that holds a disturbance stands still", "initial.velocity of 0"});
-         if (load_is_pushed || max_abs(l[gap]) > 0.0)
+         if (max_abs(l[gap]) > 0.0)
            faults.push_back(
-               {"the contact carries what acts on the rotor alone, not what acts on the second mass",
-                "initial.gap and disturbance.load.torque of 0, and no disturbance.load.ripple"});
+               {"the load of an axis that holds lies where what acts on it keeps it", "initial.gap of 0"});
          if (max_abs(l[preload]) > 0.0 || l[reversals].high > 0.0 || max_abs(l[integral]) > 0.0)
            faults.push_back({"the contact has been loaded from virgin to the disturbance and nothing else",
                              "initial.preload, initial.history and initial.integral of 0"});
@@ -281,7 +271,7 @@ std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
   add(rules_of_the_start(parameters::unit_on(plan.units.axis, "N m")));
   static const parameters::Parameter& kd =
       parameters::parameter_table()[parameters::find_parameter("controller.kd").value()];
-  add(rules_of_holding(plan));
+  add(rules_of_holding(parameters::unit_on(plan.units.axis, "N m")));
   add(rules_of_the_clock());
   if (!plan.open_loop) {
     add({order_of_hold("controller.hold.leave", "controller.hold.enter"),

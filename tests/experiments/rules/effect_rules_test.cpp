@@ -506,22 +506,20 @@ TEST(FittingValues, ATorqueBeyondTheConverterIsClippedAndSaysSo) {
                          "6:31: command.torque.levels.0 | converter"));
 }
 
-// Its second mass would need a torque of the coupling that the start does not have.
-TEST(FittingValues, AnAxisThatHoldsCarriesWhatActsOnTheRotorAlone) {
-  const auto refusal = [](const std::string& of_load) {
-    return refusal_of(manifest_commanding("{targets: [0], hold: 1}",
-                                          "plant: {load: {inertia: 1.0e-3, gap: 1.0e-4}}\n" + of_load));
+// With a second mass the integral holds what the contact cannot.
+TEST(FittingValues, AnAxisHoldsWhatItsContactOrTheIntegralCarries) {
+  const auto refusal = [](const std::string& more) {
+    return refusal_of(manifest_commanding("{targets: [0], hold: 1}", more + "initial: {holding: true}\n"));
   };
-  const std::string expected = "initial.holding | acts on the rotor alone | disturbance.load.torque of 0";
-  for (const std::string acting : {"torque: 0.01", "ripple: [{amplitude: 0.01, periods: 1}]"})
-    EXPECT_TRUE(
-        has_faults(refusal("disturbance: {torque: 0.01, load: {" + acting + "}}\ninitial: {holding: true}\n"),
-                   "8:20: " + expected));
-  EXPECT_TRUE(has_faults(refusal("disturbance: {torque: 0.01}\ninitial: {holding: true, gap: 0.2}\n"),
-                         "8:20: " + expected));
-  EXPECT_NO_THROW(study_of(manifest_commanding(
-      "{targets: [0], hold: 1}",
-      "plant: {load: {inertia: 1.0e-3}}\ndisturbance: {torque: 0.01}\ninitial: {holding: true}\n")));
+  const std::string load = "plant: {load: {inertia: 1.0e-3, gap: 1.0e-4}}\n";
+  EXPECT_TRUE(
+      has_faults(refusal("disturbance: {torque: 9}\n"), "7:20: initial.holding | can reach the friction"));
+  EXPECT_EQ(refusal(load + "disturbance: {torque: 9, load: {ripple: [{amplitude: 8, periods: 1}]}}\n"), "");
+  EXPECT_EQ(refusal(load + "friction: {model: none}\ndisturbance: {load: {torque: 1}}\n"), "");
+  EXPECT_TRUE(has_faults(refusal_of(manifest_commanding(
+                             "{targets: [0], hold: 1}",
+                             load + "disturbance: {torque: 0.01}\ninitial: {holding: true, gap: 0.2}\n")),
+                         "8:20: initial.holding | lies where | initial.gap of 0"));
 }
 
 TEST(FittingValues, TheSamplesOfASequenceAreThoseOfAllItsMoves) {

@@ -114,7 +114,7 @@ EncoderReading Measurement::read_with_errors(std::int64_t k, double theta) {
   const bool possible =
       counts_agree(fine_, coarse_, reading) ||
       (reading.fine == read_count(fine_, theta) && reading.coarse == read_count(coarse_, theta));
-  if (!possible) ++disagreements_;
+  if (!possible && !imperfect_other_) ++disagreements_;
   return reading;
 }
 

@@ -36,6 +36,7 @@ class Motions {
   std::vector<std::size_t> slots() const {
     std::vector<std::size_t> slots = study::slots_of(plan_.list);
     slots.insert(slots.end(), {encoder_, overrun_, shape_, amplitude_});
+    for (const std::string_view name : study::two_encoders) slots.push_back(slot_of(name));
     return slots;
   }
 

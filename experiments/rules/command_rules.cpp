@@ -9,6 +9,7 @@
 #include "core/loop/dac.hpp"
 #include "core/loop/reference.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
+#include "experiments/rules/plausibility.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/study_table.hpp"
 
@@ -237,15 +238,11 @@ double shortest_count(parameters::AxisKind axis, const study::ValueLimits& encod
   return longest_count(axis, {encoder.high, encoder.low});
 }
 
-std::string_view resolution_of(parameters::AxisKind axis) {
-  return axis == parameters::AxisKind::linear ? "encoder.resolution" : "encoder.fine";
-}
-
 // Targets in rad are counts of an encoder that may be too fine for them.
-ValueRule reach_of_positions(parameters::AxisKind axis, bool sequence) {
-  ValueRule rule{{resolution_of(axis)}, true, {}};
+ValueRule reach_of_positions(const study::StudyPlan& plan, bool sequence) {
+  ValueRule rule{{fine_encoder_name(plan)}, true, {}};
   if (sequence) rule.between.emplace_back("command.sequence.overrun");
-  rule.find_faults = [axis](Limits l, Limits targets) -> Faults {
+  rule.find_faults = [axis = plan.units.axis](Limits l, Limits targets) -> Faults {
     double farthest = 0.0;
     for (const study::ValueLimits& target : targets) farthest = std::max(farthest, largest(target));
     if (l.size() > 1) farthest += l[1].high;
@@ -257,12 +254,13 @@ ValueRule reach_of_positions(parameters::AxisKind axis, bool sequence) {
   return rule;
 }
 
-ValueRule time_of_travel(const parameters::StudyUnits& units,
-                         const std::optional<study::SequenceCycle>& sequence) {
+ValueRule time_of_travel(const study::StudyPlan& plan) {
+  const parameters::StudyUnits& units = plan.units;
+  const std::optional<study::SequenceCycle>& sequence = plan.sequence;
   enum : std::size_t { hold, window, shape, velocity, acceleration, jerk, frequency, fine, overrun };
   ValueRule rule{{"command.hold", "verdict.window", "command.profile.shape", "command.profile.velocity_limit",
                   "command.profile.acceleration_limit", "command.profile.jerk_limit",
-                  "command.profile.frequency", resolution_of(units.axis)},
+                  "command.profile.frequency", fine_encoder_name(plan)},
                  true,
                  {}};
   if (sequence) rule.between.emplace_back("command.sequence.overrun");
@@ -318,13 +316,13 @@ std::vector<ValueRule> command_rules(const study::StudyPlan& plan) {
       add({length_of_the_record(*record),
            range_for_the_record(*record, parameters::unit_on(plan.units.axis, "N m"))});
   } else if (!plan.sequence) {
-    add({samples_of_targets(static_cast<double>(listed)), time_of_travel(plan.units, {})});
+    add({samples_of_targets(static_cast<double>(listed)), time_of_travel(plan)});
   } else {
     add({samples_of_targets(static_cast<double>(study::sequence_move_count(*plan.sequence, listed))),
-         order_of_targets(unit_of_targets(plan.units)), time_of_travel(plan.units, plan.sequence)});
+         order_of_targets(unit_of_targets(plan.units)), time_of_travel(plan)});
   }
   if (si) {
-    add({limits_of_positions(), reach_of_positions(plan.units.axis, plan.sequence.has_value())});
+    add({limits_of_positions(), reach_of_positions(plan, plan.sequence.has_value())});
   } else if (plan.sequence) {
     add({reach_of_the_overrun()});
   }

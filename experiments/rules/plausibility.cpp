@@ -3,6 +3,8 @@
 #include <numbers>
 #include <utility>
 
+#include "experiments/study/point_limits.hpp"
+
 namespace zerocount::rules {
 
 ValueRule plausibility_rule(
@@ -19,7 +21,13 @@ ValueRule plausibility_rule(
 }
 
 std::string_view fine_encoder_name(const study::StudyPlan& plan) {
-  return plan.units.axis == parameters::AxisKind::linear ? "encoder.resolution" : "encoder.fine";
+  const bool linear = plan.units.axis == parameters::AxisKind::linear;
+  const bool of_load =
+      study::holds_somewhere(plan, study::two_encoders, [](std::span<const study::ValueLimits> limits) {
+        return study::has_two_encoders(limits) && study::closes_at_load(limits);
+      });
+  if (of_load) return linear ? "encoder.load.resolution" : "encoder.load.counts_per_revolution";
+  return linear ? "encoder.resolution" : "encoder.fine";
 }
 
 double typical_count(const study::StudyPlan& plan, double encoder) {

@@ -121,7 +121,7 @@ std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
 }
 
 // The contact that carries the constant disturbance at the start.
-std::vector<ValueRule> rules_of_holding(const std::string& torque_unit) {
+std::vector<ValueRule> rules_of_holding(const std::string& torque_unit, bool open_loop) {
   enum : std::size_t {
     holding,
     torque,
@@ -140,24 +140,24 @@ std::vector<ValueRule> rules_of_holding(const std::string& torque_unit) {
         "friction.model", "initial.preload", "initial.history.reversals", "initial.integral",
         "initial.velocity", "initial.gap", "plant.load.inertia"},
        false,
-       [torque_unit](Limits l, Limits) -> Faults {
+       [torque_unit, open_loop](Limits l, Limits) -> Faults {
          if (l[holding].high == 0.0) return {};
          const auto law = static_cast<friction::FrictionModel>(static_cast<int>(l[model].low));
          // With a second mass, the integral holds what the contact cannot.
-         const bool has_load = l[load].low > 0.0;
-         if (!has_load && !friction::has_friction(law))
+         const bool has_integral = l[load].low > 0.0 && !open_loop;
+         if (!has_integral && !friction::has_friction(law))
            return {{"nothing holds an axis without friction", "another friction.model, or the key left out"}};
          Faults faults;
          const double largest = max_abs(l[torque]);
          // The bristle of dahl yields at the Coulomb level.
          const double level = l[breakaway].low * (law == friction::FrictionModel::dahl ? l[ratio].low : 1.0);
-         if (!has_load && level == 0.0 && largest > 0.0)
+         if (!has_integral && level == 0.0 && largest > 0.0)
            faults.push_back({fmt::format("a disturbance of {} {} can reach the friction that is to hold it: "
                                          "friction.breakaway is drawn without a smallest value above 0",
                                          largest, torque_unit),
                              fmt::format("a distribution of friction.breakaway with a smallest value above "
                                          "that, such as uniform or truncated_normal")});
-         else if (!has_load && largest >= level && largest > 0.0)
+         else if (!has_integral && largest >= level && largest > 0.0)
            faults.push_back({fmt::format("a disturbance of {} {} can reach the friction of {} {} that is to "
                                          "hold it",
                                          largest, torque_unit, level, torque_unit),
@@ -271,7 +271,7 @@ std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
   add(rules_of_the_start(parameters::unit_on(plan.units.axis, "N m")));
   static const parameters::Parameter& kd =
       parameters::parameter_table()[parameters::find_parameter("controller.kd").value()];
-  add(rules_of_holding(parameters::unit_on(plan.units.axis, "N m")));
+  add(rules_of_holding(parameters::unit_on(plan.units.axis, "N m"), plan.open_loop));
   add(rules_of_the_clock());
   if (!plan.open_loop) {
     add({order_of_hold("controller.hold.leave", "controller.hold.enter"),

@@ -37,9 +37,14 @@ void choose_encoders(trial::TrialParameters& trial) {
     closing = place(cascade.position);
     of_velocity = place(cascade.velocity);
   }
-  if (!loop::has_other(trial.encoder)) return;
+  loop::EncoderParameters& encoder = trial.encoder;
+  if (!motion::has_load(trial.plant)) encoder.other.counts = 0.0;
+  if (!loop::has_other(encoder)) return;
   trial.controller.velocity_by_other = of_velocity != closing;
   if (closing == motion::EncoderPlace::load) trial::exchange_encoders(trial);
+  // None is coarse: it reads as the fine one would without errors.
+  encoder.coarse = encoder.fine;
+  encoder.coarse_length = encoder.fine_length;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
+#include "core/loop/encoder.hpp"
 #include "experiments/study/point_edit.hpp"
 #include "results/layout/fields.hpp"
 #include "runners/trials/trial_set.hpp"
@@ -60,7 +61,12 @@ const std::vector<Cause>& all_causes() {
       {"encoder.fine_errors.noise",
        "count",
        {0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.8},
-       [](Trial& p, double amount) { p.encoder.fine_errors.noise += amount; }},
+       // Where the load's encoder closes the loop, it has changed places with the motor's.
+       [](Trial& p, double amount) {
+         const bool exchanged =
+             loop::has_other(p.encoder) && p.plant.load.encoder == motion::EncoderPlace::load;
+         (exchanged ? p.encoder.other.errors : p.encoder.fine_errors).noise += amount;
+       }},
       // Factors of the torque less one: the gain error stays above -1.
       {"dac.gain_error",
        "",

@@ -13,6 +13,7 @@
 #include "analysis/theory/point_theory.hpp"
 #include "core/failure/failure.hpp"
 #include "core/loop/encoder.hpp"
+#include "core/trial/rig.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "experiments/study/study.hpp"
@@ -55,9 +56,16 @@ constexpr const char* controller_help =
 
 /// Whether the written code depends on the value.
 bool is_in_code(const study::InputColumn& column) {
-  constexpr std::array<std::string_view, 7> sections{"controller.",     "dac.bits",     "dac.resolution",
-                                                     "dac.range",       "encoder.fine", "encoder.resolution",
-                                                     "initial.integral"};
+  constexpr std::array<std::string_view, 10> sections{"controller.",
+                                                      "dac.bits",
+                                                      "dac.resolution",
+                                                      "dac.range",
+                                                      "encoder.fine",
+                                                      "encoder.resolution",
+                                                      "encoder.load.counts_per_revolution",
+                                                      "encoder.load.resolution",
+                                                      "plant.load.encoder",
+                                                      "initial.integral"};
   return std::ranges::any_of(sections, [&](std::string_view section) {
     return section.ends_with('.') ? column.name.starts_with(section) : column.name == section;
   });
@@ -205,7 +213,7 @@ ExitCode write_controller(const command_line::Arguments& arguments) {
                                            loop::fine_resolution(p.encoder),
                                            loop::velocity_resolution(p.encoder, p.controller),
                                            p.dac,
-                                           p.initial.integral,
+                                           p.initial.integral + trial::held_start(p).integral,
                                            name,
                                            study.units.axis,
                                            margin_lines(study, point)};

@@ -16,6 +16,7 @@ ControllerParameters controller_in_phase(ControllerParameters controller, Contro
       controller.ki = coarse.ki;
       controller.kd = coarse.kd;
       controller.blocks = std::move(coarse.blocks);
+      controller.velocity_by_other = false;
       break;
   }
   return controller;

@@ -184,6 +184,19 @@ TEST(BatchContact, SoftensByAnyAmount) {
   expect_agreement_in_lanes(trials, "softening");
 }
 
+// Where the disturbance exceeds the breakaway of an axis with a second mass, its integral holds it.
+TEST(BatchContact, AnIntegralHoldsWhatTheContactCannot) {
+  trial::TrialParameters p;
+  p.friction.model = friction::FrictionModel::lugre;
+  p.friction.uniform.breakaway = 0.05;
+  p.plant.load = {.inertia = 1e-3, .stiffness = 1e3, .damping = 0.01};
+  p.disturbance.torque = 0.3;
+  p.initial.holding = true;
+  p.controller.ki = 0.0;
+  p.command = {.targets = {0}, .hold = 0.1};
+  EXPECT_NEAR(run_batch({p}).front().outcome.moves.front().holding_torque, -0.3, p.dac.resolution);
+}
+
 // The blocks of the controller in the lanes.
 
 std::vector<trial::TrialParameters> trials_with(BlockKind kind, int count) {

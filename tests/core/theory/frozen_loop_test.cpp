@@ -211,6 +211,8 @@ TEST(SlidingLoop, HasNoDerivativeInTheFineOfTwoPhases) {
   controller.coarse.coarse_beyond = 300.0;
   EXPECT_EQ(loop::controller_in_phase(controller, loop::ControlPhase::fine).kd, 0.0);
   EXPECT_EQ(loop::controller_in_phase(controller, loop::ControlPhase::coarse).kd, controller.coarse.kd);
+  controller.velocity_by_other = true;
+  EXPECT_FALSE(loop::controller_in_phase(controller, loop::ControlPhase::coarse).velocity_by_other);
 }
 
 // The linear loop assembled from the blocks of a controller, with blocks that only the tests know.

@@ -348,25 +348,34 @@ constexpr const char* loops_on_two_masses =
 
 INSTANTIATE_TEST_SUITE_P(
     TwoEncoders, ValueRules,
-    testing::Values(UnfitCase{"{targets: [1]}", loops_on_two_masses,
-                              "6:71: controller.cascade.velocity | read two masses | encoder.load"},
-                    UnfitCase{"{targets: [1]}",
-                              "controller: {structure: cascade, cascade: {position: load}}\n"
-                              "plant: {load: {inertia: 1.0e-3}}",
-                              "6:54: controller.cascade.velocity | read two masses | encoder.load"},
-                    UnfitCase{"{targets: [1]}",
-                              "controller: {structure: cascade, cascade: {position: load, velocity: load}}\n"
-                              "plant: {load: {inertia: 1.0e-3}}",
-                              ""},
-                    UnfitCase{
-                        "{targets: [1]}",
-                        "controller: {structure: cascade, cascade: {position: load}}\n"
-                        "plant: {load: {inertia: 1.0e-3}}\nencoder: {load: {counts_per_revolution: 20000}}",
-                        ""},
-                    UnfitCase{"{targets: [1]}",
-                              "controller: {encoder: coarse}\nplant: {load: {inertia: 1.0e-3}}\n"
-                              "encoder: {load: {counts_per_revolution: 20000}}",
-                              "6:23: controller.encoder | no coarse encoder beside encoder.load | fine"}));
+    testing::Values(
+        UnfitCase{"{targets: [1]}", loops_on_two_masses,
+                  "6:71: controller.cascade.velocity | read two masses | encoder.load"},
+        UnfitCase{"{targets: [1]}",
+                  "controller: {structure: cascade, cascade: {position: load}}\n"
+                  "plant: {load: {inertia: 1.0e-3}}",
+                  "6:54: controller.cascade.velocity | read two masses | encoder.load"},
+        UnfitCase{"{targets: [1]}",
+                  "controller: {structure: cascade, cascade: {position: load, velocity: load}}\n"
+                  "plant: {load: {inertia: 1.0e-3}}",
+                  ""},
+        UnfitCase{"{targets: [1]}",
+                  "controller: {structure: cascade, cascade: {position: load}}\n"
+                  "plant: {load: {inertia: 1.0e-3}}\nencoder: {load: {counts_per_revolution: 20000}}",
+                  ""},
+        UnfitCase{"{targets: [1]}",
+                  "controller: {encoder: coarse}\nplant: {load: {inertia: 1.0e-3}}\n"
+                  "encoder: {load: {counts_per_revolution: 20000}}",
+                  "6:23: controller.encoder | no coarse encoder beside encoder.load | fine"},
+        // Counts are of the encoder that closes the loop: 0.16 rad, and a whole turn.
+        UnfitCase{"{targets: [100000], hold: 1, profile: {shape: trapezoidal, velocity_limit: 1}}",
+                  "plant: {load: {inertia: 1.0e-3, encoder: load}}\n"
+                  "encoder: {fine: 4000, load: {counts_per_revolution: 4000000}}",
+                  ""},
+        UnfitCase{"{targets: [4000], hold: 1, profile: {shape: trapezoidal, velocity_limit: 1}}",
+                  "plant: {load: {inertia: 1.0e-3, encoder: load}}\n"
+                  "encoder: {fine: 4000000, load: {counts_per_revolution: 4000}}",
+                  "5:34: command.hold | can take"}));
 
 INSTANTIATE_TEST_SUITE_P(
     TwoEncoders, EffectRules,

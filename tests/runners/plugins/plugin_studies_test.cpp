@@ -234,7 +234,7 @@ TEST_P(BadPlugin, IsRefused) {
 INSTANTIATE_TEST_SUITE_P(
     All, BadPlugin,
     ::testing::Values(
-        Fault{1, "it is made for version 99 of zerocount/controller.h; expected version 1"},
+        Fault{1, "it is made for version 99 of zerocount/controller.h; expected version 2"},
         Fault{2, "its zerocount_controller has 16 bytes; expected size = sizeof(zerocount_controller)"},
         Fault{3, "it has no name"}, Fault{4, "it lacks a function; expected start and step"},
         Fault{5, "the name of its parameter 0 is 'Gain 1'; expected lower-case letters"},

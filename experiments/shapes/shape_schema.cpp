@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 namespace zerocount::shapes {
 namespace {
 
@@ -110,6 +112,10 @@ Json standard_schema(const Shape& shape) {
 }
 
 }  // namespace
+
+Json object_of(Json properties) {
+  return object_of(std::move(properties), Json::array());
+}
 
 Json object_of(Json properties, Json required) {
   Json schema{{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "core/numerics/interval.hpp"
 #include "experiments/shapes/shape.hpp"
@@ -12,8 +12,9 @@ namespace zerocount::shapes {
 
 using Json = nlohmann::ordered_json;
 
-/// A map of these keys only; those of `required` must be there.
-Json object_of(Json properties, Json required = Json::array());
+/// A map of these keys only; those of `required`, without it none, must be there.
+Json object_of(Json properties);
+Json object_of(Json properties, Json required);
 
 /// A list of at least `min_items`.
 Json list_of(Json item, std::size_t min_items);

@@ -67,6 +67,10 @@ HeldStart held_start(const TrialParameters& p) {
   return {0.0, load.twist, -torque};
 }
 
+double initial_integral(const TrialParameters& p) {
+  return p.initial.integral + held_start(p).integral;
+}
+
 motion::PlantStart plant_start(const TrialParameters& p) {
   return {p.initial.position,   p.initial.hardening,
           p.initial.preload,    draw_history(p.initial.history, p.randomness),

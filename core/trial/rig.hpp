@@ -18,7 +18,7 @@ namespace zerocount::trial {
 struct HeldStart {
   double contact{0.0};   ///< torque that the contact carries, N m
   double twist{0.0};     ///< δ of the coupling of a second mass, rad
-  double integral{0.0};  ///< added to I: it carries what the contact cannot, N m
+  double integral{0.0};  ///< added to initial.integral: it carries what the contact cannot, N m
 };
 
 /// Nothing moves at t = 0. With τL(θL) the constant torque and the ripple on the load, the coupling has
@@ -28,6 +28,9 @@ struct HeldStart {
 /// and the contact carries d + (1 + ε′(0))·τL; where that is its breakaway or more, or the law has no
 /// friction, −I does.
 HeldStart held_start(const TrialParameters& parameters);
+
+/// I of the controller before the first sample, N m.
+double initial_integral(const TrialParameters& parameters);
 
 /// State of the plant at t = 0.
 motion::PlantStart plant_start(const TrialParameters& parameters);

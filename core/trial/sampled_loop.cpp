@@ -8,7 +8,7 @@ SampledLoop::SampledLoop(const TrialParameters& p, const loop::Measurement& meas
     : p_(p),
       sample_time_(1.0 / p.controller.sample_rate),
       clock_(p.controller, p.randomness),
-      controller_(p.controller, p.encoder, p.initial.integral + held_start(p).integral,
+      controller_(p.controller, p.encoder, initial_integral(p),
                   {{loop::lowest_torque(p.dac), loop::highest_torque(p.dac)}, p.dac.resolution}),
       converter_(p.dac),
       resolution_(measurement.fine_resolution()) {

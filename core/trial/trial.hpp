@@ -33,7 +33,7 @@ struct SampleRecord {
   double load_theta{0.0};    ///< angle of the second mass, rad; of the rotor without one
   double load_omega{0.0};    ///< velocity of the second mass, rad/s; of the rotor without one
   double drive_torque{0.0};  ///< of the motor at this instant, after converter and amplifier, N m
-  /// Of the encoders of the two masses, counts of each, where there are two; one is `count`.
+  /// Readings of the motor's and the load's encoder, where each has one, in counts of each; one is `count`.
   std::int64_t motor_count{0};
   std::int64_t load_count{0};
 };

@@ -125,7 +125,7 @@ std::vector<EffectRule> rules_of_errors() {
           rule(joined<encoder, ".noise_bandwidth">, joined<encoder, ".noise">)};
 }
 
-// Of two encoders, one on each mass, none is coarse.
+// With an encoder on each mass there is no coarse one.
 std::vector<EffectRule> rules_of_two_encoders() {
   const auto has_second = [](Limits l) { return can_be_positive(l[0]) || can_be_positive(l[1]); };
   const auto always_has_second = [](Limits l) { return l[0].low > 0.0 || l[1].low > 0.0; };

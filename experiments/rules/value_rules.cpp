@@ -121,7 +121,7 @@ std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
 }
 
 // The contact that carries the constant disturbance at the start.
-std::vector<ValueRule> rules_of_holding(const std::string& torque_unit, bool open_loop) {
+ValueRule what_holds_the_axis(const study::StudyPlan& plan) {
   enum : std::size_t {
     holding,
     torque,
@@ -133,46 +133,55 @@ std::vector<ValueRule> rules_of_holding(const std::string& torque_unit, bool ope
     integral,
     velocity,
     gap,
-    load
+    load,
+    load_torque  // and amplitudes of ripples on the load
   };
+  std::vector<std::string_view> between{
+      "initial.holding",  "disturbance.torque", "friction.breakaway",        "friction.coulomb_ratio",
+      "friction.model",   "initial.preload",    "initial.history.reversals", "initial.integral",
+      "initial.velocity", "initial.gap",        "plant.load.inertia",        "disturbance.load.torque"};
+  for (const parameters::Parameter& row : plan.table.rows) {
+    if (parameters::has_value(row) && row.name.starts_with("disturbance.load.ripple.") &&
+        row.name.ends_with(".amplitude"))
+      between.push_back(row.name);
+  }
   return {
-      {{"initial.holding", "disturbance.torque", "friction.breakaway", "friction.coulomb_ratio",
-        "friction.model", "initial.preload", "initial.history.reversals", "initial.integral",
-        "initial.velocity", "initial.gap", "plant.load.inertia"},
-       false,
-       [torque_unit, open_loop](Limits l, Limits) -> Faults {
-         if (l[holding].high == 0.0) return {};
-         const auto law = static_cast<friction::FrictionModel>(static_cast<int>(l[model].low));
-         // With a second mass, the integral holds what the contact cannot.
-         const bool has_integral = l[load].low > 0.0 && !open_loop;
-         if (!has_integral && !friction::has_friction(law))
-           return {{"nothing holds an axis without friction", "another friction.model, or the key left out"}};
-         Faults faults;
-         const double largest = max_abs(l[torque]);
-         // The bristle of dahl yields at the Coulomb level.
-         const double level = l[breakaway].low * (law == friction::FrictionModel::dahl ? l[ratio].low : 1.0);
-         if (!has_integral && level == 0.0 && largest > 0.0)
-           faults.push_back({fmt::format("a disturbance of {} {} can reach the friction that is to hold it: "
-                                         "friction.breakaway is drawn without a smallest value above 0",
-                                         largest, torque_unit),
-                             fmt::format("a distribution of friction.breakaway with a smallest value above "
-                                         "that, such as uniform or truncated_normal")});
-         else if (!has_integral && largest >= level && largest > 0.0)
-           faults.push_back({fmt::format("a disturbance of {} {} can reach the friction of {} {} that is to "
-                                         "hold it",
-                                         largest, torque_unit, level, torque_unit),
-                             "|disturbance.torque| below friction.breakaway"});
-         if (max_abs(l[velocity]) > 0.0)
-           faults.push_back({"an axis that holds a disturbance stands still", "initial.velocity of 0"});
-         if (max_abs(l[gap]) > 0.0)
-           faults.push_back(
-               {"the load of an axis that holds lies where what acts on it keeps it", "initial.gap of 0"});
-         if (max_abs(l[preload]) > 0.0 || l[reversals].high > 0.0 || max_abs(l[integral]) > 0.0)
-           faults.push_back({"the contact has been loaded from virgin to the disturbance and nothing else",
-                             "initial.preload, initial.history and initial.integral of 0"});
-         return faults;
-       }},
-  };
+      between, false,
+      [torque_unit = parameters::unit_on(plan.units.axis, "N m"), open_loop = plan.open_loop](
+          Limits l, Limits) -> Faults {
+        if (l[holding].high == 0.0) return {};
+        const auto law = static_cast<friction::FrictionModel>(static_cast<int>(l[model].low));
+        // With a second mass, the integral holds what the contact cannot.
+        const bool has_integral = l[load].low > 0.0 && !open_loop;
+        if (!has_integral && !friction::has_friction(law))
+          return {{"nothing holds an axis without friction", "another friction.model, or the key left out"}};
+        Faults faults;
+        double largest = max_abs(l[torque]);
+        if (l[load].high > 0.0)
+          for (const study::ValueLimits& on_load : l.subspan(load_torque)) largest += max_abs(on_load);
+        // The bristle of dahl yields at the Coulomb level.
+        const double level = l[breakaway].low * (law == friction::FrictionModel::dahl ? l[ratio].low : 1.0);
+        if (!has_integral && level == 0.0 && largest > 0.0)
+          faults.push_back({fmt::format("a disturbance of {} {} can reach the friction that is to hold it: "
+                                        "friction.breakaway is drawn without a smallest value above 0",
+                                        largest, torque_unit),
+                            fmt::format("a distribution of friction.breakaway with a smallest value above "
+                                        "that, such as uniform or truncated_normal")});
+        else if (!has_integral && largest >= level && largest > 0.0)
+          faults.push_back({fmt::format("a disturbance of {} {} can reach the friction of {} {} that is to "
+                                        "hold it",
+                                        largest, torque_unit, level, torque_unit),
+                            "torques of `disturbance` that friction.breakaway exceeds"});
+        if (max_abs(l[velocity]) > 0.0)
+          faults.push_back({"an axis that holds a disturbance stands still", "initial.velocity of 0"});
+        if (max_abs(l[gap]) > 0.0)
+          faults.push_back(
+              {"the load of an axis that holds lies where what acts on it keeps it", "initial.gap of 0"});
+        if (max_abs(l[preload]) > 0.0 || l[reversals].high > 0.0 || max_abs(l[integral]) > 0.0)
+          faults.push_back({"the contact has been loaded from virgin to the disturbance and nothing else",
+                            "initial.preload, initial.history and initial.integral of 0"});
+        return faults;
+      }};
 }
 
 // Which encoder each loop reads.
@@ -271,7 +280,7 @@ std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
   add(rules_of_the_start(parameters::unit_on(plan.units.axis, "N m")));
   static const parameters::Parameter& kd =
       parameters::parameter_table()[parameters::find_parameter("controller.kd").value()];
-  add(rules_of_holding(parameters::unit_on(plan.units.axis, "N m"), plan.open_loop));
+  add({what_holds_the_axis(plan)});
   add(rules_of_the_clock());
   if (!plan.open_loop) {
     add({order_of_hold("controller.hold.leave", "controller.hold.enter"),

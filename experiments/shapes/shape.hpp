@@ -86,7 +86,8 @@ void limit_items(Shape& map, std::string_view list, std::int64_t highest);
 /// is stored in `reading`, unless that is null; of a faulty value its sound parts.
 bool read(const yaml::Field& field, const Shape& shape, yaml::Problems& problems, Reading* reading = nullptr);
 
-/// Likewise the keys of `map`, those that are missing included. Unknown keys are the caller's.
+/// Reads the keys of `map` in the same way, and reports those that are missing. The caller reports unknown
+/// ones.
 void read_keys(const yaml::Field& map, std::span<const Shape> keys, yaml::Problems& problems,
                Reading* reading);
 

@@ -413,7 +413,7 @@ class ChainWriter {
   ProgramWriter write_;
 
   Term error_{write_.input(Input::error)};
-  /// Of which differences are taken.
+  /// The count whose differences are the velocity, and that the observer reads.
   Term velocity_count_{write_.input(of_.controller.velocity_by_other ? Input::velocity_count : Input::count)};
   Term new_target_{write_.input(Input::new_target)};
   Term e_{error_};  ///< e′

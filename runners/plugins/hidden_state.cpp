@@ -83,7 +83,7 @@ class ControllerAlone {
               .torque_resolution = p.dac.resolution,
               .lowest_torque = loop::lowest_torque(p.dac),
               .highest_torque = loop::highest_torque(p.dac),
-              .initial_integral = p.initial.integral + trial::held_start(p).integral,
+              .initial_integral = trial::initial_integral(p),
               .other_resolution = loop::has_other(p.encoder) ? loop::other_resolution(p.encoder) : 0.0};
     char message[256] = {};
     functions_.start(aligned(state_), &setup_, message, sizeof message);

@@ -213,7 +213,7 @@ ExitCode write_controller(const command_line::Arguments& arguments) {
                                            loop::fine_resolution(p.encoder),
                                            loop::velocity_resolution(p.encoder, p.controller),
                                            p.dac,
-                                           p.initial.integral + trial::held_start(p).integral,
+                                           trial::initial_integral(p),
                                            name,
                                            study.units.axis,
                                            margin_lines(study, point)};

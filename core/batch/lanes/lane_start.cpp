@@ -34,7 +34,7 @@ void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
   l.dac_resolution[lane] = p.dac.resolution;
   l.lowest_code[lane] = static_cast<double>(loop::lowest_code(p.dac));
   l.highest_code[lane] = static_cast<double>(loop::highest_code(p.dac));
-  l.integral[lane] = p.initial.integral + trial::held_start(p).integral;
+  l.integral[lane] = trial::initial_integral(p);
   l.error[lane] = 0.0;
   l.count[lane] = 0.0;
   const bool is_open = !p.command.torque.levels.empty();

@@ -23,7 +23,7 @@ class Setup(NamedTuple):
     lowest_torque, highest_torque : float
         That the converter can give, N m.
     initial_integral : float
-        ``initial.integral`` of the manifest, N m.
+        I before the first sample, ``initial.integral`` and what ``initial.holding`` adds, N m.
     other_resolution : float
         Of the encoder of the other mass, rad per count; 0 where there is none.
     """

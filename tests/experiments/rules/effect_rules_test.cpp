@@ -524,6 +524,11 @@ TEST(FittingValues, AnAxisHoldsWhatItsContactOrTheIntegralCarries) {
   EXPECT_TRUE(
       has_faults(refusal("disturbance: {torque: 9}\n"), "7:20: initial.holding | can reach the friction"));
   EXPECT_EQ(refusal(load + "disturbance: {torque: 9, load: {ripple: [{amplitude: 8, periods: 1}]}}\n"), "");
+  EXPECT_TRUE(has_faults(
+      refusal_of(manifest_commanding("{torque: {levels: [0.1]}}",
+                                     load + "disturbance: {torque: 0.1, load: {torque: 0.1, ripple: "
+                                            "[{amplitude: 0.2, periods: 1}]}}\ninitial: {holding: true}\n")),
+      "8:20: initial.holding | a disturbance of 0.4 N m can reach | friction.breakaway"));
   EXPECT_EQ(refusal(load + "friction: {model: none}\ndisturbance: {load: {torque: 1}}\n"), "");
   EXPECT_TRUE(has_faults(refusal_of(manifest_commanding(
                              "{targets: [0], hold: 1}",

@@ -13,6 +13,7 @@
 #include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/machine_inputs.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::experiment_design {
 

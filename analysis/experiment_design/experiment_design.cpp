@@ -8,6 +8,7 @@
 #include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
 #include "core/loop/dac.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::experiment_design {
 namespace {

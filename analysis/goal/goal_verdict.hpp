@@ -8,7 +8,7 @@
 
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/statistics/unknown.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/goal.hpp"
 
 /// The goal of a study at a design point. Everything that judges asks judge_goal().
 namespace zerocount::goal {

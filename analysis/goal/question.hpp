@@ -14,7 +14,8 @@
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/goal.hpp"
+#include "experiments/study/study_fwd.hpp"
 
 /// The question of a study: the goal of its manifest, or success where it has none. All that judges trials,
 /// rigs, worlds and design points takes from here what they are judged by, and what it is called.

@@ -8,7 +8,7 @@
 #include "analysis/statistics/unknown.hpp"
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/sequence.hpp"
 
 /// Accuracy and repeatability of positioning after ISO 230-2:2014, "Test code for machine tools – Part 2:
 /// Determination of accuracy and repeatability of positioning of numerically controlled axes".

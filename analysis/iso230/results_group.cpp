@@ -13,6 +13,7 @@
 #include "analysis/iso230/columns.hpp"
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "core/failure/failure.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/reading/csv.hpp"

@@ -10,6 +10,7 @@
 #include "core/loop/encoder.hpp"
 #include "core/loop/measurement.hpp"
 #include "core/trial/trial.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::jerks {
 namespace {

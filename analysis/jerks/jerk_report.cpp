@@ -9,6 +9,7 @@
 #include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 #include "core/text/counted.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::jerks {
 namespace {

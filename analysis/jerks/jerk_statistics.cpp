@@ -19,6 +19,7 @@
 #include "core/failure/failure.hpp"
 #include "core/numerics/sign.hpp"
 #include "core/trial/divergence.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/layout/table_io.hpp"
 
 namespace zerocount::jerks {
@@ -234,7 +235,7 @@ void for_each_move(const reading::AllTrialsFile& file, const study::Study& study
       if (own_timing && i % moves == 0) parameters = study::study_trial(study, point, row - begin).parameters;
       ObservedMove observed = observe(parameters, static_cast<std::size_t>(i % moves), move, own);
       observed.trial = row;
-      observed.cluster = study.rigs > 0 ? study::rig_of(study, row - begin) : row;
+      observed.cluster = study.rigs > 0 ? study::group_of(study, study::Grouping::rig, row - begin) : row;
       if (observed.arrived && !observed.lost && !in_order(observed)) {
         fail(file, row, "jerks that are not in order, or outside the time of their move");
       }

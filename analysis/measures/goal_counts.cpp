@@ -14,7 +14,6 @@
 #include "core/text/trimmed.hpp"
 #include "core/trial/divergence.hpp"
 #include "core/trial/named_measures.hpp"
-#include "experiments/study/study.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 #include "results/layout/fields.hpp"
 #include "results/layout/measure_table.hpp"

@@ -15,7 +15,9 @@
 #include "analysis/statistics/clusters/trial_clusters.hpp"
 #include "analysis/text/relation.hpp"
 #include "core/trial/outcome.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/features.hpp"
+#include "experiments/study/goal.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/layout/measure_table.hpp"
 
 namespace zerocount::measures {

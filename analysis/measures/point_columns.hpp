@@ -21,7 +21,7 @@
 #include "analysis/text/report_field.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/parameters/study_units.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/features.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount::measures {

@@ -11,6 +11,7 @@
 #include "core/theory/slow_approach.hpp"
 #include "core/trial/last_half.hpp"
 #include "core/trial/parameters.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::measures {
 namespace {

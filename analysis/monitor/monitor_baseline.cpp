@@ -12,6 +12,7 @@
 #include "core/loop/encoder.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/parameters/study_units.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/layout/fields.hpp"
 
 namespace zerocount::monitor {
@@ -114,7 +115,7 @@ Baseline baseline_of(const reading::AllTrialsFile& file, const ModelMoves& moves
     const std::vector<trial::MoveOutcome> outcomes = file.outcomes({rows.first + first, count});
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       const std::int64_t trial = first + static_cast<std::int64_t>(i / of_trial);
-      if (moves.rig && study::rig_of(study, trial) != *moves.rig) continue;
+      if (moves.rig && study::group_of(study, study::Grouping::rig, trial) != *moves.rig) continue;
       ++baseline.moves;
       const std::size_t move = i % of_trial;
       if (!fixed && move == 0)

@@ -6,7 +6,7 @@
 #include "core/failure/failure.hpp"
 #include "core/numerics/bisection.hpp"
 #include "core/trial/random_history.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
 

@@ -19,6 +19,8 @@
 #include "core/failure/failure.hpp"
 #include "experiments/designs/random_key.hpp"
 #include "experiments/study/condition_study.hpp"
+#include "experiments/study/group_inputs.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/layout/header.hpp"
 
 namespace zerocount::sensitivity {
@@ -169,8 +171,9 @@ WorldMeans means_of_worlds(const study::Study& study, const TrialOutputs& trials
   std::vector<statistics::Moments> worlds(static_cast<std::size_t>(study.worlds));
   for (std::size_t i = 0; i < trials.values.size(); ++i) {
     if (std::isfinite(trials.values[i]))
-      worlds[static_cast<std::size_t>(study::world_of(study, static_cast<std::int64_t>(i)))].add(
-          trials.values[i]);
+      worlds[static_cast<std::size_t>(
+                 study::group_of(study, study::Grouping::world, static_cast<std::int64_t>(i)))]
+          .add(trials.values[i]);
   }
   WorldMeans result;
   statistics::Moments of_means;

@@ -16,7 +16,8 @@
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "core/random/random_numbers.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/sampling.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/layout/measure_table.hpp"
 #include "results/reading/all_trials_file.hpp"
 

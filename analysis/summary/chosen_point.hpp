@@ -11,7 +11,8 @@
 
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/summary/summary.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/columns.hpp"
+#include "experiments/study/study_fwd.hpp"
 
 /// The design point that all outputs of a study speak of.
 namespace zerocount::summary {

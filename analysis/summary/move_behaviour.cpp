@@ -9,6 +9,7 @@
 #include "analysis/statistics/quantile.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/encoder.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::summary {
 namespace {

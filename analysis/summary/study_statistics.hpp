@@ -11,7 +11,7 @@
 #include "analysis/measures/undecided_moves.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "core/trial/outcome.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/layout/point_sums.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/reading/results_file.hpp"

@@ -21,7 +21,7 @@
 #include "analysis/worlds/derived_quantities.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/keys/manifest_keys.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/pieces.hpp"

@@ -14,7 +14,8 @@
 #include "core/numerics/bisection.hpp"
 #include "core/theory/crossovers.hpp"
 #include "experiments/parameters/parameter_table.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
+#include "experiments/study/trial_completion.hpp"
 
 namespace zerocount::theory {
 namespace {

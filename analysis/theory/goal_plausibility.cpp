@@ -17,6 +17,7 @@
 #include "core/loop/encoder.hpp"
 #include "core/theory/frozen_loop.hpp"
 #include "core/theory/stability.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::theory {
 namespace {

@@ -15,6 +15,7 @@
 #include "core/loop/encoder.hpp"
 #include "core/theory/margins.hpp"
 #include "core/theory/stability.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::theory {
 namespace {

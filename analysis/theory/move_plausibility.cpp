@@ -14,6 +14,7 @@
 #include "core/motion/disturbance.hpp"
 #include "core/theory/shortest_move.hpp"
 #include "experiments/parameters/study_units.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::theory {
 namespace {

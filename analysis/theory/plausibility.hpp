@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "core/trial/parameters.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/goal.hpp"
+#include "experiments/study/study_fwd.hpp"
 
 namespace zerocount::theory {
 

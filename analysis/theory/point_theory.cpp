@@ -16,6 +16,7 @@
 #include "core/theory/slow_approach.hpp"
 #include "core/theory/stability.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::theory {
 namespace {

@@ -13,7 +13,7 @@
 #include "core/friction/profile.hpp"
 #include "core/theory/frozen_loop.hpp"
 #include "experiments/study/low_end.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 
 namespace zerocount::theory {
 

@@ -13,6 +13,7 @@
 #include "analysis/theory/trial_loops.hpp"
 #include "core/friction/law.hpp"
 #include "core/loop/controller/controller.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::theory {
 namespace {

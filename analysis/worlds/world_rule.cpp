@@ -10,6 +10,7 @@
 
 #include "core/text/number_text.hpp"
 #include "experiments/designs/random_key.hpp"
+#include "experiments/study/group_inputs.hpp"
 
 namespace zerocount::worlds {
 

@@ -9,7 +9,6 @@
 #include "analysis/goal/question.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/worlds/world_rule.hpp"
-#include "experiments/study/study.hpp"
 
 /// Statistics of a design point by world.
 namespace zerocount::worlds {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "experiments/parameters/parameter_table.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/grouping.hpp"
 #include "experiments/yaml/scalars.hpp"
 
 namespace zerocount::keys {

@@ -7,8 +7,9 @@
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/keys/draw_level.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/study/grouping.hpp"
 #include "experiments/study/plan.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "experiments/yaml/scalars.hpp"
 
 namespace zerocount::keys {

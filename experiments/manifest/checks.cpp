@@ -11,6 +11,7 @@
 
 #include "experiments/rules/effect_rules.hpp"
 #include "experiments/rules/value_rules.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::manifest {

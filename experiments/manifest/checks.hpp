@@ -6,7 +6,7 @@
 
 #include "experiments/keys/values.hpp"
 #include "experiments/study/plan.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "experiments/yaml/problems.hpp"
 
 namespace zerocount::manifest {

@@ -13,6 +13,7 @@
 #include "experiments/manifest_text/overrides.hpp"
 #include "experiments/sections/joint_draws.hpp"
 #include "experiments/sections/named_tables.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/yaml/text_file.hpp"
 
 namespace zerocount::manifest {

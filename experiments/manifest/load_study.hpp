@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiments/sections/companions.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 
 namespace zerocount::manifest {
 

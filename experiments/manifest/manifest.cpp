@@ -20,6 +20,7 @@
 #include "experiments/sections/observations.hpp"
 #include "experiments/sections/sections.hpp"
 #include "experiments/sections/sweep.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::manifest {
 namespace {

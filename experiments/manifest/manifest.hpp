@@ -4,7 +4,7 @@
 #include "experiments/sections/companions.hpp"
 #include "experiments/sections/joint_draws.hpp"
 #include "experiments/sections/sweep.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 
 namespace zerocount::manifest {

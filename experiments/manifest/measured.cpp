@@ -7,6 +7,7 @@
 #include "experiments/parameters/measured_parameters.hpp"
 #include "experiments/study/measured_machines.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"
 #include "experiments/study/tuning.hpp"
 
@@ -143,20 +144,7 @@ class MeasuredDraws {
   }
 
   /// The number of different draws, which are the first ones.
-  std::int64_t count_at(std::size_t point) const {
-    switch (level_at(point)) {
-      case study::DrawLevel::world:
-        return study_.worlds;
-      case study::DrawLevel::rig:
-        return study_.rigs;
-      case study::DrawLevel::trial:
-        return study::draw_count(study_);
-      case study::DrawLevel::study:
-      case study::DrawLevel::contact:
-        break;
-    }
-    return 1;
-  }
+  std::int64_t count_at(std::size_t point) const { return study::draw_count(study_, level_at(point)); }
 
  private:
   /// The range that `tune` gives a parameter.

@@ -8,6 +8,7 @@
 #include "experiments/keys/draw_level.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::manifest {
 namespace {

@@ -12,6 +12,7 @@
 #include "experiments/study/condition_study.hpp"
 #include "experiments/study/effects.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::manifest {
@@ -77,8 +78,8 @@ void derive_randomness(const study::Study& study, study::StudyPlan& plan) {
       randomness.contacts = designs::random_key(study.seed, name + "/contacts");
     }
   }
-  plan.sobol_places = study::sobol_place_key(study.seed);
-  plan.sobol_places_of_worlds = study::sobol_place_key_of_worlds(study.seed);
+  for (const study::GroupingTraits& of : study::groupings)
+    plan.sobol_places[of.grouping] = study::sobol_place_key(study.seed, of.grouping);
 }
 
 // The slots of joint draws share one random number, which selects the row. The slash keeps its name apart
@@ -175,7 +176,7 @@ std::optional<study::DrawLevel> drawn_mean(const study::StudyPlan& plan, std::si
   return level;
 }
 
-// Lists what all trials of a rig (or world) share at all points; under each condition that overrides it.
+// Lists what all trials of a group share at all points; under each condition that overrides it.
 void add_shared(const study::InputColumn& column, study::InputSource source, bool overridden,
                 const std::vector<std::string>& conditions, std::vector<study::InputColumn>& columns,
                 std::vector<study::InputSource>& sources) {
@@ -197,11 +198,10 @@ void add_column(const study::InputColumn& column, const study::InputSource& sour
   study.columns.inputs.push_back(column);
   plan.inputs.push_back(source);
   if (assigned.swept[source.slot]) return;
-  const bool overridden = assigned.overridden[source.slot];
-  if (column.level == study::DrawLevel::rig)
-    add_shared(column, source, overridden, study.conditions, study.columns.rigs, plan.rig_inputs);
-  if (column.level == study::DrawLevel::world)
-    add_shared(column, source, overridden, study.conditions, study.columns.worlds, plan.world_inputs);
+  for (const study::GroupingTraits& of : study::groupings)
+    if (of.level == column.level)
+      add_shared(column, source, assigned.overridden[source.slot], study.conditions,
+                 study.columns.shared[of.grouping], plan.shared_inputs[of.grouping]);
 }
 
 void list_input_columns(const AssignedSlots& assigned, study::StudyPlan& plan, study::Study& study) {
@@ -267,7 +267,7 @@ study::DrawnMean mean_of(const keys::ProfileRequest& request, const parameters::
     const std::size_t dimension = parameters::sobol_dimension_of_mean(parameter.sobol_dimension);
     mean.randomness.directions = designs::sobol_directions({&dimension, 1}).front();
     if (request.level == study::DrawLevel::rig) mean.worlds = static_cast<std::uint64_t>(study.worlds);
-    mean.places = study::sobol_place_key_of_worlds(study.seed);
+    mean.places = study::sobol_place_key(study.seed, study::Grouping::world);
   }
   return mean;
 }

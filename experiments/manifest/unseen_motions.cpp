@@ -8,6 +8,7 @@
 #include "experiments/manifest/checks.hpp"
 #include "experiments/rules/plausibility.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::manifest {
 namespace {

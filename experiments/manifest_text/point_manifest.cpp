@@ -12,6 +12,7 @@
 #include "experiments/manifest_text/overrides.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"
 #include "experiments/yaml/problems.hpp"
 #include "experiments/yaml/yaml_tree.hpp"

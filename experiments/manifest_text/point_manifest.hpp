@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 
 namespace zerocount::manifest_text {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "experiments/randomness/random_coordinates.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 
 namespace zerocount::randomness {
 

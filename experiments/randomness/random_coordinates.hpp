@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::randomness {
 

@@ -9,7 +9,7 @@
 #include "experiments/distributions/distribution.hpp"
 #include "experiments/randomness/random_coordinates.hpp"
 #include "experiments/study/copula.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::randomness {
 

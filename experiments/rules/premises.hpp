@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "experiments/study/features.hpp"
 #include "experiments/study/plan.hpp"
-#include "experiments/study/study.hpp"
 
 namespace zerocount::rules {
 

@@ -8,6 +8,7 @@
 
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/study/condition_study.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::sections {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "core/failure/failure.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::sections {
 

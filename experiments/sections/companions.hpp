@@ -9,7 +9,7 @@
 
 #include "experiments/sections/plugin_loader.hpp"
 #include "experiments/study/rotors.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 
 namespace zerocount::sections {
 

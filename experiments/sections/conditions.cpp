@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "experiments/keys/manifest_keys.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::sections {

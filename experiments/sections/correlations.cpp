@@ -11,6 +11,7 @@
 #include "experiments/sections/joint_draws.hpp"
 #include "experiments/study/copula.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 
 namespace zerocount::sections {

@@ -14,6 +14,7 @@
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 
 namespace zerocount::sections {

@@ -6,7 +6,7 @@
 #include "experiments/keys/values.hpp"
 #include "experiments/sections/companions.hpp"
 #include "experiments/sections/sweep.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/sampling.hpp"
 
 namespace zerocount::sections {
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "experiments/keys/manifest_keys.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/yaml/nearest_name.hpp"
 
 namespace zerocount::sections {

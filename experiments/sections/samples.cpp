@@ -10,6 +10,7 @@
 #include "experiments/manifest_text/overrides.hpp"
 #include "experiments/sections/joint_draws.hpp"
 #include "experiments/sections/named_tables.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::sections {

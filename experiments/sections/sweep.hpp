@@ -5,7 +5,7 @@
 
 #include "experiments/keys/values.hpp"
 #include "experiments/sections/assignments.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/columns.hpp"
 
 namespace zerocount::sections {
 

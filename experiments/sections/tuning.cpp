@@ -11,6 +11,7 @@
 #include "experiments/parameters/study_units.hpp"
 #include "experiments/rules/effect_rules.hpp"
 #include "experiments/sections/goal.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::sections {

@@ -10,6 +10,7 @@
 
 #include "core/failure/failure.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::study {
 namespace {
@@ -23,7 +24,7 @@ PlanAxis only_option(const PlanAxis& axis, std::size_t option) {
   return only;
 }
 
-/// Leaves what the rigs, or worlds, have under the condition.
+/// Leaves what the groups of a grouping have under the condition.
 void keep_condition(std::int64_t condition, std::vector<InputColumn>& columns,
                     std::vector<InputSource>& sources) {
   std::size_t kept = 0;
@@ -49,8 +50,8 @@ Study under_condition(const Study& study, std::int64_t condition) {
   conditions = only_option(conditions, static_cast<std::size_t>(condition));
   if (!plan->ages.empty()) plan->ages = {age_at(*plan, plan_point(*plan, 0, condition))};
   plan->conditions = 0;
-  keep_condition(condition, one.columns.rigs, plan->rig_inputs);
-  keep_condition(condition, one.columns.worlds, plan->world_inputs);
+  for (const GroupingTraits& of : groupings)
+    keep_condition(condition, one.columns.shared[of.grouping], plan->shared_inputs[of.grouping]);
   one.plan = std::move(plan);
   one.trials = draw_count(study);
   one.conditions.clear();

@@ -10,6 +10,7 @@
 
 #include "core/numerics/dense.hpp"
 #include "core/numerics/normal_distribution.hpp"
+#include "experiments/study/sampling.hpp"
 
 namespace zerocount::study {
 

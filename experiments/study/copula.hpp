@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/grouping.hpp"
 
 namespace zerocount::study {
 

@@ -1,5 +1,7 @@
 #include "experiments/study/draws.hpp"
 
+#include <fmt/format.h>
+
 #include "experiments/designs/latin_hypercube.hpp"
 #include "experiments/designs/random_key.hpp"
 
@@ -32,12 +34,9 @@ bool trials_stay_when_extended(Design design) {
   return true;
 }
 
-random::RandomKey sobol_place_key(std::uint64_t seed) {
-  return designs::random_key(seed, "rigs/places");
-}
-
-random::RandomKey sobol_place_key_of_worlds(std::uint64_t seed) {
-  return designs::random_key(seed, "worlds/places");
+random::RandomKey sobol_place_key(std::uint64_t seed, Grouping grouping) {
+  // The slash keeps it apart from names of parameters.
+  return designs::random_key(seed, fmt::format("{}s/places", traits_of(grouping).name));
 }
 
 std::uint64_t sobol_place(const random::RandomKey& key, std::uint64_t index, std::uint64_t rigs) {

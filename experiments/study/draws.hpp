@@ -4,7 +4,7 @@
 
 #include "core/random/random_numbers.hpp"
 #include "experiments/designs/sobol.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/sampling.hpp"
 
 namespace zerocount::study {
 
@@ -23,10 +23,9 @@ struct SlotRandomness {
 double design_uniform(Design design, const SlotRandomness& randomness, std::uint32_t stream,
                       std::uint64_t index, std::uint64_t count);
 
-/// Key of sobol_place in a study with this seed. The slash in its name keeps it apart from parameter names.
-random::RandomKey sobol_place_key(std::uint64_t seed);
-/// Key of the order in which rigs (trials where there are no rigs) take Sobol points in a study with worlds.
-random::RandomKey sobol_place_key_of_worlds(std::uint64_t seed);
+/// Key of the order in which trials take the Sobol points of their rigs, and rigs (trials where there are no
+/// rigs) those of their worlds.
+random::RandomKey sobol_place_key(std::uint64_t seed, Grouping grouping);
 
 /// Index of the Sobol point of trial `index` in a study with `rigs` rigs. The trials k·rigs … (k + 1)·rigs −
 /// 1 use the points with the same indices, in a random order for every k. Without this permutation a rig

@@ -6,6 +6,7 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::study {
 namespace {

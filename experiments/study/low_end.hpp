@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 
 namespace zerocount::study {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "experiments/study/plan.hpp"
+#include "experiments/study/trial_draws.hpp"
 
 namespace zerocount::study {
 namespace {
@@ -59,6 +59,20 @@ std::vector<std::pair<std::string, double>> values_at_quantile(const Study& stud
                        distributions::quantile(plan.distributions[values[slot]->index], quantile));
   }
   return found;
+}
+
+std::vector<double> drawn_quantiles(const Study& study, std::int64_t point, std::int64_t index,
+                                    const std::vector<MachineInput>& inputs) {
+  const TrialPlace place = place_of(study, point, index);
+  const GivenDraws none;
+  const TrialDraws draws = draws_of(study, point, place.draw, none);
+  std::vector<double> quantiles;
+  for (const MachineInput& input : inputs) {
+    const std::uint32_t slot = input.slots.front();
+    const Value& value = *value_at_point(*study.plan, slot, place.point);
+    quantiles.push_back(uniform_of(draws, slot, value.level));
+  }
+  return quantiles;
 }
 
 }  // namespace zerocount::study

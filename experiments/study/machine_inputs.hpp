@@ -5,7 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/grouping.hpp"
+#include "experiments/study/study_fwd.hpp"
 
 namespace zerocount::study {
 

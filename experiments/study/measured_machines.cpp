@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiments/study/point_limits.hpp"
+#include "experiments/study/trial_draws.hpp"
 
 namespace zerocount::study {
 namespace {
@@ -105,6 +106,18 @@ bool is_machine(const Study& study, std::int64_t point, std::int64_t index, cons
     };
     return fault_of_machine(plan, plan_point(plan, point), measured, known).has_value();
   });
+}
+
+std::vector<double> drawn_numbers(const Study& study, std::int64_t point, std::int64_t index,
+                                  std::span<const std::uint32_t> slots, const GivenDraws& given) {
+  const TrialPlace place = place_of(study, point, index);
+  const TrialDraws draws = draws_of(study, point, place.draw, given);
+  std::vector<double> numbers;
+  numbers.reserve(slots.size());
+  for (const std::uint32_t slot : slots)
+    numbers.push_back(
+        drawn_number(draws, slot, *value_at_point(draws.plan(), slot, place.point), place.point));
+  return numbers;
 }
 
 }  // namespace zerocount::study

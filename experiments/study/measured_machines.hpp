@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/study/plan.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::study {
 

@@ -6,8 +6,44 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::study {
+
+std::int64_t group_count(const Study& study, Grouping grouping) {
+  switch (grouping) {
+    case Grouping::rig:
+      return study.rigs;
+    case Grouping::world:
+      return study.worlds;
+    case Grouping::condition:
+      return std::ssize(study.condition_names);
+    case Grouping::age:
+      break;
+  }
+  return std::ssize(study.ages.at);
+}
+
+TrialTurns turns_of(const Study& study) {
+  const auto at_least_one = [](std::int64_t count) { return std::max<std::int64_t>(count, 1); };
+  return {at_least_one(study.rigs), condition_count(study), at_least_one(study.worlds),
+          at_least_one(group_count(study, Grouping::age))};
+}
+
+std::int64_t draw_count(const Study& study, DrawLevel level) {
+  switch (level) {
+    case DrawLevel::study:
+      break;
+    case DrawLevel::world:
+      return study.worlds;
+    case DrawLevel::rig:
+      return study.rigs;
+    case DrawLevel::trial:
+    case DrawLevel::contact:
+      return draw_count(study);
+  }
+  return 1;
+}
 
 std::string condition_text(const Study& study, std::int64_t condition) {
   if (study.conditions.empty()) return "";

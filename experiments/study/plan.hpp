@@ -16,9 +16,11 @@
 #include "experiments/study/aging.hpp"
 #include "experiments/study/copula.hpp"
 #include "experiments/study/draws.hpp"
+#include "experiments/study/features.hpp"
+#include "experiments/study/grouping.hpp"
 #include "experiments/study/rotors.hpp"
 #include "experiments/study/sequence.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::study {
@@ -127,16 +129,14 @@ struct StudyPlan {
   std::optional<GaussianCopula> copula;        ///< of correlated values
   std::vector<std::uint32_t> sampled_slots;    ///< slots whose values share one random number: `samples`
   std::vector<SlotRandomness> randomness;      ///< [slot]
-  random::RandomKey sobol_places{};            ///< used by the design `sobol` with rigs
-  random::RandomKey sobol_places_of_worlds{};  ///< used by it with worlds
+  ByGrouping<random::RandomKey> sobol_places;  ///< of rigs and worlds, used by the design `sobol`
   std::vector<std::uint32_t> input_slots;      ///< slots whose values differ between trials
   std::vector<InputSource> inputs;             ///< [input column]
-  std::vector<InputSource> rig_inputs;         ///< [rig column]
-  std::vector<InputSource> world_inputs;       ///< [world column]
-  TrialFactors factors;                        ///< used by the design `saltelli`
-  std::vector<std::uint32_t> factor_of;        ///< [slot] its factor; used by the design `saltelli`
-  trial::TrialParameters common;               ///< parameters of a trial, without the input slots
-  std::vector<double> numbers;                 ///< [slot] numbers of the base; undefined for input slots
+  ByGrouping<std::vector<InputSource>> shared_inputs;  ///< [column of InputColumns::shared]
+  TrialFactors factors;                                ///< used by the design `saltelli`
+  std::vector<std::uint32_t> factor_of;                ///< [slot] its factor; used by the design `saltelli`
+  trial::TrialParameters common;                       ///< parameters of a trial, without the input slots
+  std::vector<double> numbers;  ///< [slot] numbers of the base; undefined for input slots
 
   bool has_conditions() const { return conditions > 0; }
 };

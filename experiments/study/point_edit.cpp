@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "experiments/study/study.hpp"
+
 namespace zerocount::study {
 namespace {
 

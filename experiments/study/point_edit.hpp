@@ -7,6 +7,7 @@
 
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::study {
 

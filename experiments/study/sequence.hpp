@@ -4,9 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "experiments/study/study.hpp"
-
 namespace zerocount::study {
+
+/// One move of a sequence (`command.sequence`).
+struct SequenceMove {
+  std::int64_t target{-1};  ///< index in the list; −1: beyond the first or last target
+  int direction{1};         ///< of the approach: 1 from below, −1 from above
+  std::int64_t cycle{0};    ///< from 0
+};
 
 /// Approach direction of a sequence.
 enum class SequenceApproach {

@@ -2,6 +2,7 @@
 #include "experiments/study/effects.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::study {
 namespace {

@@ -1,7 +1,14 @@
-#include <numbers>
+#include "experiments/study/trial_completion.hpp"
 
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <span>
+
+#include "core/loop/encoder.hpp"
 #include "core/theory/gains.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/parameters/parameter_table.hpp"
+#include "experiments/study/plan.hpp"
 
 namespace zerocount::study {
 namespace {
@@ -47,6 +54,14 @@ void choose_encoders(trial::TrialParameters& trial) {
   encoder.coarse_length = encoder.fine_length;
 }
 
+// Target of a move in the manifest's unit.
+double listed_target(const Study& study, const std::vector<double>& numbers, std::size_t move) {
+  static const std::size_t overrun = parameters::find_parameter("command.sequence.overrun").value();
+  const std::span<const double> targets = std::span(numbers).subspan(study.plan->list.first);
+  if (!study.plan->sequence) return targets[move];
+  return sequence_position(study.sequence[move], targets, numbers[overrun]);
+}
+
 }  // namespace
 
 void complete_trial(const parameters::StudyUnits& units, trial::TrialParameters& trial) {
@@ -73,6 +88,28 @@ void complete_trial(const parameters::StudyUnits& units, trial::TrialParameters&
       convert_gains(trial.controller.coarse.blocks.standstill, trial);
       break;
   }
+}
+
+void set_targets(const Study& study, const std::vector<double>& numbers, StudyTrial& trial) {
+  std::vector<std::int64_t>& targets = trial.parameters.command.targets;
+  const bool si = study.units.targets == parameters::TargetUnits::si;
+  if (!si && !study.plan->sequence) return;
+  for (std::size_t move = 0; move < targets.size(); ++move) {
+    const double target = listed_target(study, numbers, move);
+    if (si) {
+      trial.target_positions.push_back(target);
+    } else {
+      targets[move] = static_cast<std::int64_t>(target);
+    }
+  }
+}
+
+void complete_targets(StudyTrial& trial) {
+  const double count = loop::fine_resolution(trial.parameters.encoder);
+  for (std::size_t move = 0; move < trial.target_positions.size(); ++move)
+    trial.parameters.command.targets[move] = std::llrint(trial.target_positions[move] / count);
+  if (trial.parameters.verdict.position_error)
+    trial.parameters.command.exact_targets = trial.target_positions;
 }
 
 }  // namespace zerocount::study

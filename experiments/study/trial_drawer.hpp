@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/distributions/quantile_function.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::study {
 

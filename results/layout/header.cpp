@@ -15,6 +15,7 @@
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest_text/manifest_values.hpp"
+#include "experiments/study/study.hpp"
 #include "results/hdf5/foreign_file.hpp"
 #include "results/layout/point_sums.hpp"
 #include "results/layout/recorded_values.hpp"

@@ -9,7 +9,8 @@
 
 #include "core/failure/failure.hpp"
 #include "core/plugin/controller_plugin.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/execution.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/row_range.hpp"

@@ -12,7 +12,8 @@
 
 #include "core/trial/outcome.hpp"
 #include "core/trial/trial.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/columns.hpp"
+#include "experiments/study/features.hpp"
 #include "results/hdf5/element.hpp"
 #include "results/hdf5/hdf5.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/trial/outcome.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/features.hpp"
 #include "results/layout/layout.hpp"
 
 /// The table of the measures of a move. A measure is one row: its column in the results file with the valid

@@ -4,6 +4,7 @@
 
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::layout {
 

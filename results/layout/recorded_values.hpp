@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "experiments/manifest_text/manifest_values.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/layout/header.hpp"
 
 namespace zerocount::layout {

@@ -9,6 +9,7 @@
 
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::reading {
 namespace {

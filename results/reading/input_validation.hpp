@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/reading/trial_tables.hpp"
 

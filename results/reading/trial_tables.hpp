@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "core/trial/outcome.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/columns.hpp"
+#include "experiments/study/features.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"

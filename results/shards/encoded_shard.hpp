@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/hdf5/encoded_rows.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/point_sums.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/hash/sha256.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/friction/profile.hpp"
+#include "experiments/study/group_inputs.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
 
@@ -101,13 +102,13 @@ void write_profiles(hdf5::File& file, const study::Study& study) {
 }
 
 void write_rigs(hdf5::File& file, const study::Study& study) {
-  write_inputs(file, layout::rig_table(study.columns.rigs), study.rigs,
-               [&](std::int64_t rig) { return study::rig_inputs(study, rig); });
+  write_inputs(file, layout::rig_table(study.columns.shared[study::Grouping::rig]), study.rigs,
+               [&](std::int64_t rig) { return study::group_inputs(study, study::Grouping::rig, rig); });
 }
 
 void write_worlds(hdf5::File& file, const study::Study& study) {
-  write_inputs(file, layout::world_table(study.columns.worlds), study.worlds,
-               [&](std::int64_t world) { return study::world_inputs(study, world); });
+  write_inputs(file, layout::world_table(study.columns.shared[study::Grouping::world]), study.worlds,
+               [&](std::int64_t world) { return study::group_inputs(study, study::Grouping::world, world); });
 }
 
 void write_world_counts(hdf5::File& file, const study::Study& study, const layout::GroupCounts& counts,

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/layout.hpp"
 

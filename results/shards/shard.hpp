@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/hdf5/element.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"

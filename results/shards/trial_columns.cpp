@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "experiments/study/study.hpp"
 #include "results/layout/fields.hpp"
 #include "results/layout/measure_table.hpp"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/layout/layout.hpp"
 #include "results/shards/trial_result.hpp"
 

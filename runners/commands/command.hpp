@@ -7,7 +7,7 @@
 #include "analysis/document/answer.hpp"
 #include "analysis/goal/goal_verdict.hpp"
 #include "core/failure/failure.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/storage/output_lock.hpp"
 #include "runners/command_line/command_line.hpp"
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/plugin/controller_plugin.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/reading/results_file.hpp"
 #include "runners/command_line/command_line.hpp"
 

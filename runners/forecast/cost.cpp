@@ -9,6 +9,7 @@
 
 #include "core/batch/batch.hpp"
 #include "core/trial/trial.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "runners/trials/study_runner.hpp"
 
 namespace zerocount::forecast {

@@ -13,6 +13,7 @@
 #include "analysis/summary/study_statistics.hpp"
 #include "core/friction/profile.hpp"
 #include "core/trial/outcome.hpp"
+#include "experiments/study/group_inputs.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/measure_table.hpp"
@@ -27,22 +28,11 @@ constexpr double bytes_of_dataset = 3050.0;
 
 /// The first row whose trial has the same numbers of this level as that of row i.
 std::function<std::int64_t(std::int64_t)> twins_of(const study::Study& study, study::DrawLevel level) {
-  const study::TrialTurns turns = study::turns_of(study);
-  return [&study, level, turns](std::int64_t row) {
-    const std::int64_t trial = row % study.trials;
-    const std::int64_t draw = turns.draw_of(trial);
-    switch (level) {
-      case study::DrawLevel::world:
-        return turns.trial_of(draw % std::max<std::int64_t>(study.worlds, 1), 0);
-      case study::DrawLevel::rig:
-        return trial % turns.rigs;
-      case study::DrawLevel::trial:
-      case study::DrawLevel::contact:
-        return study.independent_points ? row : turns.trial_of(draw, 0);
-      case study::DrawLevel::study:
-        break;
-    }
-    return row;
+  const bool has_twins =
+      level != study::DrawLevel::study && (level < study::DrawLevel::trial || !study.independent_points);
+  return [&study, level, has_twins, turns = study::turns_of(study)](std::int64_t row) {
+    if (!has_twins) return row;
+    return turns.trial_of(turns.draw_of(row % study.trials) % study::draw_count(study, level), 0);
   };
 }
 
@@ -124,9 +114,9 @@ double bytes_of_profiles(const study::Study& study) {
 double bytes_of_rigs(const study::Study& study) {
   constexpr std::int64_t max_rigs = 128;
   const std::int64_t tried = std::min(study.rigs, max_rigs);
-  std::vector<std::vector<double>> columns(study.columns.rigs.size());
+  std::vector<std::vector<double>> columns(study.columns.shared[study::Grouping::rig].size());
   for (std::int64_t rig = 0; rig < tried && !columns.empty(); ++rig) {
-    const std::vector<double> inputs = study::rig_inputs(study, rig);
+    const std::vector<double> inputs = study::group_inputs(study, study::Grouping::rig, rig);
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i].push_back(inputs[i]);
   }
   double bytes = 0.0;
@@ -183,10 +173,9 @@ double datasets_of(const study::Study& study) {
   constexpr std::size_t of_repeatability = 286, of_sums = 7, of_groups = 6;
   if (!study.sequence.empty()) datasets += of_repeatability;
   if (layout::has_sums(study.retention)) datasets += of_sums;
-  if (study.rigs > 0) datasets += study.columns.rigs.size() + of_groups;
-  if (study.worlds > 0) datasets += study.columns.worlds.size() + of_groups;
-  if (!study.condition_names.empty()) datasets += of_groups;
-  if (!study.ages.at.empty()) datasets += of_groups;
+  for (const study::GroupingTraits& of : study::groupings)
+    if (study::group_count(study, of.grouping) > 0)
+      datasets += study.columns.shared[of.grouping].size() + of_groups;
   return static_cast<double>(datasets);
 }
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/shards/trial_result.hpp"
 
 namespace zerocount::forecast {

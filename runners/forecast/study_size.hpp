@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 
 namespace zerocount::forecast {
 

@@ -16,6 +16,7 @@
 #include "core/plugin/arithmetic_mode.hpp"
 #include "core/trial/rig.hpp"
 #include "core/trial/trial.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::plugins {
 namespace {

@@ -11,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "runners/commands/command.hpp"

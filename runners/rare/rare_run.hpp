@@ -12,7 +12,7 @@
 #include "analysis/document/figure.hpp"
 #include "analysis/measures/goal_counts.hpp"
 #include "experiments/randomness/random_coordinates.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/layout/header.hpp"
 #include "runners/rare/estimator.hpp"
 #include "runners/rare/proposal.hpp"

@@ -14,6 +14,7 @@
 #include "core/failure/failure.hpp"
 #include "core/loop/encoder.hpp"
 #include "experiments/study/point_edit.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/layout/fields.hpp"
 #include "runners/trials/trial_set.hpp"
 

@@ -15,7 +15,7 @@
 #include "analysis/theory/point_theory.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/text/counted.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/study_argument.hpp"

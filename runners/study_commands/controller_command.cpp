@@ -16,7 +16,7 @@
 #include "core/trial/rig.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/condition_study.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "runners/command_line/option_values.hpp"
 #include "runners/command_line/output_place.hpp"
 #include "runners/commands/command.hpp"

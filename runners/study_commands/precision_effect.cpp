@@ -8,6 +8,7 @@
 
 #include "analysis/goal/question.hpp"
 #include "analysis/statistics/quantile.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "runners/controller_code/program.hpp"
 #include "runners/trials/effort.hpp"
 #include "runners/trials/study_runner.hpp"

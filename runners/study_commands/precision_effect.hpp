@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "runners/controller_code/chain_program.hpp"
 
 namespace zerocount::study_commands {

@@ -11,7 +11,6 @@
 #include "analysis/summary/summary.hpp"
 #include "analysis/summary_answer/summary_answer.hpp"
 #include "core/text/number_text.hpp"
-#include "experiments/study/study.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"

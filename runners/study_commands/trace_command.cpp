@@ -9,7 +9,6 @@
 
 #include "analysis/text/percent.hpp"
 #include "core/trial/trial.hpp"
-#include "experiments/study/study.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"

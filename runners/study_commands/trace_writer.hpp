@@ -7,7 +7,7 @@
 
 #include "core/trial/outcome.hpp"
 #include "core/trial/trial.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount::study_commands {

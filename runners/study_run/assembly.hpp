@@ -5,7 +5,7 @@
 #include <stop_token>
 
 #include "analysis/theory/theory_prediction.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/shards/concatenate.hpp"
 #include "results/shards/shard.hpp"

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/layout/header.hpp"
 #include "runners/trials/trial_set.hpp"
 #include "runners/trials/variant.hpp"

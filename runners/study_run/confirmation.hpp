@@ -5,7 +5,6 @@
 
 #include "analysis/summary_answer/parts.hpp"
 #include "core/plugin/controller_plugin.hpp"
-#include "experiments/study/study.hpp"
 #include "results/reading/results_file.hpp"
 
 namespace zerocount::study_run {

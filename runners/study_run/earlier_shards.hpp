@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/reading/trial_tables.hpp"

@@ -14,7 +14,6 @@
 #include "core/failure/failure.hpp"
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/manifest_text/manifest_values.hpp"
-#include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/recorded_values.hpp"
 #include "results/layout/row_range.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/layout/row_range.hpp"
 
 namespace zerocount::trials {

@@ -12,7 +12,7 @@
 
 #include "analysis/summary/study_statistics.hpp"
 #include "analysis/theory/theory_prediction.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/hdf5/element.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/row_range.hpp"

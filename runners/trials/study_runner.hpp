@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/theory/theory_prediction.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/shards/shard.hpp"
 #include "results/timeline/timeline.hpp"

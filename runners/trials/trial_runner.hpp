@@ -9,7 +9,7 @@
 
 #include "analysis/theory/theory_prediction.hpp"
 #include "core/batch/batch.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "experiments/study/trial_drawer.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/shards/shard.hpp"

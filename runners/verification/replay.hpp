@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "core/trial/parameters.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/columns.hpp"
+#include "experiments/study/study_fwd.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/reading/results_file.hpp"

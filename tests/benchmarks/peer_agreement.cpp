@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include "experiments/study/study_trial.hpp"
+
 namespace zerocount::testing {
 namespace {
 

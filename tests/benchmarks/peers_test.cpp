@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "experiments/study/study_trial.hpp"
 #include "tests/benchmarks/peer_agreement.hpp"
 #include "tests/benchmarks/workloads.hpp"
 

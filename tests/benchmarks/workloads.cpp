@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::testing {
 namespace {

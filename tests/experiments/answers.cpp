@@ -9,6 +9,7 @@
 #include "core/trial/random_history.hpp"
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/manifest/json_schema.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount {

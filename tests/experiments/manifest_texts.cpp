@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "experiments/study/study.hpp"
+
 namespace zerocount {
 
 std::string minimal_manifest(const std::string& more) {

@@ -1,4 +1,5 @@
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
 #include "tests/fuzz/expectation.hpp"
 #include "tests/fuzz/study_use.hpp"
 #include "tests/fuzz/theory_use.hpp"

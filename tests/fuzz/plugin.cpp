@@ -17,6 +17,7 @@
 #include "core/plugin/controller_plugin.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/layout/header.hpp"
 #include "tests/fuzz/expectation.hpp"
 #include "tests/fuzz/study_use.hpp"

@@ -4,6 +4,8 @@
 #include <string>
 
 #include "experiments/manifest/parameter_listing.hpp"
+#include "experiments/study/group_inputs.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/fuzz/expectation.hpp"
 
 namespace zerocount::fuzz {
@@ -25,7 +27,7 @@ void use_study(const study::Study& study) {
     for (const std::int64_t index : ends_of(study.trials)) study::study_trial(study, point, index);
   }
   if (study.rigs == 0) return;
-  for (const std::int64_t rig : ends_of(study.rigs)) study::rig_inputs(study, rig);
+  for (const std::int64_t rig : ends_of(study.rigs)) study::group_inputs(study, study::Grouping::rig, rig);
 }
 
 }  // namespace zerocount::fuzz

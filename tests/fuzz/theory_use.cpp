@@ -6,6 +6,7 @@
 
 #include "analysis/document/answer.hpp"
 #include "analysis/theory/point_theory.hpp"
+#include "experiments/study/study.hpp"
 #include "tests/fuzz/expectation.hpp"
 
 namespace zerocount::fuzz {

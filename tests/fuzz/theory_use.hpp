@@ -1,6 +1,6 @@
 #pragma once
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 
 namespace zerocount::fuzz {
 

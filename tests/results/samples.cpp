@@ -136,9 +136,10 @@ study::Study sample_study_with_rigs(std::int64_t points, std::int64_t trials, st
   plan->base = {{.kind = study::Value::Kind::distribution, .index = 0, .level = study::DrawLevel::rig}};
   plan->distributions = {distributions::Uniform{100.0, 120.0}};
   plan->randomness.resize(1);
-  plan->rig_inputs = {{0, false}};
+  plan->shared_inputs[study::Grouping::rig] = {{0, false}};
   study.plan = std::move(plan);
-  study.columns.rigs = {{"friction.k1", "N m/rad", "lowest stiffness", study::DrawLevel::rig}};
+  study.columns.shared[study::Grouping::rig] = {
+      {"friction.k1", "N m/rad", "lowest stiffness", study::DrawLevel::rig}};
   study::RealisedProfile of_rigs{"friction.k2", "N m/rad", study.profiles[0].profile};
   of_rigs.of_rig = [one = study.profiles[0].profile](std::int64_t rig) {
     friction::Profile rotor = *one;
@@ -263,9 +264,10 @@ study::Study sample_study_in_worlds() {
   plan->base = {{.kind = study::Value::Kind::distribution, .index = 0, .level = study::DrawLevel::world}};
   plan->distributions = {distributions::Uniform{100.0, 120.0}};
   plan->randomness.resize(1);
-  plan->world_inputs = {{0, false}};
+  plan->shared_inputs[study::Grouping::world] = {{0, false}};
   study.plan = std::move(plan);
-  study.columns.worlds = {{"friction.k1", "N m/rad", "lowest stiffness", study::DrawLevel::world}};
+  study.columns.shared[study::Grouping::world] = {
+      {"friction.k1", "N m/rad", "lowest stiffness", study::DrawLevel::world}};
   return study;
 }
 

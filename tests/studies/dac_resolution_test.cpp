@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/study/study.hpp"
 #include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "experiments/study/study.hpp"
 #include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 

@@ -1,5 +1,6 @@
 // paper-gains: the five gains of section 4 behave as the paper reports, on axes whose friction differs. The
 // bounds are wider than those of a few tests: "all" is 98 % or more, "most" is 50 to 80 %.
+#include "experiments/study/study.hpp"
 #include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 #include "tests/support/test.hpp"

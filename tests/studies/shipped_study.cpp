@@ -6,6 +6,7 @@
 
 #include "core/batch/batch.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::testing {
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "experiments/study/study.hpp"
 #include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 #include "tests/support/stop_elements.hpp"

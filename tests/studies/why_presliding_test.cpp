@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "experiments/study/study.hpp"
 #include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"
 

@@ -12,6 +12,7 @@
 #include "analysis/theory/trial_loops.hpp"
 #include "core/theory/margins.hpp"
 #include "core/theory/stability.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::report {
 namespace {

@@ -53,7 +53,7 @@ std::vector<EndOnRotor> ends_of(const ReportedStudy& reported, const ShownTrials
   measures::visit_trials(
       reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
         const std::int64_t trial = row - rows.first;
-        if (shown.rig && study::rig_of(reported.study, trial) != *shown.rig) return;
+        if (shown.rig && study::group_of(reported.study, study::Grouping::rig, trial) != *shown.rig) return;
         const double start = starts[static_cast<std::size_t>(trial)];
         const double end = start + moves.back().final_position;
         ends.push_back({trial, on_rotor(std::isfinite(end) ? end : start, reported.study.period),

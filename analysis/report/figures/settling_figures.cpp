@@ -47,7 +47,8 @@ std::vector<SettledMoves> settled_by_world(const ReportedStudy& reported, std::i
   const layout::RowRange rows = rows_of(reported, point);
   measures::visit_trials(
       reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-        const std::int64_t world = worlds == 1 ? 0 : study::world_of(reported.study, row - rows.first);
+        const std::int64_t world =
+            worlds == 1 ? 0 : study::group_of(reported.study, study::Grouping::world, row - rows.first);
         SettledMoves& of_world = settled[static_cast<std::size_t>(world)];
         for (const trial::MoveOutcome& move : moves) {
           const std::optional<double> found = time(move);

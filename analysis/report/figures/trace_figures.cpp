@@ -7,6 +7,7 @@
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/text/quantity.hpp"
 #include "core/loop/encoder.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::report {
 namespace {

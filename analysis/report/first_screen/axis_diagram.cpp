@@ -16,6 +16,7 @@
 #include "core/loop/encoder.hpp"
 #include "core/text/counted.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::report {
 namespace {

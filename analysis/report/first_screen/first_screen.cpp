@@ -14,6 +14,7 @@
 #include "analysis/theory/point_theory.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/rules/value_sources.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/layout/measure_table.hpp"
 
 namespace zerocount::report {

@@ -12,8 +12,9 @@
 #include "analysis/report/reported_study.hpp"
 #include "analysis/summary/cells_of_point.hpp"
 #include "core/trial/parameters.hpp"
+#include "experiments/study/goal.hpp"
 #include "experiments/study/point_limits.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
 
 /// The first screen of a page: the verdict, the axis as a diagram, the requirements with their verdicts, the
 /// gains with the margins of the loops, and the assumptions.

@@ -11,6 +11,7 @@
 #include "analysis/theory/theory_prediction.hpp"
 #include "core/loop/encoder.hpp"
 #include "experiments/rules/value_rules.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "runners/tuning/effects/effects.hpp"
 
 namespace zerocount::tuning {

@@ -8,7 +8,7 @@
 
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/measures/goal_counts.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/goal.hpp"
 
 namespace zerocount::tuning {
 

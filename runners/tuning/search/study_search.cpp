@@ -15,6 +15,7 @@
 #include "core/trial/trial.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study_table.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::tuning {
 namespace {

@@ -19,6 +19,7 @@
 #include "core/theory/margins.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::tuning {
 namespace {

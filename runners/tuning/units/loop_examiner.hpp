@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "core/trial/parameters.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/tuning.hpp"
 
 /// What the machines of the margins differ in beyond what the study draws (study::LoopSpread).
 namespace zerocount::tuning {

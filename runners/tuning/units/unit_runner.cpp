@@ -16,6 +16,7 @@
 #include "analysis/measures/trial_value.hpp"
 #include "core/batch/batch.hpp"
 #include "core/failure/failure.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "runners/trials/trial_set.hpp"
 
 namespace zerocount::tuning {

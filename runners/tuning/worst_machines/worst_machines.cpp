@@ -14,6 +14,7 @@
 #include "experiments/designs/random_key.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/condition_study.hpp"
+#include "experiments/study/group_inputs.hpp"
 #include "experiments/study/plan.hpp"
 #include "runners/trials/trial_set.hpp"
 #include "runners/tuning/race/search_space.hpp"
@@ -161,25 +162,25 @@ constexpr std::size_t children = 32;
 /// Values of what differs between the machines of the study, by their names.
 NamedValues inputs_of_machine(const study::Study& study, std::int64_t point, const WorstMachine& machine) {
   NamedValues named;
-  const bool of_rig =
-      study.rigs > 0 && (!study.columns.rigs.empty() || (study.worlds > 0 && !study.columns.worlds.empty()));
-  const bool has_conditions = !study.conditions.empty();  // what they override is an input of trials
-  const std::vector<study::InputColumn>& columns =
-      of_rig && !has_conditions ? study.columns.rigs : study.columns.inputs;
-  const std::vector<double> inputs = of_rig && !has_conditions
-                                         ? study::rig_inputs(study, machine.rig)
-                                         : study::study_trial(study, point, machine.trial).inputs;
-  const auto is_of_machine = [&](const study::InputColumn& column) {
-    return !of_rig || !has_conditions || column.level < study::DrawLevel::trial;
+  const auto add = [&named](const std::vector<study::InputColumn>& columns, const std::vector<double>& inputs,
+                            study::DrawLevel up_to) {
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+      if (columns[i].level <= up_to) named.emplace_back(columns[i].name, inputs[i]);
   };
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (is_of_machine(columns[i])) named.emplace_back(columns[i].name, inputs[i]);
+  const auto has_columns = [&study](const study::GroupingTraits& of) {
+    return !study.columns.shared[of.grouping].empty();
+  };
+  const bool of_rig = study.rigs > 0 && std::ranges::any_of(study::groupings, has_columns);
+  if (!of_rig || !study.conditions.empty()) {  // what conditions override is an input of trials
+    add(study.columns.inputs, study::study_trial(study, point, machine.trial).inputs,
+        of_rig ? study::DrawLevel::rig : study::DrawLevel::contact);
+    return named;
   }
-  if (of_rig && !has_conditions && study.worlds > 0) {
-    const std::vector<double> of_world = study::world_inputs(study, study::world_of(study, machine.rig));
-    for (std::size_t i = 0; i < of_world.size(); ++i)
-      named.emplace_back(study.columns.worlds[i].name, of_world[i]);
-  }
+  for (const study::GroupingTraits& of : study::groupings)
+    if (has_columns(of))
+      add(study.columns.shared[of.grouping],
+          study::group_inputs(study, of.grouping, study::group_of(study, of.grouping, machine.rig)),
+          study::DrawLevel::contact);
   return named;
 }
 

@@ -12,7 +12,7 @@
 #include "core/trial/parameters.hpp"
 #include "experiments/study/machine_inputs.hpp"
 #include "experiments/study/plan.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "runners/trials/effort.hpp"
 #include "runners/tuning/race/candidate.hpp"
 #include "runners/tuning/units/unit_runner.hpp"

@@ -11,6 +11,7 @@
 #include "analysis/document/answer.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
 #include "tests/analysis/identification/material_tests.hpp"
 
 namespace zerocount::experiment_design {

@@ -8,6 +8,7 @@
 #include "analysis/summary/summary.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/analysis/iso230/sequence_studies.hpp"
 #include "tests/analysis/summary_forms.hpp"
 #include "tests/support/raw_hdf5.hpp"

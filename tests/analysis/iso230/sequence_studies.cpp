@@ -10,6 +10,7 @@
 #include "analysis/iso230/results_group.hpp"
 #include "analysis/summary/stored_statistics.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/shards/merge.hpp"
 
 namespace zerocount::testing {

@@ -9,7 +9,6 @@
 
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/statistics/sums/state.hpp"
-#include "experiments/study/study.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/each_seed.hpp"
 

@@ -8,6 +8,7 @@
 #include "analysis/summary/stored_statistics.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/shards/merge.hpp"
 
 namespace zerocount::testing {

@@ -4,6 +4,7 @@
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/sensitivity/sensitivity.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/shards/shard.hpp"
 #include "tests/support/merged_file.hpp"
 #include "tests/support/refusal.hpp"

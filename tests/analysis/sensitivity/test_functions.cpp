@@ -8,7 +8,7 @@
 
 #include "experiments/designs/saltelli.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::testing {
 namespace {

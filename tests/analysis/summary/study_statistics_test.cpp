@@ -15,6 +15,7 @@
 #include "analysis/summary/summary.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/analysis/study_files.hpp"
 #include "tests/analysis/summary_forms.hpp"

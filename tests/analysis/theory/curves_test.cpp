@@ -9,6 +9,7 @@
 #include "core/loop/encoder.hpp"
 #include "core/theory/linear_loop.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::theory {

@@ -6,6 +6,7 @@
 #include "core/theory/margins.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/support/test.hpp"
 

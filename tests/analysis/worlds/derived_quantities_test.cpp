@@ -4,6 +4,7 @@
 
 #include "analysis/worlds/learning.hpp"
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/group_inputs.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/test.hpp"
 

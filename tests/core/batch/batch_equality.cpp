@@ -17,7 +17,7 @@
 
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/core/batch/batch_agreement.hpp"
 
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 
 namespace zerocount::testing {
 

@@ -3,6 +3,7 @@
 #include "core/hash/sha256.hpp"
 #include "experiments/designs/latin_hypercube.hpp"
 #include "experiments/designs/random_key.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::designs {

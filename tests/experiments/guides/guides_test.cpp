@@ -3,6 +3,7 @@
 #include "experiments/guides/guide_manifest.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::guides {

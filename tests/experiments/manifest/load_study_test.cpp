@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::manifest {

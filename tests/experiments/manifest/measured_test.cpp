@@ -1,7 +1,9 @@
 // Creep by what one measures of it: the extension at which it ends under a torque.
 #include "core/friction/presliding/spring.hpp"
+#include "experiments/study/group_inputs.hpp"
 #include "experiments/study/low_end.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::manifest {
@@ -69,13 +71,15 @@ TEST(MeasuredCreep, IsDrawnAtEveryLevelAndRecordedWithWhatFollows) {
       lambdas.insert(contact.lambda);
     }
     EXPECT_EQ(lambdas.size(), level == "trial" ? 24u : level == "rig" ? 4u : 2u) << level;
-    const auto rig_column =
-        std::ranges::find(study.columns.rigs, "friction.lambda", &study::InputColumn::name);
-    EXPECT_EQ(rig_column != study.columns.rigs.end(), level == "rig");
+    const auto rig_column = std::ranges::find(study.columns.shared[study::Grouping::rig], "friction.lambda",
+                                              &study::InputColumn::name);
+    EXPECT_EQ(rig_column != study.columns.shared[study::Grouping::rig].end(), level == "rig");
     if (level == "rig") {
-      const auto column = static_cast<std::size_t>(rig_column - study.columns.rigs.begin());
+      const auto column =
+          static_cast<std::size_t>(rig_column - study.columns.shared[study::Grouping::rig].begin());
       for (std::int64_t rig = 0; rig < 4; ++rig)
-        EXPECT_EQ(study::rig_inputs(study, rig)[column], contact_of(study, 0, rig).lambda);
+        EXPECT_EQ(study::group_inputs(study, study::Grouping::rig, rig)[column],
+                  contact_of(study, 0, rig).lambda);
     }
   }
 }

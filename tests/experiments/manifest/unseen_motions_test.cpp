@@ -1,4 +1,5 @@
 // A commanded motion below the encoder's resolution is no motion for the loop, and would count as perfect.
+#include "experiments/study/study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::manifest {

@@ -1,4 +1,6 @@
 // `worlds` in a manifest: the values that all trials of a world share, and what is refused.
+#include "experiments/study/group_inputs.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::manifest {
@@ -52,11 +54,12 @@ TEST(Worlds, ShareTheirValuesAmongAllTrialsAndPoints) {
                                                      {"independent_points=" + independent});
         std::set<std::vector<double>> different;
         for (std::int64_t trial = 0; trial < study.trials; ++trial) {
-          EXPECT_EQ(study::world_of(study, trial), trial % 10);
+          EXPECT_EQ(study::group_of(study, study::Grouping::world, trial), trial % 10);
           if (rigs > 0) {
-            EXPECT_EQ(study::world_of(study, trial), study::rig_of(study, trial) % 10);
+            EXPECT_EQ(study::group_of(study, study::Grouping::world, trial),
+                      study::group_of(study, study::Grouping::rig, trial) % 10);
           }
-          const std::vector<double> of_world = study::world_inputs(study, trial % 10);
+          const std::vector<double> of_world = study::group_inputs(study, study::Grouping::world, trial % 10);
           for (std::int64_t point = 0; point < study::point_count(study); ++point)
             EXPECT_EQ(inputs_named(study, values_of_worlds, point, trial), of_world) << design;
           EXPECT_EQ(study::study_trial(study, 1, trial).parameters.friction.uniform.k1, of_world[0]);
@@ -71,12 +74,12 @@ TEST(Worlds, ShareTheirValuesAmongAllTrialsAndPoints) {
 TEST(Worlds, ListWhatDiffersBetweenThem) {
   const study::Study study = study_with_worlds(machines_in_worlds(), "monte_carlo", 10, 30, 60);
   std::vector<std::string> names;
-  for (const study::InputColumn& column : study.columns.worlds) {
+  for (const study::InputColumn& column : study.columns.shared[study::Grouping::world]) {
     EXPECT_EQ(column.level, study::DrawLevel::world);
     names.push_back(column.name);
   }
   EXPECT_EQ(names, values_of_worlds);
-  EXPECT_TRUE(study_of(full_manifest()).columns.worlds.empty());
+  EXPECT_TRUE(study_of(full_manifest()).columns.shared[study::Grouping::world].empty());
 }
 
 int stratum(double probability, int strata) {
@@ -98,7 +101,7 @@ TEST(Worlds, HaveAStratumOfEveryValueEachWhateverTheDesign) {
                                                        {fmt::format("seed={}", seed)});
           std::array<std::set<int>, 3> strata;
           for (std::int64_t world = 0; world < worlds; ++world) {
-            const std::vector<double> values = study::world_inputs(study, world);
+            const std::vector<double> values = study::group_inputs(study, study::Grouping::world, world);
             strata[0].insert(stratum((values.at(0) - 90.0) / 40.0, worlds));
             strata[1].insert(stratum((values.at(1) - 600.0) / 300.0, worlds));
             strata[2].insert(stratum(lognormal_probability(values.at(2), 2.0e5, 0.2), worlds));
@@ -149,7 +152,7 @@ TEST(Worlds, HaveMachinesAndMovesOfTheWholeRange) {
       std::array<std::set<std::pair<std::int64_t, int>>, 2> parts;
       for (std::int64_t trial = 0; trial < study.trials; ++trial) {
         const std::vector<double> values = inputs_named(study, {"friction.k1", "friction.k2"}, 0, trial);
-        const std::int64_t world = study::world_of(study, trial);
+        const std::int64_t world = study::group_of(study, study::Grouping::world, trial);
         parts[0].emplace(world, stratum((values[0] - 90.0) / 40.0, 8));
         parts[1].emplace(world, stratum((values[1] - 600.0) / 300.0, 8));
       }
@@ -172,7 +175,7 @@ TEST(Worlds, TakeRowsOfSamplesEquallyOften) {
     std::map<double, int> worlds_of_row;
     for (std::int64_t trial = 0; trial < 48; ++trial) {
       const std::vector<double> row = inputs_named(study, {"friction.k1", "friction.k2"}, 0, trial);
-      EXPECT_EQ(row, study::world_inputs(study, trial % 16));
+      EXPECT_EQ(row, study::group_inputs(study, study::Grouping::world, trial % 16));
       EXPECT_EQ(row[1], 700.0 - 10.0 * (row[0] - 100.0));
       if (trial < 16) ++worlds_of_row[row[0]];
     }
@@ -189,10 +192,10 @@ TEST(Interval, IsDrawnForEachWorldByDefault) {
   ASSERT_EQ(study.columns.inputs.size(), 1U);
   EXPECT_EQ(study.columns.inputs[0].level, study::DrawLevel::world);
   for (std::int64_t world = 0; world < 5; ++world) {
-    EXPECT_EQ(study::world_inputs(study, world),
-              study::world_inputs(with("{interval: [90, 130], per: world}"), world));
-    EXPECT_EQ(study::world_inputs(study, world),
-              study::world_inputs(with("{uniform: [90, 130], per: world}"), world));
+    EXPECT_EQ(study::group_inputs(study, study::Grouping::world, world),
+              study::group_inputs(with("{interval: [90, 130], per: world}"), study::Grouping::world, world));
+    EXPECT_EQ(study::group_inputs(study, study::Grouping::world, world),
+              study::group_inputs(with("{uniform: [90, 130], per: world}"), study::Grouping::world, world));
   }
 }
 

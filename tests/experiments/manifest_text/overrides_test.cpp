@@ -2,6 +2,7 @@
 
 #include "experiments/manifest_text/manifest_values.hpp"
 #include "experiments/manifests/shipped_manifests.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::manifest_text {

@@ -1,6 +1,7 @@
 // The same keys serve a galvanometer, a slide of half a tonne and a telescope: no range is that of one size.
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/parameters/study_units.hpp"
+#include "experiments/study/study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount {

@@ -1,5 +1,6 @@
 // Warnings of values that are allowed but absurd give the number and its place. Other values cause none.
 #include "experiments/rules/value_sources.hpp"
+#include "experiments/study/study.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::rules {

@@ -1,4 +1,5 @@
 // Three ways to say what the moves go to.
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::sections {

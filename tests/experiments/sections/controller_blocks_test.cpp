@@ -2,6 +2,7 @@
 #include "experiments/designs/random_key.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::sections {
@@ -137,7 +138,7 @@ TEST(PluginParameters, AreSweptAndOverridden) {
 }
 
 TEST(PluginParameters, AreDrawnForRigsAndInEveryDesign) {
-  EXPECT_EQ(study_with_plugin(own, {"rigs=5", "trials=10"}).columns.rigs.size(), 1u);
+  EXPECT_EQ(study_with_plugin(own, {"rigs=5", "trials=10"}).columns.shared[study::Grouping::rig].size(), 1u);
   EXPECT_EQ(study_with_plugin(own, {"design=saltelli", "trials=9"}).factors,
             std::vector<std::string>{"controller.parameters.gain"});
   const study::Study sobol = study_with_plugin(own, {"design=sobol", "trials=8"});
@@ -262,7 +263,7 @@ TEST(Lists, ValuesAreDrawnByTheirNames) {
 
 TEST(Lists, WithRigsTheirValuesBelongToTheRig) {
   const study::Study study = study_of(minimal_manifest(filters), {"rigs=5", "trials=10"});
-  ASSERT_EQ(study.columns.rigs.size(), 2u);
+  ASSERT_EQ(study.columns.shared[study::Grouping::rig].size(), 2u);
   EXPECT_EQ(study::study_trial(study, 0, 2).inputs, study::study_trial(study, 0, 7).inputs);
   EXPECT_NE(study::study_trial(study, 0, 2).inputs, study::study_trial(study, 0, 3).inputs);
 }

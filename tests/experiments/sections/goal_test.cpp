@@ -1,4 +1,5 @@
 // `goal` and `verdict.bands` in a manifest: what is read, and what is refused.
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::sections {

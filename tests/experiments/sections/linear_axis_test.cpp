@@ -1,6 +1,7 @@
 // A linear axis: its keys, its units, and that it is its rotary twin bit for bit.
 #include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::sections {

@@ -1,5 +1,6 @@
 #include "experiments/sections/sweep.hpp"
 
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::sections {

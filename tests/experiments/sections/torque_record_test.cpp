@@ -1,4 +1,6 @@
 // A recorded torque in a manifest: as a table, and as a list of pairs.
+#include "experiments/study/group_inputs.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::sections {
@@ -266,7 +268,8 @@ TEST(Samples, BelongToTheRigsWithRigs) {
   EXPECT_EQ(study.samples->level, study::DrawLevel::rig);
   for (std::int64_t trial = 10; trial < 40; ++trial)
     EXPECT_EQ(inputs_of(study, trial), inputs_of(study, trial % 10));
-  for (std::int64_t rig = 0; rig < 10; ++rig) EXPECT_EQ(study::rig_inputs(study, rig), inputs_of(study, rig));
+  for (std::int64_t rig = 0; rig < 10; ++rig)
+    EXPECT_EQ(study::group_inputs(study, study::Grouping::rig, rig), inputs_of(study, rig));
 }
 
 TEST(Samples, CanBeDrawnForEveryTrialWithRigs) {

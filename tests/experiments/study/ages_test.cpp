@@ -4,6 +4,8 @@
 #include "core/trial/trial.hpp"
 #include "experiments/manifest_text/point_manifest.hpp"
 #include "experiments/study/condition_study.hpp"
+#include "experiments/study/group_inputs.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::study {
@@ -144,6 +146,27 @@ double rate_of(const AgedValue& value, const Study& study, const StudyTrial& tri
                                                   : std::stod(value.rate);
 }
 
+// A table by a grouping counts every trial once, and as many in each of its groups.
+TEST(Groupings, DivideTheTrialsEquallyAndIndependently) {
+  const TrialTurns turns{.rigs = 4, .conditions = 6, .worlds = 2, .ages = 2};
+  constexpr std::int64_t trials = 240;
+  const std::vector<std::int64_t> sizes{4, 2, 3, 2};
+  for (const GroupingTraits& of : groupings) {
+    const std::int64_t size = sizes[static_cast<std::size_t>(of.grouping)];
+    std::vector<std::int64_t> counted(static_cast<std::size_t>(size));
+    for (std::int64_t i = 0; i < trials; ++i) {
+      const std::int64_t group = turns.group_of(of.grouping, i);
+      ASSERT_TRUE(group >= 0 && group < size) << of.name;
+      ++counted[static_cast<std::size_t>(group)];
+      // What a rig bears in turn leaves its draw, and so its rig and world, as they are.
+      const std::int64_t again = turns.trial_of(turns.draw_of(i), 0);
+      const bool of_turn = of.grouping == Grouping::condition || of.grouping == Grouping::age;
+      EXPECT_EQ(turns.group_of(of.grouping, again), of_turn ? 0 : group) << of.name;
+    }
+    EXPECT_EQ(counted, std::vector<std::int64_t>(counted.size(), trials / size)) << of.name;
+  }
+}
+
 // The definition: trial i is at age ⌊i/(R·C)⌋ mod A, with the draws of j = i mod R + R·⌊i/(R·C·A)⌋.
 TEST(Ages, AreBorneInTurnsOnTheDrawsOfTheStudyWithoutThem) {
   RandomShapes random;
@@ -169,7 +192,7 @@ TEST(Ages, AreBorneInTurnsOnTheDrawsOfTheStudyWithoutThem) {
       EXPECT_EQ(trial.parameters.command.targets, young.parameters.command.targets);
       EXPECT_EQ(trial.parameters.controller.ki, young.parameters.controller.ki);
       if (shape.worlds > 0) {
-        EXPECT_EQ(world_of(study, i), world_of(without, same));
+        EXPECT_EQ(group_of(study, Grouping::world, i), group_of(without, Grouping::world, same));
       }
       for (const InputColumn& column : without.columns.inputs) {
         const bool aged = std::ranges::any_of(
@@ -314,7 +337,8 @@ TEST(Ages, LeaveAStudyOfItsOwnAtEachTurn) {
                   fmt::format("{}", fmt::join(study_trial(study, 0, i).inputs, " ")));
       }
     }
-    for (std::int64_t rig = 0; rig < study.rigs; ++rig) EXPECT_NO_THROW(rig_inputs(study, rig));
+    for (std::int64_t rig = 0; rig < study.rigs; ++rig)
+      EXPECT_NO_THROW(group_inputs(study, Grouping::rig, rig));
   }
 }
 

@@ -1,6 +1,8 @@
 // `conditions` in a manifest: each machine bears all of them on the same draws, and what is refused.
 #include "core/trial/trial.hpp"
 #include "experiments/study/condition_study.hpp"
+#include "experiments/study/group_inputs.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::study {
@@ -133,7 +135,7 @@ TEST(Conditions, ATrialIsThatOfTheStudyWithTheOverrides) {
               draws.insert(j);
               EXPECT_EQ(turns_of(study).trial_of(j, c), i);
               if (worlds > 0) {
-                EXPECT_EQ(world_of(study, i), world_of(other, j));
+                EXPECT_EQ(group_of(study, Grouping::world, i), group_of(other, Grouping::world, j));
               }
               for (std::int64_t point = 0; point < 2; ++point) {
                 const StudyTrial trial = study_trial(study, point, i);
@@ -189,10 +191,14 @@ TEST(Conditions, TellWhatEachRigAndWorldHasUnderThem) {
     for (std::int64_t rig = 0; rig < study.rigs; ++rig) {
       const StudyTrial trial = study_trial(study, 0, turns_of(study).trial_of(rig, c));
       const std::int64_t world = rig % study.worlds;
-      const auto of_rig = values_of(study.columns.rigs, rig_inputs(study, rig));
-      const auto of_world = values_of(study.columns.worlds, world_inputs(study, world));
-      const auto rig_of_part = values_of(part.columns.rigs, rig_inputs(part, rig));
-      const auto world_of_part = values_of(part.columns.worlds, world_inputs(part, world));
+      const auto of_rig =
+          values_of(study.columns.shared[Grouping::rig], group_inputs(study, Grouping::rig, rig));
+      const auto of_world =
+          values_of(study.columns.shared[Grouping::world], group_inputs(study, Grouping::world, world));
+      const auto rig_of_part =
+          values_of(part.columns.shared[Grouping::rig], group_inputs(part, Grouping::rig, rig));
+      const auto world_of_part =
+          values_of(part.columns.shared[Grouping::world], group_inputs(part, Grouping::world, world));
       EXPECT_EQ(of_rig.size(), 5U);  // k1, k2 and lambda under both conditions
       EXPECT_EQ(of_world.size(), 3U);
       EXPECT_EQ(rig_of_part.size(), 3U);

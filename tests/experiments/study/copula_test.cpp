@@ -7,7 +7,9 @@
 
 #include "core/theory/sampled_stability.hpp"
 #include "core/trial/trial_of.hpp"
+#include "experiments/study/group_inputs.hpp"
 #include "experiments/study/low_end.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/core/friction/spring_damper.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
@@ -81,7 +83,7 @@ TEST(Copula, IsThatOfRigsWhereTheParametersAreDrawnPerRig) {
   for (const std::int64_t rig : {0, 17, 3999}) {
     const StudyTrial first = study_trial(study, 0, rig);
     EXPECT_EQ(first.inputs, study_trial(study, 0, rig + rigs).inputs);
-    EXPECT_EQ(first.inputs, rig_inputs(study, rig));
+    EXPECT_EQ(first.inputs, group_inputs(study, Grouping::rig, rig));
   }
 }
 

@@ -2,6 +2,7 @@
 #include "experiments/study/point_limits.hpp"
 
 #include "experiments/study/point_label.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 

@@ -1,8 +1,10 @@
 // The values that trials of one rig have in common, and that differ between the rigs of a study.
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/draws.hpp"
+#include "experiments/study/group_inputs.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/rotors.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::study {
@@ -66,14 +68,14 @@ TEST(Rigs, TrialsOfARigShareTheMachineAndNothingElse) {
 TEST(Rigs, WhatARigHasIsListedOnceForIt) {
   const Study study = rig_study("monte_carlo", 30, 150);
   std::vector<std::string> names;
-  for (const InputColumn& column : study.columns.rigs) names.push_back(column.name);
+  for (const InputColumn& column : study.columns.shared[Grouping::rig]) names.push_back(column.name);
   EXPECT_EQ(names, of_a_rig);
   for (std::int64_t i = 0; i < 150; ++i) {
     std::vector<double> inputs;
     for (const std::string& name : of_a_rig) inputs.push_back(input(study, name, i, 1));
-    EXPECT_EQ(rig_inputs(study, rig_of(study, i)), inputs);
+    EXPECT_EQ(group_inputs(study, Grouping::rig, group_of(study, Grouping::rig, i)), inputs);
   }
-  EXPECT_TRUE(study_of(full_manifest()).columns.rigs.empty());
+  EXPECT_TRUE(study_of(full_manifest()).columns.shared[Grouping::rig].empty());
 }
 
 TEST(Rigs, MoreTrialsKeepTheRigsAndTheFirstTrials) {
@@ -88,7 +90,8 @@ TEST(Rigs, MoreTrialsKeepTheRigsAndTheFirstTrials) {
   // The trials of a Latin hypercube change with their number, and its rigs do not.
   const Study few = rig_study("latin_hypercube", 30, 60);
   const Study many = rig_study("latin_hypercube", 30, 6000);
-  for (std::int64_t rig = 0; rig < 30; ++rig) EXPECT_EQ(rig_inputs(few, rig), rig_inputs(many, rig));
+  for (std::int64_t rig = 0; rig < 30; ++rig)
+    EXPECT_EQ(group_inputs(few, Grouping::rig, rig), group_inputs(many, Grouping::rig, rig));
 }
 
 TEST(Rigs, AllPointsShareThemIndependentOrNot) {
@@ -156,7 +159,7 @@ TEST(Rigs, WhatATrialDrawsTellsNothingOfItsRig) {
 }
 
 TEST(Rigs, SobolPlacesAreAPermutationWithinEveryRoundOfTheRigs) {
-  const random::RandomKey key = sobol_place_key(1);
+  const random::RandomKey key = sobol_place_key(1, Grouping::rig);
   std::set<std::uint64_t> orders;
   for (std::uint64_t round = 0; round < 20; ++round) {
     std::set<std::uint64_t> places;

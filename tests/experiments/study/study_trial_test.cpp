@@ -1,3 +1,5 @@
+#include "experiments/study/study_trial.hpp"
+
 #include "core/trial/trial.hpp"
 #include "experiments/designs/random_key.hpp"
 #include "experiments/parameters/parameter_table.hpp"

@@ -2,6 +2,7 @@
 #include "core/loop/encoder.hpp"
 #include "core/theory/gains.hpp"
 #include "experiments/study/sequence.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::study {

@@ -1,6 +1,7 @@
 #include "results/shards/rig_tables.hpp"
 
 #include "core/failure/failure.hpp"
+#include "experiments/study/group_inputs.hpp"
 #include "experiments/study/plan.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/reading/export.hpp"
@@ -24,7 +25,8 @@ TEST(RigTables, HaveWhatDiffersBetweenTheRigs) {
   EXPECT_EQ(stored.columns[0].name, "friction.k1");
   EXPECT_EQ(stored.columns[0].unit, "N m/rad");
   for (std::int64_t rig = 0; rig < 8; ++rig)
-    EXPECT_EQ(stored.inputs[0][static_cast<std::size_t>(rig)], study::rig_inputs(study, rig)[0]);
+    EXPECT_EQ(stored.inputs[0][static_cast<std::size_t>(rig)],
+              study::group_inputs(study, study::Grouping::rig, rig)[0]);
 }
 
 TEST(RigTables, HaveTheRotorOfEveryRig) {
@@ -118,7 +120,8 @@ TEST(WorldTables, HaveWhatDiffersBetweenTheWorlds) {
   EXPECT_EQ(stored.columns[0].name, "friction.k1");
   EXPECT_EQ(stored.columns[0].unit, "N m/rad");
   for (std::int64_t world = 0; world < 7; ++world)
-    EXPECT_EQ(stored.inputs[0][static_cast<std::size_t>(world)], study::world_inputs(study, world)[0]);
+    EXPECT_EQ(stored.inputs[0][static_cast<std::size_t>(world)],
+              study::group_inputs(study, study::Grouping::world, world)[0]);
 }
 
 TEST(WorldTables, HaveTheTrialsOfEveryWorldAtEveryPoint) {

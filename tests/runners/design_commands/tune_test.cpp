@@ -1,7 +1,7 @@
 // `tune`, from the manifest to the proof.
 #include <csignal>
 
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/design_commands/tune_fixture.hpp"
 

@@ -5,7 +5,6 @@
 
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/shards/shard.hpp"
 #include "runners/forecast/stored_column.hpp"

@@ -14,7 +14,7 @@
 
 #include "core/loop/encoder.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/stop_elements.hpp"

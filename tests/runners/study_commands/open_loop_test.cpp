@@ -3,7 +3,7 @@
 
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/trials/study_runner.hpp"
 #include "tests/runners/program.hpp"

@@ -3,7 +3,6 @@
 
 #include "core/friction/profile.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/study/study.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/reading/first_difference.hpp"
 #include "tests/runners/program.hpp"

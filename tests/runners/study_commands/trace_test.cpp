@@ -2,7 +2,6 @@
 
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/shards/shard.hpp"

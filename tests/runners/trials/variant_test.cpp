@@ -7,6 +7,7 @@
 #include "experiments/study/condition_study.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "runners/trials/effort.hpp"
 #include "tests/support/test.hpp"
 

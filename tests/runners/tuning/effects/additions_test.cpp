@@ -1,6 +1,7 @@
 // `limits` with effects added: what each effect is, and that its rate is that of the manifest which states
 // it.
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "runners/tuning/effects/effects.hpp"
 #include "tests/support/test.hpp"
 

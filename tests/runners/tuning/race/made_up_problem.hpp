@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/random/random_numbers.hpp"
-#include "experiments/study/study.hpp"
+#include "experiments/study/goal.hpp"
 #include "runners/tuning/race/search.hpp"
 
 namespace zerocount::tuning {

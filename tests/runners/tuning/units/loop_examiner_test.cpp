@@ -3,6 +3,7 @@
 
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/condition_study.hpp"
+#include "experiments/study/study.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::tuning {

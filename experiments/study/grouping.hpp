@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace zerocount::study {
+
+/// How often a random value is drawn: once per study, world, rig, trial or contact. In order of frequency.
+enum class DrawLevel : std::uint8_t {
+  study,
+  world,  ///< what all machines share, and nobody knows
+  rig,
+  trial,
+  contact  ///< friction only: at t = 0 and at each re-stick of a trial
+};
+
+/// What trials of a design point can have in common, so that results can be told apart by it. Groups of one
+/// grouping are numbered from 0.
+enum class Grouping : std::uint8_t { rig, world, condition, age };
+
+struct GroupingTraits {
+  Grouping grouping;
+  std::string_view name;           ///< of one group, in messages and as the folder in files
+  std::optional<DrawLevel> level;  ///< of what is drawn for each group; none: the manifest lists the groups
+};
+
+/// All groupings, in the order of the enumeration. Their sizes are group_count() (study.hpp), and trial i is
+/// in group TrialTurns::group_of(grouping, i).
+inline constexpr std::array<GroupingTraits, 4> groupings{{{Grouping::rig, "rig", DrawLevel::rig},
+                                                          {Grouping::world, "world", DrawLevel::world},
+                                                          {Grouping::condition, "condition", std::nullopt},
+                                                          {Grouping::age, "age", std::nullopt}}};
+
+constexpr const GroupingTraits& traits_of(Grouping grouping) {
+  return groupings.at(static_cast<std::size_t>(grouping));
+}
+
+/// A value of each grouping.
+template <class T>
+struct ByGrouping {
+  std::array<T, groupings.size()> values{};
+
+  T& operator[](Grouping grouping) { return values.at(static_cast<std::size_t>(grouping)); }
+  const T& operator[](Grouping grouping) const { return values.at(static_cast<std::size_t>(grouping)); }
+};
+
+/// How the trials of a point take turns: trial i runs on rig i mod R, under condition ⌊i/R⌋ mod C, and has
+/// the random numbers of j = i mod R + R·⌊i/(R·C)⌋, in world j mod W. So each rig bears every condition on
+/// the same draws. With ages these are the conditions at each age: number c + (C/A)·a is condition c at age
+/// a.
+struct TrialTurns {
+  std::int64_t rigs{1};        ///< R; 1 where no trials share a rig
+  std::int64_t conditions{1};  ///< C; 1 without conditions and ages
+  std::int64_t worlds{1};      ///< W; 1 without worlds
+  std::int64_t ages{1};        ///< A, a divisor of C; 1 without ages
+
+  std::int64_t condition_of(std::int64_t trial) const { return trial / rigs % conditions; }
+  /// j, of which there are trials/C.
+  std::int64_t draw_of(std::int64_t trial) const {
+    return trial % rigs + rigs * (trial / (rigs * conditions));
+  }
+  /// The trial with draw j under a condition.
+  std::int64_t trial_of(std::int64_t draw, std::int64_t condition) const {
+    return draw % rigs + rigs * (condition + conditions * (draw / rigs));
+  }
+  /// The number of the trial's group, at every point; 0 without the grouping.
+  std::int64_t group_of(Grouping grouping, std::int64_t trial) const {
+    switch (grouping) {
+      case Grouping::rig:
+        return trial % rigs;
+      case Grouping::world:
+        return draw_of(trial) % worlds;
+      case Grouping::condition:
+        return condition_of(trial) % (conditions / ages);
+      case Grouping::age:
+        break;
+    }
+    return condition_of(trial) / (conditions / ages);
+  }
+  bool operator==(const TrialTurns&) const = default;
+};
+
+}  // namespace zerocount::study

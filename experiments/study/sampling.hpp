@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/study/grouping.hpp"
+
+namespace zerocount::study {
+
+enum class Design { monte_carlo, latin_hypercube, sobol, saltelli };
+
+/// Whether existing trials stay the same when `trials` is increased. False for a Latin hypercube, whose
+/// strata depend on the number of trials.
+bool trials_stay_when_extended(Design design);
+
+/// Name of the factor for all random numbers that trials use while they run: noise, missed counts, the levels
+/// of the load history.
+inline constexpr std::string_view within_trial_factor = "within_trial";
+
+/// An entry of `correlation`: the correlation of the normal scores Φ⁻¹(F(x)) of two parameters.
+struct Correlation {
+  std::string first;  ///< dotted path
+  std::string second;
+  double coefficient{0.0};  ///< −1 < ρ < 1
+};
+
+/// E.g. "friction.k1 and friction.k2 (0.6), friction.k1 and friction.beta (-0.5)".
+std::string correlations_text(const std::vector<Correlation>& correlations);
+
+/// Joint draws of several parameters (`samples`). A row is drawn as a whole, with equal probability.
+struct JointSamples {
+  std::string file;                     ///< as the manifest names it
+  std::string text;                     ///< of the table
+  std::vector<std::string> parameters;  ///< [column] dotted path
+  std::int64_t rows{0};
+  DrawLevel level{DrawLevel::trial};  ///< how often a row is drawn
+};
+
+/// E.g. "friction.k1, friction.k2: a row of posterior.csv (1000 draws) for each rig".
+std::string samples_text(const JointSamples& samples);
+
+}  // namespace zerocount::study

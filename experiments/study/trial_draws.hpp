@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/friction/profile.hpp"
+#include "experiments/distributions/quantile_function.hpp"
+#include "experiments/study/plan.hpp"
+#include "experiments/study/study_trial.hpp"
+
+namespace zerocount::study {
+
+using QuantileFunctions = std::vector<std::optional<distributions::QuantileFunction>>;
+
+/// The coordinates of a trial's random numbers.
+struct TrialDraws {
+  const Study& study;
+  std::uint64_t index;   ///< of the trial among those of its condition (TrialTurns::draw_of)
+  std::uint64_t place;   ///< index of its point in the design
+  std::uint64_t rig;     ///< index of its rig in the design, as `place`; 0 without rigs
+  std::uint64_t world;   ///< 0 without worlds
+  std::uint32_t stream;  ///< of values drawn per trial, not per rig
+  const GivenDraws& given;
+  QuantileFunctions* quantiles{nullptr};  ///< [distribution of the plan]; null: none are kept
+
+  const StudyPlan& plan() const { return *study.plan; }
+};
+
+/// @param draw TrialTurns::draw_of the trial
+TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t draw, const GivenDraws& given);
+
+/// A trial by its place: a point of the plan, and its draw.
+struct TrialPlace {
+  std::size_t point;
+  std::int64_t draw;
+};
+
+/// @throws Failure (bad_input) where the study does not have the point or the trial
+TrialPlace place_of(const Study& study, std::int64_t point, std::int64_t index);
+
+/// The uniform number of a drawn value, with the copula of the study.
+double uniform_of(const TrialDraws& draws, std::uint32_t slot, DrawLevel level);
+
+/// A number, or that of a distribution, at the age of the point.
+double drawn_number(const TrialDraws& draws, std::uint32_t slot, const Value& value, std::size_t point);
+
+/// The value of the slot at a point of the plan, which is not a profile.
+double number_at(const TrialDraws& draws, std::uint32_t slot, std::size_t point);
+
+/// The value of a slot that is drawn at each contact, by the contact's number.
+std::function<double(std::uint64_t contact)> value_per_contact(const TrialDraws& draws, std::uint32_t slot,
+                                                               const Value& value, std::size_t point);
+
+/// At the age of the point; NaN where the slot has no profile.
+double profile_mean(const TrialDraws& draws, std::uint32_t slot, std::size_t point);
+
+/// The profile at the age of the point: the law multiplies all of it. @param start where the trial begins
+std::shared_ptr<const friction::Profile> profile_at_age(const TrialDraws& draws, std::uint32_t slot,
+                                                        std::size_t point, double start);
+
+}  // namespace zerocount::study

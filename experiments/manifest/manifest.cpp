@@ -13,13 +13,13 @@
 #include "experiments/manifest/checks.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/randomness/factors.hpp"
-#include "experiments/rules/premises.hpp"
 #include "experiments/sections/ages.hpp"
 #include "experiments/sections/conditions.hpp"
 #include "experiments/sections/goal.hpp"
 #include "experiments/sections/observations.hpp"
 #include "experiments/sections/sections.hpp"
 #include "experiments/sections/sweep.hpp"
+#include "experiments/study/effects.hpp"
 #include "experiments/study/study.hpp"
 
 namespace zerocount::manifest {
@@ -295,7 +295,7 @@ study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sect
   if (problems.empty()) check_unseen_motions(study, m.places, m.reading);
   for (std::size_t slot = 0; slot < plan->table.rows.size(); ++slot)
     plan->given.push_back(given_place(m.places, *plan, slot).has_value());
-  study.premises = rules::premises_of(*plan);
+  study.premises = study::premises_of(*plan);
   study.warnings = std::move(m.reading.warnings);
   return study;
 }

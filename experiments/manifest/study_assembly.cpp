@@ -107,11 +107,9 @@ void number_factors(study::StudyPlan& plan, study::Study& study) {
 
 // Random keys of the draws during a trial. The slash keeps their names apart from parameter names.
 random::TrialRandomness trial_randomness(std::uint64_t seed) {
-  random::TrialRandomness keys{.history = designs::random_key(seed, "initial.history/levels"),
-                               .spectrum = designs::random_key(seed, "disturbance.vibration/spectrum")};
+  random::TrialRandomness keys;
   for (const study::Effect& effect : study::effects())
-    if (effect.draws != nullptr)
-      keys.*effect.draws = designs::random_key(seed, fmt::format("{}/samples", effect.parameter));
+    if (effect.draws != nullptr) keys.*effect.draws = designs::random_key(seed, effect.key);
   return keys;
 }
 

@@ -1,11 +1,9 @@
 #include "experiments/randomness/factors.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "experiments/study/effects.hpp"
 #include "experiments/study/point_limits.hpp"
-#include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::randomness {
@@ -20,16 +18,9 @@ bool is_drawn_somewhere(const study::StudyPlan& plan, std::size_t slot) {
 
 // Whether trials use random numbers while they run; see core/random/trial_randomness.hpp.
 bool draws_within_trials(const study::StudyPlan& plan) {
-  const auto above_zero = [](const study::ValueLimits& limits) { return limits.high > 0.0; };
-  constexpr std::array<std::string_view, 2> history{"initial.history.reversals", "initial.history.torque"};
-  return !plan.common.disturbance.spectra.empty() || !plan.common.load_side.disturbance.spectra.empty() ||
-         study::holds_somewhere(plan, history,
-                                [&](std::span<const study::ValueLimits> l) {
-                                  return std::all_of(l.begin(), l.end(), above_zero);
-                                }) ||
-         std::ranges::any_of(study::effects(), [&](const study::Effect& effect) {
-           return effect.draws != nullptr && study::acts_somewhere(plan, effect.parameter);
-         });
+  return std::ranges::any_of(study::effects(), [&](const study::Effect& effect) {
+    return effect.draws != nullptr && study::acts(plan, effect);
+  });
 }
 
 }  // namespace

@@ -27,20 +27,21 @@ std::string too_many_samples() {
 
 // An unbounded distribution is reported once, at its own parameter.
 ValueRule highest_value(std::string_view parameter, const std::string& expected) {
-  return {{parameter}, false, [expected](Limits l, Limits) -> Faults {
-            if (std::isfinite(l[0].high)) return {};
-            return {{"its values are unbounded, so a trial could have any number of samples", expected}};
-          }};
+  return between({parameter}, [expected](const auto& limits) -> Faults {
+    if (std::isfinite(limits.high)) return {};
+    return {{"its values are unbounded, so a trial could have any number of samples", expected}};
+  });
 }
 
 ValueRule samples_of_targets(double moves) {
-  return {{"command.hold", "controller.sample_rate"}, false, [moves](Limits l, Limits) -> Faults {
-            if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high)) return {};  // reported already
-            if (l[0].high * l[1].high * moves <= max_samples) return {};
-            return {{fmt::format("{} moves of {} s at {} Hz can be more than {} samples", moves, l[0].high,
-                                 l[1].high, max_samples),
-                     too_many_samples()}};
-          }};
+  return between({"command.hold", "controller.sample_rate"},
+                 [moves](const auto& hold, const auto& rate) -> Faults {
+                   if (!std::isfinite(hold.high) || !std::isfinite(rate.high)) return {};  // reported already
+                   if (hold.high * rate.high * moves <= max_samples) return {};
+                   return {{fmt::format("{} moves of {} s at {} Hz can be more than {} samples", moves,
+                                        hold.high, rate.high, max_samples),
+                            too_many_samples()}};
+                 });
 }
 
 double farthest_apart(const study::ValueLimits& a, const study::ValueLimits& b) {

@@ -39,11 +39,11 @@ ValueRule weights_of_one_in_all(const std::vector<std::string_view>& weights) {
 
 // The default elements are stiffnesses of a rotary axis.
 ValueRule elements_of_linear_axis() {
-  return {{"friction.model"}, false, [](Limits l, Limits) -> Faults {
-            if (l[0].low != static_cast<double>(friction::FrictionModel::gms)) return {};
-            return {{"gms has no default elements on a linear axis",
-                     "the lists friction.gms.stiffness, N/m, and friction.gms.weight"}};
-          }};
+  return between({"friction.model"}, [](const auto& model) -> Faults {
+    if (model.low != static_cast<double>(friction::FrictionModel::gms)) return {};
+    return {{"gms has no default elements on a linear axis",
+             "the lists friction.gms.stiffness, N/m, and friction.gms.weight"}};
+  });
 }
 
 std::vector<ValueRule> rules_of_gms(const study::StudyTable& table, const parameters::StudyUnits& units) {
@@ -67,12 +67,13 @@ std::vector<ValueRule> rules_of_gms(const study::StudyTable& table, const parame
 
 // The bilinear transform maps frequencies below half the sample rate.
 ValueRule frequency_of_filter(std::string_view frequency) {
-  return {{frequency, "controller.sample_rate"}, false, [](Limits l, Limits) -> Faults {
-            if (l[0].high < 0.5 * l[1].low) return {};
-            return {{fmt::format("a frequency of {} Hz can reach half the sample rate of {} Hz", l[0].high,
-                                 l[1].low),
-                     "less than half of controller.sample_rate"}};
-          }};
+  return between({frequency, "controller.sample_rate"},
+                 [](const auto& of_filter, const auto& rate) -> Faults {
+                   if (of_filter.high < 0.5 * rate.low) return {};
+                   return {{fmt::format("a frequency of {} Hz can reach half the sample rate of {} Hz",
+                                        of_filter.high, rate.low),
+                            "less than half of controller.sample_rate"}};
+                 });
 }
 
 bool is_frequency_of_filter(const parameters::Parameter& row) {
@@ -84,10 +85,10 @@ bool is_frequency_of_filter(const parameters::Parameter& row) {
 
 std::vector<ValueRule> plugin_rules(const study::StudyPlan& plan) {
   if (!plan.plugin) return {};
-  return {{{"controller.coarse.coarse_beyond"}, false, [](Limits l, Limits) -> Faults {
-             if (!study::can_have_coarse_phase(l[0])) return {};
-             return {{"a plugin has no phases", "none with controller.plugin"}};
-           }}};
+  return {between({"controller.coarse.coarse_beyond"}, [](const auto& beyond) -> Faults {
+    if (!study::can_have_coarse_phase(beyond)) return {};
+    return {{"a plugin has no phases", "none with controller.plugin"}};
+  })};
 }
 
 std::vector<ValueRule> list_rules(const study::StudyPlan& plan) {

@@ -30,6 +30,14 @@ ValueRule plausibility_rule(
     std::vector<std::string_view> between,
     std::function<std::vector<ValueFault>(std::span<const study::ValueLimits> parameters)> find_faults);
 
+/// As plausibility_rule, with the limits as arguments of `find_faults`, see rules::between().
+template <std::size_t count, class FindFaults>
+ValueRule plausible(const std::string_view (&names)[count], FindFaults find_faults) {
+  ValueRule rule = warning(between(names, find_faults));
+  rule.once = true;
+  return rule;
+}
+
 /// The parameter with the resolution of the fine encoder.
 std::string_view fine_encoder_name(const study::StudyPlan& plan);
 

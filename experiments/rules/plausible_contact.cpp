@@ -9,7 +9,6 @@
 namespace zerocount::rules {
 namespace {
 
-using Limits = std::span<const study::ValueLimits>;
 using Faults = std::vector<ValueFault>;
 
 // The spring softens over a travel of 1/β.
@@ -41,12 +40,14 @@ bool is_measured(const study::StudyPlan& plan) {
 }
 
 ValueRule initial_stiffness(const study::StudyPlan& plan) {
-  return plausibility_rule(
+  return plausible(
       {"friction.k2", "friction.k1", "friction.beta", "friction.breakaway", "friction.model"},
-      [unit = parameters::unit_on(plan.units.axis, "N m/rad")](Limits l) -> Faults {
-        const double initial = l[1].typical + l[0].typical;
-        const double mean = l[3].typical / range_of(l[1], l[0], l[2], l[3]);
-        if (!has_spring(l[4]) || initial <= max_initial_ratio * mean) return {};
+      [unit = parameters::unit_on(plan.units.axis, "N m/rad")](const auto& k2, const auto& k1,
+                                                               const auto& beta, const auto& breakaway,
+                                                               const auto& model) -> Faults {
+        const double initial = k1.typical + k2.typical;
+        const double mean = breakaway.typical / range_of(k1, k2, beta, breakaway);
+        if (!has_spring(model) || initial <= max_initial_ratio * mean) return {};
         return {
             {fmt::format("the spring begins with {:.4g} {}, {:.3g} times breakaway over travel, {:.4g} {}",
                          initial, unit, initial / mean, mean, unit),
@@ -55,44 +56,49 @@ ValueRule initial_stiffness(const study::StudyPlan& plan) {
 }
 
 ValueRule softening_of_measured() {
-  return plausibility_rule(
+  return plausible(
       {"friction.beta", "friction.breakaway", "friction.k1", "friction.k2", "friction.model"},
-      [](Limits l) -> Faults {
-        const double softening = l[0].typical * range_of(l[2], l[3], l[0], l[1]);
-        if (!has_spring(l[4]) || softening >= min_softening) return {};
-        return {{fmt::format("the spring slides before it softens: its initial stiffness is {:.4g} times "
-                             "breakaway over travel",
-                             (l[2].typical + l[3].typical) * range_of(l[2], l[3], l[0], l[1]) / l[1].typical),
-                 "a softer final stiffness, or a stiffer initial one"}};
+      [](const auto& beta, const auto& breakaway, const auto& k1, const auto& k2,
+         const auto& model) -> Faults {
+        const double softening = beta.typical * range_of(k1, k2, beta, breakaway);
+        if (!has_spring(model) || softening >= min_softening) return {};
+        return {
+            {fmt::format("the spring slides before it softens: its initial stiffness is {:.4g} times "
+                         "breakaway over travel",
+                         (k1.typical + k2.typical) * range_of(k1, k2, beta, breakaway) / breakaway.typical),
+             "a softer final stiffness, or a stiffer initial one"}};
       });
 }
 
 ValueRule softening(const std::string& unit, const std::string& micro_unit) {
-  return plausibility_rule(
+  return plausible(
       {"friction.beta", "friction.breakaway", "friction.k1", "friction.k2", "friction.model"},
-      [unit, micro_unit](Limits l) -> Faults {
-        const double softening = l[0].typical * range_of(l[2], l[3], l[0], l[1]);
-        if (!has_spring(l[4]) || l[3].typical == 0.0 || softening >= min_softening) return {};
+      [unit, micro_unit](const auto& beta, const auto& breakaway, const auto& k1, const auto& k2,
+                         const auto& model) -> Faults {
+        const double softening = beta.typical * range_of(k1, k2, beta, breakaway);
+        if (!has_spring(model) || k2.typical == 0.0 || softening >= min_softening) return {};
         return {{fmt::format("the spring slides before it softens from k1 + k2 to k1: beta times the "
                              "pre-sliding range is {:.3g}, with beta {:.4g} {}",
-                             softening, l[0].typical, unit),
-                 fmt::format("well above 1; {:.4g} {} are {:.4g} {}", l[0].typical, micro_unit,
-                             1e6 * l[0].typical, unit)}};
+                             softening, beta.typical, unit),
+                 fmt::format("well above 1; {:.4g} {} are {:.4g} {}", beta.typical, micro_unit,
+                             1e6 * beta.typical, unit)}};
       });
 }
 
 ValueRule counts_before_sliding(const study::StudyPlan& plan) {
-  return plausibility_rule(
+  return plausible(
       {"friction.breakaway", "friction.k1", "friction.k2", "friction.beta", fine_encoder_name(plan),
        "friction.model"},
       [&plan, torque = parameters::unit_on(plan.units.axis, "N m"),
-       length = parameters::unit_on(plan.units.axis, "rad")](Limits l) -> Faults {
-        const double range = range_of(l[1], l[2], l[3], l[0]);
-        const double count = typical_count(plan, l[4].typical);
-        if (!has_spring(l[5]) || range / count >= min_counts) return {};
+       length = parameters::unit_on(plan.units.axis, "rad")](
+          const auto& breakaway, const auto& k1, const auto& k2, const auto& beta, const auto& encoder,
+          const auto& model) -> Faults {
+        const double range = range_of(k1, k2, beta, breakaway);
+        const double count = typical_count(plan, encoder.typical);
+        if (!has_spring(model) || range / count >= min_counts) return {};
         return {{fmt::format("the spring yields by {:.3g} counts before it slides: it reaches the breakaway "
                              "of {:.4g} {} after {:.3g} {}, and a count is {:.3g} {}",
-                             range / count, l[0].typical, torque, range, length, count, length),
+                             range / count, breakaway.typical, torque, range, length, count, length),
                  fmt::format("at least {} counts; is a power of ten wrong, or a unit?", min_counts)}};
       });
 }

@@ -10,7 +10,6 @@
 namespace zerocount::rules {
 namespace {
 
-using Limits = std::span<const study::ValueLimits>;
 using Faults = std::vector<ValueFault>;
 
 // That of a positioning axis is tens to hundreds of Hz; of a telescope, which is sampled slowly, below 1 Hz.
@@ -36,43 +35,45 @@ Stiffness stiffness_at_rest(friction::FrictionModel model, double k1, double k2,
 }  // namespace
 
 std::vector<ValueRule> plausible_delay(const study::StudyPlan&) {
-  return {plausibility_rule({"controller.delay", "controller.sample_rate"}, [](Limits l) -> Faults {
-    const double delay = l[0].typical;
-    if (delay > max_delay)
-      return {{fmt::format("a delay of {:.6g} samples is {:.3g} s at {:.6g} Hz", delay, delay / l[1].typical,
-                           l[1].typical),
-               fmt::format("a number of samples, at most {}; {:.6g} µs are {:.6g} samples", max_delay, delay,
-                           1e-6 * delay * l[1].typical)}};
-    if (delay == 0.0 || delay >= min_delay) return {};
-    return {{fmt::format("a delay of {:.6g} samples is {:.3g} s at {:.6g} Hz", delay, delay / l[1].typical,
-                         l[1].typical),
-             fmt::format("a number of samples, 0 or at least {}; {:.6g} s are {:.6g} samples", min_delay,
-                         delay, delay * l[1].typical)}};
-  })};
+  return {plausible(
+      {"controller.delay", "controller.sample_rate"}, [](const auto& of_delay, const auto& rate) -> Faults {
+        const double delay = of_delay.typical;
+        if (delay > max_delay)
+          return {{fmt::format("a delay of {:.6g} samples is {:.3g} s at {:.6g} Hz", delay,
+                               delay / rate.typical, rate.typical),
+                   fmt::format("a number of samples, at most {}; {:.6g} µs are {:.6g} samples", max_delay,
+                               delay, 1e-6 * delay * rate.typical)}};
+        if (delay == 0.0 || delay >= min_delay) return {};
+        return {{fmt::format("a delay of {:.6g} samples is {:.3g} s at {:.6g} Hz", delay,
+                             delay / rate.typical, rate.typical),
+                 fmt::format("a number of samples, 0 or at least {}; {:.6g} s are {:.6g} samples", min_delay,
+                             delay, delay * rate.typical)}};
+      })};
 }
 
 std::vector<ValueRule> plausible_dynamics(const study::StudyPlan& plan) {
   const std::string kg = parameters::unit_on(plan.units.axis, "kg m^2");
   const std::string stiff = parameters::unit_on(plan.units.axis, "N m/rad");
-  return {plausibility_rule(
+  return {plausible(
       {"plant.inertia", "friction.k1", "friction.k2", "friction.sigma0", "controller.sample_rate",
        "friction.model"},
-      [kg, stiff](Limits l) -> Faults {
-        const auto model = static_cast<friction::FrictionModel>(static_cast<int>(l[5].low));
-        const Stiffness k = stiffness_at_rest(model, l[1].typical, l[2].typical, l[3].typical);
+      [kg, stiff](const auto& inertia, const auto& k1, const auto& k2, const auto& sigma0, const auto& rate,
+                  const auto& of_model) -> Faults {
+        const auto model = static_cast<friction::FrictionModel>(static_cast<int>(of_model.low));
+        const Stiffness k = stiffness_at_rest(model, k1.typical, k2.typical, sigma0.typical);
         if (k.value == 0.0) return {};
-        const double frequency = std::sqrt(k.value / l[0].typical) / (2.0 * std::numbers::pi);
+        const double frequency = std::sqrt(k.value / inertia.typical) / (2.0 * std::numbers::pi);
         const std::string what = fmt::format(
             "the natural frequency is {:.3g} Hz, that of an inertia of {:.4g} {} on {} = {:.4g} {}",
-            frequency, l[0].typical, kg, k.name, k.value, stiff);
-        const double lowest = std::min(max_lowest_natural_frequency, min_of_sample_rate * l[4].typical);
+            frequency, inertia.typical, kg, k.name, k.value, stiff);
+        const double lowest = std::min(max_lowest_natural_frequency, min_of_sample_rate * rate.typical);
         if (frequency < lowest)
           return {{what, fmt::format("at least {:.3g} Hz; is a power of ten wrong, or a unit?", lowest)}};
-        if (frequency > 0.5 * l[4].typical)
+        if (frequency > 0.5 * rate.typical)
           return {
               {what, fmt::format("less than half the sample rate of {:.4g} Hz; is a power of ten wrong, or a "
                                  "unit?",
-                                 l[4].typical)}};
+                                 rate.typical)}};
         return {};
       })};
 }

@@ -8,11 +8,14 @@
 
 #include "core/friction/law.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/parameters/phase_path.hpp"
 #include "experiments/rules/plausibility.hpp"
 
 namespace zerocount::rules {
 namespace {
 
+using parameters::Phase;
+using parameters::phase_path;
 using Limits = std::span<const study::ValueLimits>;
 using Faults = std::vector<ValueFault>;
 
@@ -29,15 +32,11 @@ Faults longer_than_the_hold(const study::ValueLimits& duration, const study::Val
 }
 
 std::vector<ValueRule> rules_of_durations(bool open_loop) {
-  const auto at_least_one_sample = [](Limits l, Limits) { return shorter_than_a_sample(l[0], l[1]); };
-  const auto within_the_hold = [](Limits l, Limits) { return longer_than_the_hold(l[0], l[1]); };
-  if (open_loop) return {{{"command.hold", "controller.sample_rate"}, false, at_least_one_sample}};
-  return {
-      {{"verdict.dwell", "controller.sample_rate"}, false, at_least_one_sample},
-      {{"verdict.dwell", "command.hold"}, false, within_the_hold},
-      {{"verdict.window", "controller.sample_rate"}, false, at_least_one_sample},
-      {{"verdict.window", "command.hold"}, false, within_the_hold},
-  };
+  if (open_loop) return {between({"command.hold", "controller.sample_rate"}, shorter_than_a_sample)};
+  return {between({"verdict.dwell", "controller.sample_rate"}, shorter_than_a_sample),
+          between({"verdict.dwell", "command.hold"}, longer_than_the_hold),
+          between({"verdict.window", "controller.sample_rate"}, shorter_than_a_sample),
+          between({"verdict.window", "command.hold"}, longer_than_the_hold)};
 }
 
 double max_abs(const study::ValueLimits& limits) {
@@ -46,77 +45,71 @@ double max_abs(const study::ValueLimits& limits) {
 
 std::vector<ValueRule> rules_of_the_start(const std::string& torque_unit) {
   return {
-      {{"initial.preload", "friction.breakaway"},
-       false,
-       [torque_unit](Limits l, Limits) -> Faults {
-         const double torque = max_abs(l[0]);
-         if (torque < l[1].low || torque == 0.0) return {};
-         return {{fmt::format("a preload of {} {} can reach the breakaway of {} {}", torque, torque_unit,
-                              l[1].low, torque_unit),
-                  "|initial.preload| below friction.breakaway"}};
-       }},
-      {{"initial.history.torque", "friction.breakaway"},
-       false,
-       [torque_unit](Limits l, Limits) -> Faults {
-         if (l[0].high < l[1].low || l[0].high == 0.0) return {};
-         return {{fmt::format("a history of {} {} can reach the breakaway of {} {}", l[0].high, torque_unit,
-                              l[1].low, torque_unit),
-                  "initial.history.torque below friction.breakaway"}};
-       }},
-      {{"initial.velocity", "initial.mode", "friction.model"},
-       false,
-       [](Limits l, Limits) -> Faults {
-         const auto model = static_cast<friction::FrictionModel>(static_cast<int>(l[2].low));
-         const bool slides = l[1].low == static_cast<double>(trial::InitialMode::slide) &&
-                             friction::traits_of(model).breakaway != friction::Breakaway::never;
-         if (!slides || !l[0].can_be_zero) return {};
-         return {{"the velocity can be 0 although the hook slides at the start",
-                  "a velocity that is never 0 with initial.mode: slide"}};
-       }},
+      between({"initial.preload", "friction.breakaway"},
+              [torque_unit](const auto& preload, const auto& breakaway) -> Faults {
+                const double torque = max_abs(preload);
+                if (torque < breakaway.low || torque == 0.0) return {};
+                return {{fmt::format("a preload of {} {} can reach the breakaway of {} {}", torque,
+                                     torque_unit, breakaway.low, torque_unit),
+                         "|initial.preload| below friction.breakaway"}};
+              }),
+      between({"initial.history.torque", "friction.breakaway"},
+              [torque_unit](const auto& history, const auto& breakaway) -> Faults {
+                if (history.high < breakaway.low || history.high == 0.0) return {};
+                return {{fmt::format("a history of {} {} can reach the breakaway of {} {}", history.high,
+                                     torque_unit, breakaway.low, torque_unit),
+                         "initial.history.torque below friction.breakaway"}};
+              }),
+      between({"initial.velocity", "initial.mode", "friction.model"},
+              [](const auto& velocity, const auto& mode, const auto& law) -> Faults {
+                const auto model = static_cast<friction::FrictionModel>(static_cast<int>(law.low));
+                const bool slides = mode.low == static_cast<double>(trial::InitialMode::slide) &&
+                                    friction::traits_of(model).breakaway != friction::Breakaway::never;
+                if (!slides || !velocity.can_be_zero) return {};
+                return {{"the velocity can be 0 although the hook slides at the start",
+                         "a velocity that is never 0 with initial.mode: slide"}};
+              }),
   };
 }
 
 // A trial that is stopped early lacks the ends of some moves.
 ValueRule no_stop_in_a_sequence() {
-  return {{"verdict.stop"}, false, [](Limits l, Limits) -> Faults {
-            if (l[0].high == 0.0) return {};
-            return {{"the values of ISO 230-2 need the end of every move, which a stopped trial lacks",
-                     "false with command.sequence"}};
-          }};
+  return between({"verdict.stop"}, [](const auto& stop) -> Faults {
+    if (stop.high == 0.0) return {};
+    return {{"the values of ISO 230-2 need the end of every move, which a stopped trial lacks",
+             "false with command.sequence"}};
+  });
 }
 
 ValueRule stop_with_two_phases() {
-  return {{"verdict.stop", "controller.coarse.coarse_beyond"},
-          false,
-          [](Limits l, Limits) -> Faults {
-            if (l[0].high == 0.0 || !study::can_have_coarse_phase(l[1])) return {};
-            return {
-                {"the coarse phase may bring the $rotor back from beyond verdict.limit, and so change an "
-                 "outcome that counted as decided",
-                 ""}};
-          },
-          true};
+  return warning(
+      between({"verdict.stop", "controller.coarse.coarse_beyond"},
+              [](const auto& stop, const auto& beyond) -> Faults {
+                if (stop.high == 0.0 || !study::can_have_coarse_phase(beyond)) return {};
+                return {
+                    {"the coarse phase may bring the $rotor back from beyond verdict.limit, and so change an "
+                     "outcome that counted as decided",
+                     ""}};
+              }));
 }
 
 std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
   return {
       stop_with_two_phases(),
-      {{"controller.kd", "controller.coarse.coarse_beyond"},
-       false,
-       [derivative_unit](Limits l, Limits) -> Faults {
-         if (!study::can_have_coarse_phase(l[1]) || l[0].high == 0.0) return {};
-         return {{fmt::format("{} {} can act in the fine phase of a control with two phases", l[0].high,
-                              derivative_unit),
-                  "0 with a coarse phase, which alone has a derivative (controller.coarse.kd)"}};
-       }},
-      {{"controller.coarse.fine_within", "controller.coarse.coarse_beyond"},
-       false,
-       [](Limits l, Limits) -> Faults {
-         if (!study::can_have_coarse_phase(l[1]) || l[0].high <= l[1].low) return {};
-         return {{fmt::format("the fine phase can be entered at {} counts and left beyond {}", l[0].high,
-                              l[1].low),
-                  "at most controller.coarse.coarse_beyond"}};
-       }},
+      between({"controller.kd", "controller.coarse.coarse_beyond"},
+              [derivative_unit](const auto& kd, const auto& beyond) -> Faults {
+                if (!study::can_have_coarse_phase(beyond) || kd.high == 0.0) return {};
+                return {{fmt::format("{} {} can act in the fine phase of a control with two phases", kd.high,
+                                     derivative_unit),
+                         "0 with a coarse phase, which alone has a derivative (controller.coarse.kd)"}};
+              }),
+      between({"controller.coarse.fine_within", "controller.coarse.coarse_beyond"},
+              [](const auto& within, const auto& beyond) -> Faults {
+                if (!study::can_have_coarse_phase(beyond) || within.high <= beyond.low) return {};
+                return {{fmt::format("the fine phase can be entered at {} counts and left beyond {}",
+                                     within.high, beyond.low),
+                         "at most controller.coarse.coarse_beyond"}};
+              }),
   };
 }
 
@@ -215,58 +208,57 @@ std::vector<ValueRule> rules_of_the_loops_encoders() {
 }
 
 std::vector<ValueRule> rules_of_the_clock() {
-  return {{{"controller.jitter", "controller.sample_rate"},
-           false,
-           [](Limits l, Limits) -> Faults {
-             if (l[0].high == 0.0 || l[0].high * l[1].high < 1.0) return {};
-             return {{fmt::format("a sample can be {} s late, a whole sample time at {} Hz", l[0].high,
-                                  l[1].high),
-                      "less than 1/controller.sample_rate"}};
-           }},
-          {{"controller.dither.frequency", "controller.sample_rate", "controller.dither.amplitude"},
-           false,
-           [](Limits l, Limits) -> Faults {
-             if (l[2].high == 0.0 || l[0].high <= 0.5 * l[1].low) return {};
-             return {{fmt::format("{} Hz can be more than half the sample rate, {} Hz", l[0].high, l[1].low),
-                      "at most half of controller.sample_rate"}};
-           }}};
+  return {between({"controller.jitter", "controller.sample_rate"},
+                  [](const auto& jitter, const auto& rate) -> Faults {
+                    if (jitter.high == 0.0 || jitter.high * rate.high < 1.0) return {};
+                    return {{fmt::format("a sample can be {} s late, a whole sample time at {} Hz",
+                                         jitter.high, rate.high),
+                             "less than 1/controller.sample_rate"}};
+                  }),
+          between({"controller.dither.frequency", "controller.sample_rate", "controller.dither.amplitude"},
+                  [](const auto& frequency, const auto& rate, const auto& amplitude) -> Faults {
+                    if (amplitude.high == 0.0 || frequency.high <= 0.5 * rate.low) return {};
+                    return {{fmt::format("{} Hz can be more than half the sample rate, {} Hz", frequency.high,
+                                         rate.low),
+                             "at most half of controller.sample_rate"}};
+                  })};
 }
 
-ValueRule order_of_hold(std::string_view leave, std::string_view enter) {
-  return {{leave, enter}, false, [](Limits l, Limits) -> Faults {
-            if (l[0].high < 0.0 || l[0].low >= l[1].high) return {};
-            return {{fmt::format("the hold can end at {} counts and begin at {}", l[0].low, l[1].high),
-                     "at least the |error| with which it begins"}};
-          }};
+/// What ends at an |error| of at least that with which it began. @param text of both, by which they are below
+ValueRule order_of(std::string_view end, std::string_view begin, const char* text, const char* expected) {
+  return between({end, begin}, [text, expected](const auto& of_end, const auto& of_begin) -> Faults {
+    if (of_end.high < 0.0 || of_end.low >= of_begin.high) return {};
+    return {{fmt::format(fmt::runtime(text), of_end.low, of_begin.high), expected}};
+  });
 }
 
-/// Rules of the blocks of one phase, by the names of their parameters.
-std::vector<ValueRule> rules_of_blocks(std::string_view enter, std::string_view leave, std::string_view zone,
-                                       std::string_view bandwidth) {
-  return {
-      {{leave, enter},
-       false,
-       [](Limits l, Limits) -> Faults {
-         if (l[0].high < 0.0 || l[0].low >= l[1].high) return {};
-         return {{fmt::format("the deadband can be left at {} counts and entered at {}", l[0].low, l[1].high),
-                  "at least the |error| with which it is entered"}};
-       }},
-      {{zone, enter, leave},
-       false,
-       [zone, enter](Limits l, Limits) -> Faults {
-         if (l[0].high > l[1].low) return {};
-         return {{"the integral never changes: its zone lies inside the deadband",
-                  fmt::format("{} above {}", zone, enter)}};
-       },
-       true},
-      {{bandwidth, "controller.sample_rate"},
-       false,
-       [](Limits l, Limits) -> Faults {
-         if (l[0].high == 0.0 || l[0].high < 0.5 * l[1].low) return {};
-         return {{fmt::format("{} Hz can be half the sample rate, {} Hz, or more", l[0].high, l[1].low),
-                  "a bandwidth below half of controller.sample_rate"}};
-       }},
-  };
+template <Phase phase>
+ValueRule order_of_hold() {
+  return order_of(phase_path<phase, "hold.leave">, phase_path<phase, "hold.enter">,
+                  "the hold can end at {} counts and begin at {}",
+                  "at least the |error| with which it begins");
+}
+
+template <Phase phase>
+std::vector<ValueRule> rules_of_blocks() {
+  static constexpr std::string_view enter = phase_path<phase, "deadband.enter">;
+  static constexpr std::string_view leave = phase_path<phase, "deadband.leave">;
+  static constexpr std::string_view zone = phase_path<phase, "integrator_zone">;
+  return {order_of(leave, enter, "the deadband can be left at {} counts and entered at {}",
+                   "at least the |error| with which it is entered"),
+          warning(between({zone, enter, leave},
+                          [](const auto& of_zone, const auto& of_enter, const auto&) -> Faults {
+                            if (of_zone.high > of_enter.low) return {};
+                            return {{"the integral never changes: its zone lies inside the deadband",
+                                     fmt::format("{} above {}", zone, enter)}};
+                          })),
+          between({phase_path<phase, "observer.bandwidth">, "controller.sample_rate"},
+                  [](const auto& bandwidth, const auto& rate) -> Faults {
+                    if (bandwidth.high == 0.0 || bandwidth.high < 0.5 * rate.low) return {};
+                    return {{fmt::format("{} Hz can be half the sample rate, {} Hz, or more", bandwidth.high,
+                                         rate.low),
+                             "a bandwidth below half of controller.sample_rate"}};
+                  })};
 }
 
 }  // namespace
@@ -283,14 +275,11 @@ std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
   add({what_holds_the_axis(plan)});
   add(rules_of_the_clock());
   if (!plan.open_loop) {
-    add({order_of_hold("controller.hold.leave", "controller.hold.enter"),
-         order_of_hold("controller.coarse.hold.leave", "controller.coarse.hold.enter")});
+    add({order_of_hold<Phase::fine>(), order_of_hold<Phase::coarse>()});
     add(rules_of_the_loops_encoders());
     add(rules_of_two_phases(parameters::unit_of(kd, plan.units)));
-    add(rules_of_blocks("controller.deadband.enter", "controller.deadband.leave",
-                        "controller.integrator_zone", "controller.observer.bandwidth"));
-    add(rules_of_blocks("controller.coarse.deadband.enter", "controller.coarse.deadband.leave",
-                        "controller.coarse.integrator_zone", "controller.coarse.observer.bandwidth"));
+    add(rules_of_blocks<Phase::fine>());
+    add(rules_of_blocks<Phase::coarse>());
   }
   add(plausibility_rules(plan));
   if (plan.sequence) add({no_stop_in_a_sequence()});

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "experiments/study/point_edit.hpp"
@@ -30,6 +31,25 @@ struct ValueRule {
   bool once{false};       ///< only the first fault is reported, at the parameter of the rule that is given
   bool of_record{false};  ///< the message is about command.torque.file, which is not a parameter
 };
+
+/// A rule of the limits of these parameters, which `find_faults` takes as arguments of its own in their
+/// order, so that the compiler counts them.
+template <std::size_t count, class FindFaults>
+ValueRule between(const std::string_view (&names)[count], FindFaults find_faults) {
+  return {{names, names + count},
+          false,
+          [find_faults](std::span<const study::ValueLimits> parameters, std::span<const study::ValueLimits>) {
+            return [&]<std::size_t... i>(std::index_sequence<i...>) {
+              return find_faults(parameters[i]...);
+            }
+            (std::make_index_sequence<count>{});
+          }};
+}
+
+inline ValueRule warning(ValueRule rule) {
+  rule.warn_only = true;
+  return rule;
+}
 
 /// The rules between the values of the list and the parameters of the command: the number of samples of a
 /// trial; of a sequence, the order of its targets; with a profile, the time that the reference travels; of

@@ -1,52 +1,126 @@
 #include "experiments/study/effects.hpp"
 
+#include <algorithm>
 #include <array>
 
-#include "experiments/study/point_limits.hpp"
+#include "experiments/parameters/phase_path.hpp"
 
 namespace zerocount::study {
+namespace {
+
+using F = StudyFeatures;
+using R = random::TrialRandomness;
+using parameters::joined;
+using random::RandomKey;
+
+bool has_history(const StudyPlan& plan) {
+  constexpr std::array<std::string_view, 2> both{"initial.history.reversals", "initial.history.torque"};
+  return holds_somewhere(plan, both, [](std::span<const ValueLimits> limits) {
+    return std::ranges::all_of(limits, [](const ValueLimits& l) { return l.high > 0.0; });
+  });
+}
+
+bool has_spectra(const StudyPlan& plan) {
+  return !plan.common.disturbance.spectra.empty() || !plan.common.load_side.disturbance.spectra.empty();
+}
+
+/// The errors of an encoder, "encoder.fine_errors".
+template <parameters::Literal of>
+constexpr std::array<Effect, 4> errors_of(RandomKey R::*noise, RandomKey R::*missed) {
+  constexpr const char* errors = "no other encoder errors";
+  constexpr auto all = &F::encoder_errors;
+  constexpr RandomKey R::*none = nullptr;
+  return {{
+      {joined<of, ".noise">,
+       "no encoder noise",
+       all,
+       noise,
+       joined<of, ".noise/samples">,
+       {},
+       joined<of, ".noise_bandwidth">},
+      {joined<of, ".eccentricity">, errors, all, none, {}, {}, joined<of, ".eccentricity_angle">, true},
+      {joined<of, ".interpolation">, errors, all, none, {}, {}, joined<of, ".interpolation_period">, true},
+      {joined<of, ".missed">, errors, all, missed, joined<of, ".missed/samples">},
+  }};
+}
+
+constexpr auto of_fine = errors_of<"encoder.fine_errors">(&R::fine_noise, &R::fine_missed);
+constexpr auto of_coarse = errors_of<"encoder.coarse_errors">(&R::coarse_noise, &R::coarse_missed);
+constexpr auto of_load = errors_of<"encoder.load.fine_errors">(&R::other_noise, &R::other_missed);
+constexpr const char* converter = "ideal converter";
+constexpr const char* disturbance = "no disturbance";
+
+constexpr std::array more{
+    Effect{"controller.delay", "no delay"},
+    Effect{"controller.jitter", "no jitter", nullptr, &R::jitter, "controller.jitter/samples"},
+    Effect{"controller.missed", {}, nullptr, &R::missed_samples, "controller.missed/samples"},
+    Effect{"amplifier.bandwidth", "ideal amplifier", &F::drive_torque},
+    Effect{"dac.offset", converter, &F::drive_torque},
+    Effect{"dac.gain_error", converter, &F::drive_torque},
+    Effect{"dac.nonlinearity", converter, &F::drive_torque},
+    Effect{"dac.noise", converter, &F::drive_torque, &R::dac_noise, "dac.noise/samples"},
+    Effect{"plant.load.inertia", "rigid", &F::load},
+    Effect{"initial.history", {}, nullptr, &R::history, "initial.history/levels", has_history},
+    Effect{"disturbance.torque", disturbance},
+    Effect{"disturbance.ripple.#.amplitude", disturbance},
+    Effect{"disturbance.vibration.#.amplitude", disturbance},
+    Effect{"disturbance.load.torque", disturbance},
+    Effect{"disturbance.load.ripple.#.amplitude", disturbance},
+    Effect{"disturbance.load.vibration.#.amplitude", disturbance},
+    Effect{"disturbance.vibration.#.spectrum", disturbance, nullptr, &R::spectrum,
+           "disturbance.vibration/spectrum", has_spectra}};
+
+/// Whether this row of the study's table is the parameter of the effect.
+bool is_of(const Effect& effect, const parameters::Parameter& row) {
+  const bool of_element = effect.parameter.find('#') != std::string_view::npos;
+  return parameters::has_value(row) && (of_element ? parameters::without_indices(row.name) == effect.parameter
+                                                   : row.name == effect.parameter);
+}
+
+PremiseState state_of(const Effect& effect, const StudyPlan& plan) {
+  if (acts(plan, effect)) return PremiseState::considered;
+  for (std::size_t slot = 0; slot < plan.table.rows.size(); ++slot)
+    if (plan.given[slot] && is_of(effect, plan.table.rows[slot])) return PremiseState::stated_none;
+  return PremiseState::assumed;
+}
+
+bool is_of_the_control_loop(const Effect& effect) {
+  return effect.parameter.starts_with("encoder.") || effect.parameter.starts_with("controller.");
+}
+
+}  // namespace
 
 std::span<const Effect> effects() {
-  using F = StudyFeatures;
-  using R = random::TrialRandomness;
-  constexpr const char* noise = "no encoder noise";
-  constexpr const char* errors = "no other encoder errors";
-  constexpr const char* converter = "ideal converter";
-  constexpr const char* disturbance = "no disturbance";
-  static constexpr std::array all{
-      Effect{"encoder.fine_errors.noise", noise, &F::encoder_errors, &R::fine_noise},
-      Effect{"encoder.coarse_errors.noise", noise, &F::encoder_errors, &R::coarse_noise},
-      Effect{"encoder.load.fine_errors.noise", noise, &F::encoder_errors, &R::other_noise},
-      Effect{"encoder.fine_errors.eccentricity", errors, &F::encoder_errors},
-      Effect{"encoder.fine_errors.interpolation", errors, &F::encoder_errors},
-      Effect{"encoder.fine_errors.missed", errors, &F::encoder_errors, &R::fine_missed},
-      Effect{"encoder.coarse_errors.eccentricity", errors, &F::encoder_errors},
-      Effect{"encoder.coarse_errors.interpolation", errors, &F::encoder_errors},
-      Effect{"encoder.coarse_errors.missed", errors, &F::encoder_errors, &R::coarse_missed},
-      Effect{"encoder.load.fine_errors.eccentricity", errors, &F::encoder_errors},
-      Effect{"encoder.load.fine_errors.interpolation", errors, &F::encoder_errors},
-      Effect{"encoder.load.fine_errors.missed", errors, &F::encoder_errors, &R::other_missed},
-      Effect{"controller.delay", "no delay"},
-      Effect{"controller.jitter", "no jitter", nullptr, &R::jitter},
-      Effect{"controller.missed", {}, nullptr, &R::missed_samples},
-      Effect{"amplifier.bandwidth", "ideal amplifier", &F::drive_torque},
-      Effect{"dac.offset", converter, &F::drive_torque},
-      Effect{"dac.gain_error", converter, &F::drive_torque},
-      Effect{"dac.nonlinearity", converter, &F::drive_torque},
-      Effect{"dac.noise", converter, &F::drive_torque, &R::dac_noise},
-      Effect{"plant.load.inertia", "rigid", &F::load},
-      Effect{"disturbance.torque", disturbance},
-      Effect{"disturbance.ripple.#.amplitude", disturbance},
-      Effect{"disturbance.vibration.#.amplitude", disturbance},
-      Effect{"disturbance.load.torque", disturbance},
-      Effect{"disturbance.load.ripple.#.amplitude", disturbance},
-      Effect{"disturbance.load.vibration.#.amplitude", disturbance}};
+  static const std::vector<Effect> all = [] {
+    std::vector<Effect> rows;
+    for (const auto& of_encoder : {of_fine, of_coarse, of_load})
+      rows.insert(rows.end(), of_encoder.begin(), of_encoder.end());
+    rows.insert(rows.end(), more.begin(), more.end());
+    return rows;
+  }();
   return all;
 }
 
-bool acts_somewhere(const StudyPlan& plan, std::string_view parameter) {
-  return holds_somewhere(plan, parameter,
-                         [](const ValueLimits& limits) { return limits.low != 0.0 || limits.high != 0.0; });
+bool can_be_nonzero(const ValueLimits& limits) {
+  return limits.low != 0.0 || limits.high != 0.0;
+}
+
+bool acts(const StudyPlan& plan, const Effect& effect) {
+  if (effect.acts != nullptr) return effect.acts(plan);
+  return std::ranges::any_of(plan.table.rows, [&](const parameters::Parameter& row) {
+    return is_of(effect, row) && holds_somewhere(plan, row.name, can_be_nonzero);
+  });
+}
+
+std::vector<Premise> premises_of(const StudyPlan& plan) {
+  std::vector<Premise> premises;
+  for (const Effect& effect : effects()) {
+    if (effect.assumption.empty() || (plan.open_loop && is_of_the_control_loop(effect))) continue;
+    auto premise = std::ranges::find(premises, effect.assumption, &Premise::assumption);
+    if (premise == premises.end()) premise = premises.insert(premises.end(), {effect.assumption});
+    premise->state = std::min(premise->state, state_of(effect, plan));
+  }
+  return premises;
 }
 
 }  // namespace zerocount::study

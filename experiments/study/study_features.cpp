@@ -68,7 +68,7 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
   features.drive_torque = has_delayed_torque(plan);
   for (const Effect& effect : effects())
     if (effect.feature != nullptr && !(features.*effect.feature))
-      features.*effect.feature = acts_somewhere(plan, effect.parameter);
+      features.*effect.feature = acts(plan, effect);
   const auto closes_at = [&](bool load) {
     return features.load && holds_somewhere(plan, two_encoders, [&](std::span<const ValueLimits> limits) {
              return has_two_encoders(limits) && closes_at_load(limits) == load;

@@ -148,22 +148,24 @@ double rate_of(const AgedValue& value, const Study& study, const StudyTrial& tri
 
 // A table by a grouping counts every trial once, and as many in each of its groups.
 TEST(Groupings, DivideTheTrialsEquallyAndIndependently) {
-  const TrialTurns turns{.rigs = 4, .conditions = 6, .worlds = 2, .ages = 2};
   constexpr std::int64_t trials = 240;
-  const std::vector<std::int64_t> sizes{4, 2, 3, 2};
-  for (const GroupingTraits& of : groupings) {
-    const std::int64_t size = sizes[static_cast<std::size_t>(of.grouping)];
-    std::vector<std::int64_t> counted(static_cast<std::size_t>(size));
-    for (std::int64_t i = 0; i < trials; ++i) {
-      const std::int64_t group = turns.group_of(of.grouping, i);
-      ASSERT_TRUE(group >= 0 && group < size) << of.name;
-      ++counted[static_cast<std::size_t>(group)];
-      // What a rig bears in turn leaves its draw, and so its rig and world, as they are.
-      const std::int64_t again = turns.trial_of(turns.draw_of(i), 0);
-      const bool of_turn = of.grouping == Grouping::condition || of.grouping == Grouping::age;
-      EXPECT_EQ(turns.group_of(of.grouping, again), of_turn ? 0 : group) << of.name;
+  for (const std::int64_t rigs : {1, 4}) {
+    const TrialTurns turns{.rigs = rigs, .conditions = 6, .worlds = 2, .ages = 2};
+    const std::vector<std::int64_t> sizes{rigs, 2, 3, 2};
+    for (const GroupingTraits& of : groupings) {
+      std::vector<std::int64_t> counted(
+          static_cast<std::size_t>(sizes.at(static_cast<std::size_t>(of.grouping))));
+      for (std::int64_t i = 0; i < trials; ++i)
+        ++counted.at(static_cast<std::size_t>(turns.group_of(of.grouping, i)));
+      EXPECT_EQ(counted, std::vector<std::int64_t>(counted.size(), trials / std::ssize(counted))) << of.name;
     }
-    EXPECT_EQ(counted, std::vector<std::int64_t>(counted.size(), trials / size)) << of.name;
+    for (std::int64_t i = 0; i < trials; ++i) {
+      // The conditions of an age are together. What a rig bears in turn leaves its draw as it is.
+      EXPECT_EQ(turns.group_of(Grouping::condition, i) + 3 * turns.group_of(Grouping::age, i),
+                turns.condition_of(i));
+      for (const Grouping of_draw : {Grouping::rig, Grouping::world})
+        EXPECT_EQ(turns.group_of(of_draw, turns.trial_of(turns.draw_of(i), 0)), turns.group_of(of_draw, i));
+    }
   }
 }
 

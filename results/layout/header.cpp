@@ -121,13 +121,17 @@ study::Retention read_retention(const hdf5::File& file) {
 void require_version(const hdf5::File& file) {
   const std::int64_t version = file.integer("format_version");
   if (version == format_version) return;
-  const char* const advice =
-      version > format_version ? "newer than the {} that this program reads; read it with that zerocount or "
-                                 "a later one"
-                               : "and this program reads version {}; run its manifest again";
-  throw ForeignFile(file.file_name(), fmt::format("zerocount {} wrote it in format version {}, {}",
-                                                  file.text("zerocount_version"), version,
-                                                  fmt::format(fmt::runtime(advice), format_version)));
+  const std::string writer = file.text("zerocount_version");
+  throw ForeignFile(
+      file.file_name(),
+      fmt::format("zerocount {} wrote it in format version {}, {}", writer, version,
+                  version > format_version
+                      ? fmt::format("newer than the {} that this program reads; read it with that zerocount "
+                                    "or a later one",
+                                    format_version)
+                      : fmt::format("and this program reads version {}; run its manifest again, or read it "
+                                    "with that zerocount",
+                                    format_version)));
 }
 
 study::Engine read_engine(const hdf5::File& file) {

@@ -181,7 +181,7 @@ std::vector<ShardInfo> in_order(std::span<const ShardInfo> shards, layout::RowRa
 
 std::vector<ShardInfo> merge_inputs(std::span<const fs::path> inputs, const study::Study& study) {
   std::vector<ShardInfo> shards;
-  for (const fs::path& path : expand(inputs)) shards.push_back({path, open_shard(path, study).rows()});
+  for (const fs::path& path : expand(inputs)) shards.push_back(checked_shard(path, study));
   sort_by_rows(shards);
   return shards;
 }

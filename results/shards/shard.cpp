@@ -9,7 +9,6 @@
 
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
-#include "results/reading/input_validation.hpp"
 #include "results/shards/encoded_shard.hpp"
 #include "results/shards/trial_columns.hpp"
 #include "results/storage/checksum_trailer.hpp"
@@ -85,23 +84,13 @@ void sort_by_rows(std::vector<ShardInfo>& shards) {
   });
 }
 
-reading::ResultsFile open_shard(const fs::path& path, const study::Study& study) {
-  reading::ResultsFile file(path, reading::Require::any_part);
-  layout::require_same_study(path, file.header(), study);
-  return file;
+ShardInfo checked_shard(const fs::path& path, const study::Study& study) {
+  const layout::FileHeader header = inspect_header(path);
+  layout::require_same_study(path, header, study);
+  return {path, header.rows};
 }
 
-void check_values(const reading::ResultsFile& shard, const study::Study& study) {
-  if (!shard.trials()) return;
-  shard.trials()->require_valid_values();
-  shard.trials()->for_each_block([&](layout::RowRange block) {
-    reading::check_inputs(*shard.trials(), study, block, [&](const std::string& problem) {
-      throw Failure(ExitCode::bad_data, fmt::format("{}: {}", shard.path().string(), problem));
-    });
-  });
-}
-
-ShardSurvey list_shards(const fs::path& directory, const study::Study& study, const ShardCheck& check) {
+ShardSurvey list_shards(const fs::path& directory, const study::Study& study) {
   ShardSurvey survey;
   std::error_code error;
   const bool exists = fs::exists(directory, error);
@@ -110,9 +99,7 @@ ShardSurvey list_shards(const fs::path& directory, const study::Study& study, co
   survey.unfinished = files_in(directory, ".part");
   for (const fs::path& path : shard_files(directory)) {
     try {
-      const reading::ResultsFile shard = open_shard(path, study);
-      if (check) check(shard, study);
-      survey.shards.push_back({path, shard.rows()});
+      survey.shards.push_back(checked_shard(path, study));
     } catch (const layout::ForeignFile& foreign) {
       survey.problems.push_back({path, foreign.what(), ShardProblem::Kind::foreign});
     } catch (const Failure& failure) {

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,7 +12,6 @@
 #include "results/layout/layout.hpp"
 #include "results/layout/point_sums.hpp"
 #include "results/layout/row_range.hpp"
-#include "results/reading/results_file.hpp"
 #include "results/shards/trial_result.hpp"
 #include "results/storage/written_bytes.hpp"
 
@@ -88,22 +86,15 @@ layout::FileHeader inspect_header(const std::filesystem::path& path,
 /// Whether the file has every trial; otherwise it has sums. @throws as inspect_header does
 bool keeps_every_trial(const std::filesystem::path& path);
 
-/// Opens a shard. Reads the whole file and checks its checksum trailer, format, version, study, build and
-/// completion mark.
+/// The rows of a shard or part. Reads the whole file and checks its checksum trailer, format, version, study,
+/// build and completion mark. The checksum proves its values: they are not read.
 /// @throws ForeignFile or another Failure (bad_data) if it cannot be used; see also open_results.
-reading::ResultsFile open_shard(const std::filesystem::path& path, const study::Study& study);
+ShardInfo checked_shard(const std::filesystem::path& path, const study::Study& study);
 
-/// A check of a shard beyond open_shard. @throws Failure (bad_data) if the shard is damaged
-using ShardCheck = std::function<void(const reading::ResultsFile&, const study::Study&)>;
-
-/// Checks the values of all kept trials: a file that was damaged before it was closed has a right checksum.
-void check_values(const reading::ResultsFile& shard, const study::Study& study);
-
-/// Opens and checks shard_files(directory). A missing directory has no shards; other files are ignored.
+/// Checks shard_files(directory). A missing directory has no shards; other files are ignored.
 /// @throws Failure (machine_failed) if the directory or a file cannot be read. Such a file does not count as
 /// damaged.
-ShardSurvey list_shards(const std::filesystem::path& directory, const study::Study& study,
-                        const ShardCheck& check = check_values);
+ShardSurvey list_shards(const std::filesystem::path& directory, const study::Study& study);
 
 /// The ranges of `wanted` that no shard covers, in order. Shards may overlap.
 std::vector<layout::RowRange> missing_ranges(std::span<const ShardInfo> shards, layout::RowRange wanted);

@@ -8,11 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/summary/study_statistics.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/recorded_values.hpp"
-#include "results/reading/results_file.hpp"
 #include "runners/status/status.hpp"
 
 namespace zerocount::study_run {
@@ -34,21 +32,6 @@ void require_same_plugin(const fs::path& shard, const study::Study& study) {
 
 }  // namespace
 
-void check_contents(const reading::ResultsFile& file, const study::Study& study) {
-  shards::check_values(file, study);
-  if (!layout::has_sums(study.retention)) return;
-  for (std::int64_t i = 0; i < file.points(); ++i) {
-    const std::int64_t point = file.first_point() + i;
-    const std::int64_t expected = summary::restored_point(file, study, point).failures();
-    const std::int64_t count =
-        file.trials() ? file.trials()->positions_of(file.rows_of(point)).count : expected;
-    if (count == expected) continue;
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: design point {}: {} failures; expected the {} of its sums",
-                              file.path().string(), point, count, expected));
-  }
-}
-
 EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout::RowRange wanted) {
   EarlierShards shards;
   std::int64_t covered = wanted.first;
@@ -63,7 +46,7 @@ EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout:
 
 EarlierShards earlier_shards(const fs::path& directory, const study::Study& study, layout::RowRange wanted,
                              ForeignShards foreign) {
-  const shards::ShardSurvey survey = shards::list_shards(directory, study, check_contents);
+  const shards::ShardSurvey survey = shards::list_shards(directory, study);
   for (const shards::ShardProblem& bad : survey.problems) {
     if (bad.kind == shards::ShardProblem::Kind::foreign && foreign == ForeignShards::remove) {
       std::error_code ignored;

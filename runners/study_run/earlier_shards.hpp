@@ -7,7 +7,6 @@
 
 #include "experiments/study/study_fwd.hpp"
 #include "results/layout/row_range.hpp"
-#include "results/reading/results_file.hpp"
 #include "results/reading/trial_tables.hpp"
 #include "results/shards/shard.hpp"
 
@@ -22,11 +21,6 @@ struct EarlierShards {
   std::vector<std::filesystem::path> all;  ///< all valid shards of the study
 };
 
-/// Checks that inputs, measures and jerks of the trials are possible, and that the sums can be those of the
-/// trials and count the failures that the file keeps.
-/// @throws Failure (bad_data)
-void check_contents(const reading::ResultsFile& file, const study::Study& study);
-
 /// Selects shards within `wanted` that do not overlap. Shards of runs with other parts may extend beyond it
 /// or overlap; trials of unused shards are run again.
 EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout::RowRange wanted);
@@ -34,8 +28,8 @@ EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout:
 /// Treatment of shards of another study.
 enum class ForeignShards { refuse, remove };
 
-/// Finds the shards of earlier runs and reads every value of them, which may be wrong under a right checksum.
-/// Damaged shards are renamed and their trials run again.
+/// Finds the shards of earlier runs, whose checksums prove their values. Damaged shards are renamed and their
+/// trials run again.
 /// @throws Failure (bad_input) if the folder has shards of another study and `refuse` is given.
 EarlierShards earlier_shards(const std::filesystem::path& directory, const study::Study& study,
                              layout::RowRange wanted, ForeignShards foreign = ForeignShards::refuse);

@@ -13,8 +13,11 @@
 
 #include <fmt/format.h>
 
+#include "analysis/summary/study_statistics.hpp"
+#include "core/failure/failure.hpp"
 #include "core/text/counted.hpp"
 #include "results/reading/first_difference.hpp"
+#include "results/reading/input_validation.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/checksum_trailer.hpp"
@@ -42,6 +45,31 @@ void compare_header(const layout::FileHeader& header, const study::Study& study,
   // Another program may define the hash otherwise: its files are compared by their manifests alone.
   if (layout::same_build(header.provenance, layout::current_provenance()))
     require_equal("study_sha256", header.study_sha256, study.study_sha256, problems);
+}
+
+/// Checks that inputs, measures and jerks of the trials are possible, and that the sums can be those of the
+/// trials and count the failures that the file keeps.
+/// @throws Failure (bad_data)
+void check_contents(const reading::ResultsFile& file, const study::Study& study) {
+  if (file.trials()) {
+    file.trials()->require_valid_values();
+    file.trials()->for_each_block([&](layout::RowRange block) {
+      reading::check_inputs(*file.trials(), study, block, [&](const std::string& problem) {
+        throw Failure(ExitCode::bad_data, fmt::format("{}: {}", file.path().string(), problem));
+      });
+    });
+  }
+  if (!layout::has_sums(study.retention)) return;
+  for (std::int64_t i = 0; i < file.points(); ++i) {
+    const std::int64_t point = file.first_point() + i;
+    const std::int64_t expected = summary::restored_point(file, study, point).failures();
+    const std::int64_t count =
+        file.trials() ? file.trials()->positions_of(file.rows_of(point)).count : expected;
+    if (count == expected) continue;
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: design point {}: {} failures; expected the {} of its sums",
+                              file.path().string(), point, count, expected));
+  }
 }
 
 /// Checks that the sample records are those of the retained trials in their order, each from its first sample
@@ -199,7 +227,7 @@ std::optional<Described> check_statistics(CheckReport& report,
         problems.add(problem_of(failure, report.path));
       }
     };
-    work_on([&] { study_run::check_contents(file, described->study); });
+    work_on([&] { check_contents(file, described->study); });
     work_on([&] { check_records(file, described->study, problems); });
     work_on([&] { check_failures(file, described->study, problems); });
     work_on([&] { compare_rebuilt(file, described->study, report.stop, problems); });

@@ -2,7 +2,6 @@
 #include <csignal>
 
 #include "results/reading/all_trials_file.hpp"
-#include "results/storage/checksum_trailer.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
 
@@ -10,19 +9,6 @@ namespace zerocount::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Changes a byte of a dataset, and writes the checksum trailer of the file anew.
-void damage_chunk(const fs::path& path, const std::string& dataset) {
-  const std::uint64_t place = chunk_address(path, dataset);
-  unseal(path);
-  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
-  file.seekg(static_cast<std::streamoff>(place));
-  const char byte = static_cast<char>(file.get() ^ 1);
-  file.seekp(static_cast<std::streamoff>(place));
-  file.put(byte);
-  file.close();
-  storage::append_checksum(path);
-}
 
 class Run : public ProgramTest {
  protected:
@@ -157,35 +143,6 @@ TEST_F(Run, RunsAgainWhatADamagedShardHeld) {
   EXPECT_TRUE(says(refusal({"run", "study.yaml", "-o", "new.h5"}, 0), "warning"));
   EXPECT_EQ(folder_.read("new.h5.shards/damaged.h5.damaged").size(), bytes.size() / 2);
   expect_same_datasets(at("whole.h5"), at("new.h5"));
-}
-
-// The spring constant is positive.
-TEST_F(Run, RunsAgainWhatAShardWithAnImpossibleInputHeld) {
-  folder_.write("study.yaml", small_manifest(40));
-  complete("study.yaml", "whole.h5");
-  fs::create_directory(at("new.h5.shards"));
-  complete("study.yaml", "new.h5.shards/wrong.h5", {"--shard", "1/2"});
-  set_element(at("new.h5.shards/wrong.h5"), "/trial/input/friction.k2", 3, -1.0);
-  EXPECT_TRUE(says(refusal({"run", "study.yaml", "-o", "new.h5"}, 0),
-                   "/trial/input/friction.k2: trial 3: it is -1; expected"));
-  expect_same_datasets(at("whole.h5"), at("new.h5"));
-}
-
-// As by a faulty memory before the checksum was computed: the checksum is right, and the values are not.
-TEST_F(Run, RunsAgainWhatASealedShardWithWrongDataHeld) {
-  folder_.write("study.yaml", small_manifest(40));
-  complete("study.yaml", "whole.h5");
-  complete("study.yaml", "part.h5", {"--shard", "1/2"});
-  fs::create_directory(at("new.h5.shards"));
-  for (const char* dataset : {"/outcome/outcome", "/jerk/move", "/trial/input/friction.k2"}) {
-    SCOPED_TRACE(dataset);
-    fs::copy_file(at("part.h5"), at("new.h5.shards/wrong.h5"));
-    damage_chunk(at("new.h5.shards/wrong.h5"), dataset);
-    EXPECT_TRUE(says(refusal({"run", "study.yaml", "-o", "new.h5"}, 0), "wrong.h5"));
-    expect_same_datasets(at("whole.h5"), at("new.h5"));
-    fs::remove(at("new.h5"));
-    fs::remove(at("new.h5.shards/wrong.h5.damaged"));
-  }
 }
 
 /// Trials of a million samples of a contact that creeps fast: each takes minutes.

@@ -49,22 +49,41 @@ void add_groups(layout::GroupCounts& stored, const measures::PointSummary& point
   if (!point.goals.empty()) stored.goal_met.push_back(numbers(&GroupTrials::meeting, &MoveCounts::met));
 }
 
-/// Adds the machines of a point by age. @param question with a claim
-void add_machines(layout::AgeCounts& stored, const measures::PointSummary& point,
-                  const goal::Question& question, std::int64_t rigs) {
-  const std::vector<double> unknown(question.ages.at.size(), statistics::unknown);
-  for (auto values :
-       {&layout::AgeCounts::machines, &layout::AgeCounts::machines_low, &layout::AgeCounts::machines_high})
-    (stored.*values).push_back(unknown);
-  stored.lives.emplace_back(static_cast<std::size_t>(rigs), statistics::unknown);
-  if (point.judged == 0) return;
-  const std::vector<goal::BoundedProportion> machines = goal::machines_at_ages(question, point.goals);
-  for (std::size_t age = 0; age < machines.size(); ++age) {
-    stored.machines.back()[age] = machines[age].value;
-    stored.machines_low.back()[age] = machines[age].low;
-    stored.machines_high.back()[age] = machines[age].high;
+/// Adds the trials of a point on each rig.
+void add_rigs(layout::GroupCounts& stored, const measures::PointSummary& point, const study::Study& study) {
+  const auto rigs = static_cast<std::size_t>(study.rigs);
+  stored.trials.emplace_back(rigs, study.open_loop ? 0 : study.trials / study.rigs);
+  stored.success.push_back(point.rigs.successes_of_rigs);
+  stored.success.back().resize(rigs);  // empty in an open loop
+}
+
+/// Adds the machines of a point that meet the goal at each age, and the life of each rig. @param study with a
+/// claim
+void add_machines(layout::GroupCounts& ages, layout::GroupCounts& rigs, const measures::PointSummary& point,
+                  const study::Study& study) {
+  if (ages.statistics.empty()) {
+    ages.statistics = {
+        {"machines", "1", "proportion of machines that meet the goal at the age under every condition", {}},
+        {"machines_low", "1", "lower bound of the proportion of machines, one-sided", {}},
+        {"machines_high", "1", "upper bound of the proportion of machines, one-sided", {}}};
+    rigs.statistics = {{"life",
+                        study.ages.unit,
+                        "last age up to and including which the machine meets the goal under every "
+                        "condition, NaN if it does not at the first",
+                        {}}};
   }
-  stored.lives.back() = goal::lives_of_rigs(question, point.goals);
+  const bool judged = point.judged > 0;
+  const goal::Question question = goal::question_of(study);
+  const goal::BoundedProportion unknown{statistics::unknown, statistics::unknown, statistics::unknown};
+  for (const goal::BoundedProportion& at_age :
+       judged ? goal::machines_at_ages(question, point.goals) : std::vector(study.ages.at.size(), unknown)) {
+    ages.statistics[0].values.push_back(at_age.value);
+    ages.statistics[1].values.push_back(at_age.low);
+    ages.statistics[2].values.push_back(at_age.high);
+  }
+  for (const double life : judged ? goal::lives_of_rigs(question, point.goals)
+                                  : std::vector(static_cast<std::size_t>(study.rigs), unknown.value))
+    rigs.statistics[0].values.push_back(life);
 }
 
 /// Adds the counts of a point by rig, world, condition and age.
@@ -73,20 +92,17 @@ void add_counts(layout::StoredStatistics& stored, const measures::PointSummary& 
   using measures::CellCounts;
   const auto by_world =
       static_cast<std::vector<measures::MoveCounts> (CellCounts::*)() const>(&CellCounts::by_world);
-  if (study.rigs > 0) {
-    stored.rig_successes.push_back(point.rigs.successes_of_rigs);
-    stored.rig_successes.back().resize(static_cast<std::size_t>(study.rigs));  // empty in an open loop
-  }
-  if (stored.worlds) add_groups(*stored.worlds, point, study.worlds, by_world, std::identity());
+  if (study.rigs > 0) add_rigs(stored.groups["rig"], point, study);
+  if (study.worlds > 0) add_groups(stored.groups["world"], point, study.worlds, by_world, std::identity());
   const std::size_t names = study.condition_names.size();
-  if (stored.conditions)
-    add_groups(*stored.conditions, point, std::ssize(study.condition_names), &CellCounts::by_condition,
-               [names](std::size_t turn) { return turn % names; });
-  if (!stored.ages) return;
+  if (names > 0)
+    add_groups(stored.groups["condition"], point, std::ssize(study.condition_names),
+               &CellCounts::by_condition, [names](std::size_t turn) { return turn % names; });
+  if (study.ages.at.empty()) return;
   const auto of_age = static_cast<std::size_t>(study::conditions_of_age(study));
-  add_groups(stored.ages->trials, point, std::ssize(study.ages.at), &CellCounts::by_condition,
+  add_groups(stored.groups["age"], point, std::ssize(study.ages.at), &CellCounts::by_condition,
              [of_age](std::size_t turn) { return turn / of_age; });
-  if (!study.goals.empty()) add_machines(*stored.ages, point, goal::question_of(study), study.rigs);
+  if (!study.goals.empty()) add_machines(stored.groups["age"], stored.groups["rig"], point, study);
 }
 
 /// Adds the statistics of the points that follow. @param first number of the first of them
@@ -105,9 +121,6 @@ void add_points(layout::StoredStatistics& stored, std::span<const measures::Poin
       add_columns(stored.tables.front().columns, std::move(levels.columns));
     }
   }
-  if (study.worlds > 0 && !stored.worlds) stored.worlds.emplace();
-  if (!study.condition_names.empty() && !stored.conditions) stored.conditions.emplace();
-  if (!study.ages.at.empty() && !stored.ages) stored.ages.emplace();
   for (const measures::PointSummary& point : points) add_counts(stored, point, study);
 }
 

@@ -327,7 +327,7 @@ bool outline_points(StudySummary& summary, const reading::AllTrialsFile& file, c
   }
   if (summary.question.claim()) count_goal(summary, file, study);
   if (study.rigs == 0) return true;
-  const std::optional<reading::StoredGroups> rigs = file.rigs();
+  const std::optional<reading::StoredGroups> rigs = file.groups("rig");
   if (!rigs || rigs->success.empty()) return false;
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     statistics::RigStatistics& of_point = summary.points[i].rigs;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -152,33 +153,20 @@ struct StatisticTable {
   std::vector<PointColumn> columns;      ///< values[point·width + index]
 };
 
-/// Trials of the worlds, or under the conditions, at the design points, [point][world] or [point][condition].
+/// Trials of the groups of a grouping at the design points, [point][group].
 struct GroupCounts {
-  std::vector<std::vector<std::int64_t>> trials;    ///< that were judged: none in an open loop
-  std::vector<std::vector<std::int64_t>> success;   ///< all of whose moves ended with a zero count
-  std::vector<std::vector<std::int64_t>> goal_met;  ///< all of whose moves meet the goal; empty without one
-};
-
-/// Trials and machines at the ages at the design points, [point][age].
-struct AgeCounts {
-  GroupCounts trials;
-  /// Proportion of the machines that meet the goal under every condition, and its bounds; empty without a
-  /// goal.
-  std::vector<std::vector<double>> machines{}, machines_low{}, machines_high{};
-  /// [point][rig] last age up to and including which the rig meets the goal; NaN: none. Empty without a goal.
-  std::vector<std::vector<double>> lives{};
+  std::vector<std::vector<std::int64_t>> trials;      ///< that were judged: none in an open loop
+  std::vector<std::vector<std::int64_t>> success;     ///< all of whose moves ended with a zero count
+  std::vector<std::vector<std::int64_t>> goal_met{};  ///< all of whose moves meet the goal; empty without one
+  std::vector<PointColumn> statistics{};              ///< further ones: values[point·groups + group]
 };
 
 /// Everything that is stored of the statistics of consecutive design points of a study: of all of them, or of
 /// the first ones.
 struct StoredStatistics {
   std::vector<PointColumn> points;
-  std::vector<StatisticTable> tables;  ///< none twice
-  /// [point][rig] trials of which all moves ended with a zero count; empty without rigs
-  std::vector<std::vector<std::int64_t>> rig_successes{};
-  std::optional<GroupCounts> worlds{};
-  std::optional<GroupCounts> conditions{};
-  std::optional<AgeCounts> ages{};
+  std::vector<StatisticTable> tables;                ///< none twice
+  std::map<std::string_view, GroupCounts> groups{};  ///< by the name of the grouping (see groupings.hpp)
 };
 
 /// Number of angles at which a profile is tabulated, over one revolution, where all trials are on one rotor.
@@ -190,6 +178,10 @@ inline constexpr std::int64_t profile_angles = 4096;
 /// @param harmonics of the profile's series.
 std::int64_t profile_angles_of_rig(std::size_t harmonics, std::int64_t rigs);
 
+/// The scale of the design points.
+Column point_scale();
+/// Columns of the values of parameters.
+std::vector<Column> input_columns(const std::vector<study::InputColumn>& inputs);
 Table point_table(const std::vector<study::SweepAxis>& axes, const std::vector<PointColumn>& statistics);
 Column statistic_column(const PointColumn& statistic);
 /// Statistics of the design points for each error band, or tolerance: [point, band]. It has no columns yet.
@@ -213,29 +205,6 @@ Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn
 Table profile_table(const std::string& name, const std::string& unit);
 /// The rotors of all rigs: [rig, theta].
 Table rotor_table(const std::string& name, const std::string& unit);
-/// The inputs that differ between the rigs: [rig].
-Table rig_table(const std::vector<study::InputColumn>& inputs);
-/// Successes of the rigs at the design points: [point, rig]. It shares the group and the
-/// dimension scale of rig_table.
-Table rig_count_table();
-/// The inputs that differ between the worlds: [world].
-Table world_table(const std::vector<study::InputColumn>& inputs);
-/// Trials of the worlds at the design points: [point, world]. It shares the group and the dimension scale of
-/// world_table.
-Table world_count_table(bool has_goal);
-/// The names of the conditions: [condition].
-Table condition_table();
-/// Trials under the conditions at the design points: [point, condition], in the group of condition_table.
-Table condition_count_table(bool has_goal);
-
-/// The ages: [age].
-Table age_table(const std::string& unit);
-/// Trials and machines at the ages at the design points: [point, age], in the group of age_table.
-Table age_count_table(const std::string& unit, bool has_goal);
-/// The lives of the rigs at the design points: [point, rig]. It shares the group and the dimension scales of
-/// rig_count_table.
-Table life_table(const std::string& unit);
-
 /// How many of the whole and real numbers in /sums belong to each design point: [point].
 Table sums_table();
 /// The numbers themselves, point after point.

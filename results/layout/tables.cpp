@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "results/layout/groupings.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount::layout {
@@ -14,51 +15,12 @@ Column whole_numbers(std::string_view name, std::string_view long_name) {
   return {std::string(name), "1", std::string(long_name), hdf5::Element::int64};
 }
 
-Column rig_scale() {
-  return whole_numbers("rig", "index of the machine");
-}
-
-Column world_scale() {
-  return whole_numbers("world", "index of the world");
-}
-
-Column condition_scale() {
-  return whole_numbers("condition", "index of the condition");
-}
-
-Column age_scale(const std::string& unit) {
-  return {"age", unit, "age of the machines", hdf5::Element::float64};
-}
-
-/// Counts of trials in groups, [point, group]. @param where "in the world"
-Table group_count_table(std::string name, Column scale, std::string_view where, bool has_goal) {
-  const auto counts = [&](std::string_view column, std::string_view which) {
-    return whole_numbers(column, fmt::format("trials {} at the point {}", where, which));
-  };
-  Table table{std::move(name),
-              whole_numbers("point", "index of the design point"),
-              std::move(scale),
-              {counts("success", "that succeeded, in all their moves"),
-               counts("trials", "that were judged, 0 in an open loop")}};
-  if (has_goal) table.columns.push_back(counts("goal_met", "all of whose moves meet the goal"));
-  return table;
-}
-
 Column theta_scale() {
   return {"theta", "rad", "$rotor_angle from the origin of the profile", hdf5::Element::float64};
 }
 
 Column value_of_profile(const std::string& name, const std::string& unit) {
   return {"value", unit, "realised value of " + name, hdf5::Element::float64};
-}
-
-std::vector<Column> input_columns(const std::vector<study::InputColumn>& inputs) {
-  std::vector<Column> columns;
-  columns.reserve(inputs.size());
-  for (const study::InputColumn& input : inputs) {
-    columns.push_back({input_column_name(input.name), input.unit, input.meaning, hdf5::Element::float64});
-  }
-  return columns;
 }
 
 template <class Record>
@@ -71,16 +33,29 @@ std::vector<Column> columns_of(const std::vector<RecordField<Record>>& fields) {
 
 }  // namespace
 
+Column point_scale() {
+  return whole_numbers("point", "index of the design point");
+}
+
+std::vector<Column> input_columns(const std::vector<study::InputColumn>& inputs) {
+  std::vector<Column> columns;
+  columns.reserve(inputs.size());
+  for (const study::InputColumn& input : inputs) {
+    columns.push_back({input_column_name(input.name), input.unit, input.meaning, hdf5::Element::float64});
+  }
+  return columns;
+}
+
 Column statistic_column(const PointColumn& statistic) {
   return {statistic.name, statistic.unit, statistic.long_name, hdf5::Element::float64, {}, "statistic"};
 }
 
 Table limit_statistic_table(RootDimension limits) {
-  return {"point", whole_numbers("point", "index of the design point"), {}, {}, std::move(limits)};
+  return {"point", point_scale(), {}, {}, std::move(limits)};
 }
 
 Table point_table(const std::vector<study::SweepAxis>& axes, const std::vector<PointColumn>& statistics) {
-  Table table{"point", whole_numbers("point", "index of the design point"), {}, {}};
+  Table table{"point", point_scale(), {}, {}};
   table.columns.push_back({"label", "1", "name of the design point", hdf5::Element::text});
   for (const study::SweepAxis& axis : axes) {
     const bool text = axis.kind == study::SweepAxis::Kind::text;
@@ -166,10 +141,7 @@ const StatisticGroup& level_group() {
 }
 
 Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn>& columns) {
-  Table table{std::string(group.name),
-              whole_numbers("point", "index of the design point"),
-              whole_numbers(group.dimension, group.meaning),
-              {}};
+  Table table{std::string(group.name), point_scale(), whole_numbers(group.dimension, group.meaning), {}};
   for (const PointColumn& column : columns) table.columns.push_back(statistic_column(column));
   return table;
 }
@@ -208,68 +180,15 @@ Table profile_table(const std::string& name, const std::string& unit) {
 }
 
 Table rotor_table(const std::string& name, const std::string& unit) {
-  return {"profile/" + name, rig_scale(), theta_scale(), {value_of_profile(name, unit)}};
-}
-
-Table rig_table(const std::vector<study::InputColumn>& inputs) {
-  return {"rig", rig_scale(), {}, input_columns(inputs)};
-}
-
-Table rig_count_table() {
-  return {
-      "rig",
-      whole_numbers("point", "index of the design point"),
-      rig_scale(),
-      {whole_numbers("success", "trials of the machine at the point that succeeded, in all their moves"),
-       whole_numbers("trials", "trials of the machine at the point that were judged, 0 in an open loop")}};
-}
-
-Table world_table(const std::vector<study::InputColumn>& inputs) {
-  return {"world", world_scale(), {}, input_columns(inputs)};
-}
-
-Table world_count_table(bool has_goal) {
-  return group_count_table("world", world_scale(), "in the world", has_goal);
-}
-
-Table condition_table() {
-  return {"condition", condition_scale(), {}, {{"name", "1", "name of the condition", hdf5::Element::text}}};
-}
-
-Table condition_count_table(bool has_goal) {
-  return group_count_table("condition", condition_scale(), "under the condition", has_goal);
-}
-
-Table age_table(const std::string& unit) {
-  return {"age", age_scale(unit), {}, {}};
-}
-
-Table age_count_table(const std::string& unit, bool has_goal) {
-  Table table = group_count_table("age", age_scale(unit), "at the age", has_goal);
-  const auto proportion = [&](std::string_view name, std::string_view meaning) {
-    table.columns.push_back({std::string(name), "1", std::string(meaning), hdf5::Element::float64});
-  };
-  if (!has_goal) return table;
-  proportion("machines", "proportion of machines that meet the goal at the age under every condition");
-  proportion("machines_low", "lower bound of the proportion of machines, one-sided");
-  proportion("machines_high", "upper bound of the proportion of machines, one-sided");
-  return table;
-}
-
-Table life_table(const std::string& unit) {
-  return {
-      "rig",
-      whole_numbers("point", "index of the design point"),
-      rig_scale(),
-      {{"life", unit,
-        "last age up to and including which the machine meets the goal under every condition, NaN if it does "
-        "not at the first",
-        hdf5::Element::float64}}};
+  return {"profile/" + name,
+          group_scale(grouping_named("rig"), "1"),
+          theta_scale(),
+          {value_of_profile(name, unit)}};
 }
 
 Table sums_table() {
   return {"sums",
-          whole_numbers("point", "index of the design point"),
+          point_scale(),
           {},
           {whole_numbers("whole_count", "elements of whole that belong to the point"),
            whole_numbers("real_count", "elements of real that belong to the point")}};

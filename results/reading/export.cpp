@@ -5,10 +5,12 @@
 #include <deque>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "results/layout/groupings.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/reading/csv.hpp"
@@ -148,9 +150,9 @@ void export_profiles(const ResultsFile& file, CsvFile& csv) {
   }
 }
 
-/// The inputs of rigs or worlds, or the names of conditions. @param name of one
-void export_groups(std::string_view name, const StoredGroups& groups, CsvFile& csv) {
-  csv.add(name);
+/// The inputs of rigs or worlds, or the names of conditions.
+void export_groups(const layout::Grouping& grouping, const StoredGroups& groups, CsvFile& csv) {
+  csv.add(grouping.name);
   if (!groups.names.empty()) csv.add("name");
   for (const study::InputColumn& column : groups.columns) csv.add(head_with_unit(column.name, column.unit));
   csv.end_row();
@@ -162,60 +164,50 @@ void export_groups(std::string_view name, const StoredGroups& groups, CsvFile& c
   }
 }
 
-void export_group_counts(std::string_view name, const StoredGroups& groups, CsvFile& csv) {
-  csv.add("point", name, "success", "trials");
-  if (!groups.goal_met.empty()) csv.add("goal_met");
+/// One row per design point and group, which has its number or its age.
+void export_by_group(const layout::Grouping& grouping, const StoredGroups& groups,
+                     const std::vector<layout::PointColumn>& columns, CsvFile& csv) {
+  csv.add("point", head_with_unit(grouping.name, groups.unit));
+  for (const layout::PointColumn& column : columns) csv.add(head_with_unit(column.name, column.unit));
   csv.end_row();
-  for (std::size_t i = 0; i < groups.success.size(); ++i) {
-    csv.add(static_cast<std::int64_t>(i) / groups.count, static_cast<std::int64_t>(i) % groups.count,
-            groups.success[i], groups.trials[i]);
-    if (!groups.goal_met.empty()) csv.add(groups.goal_met[i]);
+  const auto count = static_cast<std::size_t>(groups.count);
+  for (std::size_t i = 0; i < columns.front().values.size(); ++i) {
+    csv.add(static_cast<std::int64_t>(i / count));
+    csv.add(groups.values.empty() ? static_cast<double>(i % count) : groups.values[i % count]);
+    for (const layout::PointColumn& column : columns) csv.add(column.values[i]);
     csv.end_row();
   }
 }
 
-void add_groups(std::vector<ExportedTable>& tables, const std::string& name,
-                const std::optional<StoredGroups>& groups) {
-  if (!groups) return;
-  tables.push_back({name + "s.csv",
-                    [name, groups](const ResultsFile&, CsvFile& csv) { export_groups(name, *groups, csv); }});
-  if (groups->success.empty()) return;
-  tables.push_back({name + "_counts.csv", [name, groups](const ResultsFile&, CsvFile& csv) {
-                      export_group_counts(name, *groups, csv);
+/// The tables of a grouping: rigs.csv and rig_counts.csv. Ages, of which nothing else is known, have ages.csv
+/// alone; what machines have beside their counts, their lives, is in lives.csv.
+void add_groups(std::vector<ExportedTable>& tables, const ResultsFile& file,
+                const layout::Grouping& grouping) {
+  const std::optional<StoredGroups> found = file.groups(grouping.name);
+  if (!found) return;
+  const std::string name(grouping.name);
+  const auto add_by_group = [&](const std::string& table, std::vector<layout::PointColumn> columns) {
+    tables.push_back({table, [&grouping, groups = *found, columns](const ResultsFile&, CsvFile& csv) {
+                        export_by_group(grouping, groups, columns, csv);
+                      }});
+  };
+  std::vector<layout::PointColumn> counts;
+  const auto add_count = [&](const char* column, const std::vector<std::int64_t>& values) {
+    if (!values.empty()) counts.push_back({column, "1", "", {values.begin(), values.end()}});
+  };
+  add_count("success", found->success);
+  add_count("trials", found->trials);
+  add_count("goal_met", found->goal_met);
+  if (grouping.has_values) {
+    counts.insert(counts.end(), found->statistics.begin(), found->statistics.end());
+    if (!counts.empty()) add_by_group(name + "s.csv", std::move(counts));
+    return;
+  }
+  tables.push_back({name + "s.csv", [&grouping, groups = *found](const ResultsFile&, CsvFile& csv) {
+                      export_groups(grouping, groups, csv);
                     }});
-}
-
-void export_ages(const StoredAges& ages, CsvFile& csv) {
-  const bool has_goal = !ages.machines.empty();
-  csv.add("point", head_with_unit("age", ages.unit), "success", "trials");
-  if (has_goal) csv.add("goal_met", "machines", "machines_low", "machines_high");
-  csv.end_row();
-  for (std::size_t i = 0; i < ages.trials.success.size(); ++i) {
-    csv.add(static_cast<std::int64_t>(i / ages.at.size()), ages.at[i % ages.at.size()],
-            ages.trials.success[i], ages.trials.trials[i]);
-    if (has_goal)
-      csv.add(ages.trials.goal_met[i], ages.machines[i], ages.machines_low[i], ages.machines_high[i]);
-    csv.end_row();
-  }
-}
-
-void export_lives(const StoredAges& ages, std::int64_t rigs, CsvFile& csv) {
-  csv.add("point", "rig", head_with_unit("life", ages.unit));
-  csv.end_row();
-  for (std::size_t i = 0; i < ages.lives.size(); ++i) {
-    csv.add(static_cast<std::int64_t>(i) / rigs, static_cast<std::int64_t>(i) % rigs, ages.lives[i]);
-    csv.end_row();
-  }
-}
-
-void add_ages(std::vector<ExportedTable>& tables, const ResultsFile& file) {
-  const std::optional<StoredAges> ages = file.ages();
-  if (!ages || ages->trials.success.empty()) return;
-  tables.push_back({"ages.csv", [ages](const ResultsFile&, CsvFile& csv) { export_ages(*ages, csv); }});
-  if (ages->lives.empty()) return;
-  const std::int64_t rigs = std::ssize(ages->lives) / file.header().points;
-  tables.push_back(
-      {"lives.csv", [ages, rigs](const ResultsFile&, CsvFile& csv) { export_lives(*ages, rigs, csv); }});
+  if (!counts.empty()) add_by_group(name + "_counts.csv", std::move(counts));
+  if (!found->statistics.empty()) add_by_group("lives.csv", found->statistics);
 }
 
 void export_trace(const TrialTables& trials, CsvFile& csv) {
@@ -239,10 +231,7 @@ void export_statistics(const layout::StatisticTable& table, CsvFile& csv) {
 
 void add_study_tables(std::vector<ExportedTable>& tables, const ResultsFile& file) {
   if (file.has_profiles()) tables.push_back({"profiles.csv", export_profiles});
-  add_groups(tables, "rig", file.rigs());
-  add_groups(tables, "world", file.worlds());
-  add_groups(tables, "condition", file.conditions());
-  add_ages(tables, file);
+  for (const layout::Grouping& grouping : layout::groupings()) add_groups(tables, file, grouping);
 }
 
 void add_statistic_tables(std::vector<ExportedTable>& tables, const ResultsFile& file) {

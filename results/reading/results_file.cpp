@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "results/layout/groupings.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/reading/validation.hpp"
 
@@ -114,29 +115,34 @@ std::vector<Number> numbers_of(const layout::TableIo& io, const std::vector<std:
   return numbers;
 }
 
-/// The inputs of the rigs or worlds of a file.
-StoredGroups read_groups(const hdf5::File& file, const std::string& name,
-                         layout::Table (*table)(const std::vector<study::InputColumn>&)) {
-  StoredGroups stored;
-  stored.columns = read_input_columns(file.open_group(name));
-  const layout::TableIo io = layout::TableIo::open(file, table(stored.columns));
-  stored.count = io.rows();
-  for (std::size_t column = 0; column < stored.columns.size(); ++column)
-    stored.inputs.push_back(layout::read_column<double>(io, column));
-  return stored;
+/// The statistics of the groups at the design points: the datasets of numbers in two dimensions.
+std::vector<layout::PointColumn> group_statistics(const hdf5::Group& group) {
+  std::vector<layout::PointColumn> statistics;
+  for (const std::string& name : group.children()) {
+    if (group.is_group(name)) continue;
+    const hdf5::Dataset dataset = group.open_dataset(name);
+    if (dataset.element() != hdf5::Element::float64 || dataset.extent().size() != 2) continue;
+    statistics.push_back({name, dataset.text("units"), dataset.text("long_name"), {}});
+  }
+  return statistics;
 }
 
-/// Reads the counts of worlds or conditions, which a part does not have.
-void read_counts(const hdf5::File& file, const layout::FileHeader& header, const std::string& name,
-                 layout::Table (*table)(bool has_goal), StoredGroups& stored) {
-  const hdf5::Group group = file.open_group(name);
+/// Reads the counts and statistics of the groups, which a part does not have.
+void read_counts(const hdf5::File& file, const layout::FileHeader& header, const layout::Grouping& grouping,
+                 StoredGroups& stored) {
+  const hdf5::Group group = file.open_group(std::string(grouping.name));
   if (!group.contains("success")) return;
   const bool has_goal = group.contains("goal_met");
-  const layout::TableIo counts = layout::TableIo::open(file, table(has_goal));
+  stored.statistics = group_statistics(group);
+  const layout::TableIo counts = layout::TableIo::open(
+      file, layout::group_count_table(grouping, has_goal, stored.statistics, stored.unit));
   stored.success = layout::read_column<std::int64_t>(counts, 0);
   stored.trials = layout::read_column<std::int64_t>(counts, 1);
   if (has_goal) stored.goal_met = layout::read_column<std::int64_t>(counts, 2);
-  validate_groups(name, header, counts, stored.success, stored.trials, stored.goal_met);
+  std::size_t column = has_goal ? 3 : 2;
+  for (layout::PointColumn& statistic : stored.statistics)
+    statistic.values = layout::read_column<double>(counts, column++);
+  validate_groups(grouping, header, counts, stored);
 }
 
 }  // namespace
@@ -224,56 +230,22 @@ std::vector<StoredProfile> ResultsFile::profiles() const {
   return profiles;
 }
 
-std::optional<StoredGroups> ResultsFile::rigs() const {
-  if (!file_.contains("rig")) return std::nullopt;
-  StoredGroups stored = read_groups(file_, "rig", layout::rig_table);
-  if (!file_.open_group("rig").contains("success")) return stored;
-  const layout::TableIo counts = layout::TableIo::open(file_, layout::rig_count_table());
-  stored.success = layout::read_column<std::int64_t>(counts, 0);
-  stored.trials = layout::read_column<std::int64_t>(counts, 1);
-  validate_rigs(header_, counts, stored.success, stored.trials);
-  return stored;
-}
-
-std::optional<StoredGroups> ResultsFile::worlds() const {
-  if (!file_.contains("world")) return std::nullopt;
-  StoredGroups stored = read_groups(file_, "world", layout::world_table);
-  read_counts(file_, header_, "world", layout::world_count_table, stored);
-  return stored;
-}
-
-std::optional<StoredGroups> ResultsFile::conditions() const {
-  if (!file_.contains("condition")) return std::nullopt;
-  const layout::TableIo io = layout::TableIo::open(file_, layout::condition_table());
+std::optional<StoredGroups> ResultsFile::groups(std::string_view name) const {
+  if (!file_.contains(std::string(name))) return std::nullopt;
+  const layout::Grouping& grouping = layout::grouping_named(name);
   StoredGroups stored;
+  stored.columns = read_input_columns(file_.open_group(std::string(name)));
+  const layout::TableIo io =
+      layout::TableIo::open(file_, layout::group_table(grouping, stored.columns, stored.unit));
   stored.count = io.rows();
-  stored.names = io.column(0).read_texts();
-  read_counts(file_, header_, "condition", layout::condition_count_table, stored);
-  return stored;
-}
-
-std::optional<StoredAges> ResultsFile::ages() const {
-  if (!file_.contains("age")) return std::nullopt;
-  const hdf5::Group group = file_.open_group("age");
-  StoredAges stored;
-  stored.unit = group.open_dataset("age").text("units");
-  stored.at = read_doubles(group.open_dataset("age"));
-  stored.trials.count = std::ssize(stored.at);
-  if (!group.contains("success")) return stored;
-  const bool has_goal = group.contains("goal_met");
-  const layout::TableIo counts = layout::TableIo::open(file_, layout::age_count_table(stored.unit, has_goal));
-  stored.trials.success = layout::read_column<std::int64_t>(counts, 0);
-  stored.trials.trials = layout::read_column<std::int64_t>(counts, 1);
-  if (has_goal) {
-    stored.trials.goal_met = layout::read_column<std::int64_t>(counts, 2);
-    stored.machines = layout::read_column<double>(counts, 3);
-    stored.machines_low = layout::read_column<double>(counts, 4);
-    stored.machines_high = layout::read_column<double>(counts, 5);
-    stored.lives =
-        layout::read_column<double>(layout::TableIo::open(file_, layout::life_table(stored.unit)), 0);
+  for (std::size_t column = 0; column < stored.columns.size(); ++column)
+    stored.inputs.push_back(layout::read_column<double>(io, column));
+  if (grouping.has_labels) stored.names = io.column(stored.columns.size()).read_texts();
+  if (grouping.has_values) {
+    stored.values = read_doubles(io.row_scale());
+    stored.unit = io.row_scale().text("units");
   }
-  validate_groups("age", header_, counts, stored.trials.success, stored.trials.trials,
-                  stored.trials.goal_met);
+  read_counts(file_, header_, grouping, stored);
   return stored;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/study/study.hpp"
@@ -34,26 +35,19 @@ struct StoredProfile {
   std::string theta_unit{"rad"};
 };
 
-/// The rigs, worlds or conditions of a study as they stand in a results file.
+/// What a results file has of the groups of a grouping (layout::groupings): its rigs, worlds, conditions or
+/// ages. Counts and statistics are [point][group], flattened, and empty in a part.
 struct StoredGroups {
   std::int64_t count{0};
-  std::vector<study::InputColumn> columns;  ///< what differs between them
+  std::vector<study::InputColumn> columns;  ///< what is drawn for each of them
   std::vector<std::vector<double>> inputs;  ///< [column][group]
-  std::vector<std::int64_t> success;  ///< [point][group] trials that succeeded, flattened; empty in a part
-  std::vector<std::int64_t> trials;   ///< [point][group] trials that were judged, flattened; empty in a part
-  std::vector<std::int64_t>
-      goal_met;  ///< [point][group] trials that meet the goal; empty of rigs, and without a goal
-  std::vector<std::string> names;  ///< [group] of conditions; otherwise empty
-};
-
-/// The ages of a study as they stand in a results file.
-struct StoredAges {
-  std::vector<double> at;
-  std::string unit;
-  StoredGroups trials;  ///< [point][age]; without counts in a part
-  /// [point][age] flattened: proportion of machines that meet the goal, and its bounds; empty without a goal.
-  std::vector<double> machines, machines_low, machines_high;
-  std::vector<double> lives;  ///< [point][rig] flattened; empty without a goal
+  std::vector<std::string> names;           ///< [group] of conditions; otherwise empty
+  std::vector<double> values;               ///< [group] of ages; otherwise empty
+  std::string unit;                         ///< of these
+  std::vector<std::int64_t> success;        ///< trials that succeeded
+  std::vector<std::int64_t> trials;         ///< trials that were judged
+  std::vector<std::int64_t> goal_met;       ///< trials that meet the goal; empty of rigs, and without a goal
+  std::vector<layout::PointColumn> statistics;
 };
 
 /// A results file, part or shard, open to be read: the description of the study, the tables by design point
@@ -88,14 +82,8 @@ class ResultsFile {
   bool has_profiles() const { return file_.contains("profile"); }
   std::vector<StoredProfile> profiles() const;
 
-  /// Nothing in a study without rigs, and in a shard.
-  std::optional<StoredGroups> rigs() const;
-  /// Nothing in a study without worlds, and in a shard.
-  std::optional<StoredGroups> worlds() const;
-  /// Nothing in a study without conditions, and in a shard.
-  std::optional<StoredGroups> conditions() const;
-  /// Nothing in a study without ages, and in a shard.
-  std::optional<StoredAges> ages() const;
+  /// Nothing in a study without such groups, and in a shard. @param name of a grouping: "rig"
+  std::optional<StoredGroups> groups(std::string_view name) const;
 
   /// Nothing with `keep: statistics`.
   const std::optional<TrialTables>& trials() const { return trials_; }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "results/layout/fields.hpp"
+#include "results/reading/results_file.hpp"
 
 namespace zerocount::reading {
 namespace {
@@ -199,40 +200,27 @@ void validate_jerk_counts(const layout::TableIo& table, std::span<const std::int
   }
 }
 
-void validate_rigs(const layout::FileHeader& header, const layout::TableIo& counts,
-                   std::span<const std::int64_t> success, std::span<const std::int64_t> trials) {
-  const std::int64_t rigs = counts.width();
-  if (counts.rows() != header.points || header.trials % rigs != 0) {
-    counts.column(0).fail("its size differs from the points and machines of the study");
-  }
-  const std::int64_t of_each = trials.empty() ? 0 : trials.front();
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    const std::int64_t point = static_cast<std::int64_t>(i) / rigs;
-    if (trials[i] != of_each || (of_each != 0 && of_each != header.trials / rigs)) {
-      counts.column(1).fail(fmt::format("row {}: {} trials of a machine; expected {}, or 0 of all", point,
-                                        trials[i], header.trials / rigs));
-    }
-    if (success[i] < 0 || success[i] > trials[i]) {
-      counts.column(0).fail(
-          fmt::format("row {}: {} successes; expected 0 to {}", point, success[i], trials[i]));
-    }
-  }
-}
-
-void validate_groups(std::string_view name, const layout::FileHeader& header, const layout::TableIo& counts,
-                     std::span<const std::int64_t> success, std::span<const std::int64_t> trials,
-                     std::span<const std::int64_t> goal_met) {
+void validate_groups(const layout::Grouping& grouping, const layout::FileHeader& header,
+                     const layout::TableIo& counts, const StoredGroups& stored) {
   const std::int64_t groups = counts.width();
-  if (counts.rows() != header.points) counts.column(0).fail("its size differs from the points of the study");
-  for (std::size_t i = 0; i < trials.size(); ++i) {
+  const bool equal = grouping.has_equal_sizes;
+  if (counts.rows() != header.points || (equal && header.trials % groups != 0))
+    counts.column(0).fail("its size differs from the points and groups of the study");
+  for (std::size_t i = 0; i < stored.trials.size(); ++i) {
     const std::int64_t group = static_cast<std::int64_t>(i) % groups;
     const std::int64_t most = (header.trials - group + groups - 1) / groups;
-    const auto within = [&](std::int64_t count, std::int64_t limit) { return count >= 0 && count <= limit; };
-    if (within(trials[i], most) && within(success[i], trials[i]) &&
-        (goal_met.empty() || within(goal_met[i], trials[i])))
+    const auto within = [](std::int64_t count, std::int64_t limit) { return count >= 0 && count <= limit; };
+    const std::int64_t trials = stored.trials[i];
+    const bool possible =
+        equal ? trials == stored.trials.front() && (trials == 0 || trials == most) : within(trials, most);
+    if (possible && within(stored.success[i], trials) &&
+        (stored.goal_met.empty() || within(stored.goal_met[i], trials)))
       continue;
-    counts.column(0).fail(fmt::format("row {}: impossible counts of {} {}; expected 0 to {} trials",
-                                      static_cast<std::int64_t>(i) / groups, name, group, most));
+    counts.column(possible ? 0 : 1)
+        .fail(fmt::format("row {}: impossible counts of {} {}; expected {} trials{}",
+                          static_cast<std::int64_t>(i) / groups, grouping.name, group,
+                          equal ? fmt::format("{}", most) : fmt::format("0 to {}", most),
+                          equal ? ", or 0 of all" : ""));
   }
 }
 

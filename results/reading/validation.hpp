@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "results/layout/groupings.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
@@ -13,6 +14,8 @@
 /// checksums are right may still have been made by something else than this program. Every function throws
 /// Failure (bad_data) with the path, the dataset, the row and what was expected.
 namespace zerocount::reading {
+
+struct StoredGroups;
 
 /// The numbers of rows: point and index of a trial are those of its row, and the trials of the jerks rise
 /// within the rows of the file. In a file that keeps failures, the rows of the trials rise too. If more than
@@ -52,14 +55,9 @@ void validate_jerk_counts(const layout::TableIo& table, std::span<const std::int
                           std::span<const trial::MoveOutcome> outcomes,
                           std::span<const layout::JerkRecord> jerks);
 
-/// Counts of the rigs, [point][rig]: all rigs have equally many trials, or none, and not more successes.
-void validate_rigs(const layout::FileHeader& header, const layout::TableIo& counts,
-                   std::span<const std::int64_t> success, std::span<const std::int64_t> trials);
-
-/// Counts of the worlds (conditions), [point][group]: not more trials than one has, and of them successes and
-/// those that meet the goal. @param goal_met empty without a goal
-void validate_groups(std::string_view name, const layout::FileHeader& header, const layout::TableIo& counts,
-                     std::span<const std::int64_t> success, std::span<const std::int64_t> trials,
-                     std::span<const std::int64_t> goal_met);
+/// Counts of the groups: not more trials than a group has (of rigs equally many, or none), and of them those
+/// that succeeded and those that meet the goal.
+void validate_groups(const layout::Grouping& grouping, const layout::FileHeader& header,
+                     const layout::TableIo& counts, const StoredGroups& stored);
 
 }  // namespace zerocount::reading

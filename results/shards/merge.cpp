@@ -11,7 +11,7 @@
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/shards/concatenate.hpp"
-#include "results/shards/rig_tables.hpp"
+#include "results/shards/study_tables.hpp"
 #include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
 
@@ -150,10 +150,7 @@ storage::WrittenBytes write_trials_of(std::span<const ShardInfo> shards, const s
     if (sparse) number_kept_trials(file, study);
   }
   write_profiles(file, study);
-  if (study.rigs > 0) write_rigs(file, study);
-  if (study.worlds > 0) write_worlds(file, study);
-  if (!study.condition_names.empty()) write_conditions(file, study);
-  if (!study.ages.at.empty()) write_ages(file, study);
+  for (const layout::Grouping& grouping : layout::groupings()) write_groups(file, study, grouping);
   if (!study.retained_trials.empty())
     join(layout::on_axis(layout::trace_table(study.features), study.units.axis), 1, 0, options.renumber);
   return file.close(storage::Flush::later);
@@ -222,11 +219,11 @@ void MergedFile::write_statistics(const layout::StoredStatistics& statistics) {
       column = layout::on_axis(std::move(column), study_.units.axis);
     layout::write_statistic_table(file_, table, study::point_count(study_), points);
   }
-  if (!statistics.rig_successes.empty())
-    write_rig_counts(file_, study_, statistics.rig_successes, points.first);
-  if (statistics.worlds) write_world_counts(file_, study_, *statistics.worlds, points.first);
-  if (statistics.conditions) write_condition_counts(file_, study_, *statistics.conditions, points.first);
-  if (statistics.ages) write_age_counts(file_, study_, *statistics.ages, points.first);
+  for (const layout::Grouping& grouping : layout::groupings()) {
+    const auto counts = statistics.groups.find(grouping.name);
+    if (counts != statistics.groups.end())
+      write_group_counts(file_, study_, grouping, counts->second, points.first);
+  }
 }
 
 void MergedFile::finish() {

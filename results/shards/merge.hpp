@@ -15,8 +15,8 @@
 #include "results/layout/row_range.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/shards/concatenate.hpp"
-#include "results/shards/rig_tables.hpp"
 #include "results/shards/shard.hpp"
+#include "results/shards/study_tables.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/written_bytes.hpp"
 

@@ -195,22 +195,6 @@ std::vector<shards::ShardInfo> write_sample_shards(const std::filesystem::path& 
   return shards;
 }
 
-/// [point][rig] as if trial i were on rig i mod 8; empty without rigs.
-std::vector<std::vector<std::int64_t>> sample_rig_successes(const reading::AllTrialsFile& file) {
-  const std::optional<reading::StoredGroups> rigs = file.rigs();
-  if (!rigs) return {};
-  const std::vector<trial::MoveOutcome> outcomes = file.outcomes(file.rows());
-  std::vector<std::vector<std::int64_t>> successes(
-      static_cast<std::size_t>(file.header().points),
-      std::vector<std::int64_t>(static_cast<std::size_t>(rigs->count), 0));
-  for (std::int64_t row = 0; row < file.rows().count; ++row) {
-    const std::span moves(outcomes.begin() + row * file.moves(), static_cast<std::size_t>(file.moves()));
-    successes[static_cast<std::size_t>(row / file.header().trials)]
-             [static_cast<std::size_t>(row % file.header().trials % rigs->count)] += trial::succeeded(moves);
-  }
-  return successes;
-}
-
 layout::StoredStatistics sample_statistics(const reading::AllTrialsFile& file) {
   const std::int64_t trials = file.header().trials;
   layout::PointColumn count{"trials", "1", "trials of the design point", {}};
@@ -227,7 +211,12 @@ layout::StoredStatistics sample_statistics(const reading::AllTrialsFile& file) {
     count.values.push_back(static_cast<double>(trials));
     settling.values.push_back(sum / arrived);
   }
-  return {{count, settling}, {sample_table(file)}, sample_rig_successes(file)};
+  layout::StoredStatistics stored{{count, settling}, {sample_table(file)}, {}};
+  if (const std::optional<reading::StoredGroups> rigs = file.groups("rig")) {
+    stored.groups["rig"] = counted_worlds(file, rigs->count);  // as if trial i were on rig i mod 8
+    stored.groups["rig"].goal_met.clear();
+  }
+  return stored;
 }
 
 /// The largest holding torque of every move at every design point.
@@ -296,16 +285,19 @@ std::filesystem::path write_file_in_worlds(const std::filesystem::path& director
       write_sample_shards(directory / "shards", study, layout::all_rows(study), size);
   const auto statistics = [&](const reading::AllTrialsFile& file) {
     layout::StoredStatistics stored = sample_statistics(file);
-    stored.worlds = counted_worlds(file, study.worlds);
-    if (!has_goal) stored.worlds->goal_met.clear();
-    if (!study.condition_names.empty())
-      stored.conditions = counted_worlds(file, std::ssize(study.condition_names));
+    const std::size_t points = static_cast<std::size_t>(file.header().points);
+    const auto add = [&](const char* name, std::int64_t groups) {
+      if (groups > 0) stored.groups[name] = counted_worlds(file, groups);
+    };
+    add("world", study.worlds);
+    if (!has_goal) stored.groups["world"].goal_met.clear();
+    add("condition", std::ssize(study.condition_names));
+    add("age", std::ssize(study.ages.at));
     if (!study.ages.at.empty()) {
-      const std::vector<std::vector<double>> of_ages(static_cast<std::size_t>(file.header().points),
-                                                     std::vector<double>(study.ages.at.size(), 0.5));
-      const std::vector<std::vector<double>> lives(static_cast<std::size_t>(file.header().points),
-                                                   std::vector<double>(static_cast<std::size_t>(study.rigs)));
-      stored.ages = {counted_worlds(file, std::ssize(study.ages.at)), of_ages, of_ages, of_ages, lives};
+      const std::vector<double> of_ages(points * study.ages.at.size(), 0.5);
+      const std::vector<double> lives(points * static_cast<std::size_t>(study.rigs));
+      stored.groups["age"].statistics = {{"machines", "1", "proportion of machines", of_ages}};
+      stored.groups["rig"].statistics = {{"life", study.ages.unit, "last age", lives}};
     }
     return stored;
   };

@@ -129,12 +129,15 @@ TEST_F(SoundValues, AreAskedOfTheCountsOfRigs) {
   const auto expect_counts_refused = [&](const std::string& dataset, std::int64_t row, std::int64_t value,
                                          const std::string& words) {
     const fs::path path = forged(dataset, row, value);
-    expect_failure(ExitCode::bad_data, words, [&] { reading::AllTrialsFile(path).rigs(); });
+    expect_failure(ExitCode::bad_data, words, [&] { reading::AllTrialsFile(path).groups("rig"); });
   };
-  expect_counts_refused("rig/trials", 0, 4, "row 0: 4 trials of a machine; expected 5, or 0 of all");
-  expect_counts_refused("rig/trials", 1, 0, "row 1: 0 trials of a machine; expected 5, or 0 of all");
-  expect_counts_refused("rig/success", 1, 6, "row 1: 6 successes; expected 0 to 5");
-  expect_counts_refused("rig/success", 1, -1, "row 1: -1 successes; expected 0 to 5");
+  expect_counts_refused("rig/trials", 0, 4,
+                        "/rig/trials: row 0: impossible counts of rig 0; expected 5 trials, or 0 of all");
+  expect_counts_refused("rig/trials", 1, 0,
+                        "row 1: impossible counts of rig 0; expected 5 trials, or 0 of all");
+  expect_counts_refused("rig/success", 1, 6,
+                        "/rig/success: row 1: impossible counts of rig 0; expected 5 trials");
+  expect_counts_refused("rig/success", 1, -1, "row 1: impossible counts of rig 0; expected 5 trials");
 }
 
 TEST_F(SoundValues, JerksOfATrialAreInTheirOrder) {

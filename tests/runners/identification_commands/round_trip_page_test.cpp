@@ -85,7 +85,8 @@ class RoundTripPage : public ::testing::Test {
   /// "succeed in A to B of their 40": the successes of the central 95 % of the simulated rigs at the
   /// point.
   std::string predicted_range(std::size_t point) {
-    const std::optional<reading::StoredGroups> rigs = reading::AllTrialsFile(folder_ / "predicted.h5").rigs();
+    const std::optional<reading::StoredGroups> rigs =
+        reading::AllTrialsFile(folder_ / "predicted.h5").groups("rig");
     const auto count = static_cast<std::ptrdiff_t>(rigs.value().count);
     std::vector<std::int64_t> successes = rigs->success;
     successes = {successes.begin() + static_cast<std::ptrdiff_t>(point) * count,

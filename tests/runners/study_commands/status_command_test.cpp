@@ -270,7 +270,7 @@ TEST_F(RigStudy, TheFileIsTheSameHoweverItWasRun) {
     success[static_cast<std::size_t>(row / trials * 8 + row % trials % 8)] +=
         trial::succeeded(once.outcomes({row, 1}));
   }
-  EXPECT_EQ(once.rigs().value().success, success);
+  EXPECT_EQ(once.groups("rig").value().success, success);
   EXPECT_EQ(once.profiles().at(0).rigs, 8);
 }
 

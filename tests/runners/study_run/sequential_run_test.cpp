@@ -162,7 +162,7 @@ TEST_F(SequentialRun, EndsAfterAWholeRoundOfItsRigs) {
   EXPECT_LT(trials, 2000);
   EXPECT_TRUE(narrow(file, trials));
   EXPECT_FALSE(narrow(file, trials - block));
-  const reading::StoredGroups on_rigs = file.rigs().value();
+  const reading::StoredGroups on_rigs = file.groups("rig").value();
   ASSERT_EQ(on_rigs.trials.size(), 20U);
   for (const std::int64_t of_rig : on_rigs.trials) EXPECT_EQ(of_rig, trials / 10);
   complete("plain.yaml", "plain.h5", {"--set", "trials=" + std::to_string(trials)});

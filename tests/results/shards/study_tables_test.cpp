@@ -1,4 +1,4 @@
-#include "results/shards/rig_tables.hpp"
+#include "results/shards/study_tables.hpp"
 
 #include "core/failure/failure.hpp"
 #include "experiments/study/group_inputs.hpp"
@@ -20,7 +20,7 @@ TEST(RigTables, HaveWhatDiffersBetweenTheRigs) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_with_rigs();
   const reading::AllTrialsFile file(write_sample_file(directory.path(), study));
-  const reading::StoredGroups stored = file.rigs().value();
+  const reading::StoredGroups stored = file.groups("rig").value();
   ASSERT_EQ(stored.columns.size(), 1U);
   EXPECT_EQ(stored.columns[0].name, "friction.k1");
   EXPECT_EQ(stored.columns[0].unit, "N m/rad");
@@ -73,15 +73,15 @@ TEST(RigTables, APartHasTheRigsAndNoCounts) {
   const std::filesystem::path path = directory.path() / "part.h5";
   testing::merge_shards(shards, study, path, rows, {}, {sample_provenance()});
   const reading::AllTrialsFile part(path, reading::Require::any_part);
-  EXPECT_EQ(part.rigs().value().count, 8);
-  EXPECT_TRUE(part.rigs().value().success.empty());
-  EXPECT_EQ(reading::AllTrialsFile(shards[0].path, reading::Require::any_part).rigs(), std::nullopt);
+  EXPECT_EQ(part.groups("rig").value().count, 8);
+  EXPECT_TRUE(part.groups("rig").value().success.empty());
+  EXPECT_EQ(reading::AllTrialsFile(shards[0].path, reading::Require::any_part).groups("rig"), std::nullopt);
 }
 
 TEST(RigTables, AreNoneWithoutRigs) {
   const TemporaryFolder directory;
   EXPECT_FALSE(
-      reading::AllTrialsFile(write_sample_file(directory.path(), sample_study())).rigs().has_value());
+      reading::AllTrialsFile(write_sample_file(directory.path(), sample_study())).groups("rig").has_value());
 }
 
 TEST(RigTables, AreExported) {
@@ -114,7 +114,7 @@ TEST(WorldTables, HaveWhatDiffersBetweenTheWorlds) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_in_worlds();
   const reading::AllTrialsFile file(write_file_in_worlds(directory.path(), study));
-  const reading::StoredGroups stored = file.worlds().value();
+  const reading::StoredGroups stored = file.groups("world").value();
   EXPECT_EQ(stored.count, 7);
   ASSERT_EQ(stored.columns.size(), 1U);
   EXPECT_EQ(stored.columns[0].name, "friction.k1");
@@ -130,7 +130,7 @@ TEST(WorldTables, HaveTheTrialsOfEveryWorldAtEveryPoint) {
   const reading::AllTrialsFile file(write_file_in_worlds(directory.path(), study));
   const layout::GroupCounts counts = counted_worlds(file, 7);
   EXPECT_EQ(counts.trials[1], (std::vector<std::int64_t>{6, 6, 6, 6, 6, 5, 5}));
-  const reading::StoredGroups stored = file.worlds().value();
+  const reading::StoredGroups stored = file.groups("world").value();
   EXPECT_EQ(stored.trials, flattened(counts.trials));
   EXPECT_EQ(stored.success, flattened(counts.success));
   EXPECT_EQ(stored.goal_met, flattened(counts.goal_met));
@@ -140,7 +140,7 @@ TEST(WorldTables, HaveNoGoalIfTheStudyHasNone) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_in_worlds();
   const reading::AllTrialsFile file(write_file_in_worlds(directory.path(), study, false));
-  const reading::StoredGroups stored = file.worlds().value();
+  const reading::StoredGroups stored = file.groups("world").value();
   EXPECT_EQ(stored.success, flattened(counted_worlds(file, 7).success));
   EXPECT_TRUE(stored.goal_met.empty());
 }
@@ -163,17 +163,19 @@ TEST(WorldTables, OfAPartHaveNoCounts) {
   const std::filesystem::path path = directory.path() / "part.h5";
   testing::merge_shards(shards, study, path, rows, {}, {sample_provenance()});
   const reading::StoredGroups stored =
-      reading::AllTrialsFile(path, reading::Require::any_part).worlds().value();
+      reading::AllTrialsFile(path, reading::Require::any_part).groups("world").value();
   EXPECT_EQ(stored.count, 7);
   EXPECT_EQ(stored.inputs[0].size(), 7U);
   EXPECT_TRUE(stored.success.empty());
-  EXPECT_FALSE(reading::AllTrialsFile(shards[0].path, reading::Require::any_part).worlds().has_value());
+  EXPECT_FALSE(
+      reading::AllTrialsFile(shards[0].path, reading::Require::any_part).groups("world").has_value());
 }
 
 TEST(WorldTables, AreNoneWithoutWorlds) {
   const TemporaryFolder directory;
-  EXPECT_FALSE(
-      reading::AllTrialsFile(write_sample_file(directory.path(), sample_study())).worlds().has_value());
+  EXPECT_FALSE(reading::AllTrialsFile(write_sample_file(directory.path(), sample_study()))
+                   .groups("world")
+                   .has_value());
 }
 
 TEST(WorldTables, AreExported) {
@@ -216,7 +218,7 @@ TEST(WorldTables, WithImpossibleCountsAreRefused) {
     const reading::AllTrialsFile file(with_world_count(original, dataset, 1, world, count));
     const std::string words = "row 1: impossible counts of world " + std::to_string(world) +
                               "; expected 0 to " + (world < 5 ? "6" : "5") + " trials";
-    expect_failure(ExitCode::bad_data, words, [&] { file.worlds(); });
+    expect_failure(ExitCode::bad_data, words, [&] { file.groups("world"); });
   };
   for (const std::string dataset : {"world/trials", "world/success", "world/goal_met"}) {
     SCOPED_TRACE(dataset);
@@ -225,7 +227,8 @@ TEST(WorldTables, WithImpossibleCountsAreRefused) {
       expect_refused(dataset, world, world == 4 ? 7 : 6);
     }
   }
-  EXPECT_NO_THROW(reading::AllTrialsFile(with_world_count(original, "world/success", 1, 4, 0)).worlds());
+  EXPECT_NO_THROW(
+      reading::AllTrialsFile(with_world_count(original, "world/success", 1, 4, 0)).groups("world"));
 }
 
 }  // namespace

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+
+#include "experiments/study/study.hpp"
+#include "results/hdf5/hdf5.hpp"
+#include "results/layout/groupings.hpp"
+#include "results/layout/layout.hpp"
+
+/// What a results file says of its study beside the trials.
+namespace zerocount::shards {
+
+/// Writes the realised profiles of a study to /profile: of its one rotor, or of every rig.
+void write_profiles(hdf5::File& file, const study::Study& study);
+
+/// Writes what is known of the groups: the inputs of machines and worlds, names of conditions, ages. Nothing
+/// if the study has no such groups.
+void write_groups(hdf5::File& file, const study::Study& study, const layout::Grouping& grouping);
+
+/// Writes the counts of consecutive design points, of which the first ones create the datasets.
+/// @param first number of the first point
+void write_group_counts(hdf5::File& file, const study::Study& study, const layout::Grouping& grouping,
+                        const layout::GroupCounts& counts, std::int64_t first);
+
+}  // namespace zerocount::shards

@@ -30,9 +30,30 @@ SummaryColumn bounded_mean(std::string head) {
   return {std::move(head), mean, CellText::number, BoundStatistics{bootstrap_low, bootstrap_high}};
 }
 
+/// How a measure of the true motion is shown.
+struct ShownMotion {
+  std::string head{};         ///< of its column in the summary; empty: it has none
+  std::string legend{};       ///< of this column
+  std::string_view output{};  ///< what it is as an output of a trial; empty: it is none
+};
+
+/// A measure of the true motion: a move has one where it is not NaN, and a trial the largest of its moves.
+/// @param use the extra without which no file has it
+Measure of_motion(bool study::StudyFeatures::*use, const char* name, const char* unit, const char* long_name,
+                  double M::*member, const ShownMotion& shown = {}) {
+  Measure measure{.field = field<M>(name, unit, long_name, member, an_error_or_nan),
+                  .only_with = use,
+                  .reduction = MoveReduction::largest,
+                  .point = mean_of_motion(name)};
+  if (!shown.head.empty()) measure.summary = {use, {bounded_mean(shown.head)}, shown.legend};
+  if (!shown.output.empty()) measure.output = {name, shown.output};
+  return measure;
+}
+
 }  // namespace
 
 MeasureTable move_measures() {
+  using F = study::StudyFeatures;
   return {
       {.field = field<M>("outcome", "1", "verdict on the last window of the move", &M::outcome,
                          {"0 to 5", 0.0, 5.0}, outcome_labels()),
@@ -141,7 +162,7 @@ MeasureTable move_measures() {
                          "largest position error beyond the target in the direction of the move, at least 0, "
                          "NaN of a move that was stopped or lost its motion",
                          &M::true_overshoot, an_error_or_nan),
-       .only_with = &study::StudyFeatures::position_error,
+       .only_with = &F::position_error,
        .values = {.needs_target = true},
        .reduction = MoveReduction::largest,
        .point = {"true_overshoot",
@@ -191,7 +212,7 @@ MeasureTable move_measures() {
                   {{median, p95}, "{0} of the absolute error at the last sample"},
                   {{median_low, median_high, p95_low, p95_high}, "{0} of the final error"},
                   {{max}, "largest absolute error at the last sample"}}},
-       .summary = {&study::StudyFeatures::final_error,
+       .summary = {&F::final_error,
                    {{"|e| median", median}, {"|e| p95", p95}},
                    "|e|: error at the last sample of the moves, in counts\n"}},
       {.field = field<M>(
@@ -205,7 +226,7 @@ MeasureTable move_measures() {
                   {{mean},
                    "mean distance from the $rotor to the middle of the target's count at the last sample"},
                   {{rms, max}, "{0} distance from the $rotor to the middle of the target's count"}}},
-       .summary = {&study::StudyFeatures::encoder_errors,
+       .summary = {&F::encoder_errors,
                    {{"|true e| mean", mean}, {"|true e| max", max}},
                    "|true e|: distance from the rotor to the middle of the target's count at the last sample "
                    "of the moves,\nwhatever the encoder says, in counts\n"},
@@ -217,7 +238,7 @@ MeasureTable move_measures() {
        .point = {"travel_time",
                  {{{mean}, "mean time until the reference or the $torque is where it is held, of the moves"},
                   {{max}, "longest time until the reference or the $torque is where it is held"}}},
-       .summary = {&study::StudyFeatures::travel,
+       .summary = {&F::travel,
                    {{"travel (s)", mean}},
                    "travel: mean time that the reference takes to its target\n"}},
       {.field = field<M>("phase_changes", "1", "changes of the control from coarse to fine or back",
@@ -227,7 +248,7 @@ MeasureTable move_measures() {
                  {{{trials}, "trials in which the control changed its phase"},
                   {{mean}, "mean number of phase changes per trial"},
                   {{whole_max}, "largest number of phase changes of a trial"}}},
-       .summary = {&study::StudyFeatures::phases,
+       .summary = {&F::phases,
                    {{"phase changes", mean}},
                    "phase changes: from coarse to fine control or back, mean over all trials\n"}},
       {.field = field<M>("encoder_disagreement", "1",
@@ -239,7 +260,7 @@ MeasureTable move_measures() {
                   {{mean}, "mean number of such samples per trial"},
                   {{whole_max}, "largest number of such samples of a trial"}}},
        .summary =
-           {&study::StudyFeatures::encoder_errors,
+           {&F::encoder_errors,
             {{"disagreeing", trials, CellText::proportion_of_trials}},
             "disagreeing: proportion of trials in which the coarse count was ever impossible given the "
             "fine one\n"}},
@@ -283,83 +304,58 @@ MeasureTable move_measures() {
       {.field = field<M>("stopped", "1",
                          "the move had diverged and was ended there, or was not run after one that was",
                          &M::stopped),
-       .only_with = &study::StudyFeatures::stopping,
+       .only_with = &F::stopping,
        .reduction = MoveReduction::any,
        .point = {"", {{{count}, "trials that were ended early, because a move had diverged"}}},
-       .summary = {&study::StudyFeatures::stopping,
+       .summary = {&F::stopping,
                    {{"stopped", count, CellText::proportion_of_trials}},
                    "stopped: proportion of trials that were ended where a move had diverged; they count as "
                    "oscillating, and what is measured of their moves is up to there\n"}},
       {.field = field<M>("controller_failed", "1",
                          "the controller gave no finite $torque, in this move or one before: it is nonfinite",
                          &M::controller_failed),
-       .only_with = &study::StudyFeatures::own_controller,
+       .only_with = &F::own_controller,
        .reduction = MoveReduction::any,
        .point = {"", {{{count}, "trials that the controller ended by giving no finite $torque"}}},
        .summary =
-           {&study::StudyFeatures::own_controller,
+           {&F::own_controller,
             {{"controller failed", count, CellText::proportion_of_trials}},
             "controller failed: proportion of trials that the controller ended by giving no finite torque; "
             "they count as nonfinite\n"}},
-      {.field = field<M>("rest_error_rms", "count", "rms of the true error at rest, NaN if never at rest",
-                         &M::rest_error_rms, an_error_or_nan),
-       .only_with = &study::StudyFeatures::motion,
-       .reduction = MoveReduction::largest,
-       .point = mean_of_motion("rest_error_rms"),
-       .summary = {&study::StudyFeatures::motion,
-                   {bounded_mean("rest rms")},
-                   "rest rms, rest p-p: of the true error (counts) from the entry into the rest band to the "
-                   "end of the move, mean over moves\n"},
-       .output = {{"rest_error_rms", "rms of the true error at rest, the largest of the trial's moves"}}},
-      {.field = field<M>("rest_error_range", "count",
-                         "peak to peak of the true error at rest, NaN if never at rest", &M::rest_error_range,
-                         an_error_or_nan),
-       .only_with = &study::StudyFeatures::motion,
-       .reduction = MoveReduction::largest,
-       .point = mean_of_motion("rest_error_range"),
-       .summary = {&study::StudyFeatures::motion, {bounded_mean("rest p-p")}}},
-      {.field = field<M>("rest_motion_rms", "rad", "rms of the true error at rest, NaN if never at rest",
-                         &M::rest_motion_rms, an_error_or_nan),
-       .only_with = &study::StudyFeatures::motion,
-       .reduction = MoveReduction::largest,
-       .point = mean_of_motion("rest_motion_rms")},
-      {.field = field<M>("rest_motion_range", "rad",
-                         "peak to peak of the true error at rest, NaN if never at rest",
-                         &M::rest_motion_range, an_error_or_nan),
-       .only_with = &study::StudyFeatures::motion,
-       .reduction = MoveReduction::largest,
-       .point = mean_of_motion("rest_motion_range")},
-      {.field = field<M>("rest_torque_power", "(N m)^2",
-                         "mean square of the $torque at rest, NaN if never at rest", &M::rest_torque_power,
-                         an_error_or_nan),
-       .only_with = &study::StudyFeatures::motion,
-       .reduction = MoveReduction::largest,
-       .point = mean_of_motion("rest_torque_power"),
-       .summary =
-           {&study::StudyFeatures::motion,
-            {bounded_mean("$torque power")},
-            "$torque power, $torque noise: mean square of the $torque at rest, and of its changes from "
-            "sample to sample, mean over moves\n"},
-       .output = {{"rest_torque_power", "mean square of the $torque at rest, the largest of the moves"}}},
-      {.field =
-           field<M>("rest_torque_noise", "(N m)^2",
-                    "mean square of the changes of the $torque from sample to sample at rest, NaN if never "
-                    "at rest",
-                    &M::rest_torque_noise, an_error_or_nan),
-       .only_with = &study::StudyFeatures::motion,
-       .reduction = MoveReduction::largest,
-       .point = mean_of_motion("rest_torque_noise"),
-       .summary = {&study::StudyFeatures::motion, {bounded_mean("$torque noise")}}},
+      of_motion(
+          &F::motion, "rest_error_rms", "count", "rms of the true error at rest, NaN if never at rest",
+          &M::rest_error_rms,
+          {"rest rms",
+           "rest rms, rest p-p: of the true error (counts) from the entry into the rest band to the end "
+           "of the move, mean over moves\n",
+           "rms of the true error at rest, the largest of the trial's moves"}),
+      of_motion(&F::motion, "rest_error_range", "count",
+                "peak to peak of the true error at rest, NaN if never at rest", &M::rest_error_range,
+                {"rest p-p"}),
+      of_motion(&F::motion, "rest_motion_rms", "rad", "rms of the true error at rest, NaN if never at rest",
+                &M::rest_motion_rms),
+      of_motion(&F::motion, "rest_motion_range", "rad",
+                "peak to peak of the true error at rest, NaN if never at rest", &M::rest_motion_range),
+      of_motion(&F::motion, "rest_torque_power", "(N m)^2",
+                "mean square of the $torque at rest, NaN if never at rest", &M::rest_torque_power,
+                {"$torque power",
+                 "$torque power, $torque noise: mean square of the $torque at rest, and of its changes from "
+                 "sample to sample, mean over moves\n",
+                 "mean square of the $torque at rest, the largest of the moves"}),
+      of_motion(&F::motion, "rest_torque_noise", "(N m)^2",
+                "mean square of the changes of the $torque from sample to sample at rest, NaN if never at "
+                "rest",
+                &M::rest_torque_noise, {"$torque noise"}),
       {.field = field<M>("step_motion", "count",
                          "mean true position in the window minus that of the move before", &M::step_motion,
                          {.expected = "a finite motion, or NaN",
                           .low = std::numeric_limits<double>::lowest(),
                           .nan = true}),
-       .only_with = &study::StudyFeatures::steps,
+       .only_with = &F::steps,
        .values = {.needs_motion = true, .mirrored = true},
        .point = mean_of_motion("step_motion")},
       {.field = field<M>("step_made", "1", "that motion is within half of the commanded step", &M::step_made),
-       .only_with = &study::StudyFeatures::steps,
+       .only_with = &F::steps,
        .values = {.needs_target = true},
        .reduction = MoveReduction::all,
        .point = {"step_made",
@@ -369,41 +365,28 @@ MeasureTable move_measures() {
                    "rate"},
                   {{moves_rate_low}, "{1} of that proportion (Korn-Graubard)", "rate_low"},
                   {{moves_rate_high}, "{1} of that proportion (Korn-Graubard)", "rate_high"}}},
-       .summary = {&study::StudyFeatures::steps,
+       .summary = {&F::steps,
                    {{"steps made", moves_rate, CellText::percent,
                      BoundStatistics{moves_rate_low, moves_rate_high}}},
                    "steps made: proportion of moves whose mean true motion is within half of the commanded "
                    "step\n"},
        .output = {{"step_made", "all moves went the commanded step, to half of it"}}},
-      {.field = field<M>("following_error_rms", "count", "rms of the true following error, NaN of a step",
-                         &M::following_error_rms, an_error_or_nan),
-       .only_with = &study::StudyFeatures::following,
-       .reduction = MoveReduction::largest,
-       .point = mean_of_motion("following_error_rms"),
-       .summary = {&study::StudyFeatures::following,
-                   {bounded_mean("following rms")},
-                   "following rms, peak: of the true following error (counts), mean over moves\n"},
-       .output = {{"following_error_rms", "rms of the true following error, the largest of the moves"}}},
-      {.field = field<M>("following_error_peak", "count",
-                         "largest magnitude of the true following error, NaN of a step",
-                         &M::following_error_peak, an_error_or_nan),
-       .only_with = &study::StudyFeatures::following,
-       .reduction = MoveReduction::largest,
-       .point = mean_of_motion("following_error_peak"),
-       .summary = {&study::StudyFeatures::following, {bounded_mean("following peak")}},
-       .output = {{"following_error_peak", "largest magnitude of the true following error"}}},
-      {.field = field<M>("reversal_spike", "count",
-                         "largest magnitude of the true following error in the quarter of a period after a "
-                         "reversal of the sine, NaN if none",
-                         &M::reversal_spike, an_error_or_nan),
-       .only_with = &study::StudyFeatures::reversals,
-       .reduction = MoveReduction::largest,
-       .point = mean_of_motion("reversal_spike"),
-       .summary = {&study::StudyFeatures::reversals,
-                   {bounded_mean("reversal spike")},
-                   "reversal spike: largest magnitude of the true following error (counts) in the quarter of "
-                   "a period after a "
-                   "reversal, mean over moves\n"}},
+      of_motion(
+          &F::following, "following_error_rms", "count", "rms of the true following error, NaN of a step",
+          &M::following_error_rms,
+          {"following rms", "following rms, peak: of the true following error (counts), mean over moves\n",
+           "rms of the true following error, the largest of the moves"}),
+      of_motion(&F::following, "following_error_peak", "count",
+                "largest magnitude of the true following error, NaN of a step", &M::following_error_peak,
+                {"following peak", "", "largest magnitude of the true following error"}),
+      of_motion(
+          &F::reversals, "reversal_spike", "count",
+          "largest magnitude of the true following error in the quarter of a period after a reversal of "
+          "the sine, NaN if none",
+          &M::reversal_spike,
+          {"reversal spike",
+           "reversal spike: largest magnitude of the true following error (counts) in the quarter of a "
+           "period after a reversal, mean over moves\n"}),
   };
 }
 

@@ -34,21 +34,21 @@ const std::vector<layout::RecordField<trial::MoveOutcome>>& measured_fields() {
   return fields;
 }
 
-layout::TableIo open_outcomes(const hdf5::Group& root) {
+layout::TableReader open_outcomes(const hdf5::Group& root) {
   layout::Table table = layout::outcome_table();
   table.columns.clear();
   for (const layout::RecordField<trial::MoveOutcome>& field : measured_fields())
     table.columns.push_back(field.column);
-  return layout::TableIo::open(root, table);
+  return layout::TableReader::open(root, table);
 }
 
-void require_rows(const layout::TableIo& io, std::int64_t rows) {
+void require_rows(const auto& io, std::int64_t rows) {
   if (io.rows() != rows) io.row_scale().fail("it is not of all trials of the study");
 }
 
 /// The trials of these rows.
-std::vector<SequenceTrial> evaluate(const study::Study& study, const hdf5::Group& root,
-                                    const layout::TableIo& outcomes, std::int64_t first, std::int64_t count) {
+std::vector<SequenceTrial> evaluate(const study::Study& study, const hdf5::Group& root, const auto& outcomes,
+                                    std::int64_t first, std::int64_t count) {
   std::vector<SequenceTrial> trials;
   const std::vector<trial::MoveOutcome> moves =
       layout::read_records(outcomes, measured_fields(), first, count);
@@ -96,7 +96,7 @@ layout::TableIo create_table(hdf5::File& file, const study::Study& study, const 
 
 void write_trials(hdf5::File& file, const study::Study& study) {
   const std::int64_t rows = study::trial_count(study);
-  const layout::TableIo outcomes = open_outcomes(file);
+  const layout::TableReader outcomes = open_outcomes(file);
   require_rows(outcomes, rows);
   const RepeatabilityTable<SequenceTrial> of_axis = trial_axis_table();
   const RepeatabilityTable<SequenceTrial> of_targets = trial_target_table();

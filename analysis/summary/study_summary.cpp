@@ -98,10 +98,10 @@ class TrialsSoFar {
   void add(const std::filesystem::path& path) {
     constexpr auto part = reading::Require::any_part;
     if (study_.retention != study::Retention::trials) {
-      const reading::ResultsFile file(path, part);
+      const reading::ResultsFile file(path, part, nullptr, &study_);
       add(file, false, [&](std::int64_t point, layout::RowRange) { accumulator_.add(file, point); });
     } else {
-      const reading::AllTrialsFile file(path, part);
+      const reading::AllTrialsFile file(path, part, nullptr, &study_);
       add(file, true, [&](std::int64_t, layout::RowRange rows) { accumulator_.add(file, rows); });
     }
   }

@@ -1,7 +1,6 @@
 #include "results/hdf5/encoded_rows.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <utility>
 
@@ -81,7 +80,7 @@ EncodedChunk encoded(const EncodeJob& job) {
 
 std::optional<ChunkShape> chunk_shape_of(const Storage& storage) {
   const std::vector<Size>& extent = storage.extent;
-  if (storage.element == Element::text || extent.empty() || std::endian::native != std::endian::little ||
+  if (storage.element == Element::text || extent.empty() ||
       !std::equal(storage.chunk.begin() + 1, storage.chunk.end(), extent.begin() + 1))
     return std::nullopt;
   ChunkShape shape{static_cast<std::int64_t>(storage.chunk[0]),

@@ -10,7 +10,8 @@
 #include "results/hdf5/hdf5.hpp"
 
 /// Rows of a dataset as its file will store them. They are filtered without the library, so by any thread,
-/// and before there is a dataset; Dataset::write() only stores their bytes.
+/// and before there is a dataset; Dataset::write() only stores their bytes. A timeline gets the spans of what
+/// any thread does; null: none.
 namespace zerocount::hdf5 {
 
 /// The chunks of a dataset that is created with this storage, as Dataset::chunk_shape() will say.
@@ -34,8 +35,19 @@ struct EncodedRows {
 
 /// Encodes several chunks at a time. Chunks of the same value in all elements, such as those of measures that
 /// no trial has, are encoded once.
-/// @param timeline gets the spans; null: none
 std::vector<EncodedRows> encode_rows(std::span<const RowsToEncode> all,
                                      timeline::Timeline* timeline = nullptr);
+
+/// Rows [first, first + rows), whole in the other dimensions; `data` holds elements of type element().
+struct RowsToWrite {
+  Dataset* dataset;
+  std::int64_t first;
+  std::int64_t rows;
+  const void* data;
+};
+
+/// Writes rows of several datasets. Where they are whole chunks, they are encoded, and only the calls of the
+/// library run one after the other. Other rows are left to the library. The file holds the same values.
+void write_rows(std::span<const RowsToWrite> all, timeline::Timeline* timeline = nullptr);
 
 }  // namespace zerocount::hdf5

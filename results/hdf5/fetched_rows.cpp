@@ -1,11 +1,15 @@
 #include "results/hdf5/fetched_rows.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "results/hdf5/chunk_filters.hpp"
 #include "results/hdf5/hdf5_detail.hpp"
 
 namespace zerocount::hdf5 {
+
+namespace {
 
 /// A chunk to decode.
 struct DecodeJob {
@@ -20,7 +24,7 @@ struct DecodeJob {
 void DecodeJob::decode() {
   std::vector<std::byte> decoded(static_cast<std::size_t>(rows->shape.rows) * rows->row_size);
   damaged =
-      !decode_chunk(rows->shape.filters, rows->dataset->bytes_of(StoredChunk(rows->chunks[chunk])), decoded);
+      !decode_chunk(rows->shape.filters, rows->source->bytes_of(StoredChunk(rows->chunks[chunk])), decoded);
   const std::int64_t begins =
       (rows->first / rows->shape.rows + static_cast<std::int64_t>(chunk)) * rows->shape.rows;
   const std::int64_t first = std::max(begins, rows->first);
@@ -28,6 +32,17 @@ void DecodeJob::decode() {
   std::copy_n(decoded.data() + static_cast<std::size_t>(first - begins) * rows->row_size,
               static_cast<std::size_t>(end - first) * rows->row_size,
               elements + static_cast<std::size_t>(first - rows->first) * rows->row_size);
+}
+
+}  // namespace
+
+void RowSource::read(std::int64_t first, std::int64_t rows, void* data) const {
+  const FetchedRows fetched = fetch(first, rows);
+  if (fetched.chunks.empty()) {
+    std::ranges::copy(fetched.elements, static_cast<std::byte*>(data));
+  } else {
+    std::ranges::copy(decode_rows({&fetched, 1}).front(), static_cast<std::byte*>(data));
+  }
 }
 
 FetchedRows Dataset::fetch(std::int64_t first, std::int64_t rows) const {
@@ -48,7 +63,8 @@ FetchedRows Dataset::fetch(std::int64_t first, std::int64_t rows) const {
   return fetched;
 }
 
-std::vector<std::vector<std::byte>> decode_rows(std::span<const FetchedRows> all) {
+std::vector<std::vector<std::byte>> decode_rows(std::span<const FetchedRows> all,
+                                                timeline::Timeline* timeline) {
   std::vector<std::vector<std::byte>> decoded;
   std::vector<DecodeJob> jobs;
   for (const FetchedRows& rows : all) {
@@ -57,10 +73,28 @@ std::vector<std::vector<std::byte>> decode_rows(std::span<const FetchedRows> all
     for (std::size_t chunk = 0; chunk < rows.chunks.size(); ++chunk)
       jobs.push_back({&rows, chunk, decoded.back().data()});
   }
-  for_each_job(jobs.size(), nullptr, {}, [&](std::size_t i) { jobs[i].decode(); });
+  for_each_job(jobs.size(), timeline, "decode", [&](std::size_t i) { jobs[i].decode(); });
   for (const DecodeJob& job : jobs)
-    if (job.damaged) job.rows->dataset->fail(unreadable_values);
+    if (job.damaged) job.rows->source->fail(unreadable_values);
   return decoded;
+}
+
+std::vector<EncodedRows> stored_rows(std::span<const FetchedRows> all, timeline::Timeline* timeline) {
+  std::vector<EncodedRows> stored;
+  std::vector<std::pair<std::size_t, std::size_t>> jobs;  // rows, chunk
+  for (const FetchedRows& rows : all) {
+    for (std::size_t chunk = 0; chunk < rows.chunks.size(); ++chunk) jobs.emplace_back(stored.size(), chunk);
+    stored.push_back({rows.shape, rows.rows, std::vector<EncodedChunk>(rows.chunks.size())});
+  }
+  for_each_job(jobs.size(), timeline, "copy", [&](std::size_t i) {
+    const auto [rows, chunk] = jobs[i];
+    std::vector<std::byte> bytes = all[rows].source->bytes_of(StoredChunk(all[rows].chunks[chunk]));
+    if (has_valid_checksum(bytes))
+      stored[rows].chunks[chunk] = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
+  });
+  for (const auto& [rows, chunk] : jobs)
+    if (!stored[rows].chunks[chunk]) all[rows].source->fail(unreadable_values);
+  return stored;
 }
 
 }  // namespace zerocount::hdf5

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -123,8 +124,6 @@ struct Storage {
 };
 
 struct RowsToWrite;
-struct RowsToRead;
-struct RowsToCopy;
 struct EncodedRows;
 struct FetchedRows;
 
@@ -145,17 +144,43 @@ struct StoredChunk {
   std::vector<std::byte> bytes{};  ///< if the library has read them
 };
 
-class Dataset : public Object {
+/// Rows of elements in chunks that can be read: a dataset, or a column of a shard.
+class RowSource {
  public:
-  Element element() const { return element_; }
+  RowSource() = default;
+  RowSource(const RowSource&) = default;
+  RowSource& operator=(const RowSource&) = default;
+  virtual ~RowSource() = default;
+
+  virtual Element element() const = 0;
+  /// Where the rows are stored, for decode_rows(). The source must stay until then.
+  virtual FetchedRows fetch(std::int64_t first, std::int64_t rows) const = 0;
+  /// The stored bytes. Any thread may read them: it does not call the library, while the file stays open.
+  virtual std::vector<std::byte> bytes_of(StoredChunk&& chunk) const = 0;
+  /// Throws the Failure for this source; `problem` completes "damaged: ".
+  [[noreturn]] void fail(std::string_view problem) const {
+    fail_with(problem);
+    std::terminate();  // not reached
+  }
+
+  /// Rows [first, first + rows) of the first dimension, whole in the others, as elements of type element().
+  void read(std::int64_t first, std::int64_t rows, void* data) const;
+
+ private:
+  virtual void fail_with(std::string_view problem) const = 0;  ///< throws
+};
+
+class Dataset : public Object, public RowSource {
+ public:
+  Element element() const override { return element_; }
   std::vector<Size> extent() const;
 
   /// Rows [first, first + rows) of the first dimension, whole in the others; `data` holds elements of type
-  /// element(). For several datasets at a time: chunk_transfer.hpp.
+  /// element(). For several datasets at a time: encoded_rows.hpp.
   void write(std::int64_t first, std::int64_t rows, const void* data);
-  void read(std::int64_t first, std::int64_t rows, void* data) const;
-  /// Where the rows are stored, for decode_rows(). The dataset must stay until then.
-  FetchedRows fetch(std::int64_t first, std::int64_t rows) const;
+  FetchedRows fetch(std::int64_t first, std::int64_t rows) const override;
+  std::vector<std::byte> bytes_of(StoredChunk&& chunk) const override;
+  using Object::fail;
   /// Stores the chunks of rows that were encoded for such a dataset, from row `first` on.
   void write(std::int64_t first, const EncodedRows& encoded);
 
@@ -172,10 +197,8 @@ class Dataset : public Object {
  private:
   friend class Group;
   friend void write_rows(std::span<const RowsToWrite> all, timeline::Timeline* timeline);
-  friend void read_rows(std::span<const RowsToRead> all, timeline::Timeline* timeline);
-  friend void copy_rows(std::span<const RowsToCopy> all, timeline::Timeline* timeline);
-  friend struct DecodeJob;
   Dataset(Handle handle, std::shared_ptr<Origin> origin, std::string path);
+  void fail_with(std::string_view problem) const override { fail(problem); }
   Element stored_element() const;
   struct Selection {
     Handle file;
@@ -189,8 +212,6 @@ class Dataset : public Object {
   /// Finds the chunk that begins at this row. Its size is 0 if it was never written, or a filter was left out
   /// because it did not fit.
   StoredChunk find_chunk(std::int64_t first) const;
-  /// The stored bytes. Any thread may read them: it does not call the library, while the file stays open.
-  std::vector<std::byte> bytes_of(StoredChunk&& chunk) const;
   void store_chunk(std::int64_t first, std::span<const std::byte> stored);
   std::vector<Size> place_of(std::int64_t first) const;  ///< of a row, in all dimensions
   std::optional<ChunkShape> read_chunk_shape() const;

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "results/hdf5/chunk_transfer.hpp"
+#include "results/hdf5/encoded_rows.hpp"
 #include "results/hdf5/hdf5_detail.hpp"
 
 namespace zerocount::hdf5 {
@@ -56,10 +56,6 @@ Dataset::Selection Dataset::select(std::int64_t first, std::int64_t rows) const 
 
 void Dataset::write(std::int64_t first, std::int64_t rows, const void* data) {
   write_rows({{RowsToWrite{this, first, rows, data}}});
-}
-
-void Dataset::read(std::int64_t first, std::int64_t rows, void* data) const {
-  read_rows({{RowsToRead{this, first, rows, data}}});
 }
 
 void Dataset::write_by_library(std::int64_t first, std::int64_t rows, const void* data) {

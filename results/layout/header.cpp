@@ -30,20 +30,12 @@ struct Format {
   std::string_view name;
   FileKind kind;
 };
-constexpr std::array<Format, 4> formats{{{"zerocount-study", FileKind::study},
+constexpr std::array<Format, 3> formats{{{"zerocount-study", FileKind::study},
                                          {"zerocount-statistics", FileKind::study},  // without all trials
-                                         {"zerocount-shard", FileKind::shard},
                                          {"zerocount-rare", FileKind::rare}}};
 
 std::string_view format_name(const FileHeader& header) {
-  switch (header.kind) {
-    case FileKind::shard:
-      return formats[2].name;
-    case FileKind::rare:
-      return formats[3].name;
-    case FileKind::study:
-      break;
-  }
+  if (header.kind == FileKind::rare) return formats[2].name;
   return formats[has_sums(header.retention) ? 1 : 0].name;
 }
 
@@ -103,6 +95,12 @@ const Format& read_format(const hdf5::File& file) {
   const auto format =
       std::find_if(formats.begin(), formats.end(), [&](const Format& known) { return known.name == name; });
   if (format != formats.end()) return *format;
+  if (name == "zerocount-shard")
+    throw ForeignFile(
+        file.file_name(),
+        fmt::format("a shard of a run of zerocount {}, in HDF5; this program does not read it, and "
+                    "that zerocount can finish the run",
+                    file.text("zerocount_version")));
   throw ForeignFile(file.file_name(), fmt::format("its format is '{}'; expected '{}' or another of zerocount",
                                                   name, formats.front().name));
 }
@@ -143,11 +141,7 @@ study::Engine read_engine(const hdf5::File& file) {
 }
 
 void check_numbers(const hdf5::File& file, const FileHeader& header) {
-  constexpr std::int64_t max_rows = std::int64_t{1} << 53;
-  const bool possible = header.trials > 0 && header.points > 0 && header.trials <= max_rows / header.points &&
-                        header.rows.first >= 0 && header.rows.first < max_rows && header.rows.count > 0 &&
-                        header.rows.count <= max_rows && header.rows.end() <= header.trials * header.points;
-  if (!possible) {
+  if (!has_possible_numbers(header)) {
     file.fail(fmt::format("{} trials from trial {} on cannot be of {} design points with {} trials each",
                           header.rows.count, header.rows.first, header.points, header.trials));
   }
@@ -166,6 +160,13 @@ RareFile::RareFile(const std::filesystem::path& path)
     : ForeignFile(path,
                   "an estimate of 'zerocount rare', which holds no trials of the study; expected a results "
                   "file of 'zerocount run'") {}
+
+bool has_possible_numbers(const FileHeader& header) {
+  constexpr std::int64_t max_rows = std::int64_t{1} << 53;
+  return header.trials > 0 && header.points > 0 && header.trials <= max_rows / header.points &&
+         header.rows.first >= 0 && header.rows.first < max_rows && header.rows.count > 0 &&
+         header.rows.count <= max_rows && header.rows.end() <= header.trials * header.points;
+}
 
 bool has_trials(study::Retention retention) {
   return retention != study::Retention::statistics;

@@ -104,8 +104,7 @@ void write_single_text(hdf5::File& file, const std::string& name, const std::str
 /// Nothing if there is no such dataset. @throws Failure (bad_data)
 std::optional<std::string> read_single_text(const hdf5::File& file, const std::string& name);
 
-/// Reads the header of a study or of a shard, and checks the format, its version and the checksum of the
-/// manifest.
+/// Reads the header of a results file, and checks the format, its version and the checksum of the manifest.
 /// @throws RareFile; ForeignFile for another format or version, Failure (bad_data) for damage.
 FileHeader read_header(const hdf5::File& file);
 /// Reads the header of a file of `zerocount rare`. @throws ForeignFile for any other, Failure (bad_data)
@@ -132,6 +131,9 @@ void require_same_study(const std::filesystem::path& path, const FileHeader& hea
 
 /// The folder of the shards of a run that makes `output`: OUTPUT.shards.
 std::filesystem::path shards_directory(const std::filesystem::path& output);
+
+/// Whether there can be a study with these numbers of points and trials, and a file of it with these rows.
+bool has_possible_numbers(const FileHeader& header);
 
 /// Whether a file must have its checksum trailer (see checksum_trailer.hpp) to be opened.
 enum class Checksum { required, not_yet };

@@ -21,29 +21,32 @@ std::string text_of(const ReportedStatistics& reported) {
   return text;
 }
 
-/// Writes the numbers of all points, one after the other, and in the column `counts` how many each has.
 template <class Number>
-void write_numbers(hdf5::File& file, const Table& table, std::span<const PointSums> sums,
-                   std::vector<Number> PointSums::*numbers, hdf5::Dataset& counts) {
-  std::vector<Number> all;
-  std::vector<std::int64_t> sizes;
-  for (const PointSums& point : sums) {
-    all.insert(all.end(), (point.*numbers).begin(), (point.*numbers).end());
-    sizes.push_back(std::ssize(point.*numbers));
-  }
-  counts.write(0, std::ssize(sizes), sizes.data());
-  TableIo io = TableIo::create(file, table, std::ssize(all), 1);
+void write_numbers(hdf5::File& file, const Table& table, const std::vector<Number>& numbers) {
+  TableIo io = TableIo::create(file, table, std::ssize(numbers), 1);
   io.number_rows(0);
-  io.column(0).write(0, std::ssize(all), all.data());
+  io.column(0).write(0, std::ssize(numbers), numbers.data());
 }
 
 }  // namespace
 
+SumColumns::SumColumns(std::span<const PointSums> sums) {
+  for (const PointSums& point : sums) {
+    whole_counts.push_back(std::ssize(point.whole));
+    real_counts.push_back(std::ssize(point.real));
+    whole.insert(whole.end(), point.whole.begin(), point.whole.end());
+    real.insert(real.end(), point.real.begin(), point.real.end());
+  }
+}
+
 void write_sums(hdf5::File& file, std::int64_t first_point, std::span<const PointSums> sums) {
+  const SumColumns columns(sums);
   TableIo io = TableIo::create(file, sums_table(), std::ssize(sums), 1);
   io.number_rows(first_point);
-  write_numbers(file, whole_sums_table(), sums, &PointSums::whole, io.column(0));
-  write_numbers(file, real_sums_table(), sums, &PointSums::real, io.column(1));
+  io.column(0).write(0, io.rows(), columns.whole_counts.data());
+  io.column(1).write(0, io.rows(), columns.real_counts.data());
+  write_numbers(file, whole_sums_table(), columns.whole);
+  write_numbers(file, real_sums_table(), columns.real);
 }
 
 std::string sums_form() {

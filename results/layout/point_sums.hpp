@@ -16,6 +16,15 @@ struct PointSums {
   std::vector<double> real;
 };
 
+/// The sums of several points, as the columns of /sums.
+struct SumColumns {
+  explicit SumColumns(std::span<const PointSums> sums);
+
+  std::vector<std::int64_t> whole_counts, real_counts;  ///< of the numbers of each point
+  std::vector<std::int64_t> whole;                      ///< of all points, one after the other
+  std::vector<double> real;
+};
+
 /// Writes /sums. @param sums [point, from `first_point` on]
 void write_sums(hdf5::File& file, std::int64_t first_point, std::span<const PointSums> sums);
 

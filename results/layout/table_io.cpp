@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "results/hdf5/chunk_transfer.hpp"
+#include "results/hdf5/encoded_rows.hpp"
 
 namespace zerocount::layout {
 namespace {
@@ -58,10 +58,9 @@ hdf5::Storage storage_of(hdf5::Element element, std::int64_t rows, std::span<con
 }
 
 /// The scale of a dimension; tables of one group share the scales of equal names.
-hdf5::Dataset make_scale(hdf5::Group& group, const Column& column, std::int64_t size, bool described) {
+hdf5::Dataset make_scale(hdf5::Group& group, const Column& column, std::int64_t size) {
   if (group.contains(column.name)) return group.open_dataset(column.name);
   hdf5::Dataset scale = group.create_dataset(column.name, scale_storage(column, size));
-  if (!described) return scale;
   scale.make_scale(column.name);
   describe(scale, column);
   return scale;
@@ -97,21 +96,19 @@ hdf5::Storage column_storage(const Table& table, const Column& column, std::int6
   return storage_of(column.element, rows, inner, compression);
 }
 
-TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t second,
-                        const TableStorage& storage) {
+TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t second) {
   hdf5::Group group = make_group(root, table.group);
-  hdf5::Dataset scale = make_scale(group, table.rows, rows, storage.described);
+  hdf5::Dataset scale = make_scale(group, table.rows, rows);
   TableIo io(std::move(group), std::move(scale));
   io.rows_ = rows;
-  io.storage_ = storage;
   if (table.second) {
-    io.second_scale_ = make_scale(io.group_, *table.second, second, storage.described);
+    io.second_scale_ = make_scale(io.group_, *table.second, second);
     if (table.second->element == hdf5::Element::int64) write_numbers(*io.second_scale_, second, 0);
     io.add_dimension(second);
   }
   if (table.last) {
     const std::int64_t last = std::ssize(table.last->values);
-    io.last_scale_ = make_scale(root, table.last->scale, last, storage.described);
+    io.last_scale_ = make_scale(root, table.last->scale, last);
     if (table.last->scale.element == hdf5::Element::int64) {
       const std::vector<std::int64_t> whole(table.last->values.begin(), table.last->values.end());
       io.last_scale_->write(0, last, whole.data());
@@ -124,7 +121,7 @@ TableIo TableIo::create(hdf5::Group& root, const Table& table, std::int64_t rows
   return io;
 }
 
-TableIo TableIo::open_axes(const hdf5::Group& root, const Table& table) {
+TableIo TableIo::open(const hdf5::Group& root, const Table& table) {
   hdf5::Group group = root.open_group(table.group);
   hdf5::Dataset scale = group.open_dataset(table.rows.name);
   TableIo io(std::move(group), std::move(scale));
@@ -144,11 +141,6 @@ TableIo TableIo::open_axes(const hdf5::Group& root, const Table& table) {
     io.last_scale_ = root.open_dataset(table.last->scale.name);
     io.add_dimension(size_of_scale(*io.last_scale_));
   }
-  return io;
-}
-
-TableIo TableIo::open(const hdf5::Group& root, const Table& table) {
-  TableIo io = open_axes(root, table);
   std::vector<hdf5::Size> expected{static_cast<hdf5::Size>(io.rows_)};
   expected.insert(expected.end(), io.inner_extent_.begin(), io.inner_extent_.end());
   for (const Column& column : table.columns) {
@@ -160,12 +152,21 @@ TableIo TableIo::open(const hdf5::Group& root, const Table& table) {
   return io;
 }
 
+TableReader TableReader::open(const hdf5::Group& root, const Table& table) {
+  TableIo io = TableIo::open(root, table);
+  std::vector<Column> columns;
+  for (hdf5::Dataset& dataset : io.datasets_)
+    columns.push_back(std::make_shared<const hdf5::Dataset>(std::move(dataset)));
+  return {io.rows_, io.width_, std::make_shared<const hdf5::Dataset>(std::move(io.row_scale_)),
+          std::move(columns)};
+}
+
 void TableIo::add_dimension(std::int64_t size) {
   inner_extent_.push_back(static_cast<hdf5::Size>(size));
   width_ *= size;
 }
 
-void require_flags(const TableIo& io, std::size_t index, std::int64_t first,
+void require_flags(const TableReader& io, std::size_t index, std::int64_t first,
                    std::span<const std::byte> flags) {
   const auto wrong =
       std::find_if(flags.begin(), flags.end(), [](std::byte flag) { return flag > std::byte{1}; });
@@ -177,24 +178,22 @@ void require_flags(const TableIo& io, std::size_t index, std::int64_t first,
 
 hdf5::Dataset& TableIo::add(const Column& column) {
   hdf5::Dataset dataset = make_dataset(
-      group_, column.name, storage_of(column.element, rows_, inner_extent_, storage_.compression));
-  if (storage_.described) {
-    describe(dataset, column);
-    dataset.attach_scale(row_scale_, 0);
-    if (second_scale_) dataset.attach_scale(*second_scale_, 1);
-    if (last_scale_) dataset.attach_scale(*last_scale_, static_cast<unsigned>(inner_extent_.size()));
-  }
+      group_, column.name, storage_of(column.element, rows_, inner_extent_, hdf5::Compression::deflate));
+  describe(dataset, column);
+  dataset.attach_scale(row_scale_, 0);
+  if (second_scale_) dataset.attach_scale(*second_scale_, 1);
+  if (last_scale_) dataset.attach_scale(*last_scale_, static_cast<unsigned>(inner_extent_.size()));
   return datasets_.emplace_back(std::move(dataset));
 }
 
-std::vector<hdf5::FetchedRows> fetch_columns(const TableIo& io, std::int64_t first, std::int64_t rows) {
+std::vector<hdf5::FetchedRows> fetch_columns(const TableReader& io, std::int64_t first, std::int64_t rows) {
   std::vector<hdf5::FetchedRows> fetched;
   for (std::size_t index = 0; index < io.columns(); ++index)
     fetched.push_back(io.column(index).fetch(first, rows));
   return fetched;
 }
 
-std::vector<std::vector<std::byte>> decode_columns(const TableIo& io,
+std::vector<std::vector<std::byte>> decode_columns(const TableReader& io,
                                                    std::span<const hdf5::FetchedRows> fetched) {
   std::vector<std::vector<std::byte>> columns = hdf5::decode_rows(fetched);
   for (std::size_t index = 0; index < io.columns(); ++index) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -28,14 +29,6 @@ hdf5::Storage scale_storage(const Column& scale, std::int64_t size);
 hdf5::Storage column_storage(const Table& table, const Column& column, std::int64_t rows, std::int64_t second,
                              hdf5::Compression compression);
 
-/// How the datasets of a new table are stored.
-struct TableStorage {
-  hdf5::Compression compression{hdf5::Compression::deflate};
-  /// With the attributes that describe them, and attached to their scales. These are half of the work of
-  /// creating a table, and only other readers of HDF5 want them.
-  bool described{true};
-};
-
 /// The datasets of a table in an open file.
 class TableIo {
  public:
@@ -43,11 +36,8 @@ class TableIo {
   /// of the second dimension, 1 where the table has none. A scale that another table of the group has made is
   /// used as it is. A table without rows is made extendible, because
   /// the netCDF library knows a length of zero only of an unlimited dimension.
-  static TableIo create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t second,
-                        const TableStorage& storage = {});
-  /// Opens the axes of `table`: it has rows() and width(), and no columns.
-  static TableIo open_axes(const hdf5::Group& root, const Table& table);
-  /// Opens also its columns, and checks that they have its element types and equal sizes.
+  static TableIo create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t second);
+  /// Opens its axes and columns, and checks that they have their element types and equal sizes.
   static TableIo open(const hdf5::Group& root, const Table& table);
 
   std::int64_t rows() const { return rows_; }
@@ -70,10 +60,10 @@ class TableIo {
   TableIo(hdf5::Group group, hdf5::Dataset row_scale)
       : group_(std::move(group)), row_scale_(std::move(row_scale)) {}
   void add_dimension(std::int64_t size);
+  friend class TableReader;
 
   std::int64_t rows_{0};
   std::int64_t width_{1};
-  TableStorage storage_{};
   hdf5::Group group_;
   hdf5::Dataset row_scale_;
   std::optional<hdf5::Dataset> second_scale_;
@@ -82,9 +72,33 @@ class TableIo {
   std::vector<hdf5::Dataset> datasets_;
 };
 
+/// A table that is open to be read, in a file or in a shard.
+class TableReader {
+ public:
+  using Column = std::shared_ptr<const hdf5::RowSource>;
+
+  /// Of the table in a file. @throws Failure (bad_data) as TableIo::open
+  static TableReader open(const hdf5::Group& root, const Table& table);
+  /// @param width elements of a row @param scale of the rows
+  TableReader(std::int64_t rows, std::int64_t width, Column scale, std::vector<Column> columns)
+      : rows_(rows), width_(width), scale_(std::move(scale)), columns_(std::move(columns)) {}
+
+  std::int64_t rows() const { return rows_; }
+  std::int64_t width() const { return width_; }
+  std::size_t columns() const { return columns_.size(); }
+  const hdf5::RowSource& row_scale() const { return *scale_; }
+  const hdf5::RowSource& column(std::size_t index) const { return *columns_[index]; }
+
+ private:
+  std::int64_t rows_;
+  std::int64_t width_;
+  Column scale_;
+  std::vector<Column> columns_;
+};
+
 /// All values of a column, [row][second dimension], flattened. `Value` must be the type of its elements.
-template <class Value>
-std::vector<Value> read_column(const TableIo& io, std::size_t index) {
+template <class Value, class AnyTable>
+std::vector<Value> read_column(const AnyTable& io, std::size_t index) {
   std::vector<Value> values(static_cast<std::size_t>(io.rows() * io.width()));
   io.column(index).read(0, io.rows(), values.data());
   return values;
@@ -92,18 +106,18 @@ std::vector<Value> read_column(const TableIo& io, std::size_t index) {
 
 /// Throws Failure (bad_data) if an element of the column, read as bytes from row `first` on, is neither 0
 /// nor 1.
-void require_flags(const TableIo& io, std::size_t index, std::int64_t first,
+void require_flags(const TableReader& io, std::size_t index, std::int64_t first,
                    std::span<const std::byte> flags);
 
 /// Some rows of a table as they are stored, [column].
-std::vector<hdf5::FetchedRows> fetch_columns(const TableIo& io, std::int64_t first, std::int64_t rows);
+std::vector<hdf5::FetchedRows> fetch_columns(const TableReader& io, std::int64_t first, std::int64_t rows);
 
 /// Their elements, by any thread. @throws Failure (bad_data) if they are damaged
-std::vector<std::vector<std::byte>> decode_columns(const TableIo& io,
+std::vector<std::vector<std::byte>> decode_columns(const TableReader& io,
                                                    std::span<const hdf5::FetchedRows> fetched);
 
 template <class Record>
-std::vector<Record> read_records(const TableIo& io, const std::vector<RecordField<Record>>& fields,
+std::vector<Record> read_records(const TableReader& io, const std::vector<RecordField<Record>>& fields,
                                  std::int64_t first, std::int64_t rows) {
   std::vector<Record> records(static_cast<std::size_t>(rows * io.width()));
   scatter_all(fields, decode_columns(io, fetch_columns(io, first, rows)), 0, std::span(records));

@@ -8,8 +8,8 @@
 namespace zerocount::reading {
 
 AllTrialsFile::AllTrialsFile(const std::filesystem::path& path, Require require,
-                             const layout::MeasureTable* table)
-    : ResultsFile(path, require, table) {
+                             const layout::MeasureTable* table, const study::Study* study)
+    : ResultsFile(path, require, table, study) {
   layout::require_every_trial(path, header());
 }
 

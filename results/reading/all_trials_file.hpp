@@ -22,7 +22,7 @@ class AllTrialsFile : public ResultsFile {
  public:
   /// @throws as ResultsFile does, and ForeignFile for a file that does not keep every trial
   explicit AllTrialsFile(const std::filesystem::path& path, Require require = Require::complete,
-                         const layout::MeasureTable* table = nullptr);
+                         const layout::MeasureTable* table = nullptr, const study::Study* study = nullptr);
 
   /// The trials under one condition, as the file of a study of its own (study::under_condition): all that is
   /// read of trials, and header().trials and rows(), are of that study, whose row is point·trials + draw.

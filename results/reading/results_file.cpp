@@ -15,9 +15,10 @@
 namespace zerocount::reading {
 namespace {
 
-layout::FileHeader read_required(const hdf5::File& file, const std::filesystem::path& path, Require require) {
-  layout::FileHeader header = layout::read_header(file);
-  if (!header.finished && require != Require::unfinished) file.fail("it was never finished");
+void require_extent(const layout::FileHeader& header, const std::filesystem::path& path, Require require) {
+  if (!header.finished && require != Require::unfinished) {
+    throw Failure(ExitCode::bad_data, fmt::format("{}: damaged: it was never finished", path.string()));
+  }
   if (!header.complete && require == Require::complete) {
     throw Failure(
         ExitCode::bad_data,
@@ -25,7 +26,11 @@ layout::FileHeader read_required(const hdf5::File& file, const std::filesystem::
                     "'zerocount merge'",
                     path.string(), header.rows.first, header.rows.end() - 1, header.trials * header.points));
   }
-  return header;
+}
+
+TrialSource trials_in(const ShardFile& shard, const study::Study& study) {
+  return {study.features, study.columns.inputs, !study.retained_trials.empty(),
+          [&](const layout::Table& table) { return shard.open(table, study.moves); }};
 }
 
 void require_numbers(const hdf5::Dataset& dataset, std::size_t dimensions) {
@@ -94,8 +99,8 @@ void append_limits(const hdf5::File& file, const layout::PointColumn& column, co
 }
 
 /// Where the numbers of each point begin, and where the last of them end.
-std::vector<std::int64_t> begins_of(const layout::TableIo& counts, std::size_t column,
-                                    const layout::TableIo& numbers) {
+std::vector<std::int64_t> begins_of(const layout::TableReader& counts, std::size_t column,
+                                    const layout::TableReader& numbers) {
   std::vector<std::int64_t> begins{0};
   for (const std::int64_t count : layout::read_column<std::int64_t>(counts, column)) {
     if (count < 0 || count > numbers.rows() - begins.back()) break;
@@ -107,7 +112,7 @@ std::vector<std::int64_t> begins_of(const layout::TableIo& counts, std::size_t c
 }
 
 template <class Number>
-std::vector<Number> numbers_of(const layout::TableIo& io, const std::vector<std::int64_t>& begins,
+std::vector<Number> numbers_of(const layout::TableReader& io, const std::vector<std::int64_t>& begins,
                                std::size_t point) {
   const std::int64_t count = begins[point + 1] - begins[point];
   std::vector<Number> numbers(static_cast<std::size_t>(count));
@@ -148,12 +153,25 @@ void read_counts(const hdf5::File& file, const layout::FileHeader& header, const
 }  // namespace
 
 ResultsFile::ResultsFile(const std::filesystem::path& path, Require require,
-                         const layout::MeasureTable* table)
-    : path_(path),
-      file_(require == Require::unfinished ? hdf5::File::open_to_read(path) : layout::open_results(path)),
-      header_(read_required(file_, path, require)) {
-  if (layout::has_trials(header_.retention)) trials_.emplace(file_, header_, table);
-  if (layout::has_sums(header_.retention)) sums_.emplace(file_, points());
+                         const layout::MeasureTable* table, const study::Study* study)
+    : path_(path) {
+  const bool checked = require == Require::unfinished;
+  if (is_shard(path)) {
+    shard_.emplace(path, checked ? layout::Checksum::not_yet : layout::Checksum::required);
+  } else {
+    file_.emplace(checked ? hdf5::File::open_to_read(path) : layout::open_results(path));
+  }
+  header_ = shard_ ? shard_->header() : layout::read_header(*file_);
+  require_extent(header_, path, require);
+  if (shard_ && study != nullptr) study_ = {std::shared_ptr<void>(), study};  // not owned
+  if (layout::has_trials(header_.retention)) {
+    const layout::MeasureTable& measures = table != nullptr ? *table : layout::measure_table();
+    trials_.emplace(shard_ ? trials_in(*shard_, this->study()) : trials_in(*file_, measures), header_, table);
+  }
+  const auto open = [&](const layout::Table& one) {
+    return shard_ ? shard_->open(one, 1) : layout::TableReader::open(*file_, one);
+  };
+  if (layout::has_sums(header_.retention)) sums_.emplace(open, points());
 }
 
 const study::Study& ResultsFile::study() const {
@@ -169,15 +187,16 @@ void ResultsFile::show_study(study::Study study) {
 }
 
 std::vector<std::string> ResultsFile::point_labels() const {
-  if (!file_.contains("point")) return {};
-  const hdf5::Dataset labels = file_.open_group("point").open_dataset("label");
+  if (!contains("point")) return {};
+  const hdf5::Dataset labels = file_->open_group("point").open_dataset("label");
   require_points(labels, header_.points);
   return labels.read_texts();
 }
 
 std::vector<study::SweepAxis> ResultsFile::axes() const {
   std::vector<study::SweepAxis> axes;
-  for (const auto& [name, dataset] : point_columns(file_, header_.points, "axis")) {
+  if (!file_) return axes;
+  for (const auto& [name, dataset] : point_columns(*file_, header_.points, "axis")) {
     study::SweepAxis axis{
         name, dataset.text("units"), dataset.text("long_name"), study::SweepAxis::Kind::number, {}, {}};
     if (dataset.element() == hdf5::Element::text) {
@@ -194,11 +213,11 @@ std::vector<study::SweepAxis> ResultsFile::axes() const {
 
 std::vector<layout::PointColumn> ResultsFile::statistics() const {
   std::vector<layout::PointColumn> statistics;
-  if (shows_part_) return statistics;
-  for (const auto& [name, dataset] : point_columns(file_, header_.points, "statistic")) {
+  if (shows_part_ || !file_) return statistics;
+  for (const auto& [name, dataset] : point_columns(*file_, header_.points, "statistic")) {
     const layout::PointColumn column{name, dataset.text("units"), dataset.text("long_name"), {}};
     if (dataset.extent().size() == 2) {
-      append_limits(file_, column, dataset, statistics);
+      append_limits(*file_, column, dataset, statistics);
     } else {
       statistics.push_back(column);
       statistics.back().values = read_doubles(dataset);
@@ -208,13 +227,13 @@ std::vector<layout::PointColumn> ResultsFile::statistics() const {
 }
 
 std::vector<layout::StatisticTable> ResultsFile::statistic_tables() const {
-  return layout::read_statistic_tables(file_);
+  return file_ ? layout::read_statistic_tables(*file_) : std::vector<layout::StatisticTable>();
 }
 
 std::vector<StoredProfile> ResultsFile::profiles() const {
   std::vector<StoredProfile> profiles;
   if (!has_profiles()) return profiles;
-  const hdf5::Group group = file_.open_group("profile");
+  const hdf5::Group group = file_->open_group("profile");
   for (const std::string& name : group.children()) {
     const hdf5::Group folder = group.open_group(name);
     const std::string unit = folder.open_dataset("value").text("units");
@@ -222,7 +241,7 @@ std::vector<StoredProfile> ResultsFile::profiles() const {
     profile.theta_unit = folder.open_dataset("theta").text("units");
     const bool of_rigs = folder.contains("rig");
     const layout::TableIo io = layout::TableIo::open(
-        file_, of_rigs ? layout::rotor_table(name, unit) : layout::profile_table(name, unit));
+        *file_, of_rigs ? layout::rotor_table(name, unit) : layout::profile_table(name, unit));
     if (of_rigs) profile.rigs = io.rows();
     profile.value = layout::read_column<double>(io, 0);
     profiles.push_back(std::move(profile));
@@ -231,12 +250,12 @@ std::vector<StoredProfile> ResultsFile::profiles() const {
 }
 
 std::optional<StoredGroups> ResultsFile::groups(std::string_view name) const {
-  if (!file_.contains(std::string(name))) return std::nullopt;
+  if (!contains(std::string(name))) return std::nullopt;
   const layout::Grouping& grouping = layout::grouping_named(name);
   StoredGroups stored;
-  stored.columns = read_input_columns(file_.open_group(std::string(name)));
+  stored.columns = read_input_columns(file_->open_group(std::string(name)));
   const layout::TableIo io =
-      layout::TableIo::open(file_, layout::group_table(grouping, stored.columns, stored.unit));
+      layout::TableIo::open(*file_, layout::group_table(grouping, stored.columns, stored.unit));
   stored.count = io.rows();
   for (std::size_t column = 0; column < stored.columns.size(); ++column)
     stored.inputs.push_back(layout::read_column<double>(io, column));
@@ -245,14 +264,14 @@ std::optional<StoredGroups> ResultsFile::groups(std::string_view name) const {
     stored.values = read_doubles(io.row_scale());
     stored.unit = io.row_scale().text("units");
   }
-  read_counts(file_, header_, grouping, stored);
+  read_counts(*file_, header_, grouping, stored);
   return stored;
 }
 
-ResultsFile::StoredSums::StoredSums(const hdf5::File& file, std::int64_t points)
-    : whole(layout::TableIo::open(file, layout::whole_sums_table())),
-      real(layout::TableIo::open(file, layout::real_sums_table())) {
-  const layout::TableIo counts = layout::TableIo::open(file, layout::sums_table());
+ResultsFile::StoredSums::StoredSums(const std::function<layout::TableReader(const layout::Table&)>& open,
+                                    std::int64_t points)
+    : whole(open(layout::whole_sums_table())), real(open(layout::real_sums_table())) {
+  const layout::TableReader counts = open(layout::sums_table());
   if (counts.rows() != points)
     counts.row_scale().fail("it should have the design points of the file's trials");
   whole_begin = begins_of(counts, 0, whole);
@@ -266,7 +285,7 @@ layout::RowRange ResultsFile::rows_of(std::int64_t point) const {
 
 layout::PointSums ResultsFile::sums(std::int64_t index) const {
   if (!sums_) throw layout::ForeignFile(path_, "it keeps every trial; expected a file of statistics");
-  if (file_.text("sums_form") != layout::sums_form()) {
+  if (file_ && file_->text("sums_form") != layout::sums_form()) {
     throw Failure(
         ExitCode::bad_data,
         fmt::format("{}: its sums are not in the form of this program; zerocount {}, which wrote them, "

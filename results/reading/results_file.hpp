@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "results/layout/point_sums.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/layout/table_io.hpp"
+#include "results/reading/shard_file.hpp"
 #include "results/reading/trial_tables.hpp"
 
 namespace zerocount::reading {
@@ -59,17 +61,19 @@ class ResultsFile {
   /// the rows (see validation.hpp). Reads the file once from beginning to end.
   /// @param table the measures that its moves may have; stays as long as this. Null: those of this program
   /// with the error bands of the file.
+  /// @param study of a shard, if it is known, which stays as long as this: its manifest is not parsed then
   /// @throws ForeignFile for another format or a newer version; Failure: bad_input where there is no such
   /// file, machine_failed where it cannot be read, otherwise bad_data.
   explicit ResultsFile(const std::filesystem::path& path, Require require = Require::complete,
-                       const layout::MeasureTable* table = nullptr);
+                       const layout::MeasureTable* table = nullptr, const study::Study* study = nullptr);
 
   const std::filesystem::path& path() const { return path_; }
   const layout::FileHeader& header() const { return header_; }
   /// The study whose trials the file holds, without the user's controller (see layout::recorded_study). Its
   /// manifest is parsed by the first call.
   const study::Study& study() const;
-  const hdf5::Group& root() const { return file_; }  ///< for groups that this class does not know
+  /// For groups that this class does not know. Not of a shard.
+  const hdf5::Group& root() const { return file_.value(); }
   layout::RowRange rows() const { return header_.rows; }
 
   /// Empty in a shard, like axes, statistics and their tables. Statistics are also empty of a file that is
@@ -79,7 +83,7 @@ class ResultsFile {
   std::vector<layout::PointColumn> statistics() const;
   std::vector<layout::StatisticTable> statistic_tables() const;
 
-  bool has_profiles() const { return file_.contains("profile"); }
+  bool has_profiles() const { return contains("profile"); }
   std::vector<StoredProfile> profiles() const;
 
   /// Nothing in a study without such groups, and in a shard. @param name of a grouping: "rig"
@@ -101,17 +105,20 @@ class ResultsFile {
   void show_study(study::Study study);
 
  private:
-  /// The sums of a file that has /sums.
+  /// The sums that a file or a shard has.
   struct StoredSums {
-    explicit StoredSums(const hdf5::File& file, std::int64_t points);
+    StoredSums(const std::function<layout::TableReader(const layout::Table&)>& open, std::int64_t points);
 
-    layout::TableIo whole;
-    layout::TableIo real;
+    layout::TableReader whole;
+    layout::TableReader real;
     std::vector<std::int64_t> whole_begin, real_begin;  ///< [point] its first number; one more for the end
   };
 
+  bool contains(const std::string& name) const { return file_ && file_->contains(name); }
+
   std::filesystem::path path_;
-  hdf5::File file_;
+  std::optional<ShardFile> shard_;  ///< if it is one
+  std::optional<hdf5::File> file_;  ///< otherwise
   layout::FileHeader header_;
   mutable std::shared_ptr<const study::Study> study_;
   bool shows_part_{false};  ///< study_ is not the whole study of the file

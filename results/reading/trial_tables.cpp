@@ -23,17 +23,16 @@ namespace {
 /// Columns of /trial before the inputs: point and index.
 constexpr std::size_t columns_before_inputs = 2;
 
-/// The axis by the unit of a position, which a shard leaves out, and the features by their columns.
-study::StudyFeatures read_features(const hdf5::File& file, const layout::MeasureTable& table) {
+/// The axis by the unit of a position, and the features by their columns.
+study::StudyFeatures read_features(const hdf5::File& file, const layout::MeasureTable& measures) {
   const hdf5::Group outcome = file.open_group("outcome");
   study::StudyFeatures features;
   features.bands = read_bands(file);
   features.tolerances = read_tolerances(file);
-  const hdf5::Dataset position = outcome.open_dataset("final_position");
-  if (position.has_attribute("units") &&
-      position.text("units") == parameters::unit_on(parameters::AxisKind::linear, "rad"))
+  if (outcome.open_dataset("final_position").text("units") ==
+      parameters::unit_on(parameters::AxisKind::linear, "rad"))
     features.axis = parameters::AxisKind::linear;
-  for (const layout::Measure& measure : table) {
+  for (const layout::Measure& measure : measures) {
     if (measure.only_with != nullptr)
       features.*measure.only_with = outcome.contains(measure.field.column.name);
   }
@@ -49,7 +48,7 @@ study::StudyFeatures read_features(const hdf5::File& file, const layout::Measure
 }
 
 /// Position of the first of `size` rising numbers that is not below `number`.
-std::int64_t first_not_below(const hdf5::Dataset& numbers, std::int64_t size, std::int64_t number) {
+std::int64_t first_not_below(const hdf5::RowSource& numbers, std::int64_t size, std::int64_t number) {
   return numerics::first_where(0, size, [&](std::int64_t at) {
     std::int64_t value = 0;
     numbers.read(at, 1, &value);
@@ -103,23 +102,28 @@ std::vector<study::InputColumn> read_input_columns(const hdf5::Group& table) {
   return inputs;
 }
 
-TrialTables::TrialTables(const hdf5::File& file, const layout::FileHeader& header,
+TrialSource trials_in(const hdf5::File& file, const layout::MeasureTable& measures) {
+  return {read_features(file, measures), read_input_columns(file.open_group("trial")), file.contains("trace"),
+          [&file](const layout::Table& table) { return layout::TableReader::open(file, table); }};
+}
+
+TrialTables::TrialTables(const TrialSource& source, const layout::FileHeader& header,
                          const layout::MeasureTable* table)
-    : features_(read_features(file, table != nullptr ? *table : layout::measure_table())),
-      inputs_(read_input_columns(file.open_group("trial"))),
-      trials_(layout::TableIo::open(file, layout::trial_table(inputs_))),
+    : features_(source.features),
+      inputs_(source.inputs),
+      trials_(source.open(layout::trial_table(inputs_))),
       table_(table != nullptr ? table : &layout::measure_table(features_)),
       measures_(layout::outcome_fields(features_, *table_)),
       move_fields_(layout::move_fields(features_, *table_)),
-      outcomes_(layout::TableIo::open(file, layout::outcome_table(features_, *table_))),
-      jerks_(layout::TableIo::open(file, layout::jerk_table())) {
-  if (file.contains("trace")) trace_ = layout::TableIo::open(file, layout::trace_table(features_));
+      outcomes_(source.open(layout::outcome_table(features_, *table_))),
+      jerks_(source.open(layout::jerk_table())) {
+  if (source.has_trace) trace_ = source.open(layout::trace_table(features_));
   if (!layout::has_sums(header.retention)) first_row_ = header.rows.first;
   if (first_row_ && trials_.rows() != header.rows.count)
     trials_.row_scale().fail("its size differs from the attribute 'trial_count'");
-  if (features_.bands.count > 0) bands_ = layout::TableIo::open(file, layout::band_table(features_.bands));
+  if (features_.bands.count > 0) bands_ = source.open(layout::band_table(features_.bands));
   if (features_.tolerances.count > 0)
-    tolerances_ = layout::TableIo::open(file, layout::tolerance_table(features_.tolerances));
+    tolerances_ = source.open(layout::tolerance_table(features_.tolerances));
   if (outcomes_.rows() != trials_.rows() || (bands_ && bands_->rows() != trials_.rows()) ||
       (tolerances_ && tolerances_->rows() != trials_.rows()))
     outcomes_.row_scale().fail("its size differs from that of the trials");
@@ -153,7 +157,7 @@ std::vector<trial::MoveOutcome> TrialTables::outcomes(layout::RowRange positions
 }
 
 StoredOutcomes TrialTables::stored_outcomes(layout::RowRange positions) const {
-  const auto fetched = [&](const layout::TableIo& io) {
+  const auto fetched = [&](const layout::TableReader& io) {
     return layout::fetch_columns(io, positions.first, positions.count);
   };
   StoredOutcomes stored{positions, fetched(outcomes_), {}, {}};

@@ -31,17 +31,28 @@ struct OutcomeColumns {
   Columns moves, bands, tolerances;
 };
 
-/// The trials that a results file keeps: /trial, /outcome, /jerk and /trace. With `keep: failures` they are
-/// the trials that did not succeed, otherwise every trial of the file.
+/// Where the tables of trials are: in a results file, or in a shard.
+struct TrialSource {
+  study::StudyFeatures features;  ///< those that decide which columns the tables have
+  std::vector<study::InputColumn> inputs;
+  bool has_trace{false};
+  std::function<layout::TableReader(const layout::Table&)> open;
+};
+
+/// @param file stays as long as what is opened @param measures those that moves may have
+TrialSource trials_in(const hdf5::File& file, const layout::MeasureTable& measures);
+
+/// The trials that a results file or a shard keeps: /trial, /outcome, /jerk and /trace. With `keep: failures`
+/// they are the trials that did not succeed, otherwise every trial of the file.
 ///
 /// Ranges named `positions` count the kept trials from 0, in order of rows; ranges named `rows` are global
 /// rows. Every function may find that the file is damaged, and throws Failure (bad_data) then.
 class TrialTables {
  public:
   /// Checks sizes and row numbers (see validation.hpp).
-  /// @param file stays as long as this @param table those that its moves may have, which stay too; null: the
-  /// measures of this program with the error bands of the file
-  TrialTables(const hdf5::File& file, const layout::FileHeader& header, const layout::MeasureTable* table);
+  /// @param table the measures that moves may have, which stay as long as this; null: those of this program
+  /// with the error bands of the source
+  TrialTables(const TrialSource& source, const layout::FileHeader& header, const layout::MeasureTable* table);
 
   std::int64_t count() const { return trials_.rows(); }
   std::vector<std::int64_t> rows(layout::RowRange positions) const;
@@ -82,8 +93,7 @@ class TrialTables {
   /// and `drive_torque` the torque decided, which becomes the motor's after the control's delay.
   std::vector<layout::TraceRecord> trace_at(std::int64_t first, std::int64_t count) const;
 
-  /// Only the features that decide which columns of /outcome and /trace the file has, and the axis. The axis
-  /// of a shard is always rotary, because its tables have those units.
+  /// Those that decide which columns of /outcome and /trace the file has, and the axis.
   const study::StudyFeatures& features() const { return features_; }
 
   /// Calls `take(positions)` for blocks of trials that have about a chunk of moves each.
@@ -107,15 +117,15 @@ class TrialTables {
   std::optional<std::int64_t> first_row_;  ///< if every trial is kept
   study::StudyFeatures features_;
   std::vector<study::InputColumn> inputs_;
-  layout::TableIo trials_;  ///< point, index, then one column per input
+  layout::TableReader trials_;  ///< point, index, then one column per input
   const layout::MeasureTable* table_;
   std::vector<layout::RecordField<trial::MoveOutcome>> measures_;
   std::vector<layout::RecordField<trial::MoveOutcome>> move_fields_;  ///< the columns of outcomes_
-  layout::TableIo outcomes_;
-  std::optional<layout::TableIo> bands_;       ///< if the file has error bands
-  std::optional<layout::TableIo> tolerances_;  ///< if the file has error tolerances
-  layout::TableIo jerks_;
-  std::optional<layout::TableIo> trace_;
+  layout::TableReader outcomes_;
+  std::optional<layout::TableReader> bands_;       ///< if the file has error bands
+  std::optional<layout::TableReader> tolerances_;  ///< if the file has error tolerances
+  layout::TableReader jerks_;
+  std::optional<layout::TableReader> trace_;
 };
 
 /// The error bands of the file.

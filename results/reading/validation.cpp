@@ -31,14 +31,14 @@ const layout::RecordField<Record>* find_field(const std::vector<layout::RecordFi
   return found == fields.end() ? nullptr : &*found;
 }
 
-[[noreturn]] void fail(const hdf5::Dataset& dataset, const std::string& row, const std::string& value,
+[[noreturn]] void fail(const hdf5::RowSource& dataset, const std::string& row, const std::string& value,
                        std::string_view expected) {
   dataset.fail(fmt::format("{}: it is {}; expected {}", row, value, expected));
 }
 
 /// Every record has a value of the field for which `holds`; `row_of` names the row of the i-th.
 template <class Record, class RowOf, class Holds>
-void require_all(const layout::TableIo& table, const std::vector<layout::RecordField<Record>>& fields,
+void require_all(const layout::TableReader& table, const std::vector<layout::RecordField<Record>>& fields,
                  const layout::RecordField<Record>& field, std::span<const Record> records,
                  const RowOf& row_of, std::string_view expected, const Holds& holds) {
   const auto found = std::find_if_not(records.begin(), records.end(), holds);
@@ -48,7 +48,7 @@ void require_all(const layout::TableIo& table, const std::vector<layout::RecordF
 }
 
 template <class Record, class RowOf>
-void require_valid(const layout::TableIo& table, const std::vector<layout::RecordField<Record>>& fields,
+void require_valid(const layout::TableReader& table, const std::vector<layout::RecordField<Record>>& fields,
                    const layout::RecordField<Record>& field, std::span<const Record> records,
                    const RowOf& row_of) {
   if (field.valid.expected.empty()) return;
@@ -56,7 +56,7 @@ void require_valid(const layout::TableIo& table, const std::vector<layout::Recor
               [&](const Record& record) { return is_valid(field.valid, layout::value_of(field, record)); });
 }
 
-auto rows_of_moves(const layout::TableIo& outcomes, std::int64_t first_row) {
+auto rows_of_moves(const layout::TableReader& outcomes, std::int64_t first_row) {
   return [first_row, moves = outcomes.width()](std::int64_t at) {
     return fmt::format("trial {}, move {}", first_row + at / moves, at % moves);
   };
@@ -65,7 +65,7 @@ auto rows_of_moves(const layout::TableIo& outcomes, std::int64_t first_row) {
 /// Reads a column of whole numbers, in at most `numbered_blocks` blocks, which are spread evenly over it;
 /// `expected` is what each must be, by its row.
 template <class Expected>
-void require_numbers(const hdf5::Dataset& dataset, std::int64_t rows, Expected expected) {
+void require_numbers(const hdf5::RowSource& dataset, std::int64_t rows, Expected expected) {
   const std::int64_t blocks = (rows + rows_at_once - 1) / rows_at_once;
   const std::int64_t read = std::min(blocks, numbered_blocks);
   std::vector<std::int64_t> numbers;
@@ -84,7 +84,7 @@ void require_numbers(const hdf5::Dataset& dataset, std::int64_t rows, Expected e
 }
 
 /// The rows of kept trials rise within those of the file, and agree with point and index.
-void require_kept_rows(const layout::FileHeader& header, const layout::TableIo& trials) {
+void require_kept_rows(const layout::FileHeader& header, const layout::TableReader& trials) {
   std::int64_t last = header.rows.first - 1;
   for (std::int64_t first = 0; first < trials.rows(); first += rows_at_once) {
     const std::int64_t count = std::min(rows_at_once, trials.rows() - first);
@@ -103,8 +103,8 @@ void require_kept_rows(const layout::FileHeader& header, const layout::TableIo& 
 
 }  // namespace
 
-void validate_numbering(const layout::FileHeader& header, const layout::TableIo& trials,
-                        const layout::TableIo& jerks) {
+void validate_numbering(const layout::FileHeader& header, const layout::TableReader& trials,
+                        const layout::TableReader& jerks) {
   const layout::RowRange rows = header.rows;
   const auto global = [&](std::int64_t row) { return rows.first + row; };
   if (layout::has_sums(header.retention)) {
@@ -130,7 +130,7 @@ void validate_numbering(const layout::FileHeader& header, const layout::TableIo&
   }
 }
 
-void validate_outcomes(const layout::TableIo& outcomes,
+void validate_outcomes(const layout::TableReader& outcomes,
                        const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,
                        std::int64_t first_row, std::span<const trial::MoveOutcome> moves) {
   const auto row_of = rows_of_moves(outcomes, first_row);
@@ -141,7 +141,7 @@ void validate_outcomes(const layout::TableIo& outcomes,
               [](const trial::MoveOutcome& move) { return move.arrived != std::isnan(move.arrival_time); });
 }
 
-void validate_bands(const layout::TableIo& table, std::int64_t first_row,
+void validate_bands(const layout::TableReader& table, std::int64_t first_row,
                     std::span<const trial::BandOutcome> bands) {
   const auto row_of = [first_row, width = table.width()](std::int64_t at) {
     return fmt::format("trial {}, band {} of its moves", first_row + at / width, at % width);
@@ -150,7 +150,7 @@ void validate_bands(const layout::TableIo& table, std::int64_t first_row,
     require_valid(table, layout::band_fields(), field, bands, row_of);
 }
 
-void validate_tolerances(const layout::TableIo& table, std::int64_t first_row,
+void validate_tolerances(const layout::TableReader& table, std::int64_t first_row,
                          std::span<const layout::ToleranceRecord> records) {
   const auto row_of = [first_row, width = table.width()](std::int64_t at) {
     return fmt::format("trial {}, tolerance {} of its moves", first_row + at / width, at % width);
@@ -158,14 +158,14 @@ void validate_tolerances(const layout::TableIo& table, std::int64_t first_row,
   require_valid(table, layout::tolerance_fields(), layout::tolerance_fields().front(), records, row_of);
 }
 
-void validate_measure(const layout::TableIo& outcomes,
+void validate_measure(const layout::TableReader& outcomes,
                       const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,
                       std::string_view name, std::int64_t first_row,
                       std::span<const trial::MoveOutcome> moves) {
   require_valid(outcomes, fields, *find_field(fields, name), moves, rows_of_moves(outcomes, first_row));
 }
 
-void validate_jerks(const layout::TableIo& table, std::int64_t moves, std::int64_t first,
+void validate_jerks(const layout::TableReader& table, std::int64_t moves, std::int64_t first,
                     std::span<const layout::JerkRecord> jerks) {
   const std::vector<layout::RecordField<layout::JerkRecord>>& fields = layout::jerk_fields();
   const auto row_of = [first](std::int64_t at) { return fmt::format("row {}", first + at); };
@@ -184,7 +184,7 @@ void validate_jerks(const layout::TableIo& table, std::int64_t moves, std::int64
   }
 }
 
-void validate_jerk_counts(const layout::TableIo& table, std::span<const std::int64_t> rows,
+void validate_jerk_counts(const layout::TableReader& table, std::span<const std::int64_t> rows,
                           std::span<const trial::MoveOutcome> outcomes,
                           std::span<const layout::JerkRecord> jerks) {
   const auto moves = std::ssize(outcomes) / std::ssize(rows);

@@ -21,37 +21,37 @@ struct StoredGroups;
 /// within the rows of the file. In a file that keeps failures, the rows of the trials rise too. If more than
 /// 131072 trials are all kept, only eight blocks of 16384, spread evenly, are checked: nothing is computed
 /// from these two columns, and reading them whole would take a tenth of the time of a summary.
-void validate_numbering(const layout::FileHeader& header, const layout::TableIo& trials,
-                        const layout::TableIo& jerks);
+void validate_numbering(const layout::FileHeader& header, const layout::TableReader& trials,
+                        const layout::TableReader& jerks);
 
 /// Checks the measures of `moves`. @param first_row number of their first trial, for messages
 /// @param fields the columns of `outcomes`; what the file does not have is not looked at.
-void validate_outcomes(const layout::TableIo& outcomes,
+void validate_outcomes(const layout::TableReader& outcomes,
                        const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,
                        std::int64_t first_row, std::span<const trial::MoveOutcome> moves);
 
 /// The measures of the error bands are possible. @param first_row row of the first one
-void validate_bands(const layout::TableIo& table, std::int64_t first_row,
+void validate_bands(const layout::TableReader& table, std::int64_t first_row,
                     std::span<const trial::BandOutcome> bands);
 
 /// Requires possible values of the measures of tolerances.
-void validate_tolerances(const layout::TableIo& table, std::int64_t first_row,
+void validate_tolerances(const layout::TableReader& table, std::int64_t first_row,
                          std::span<const layout::ToleranceRecord> records);
 
 /// Checks the measure `name` only; the others of `moves` are unknown.
-void validate_measure(const layout::TableIo& outcomes,
+void validate_measure(const layout::TableReader& outcomes,
                       const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,
                       std::string_view name, std::int64_t first_row,
                       std::span<const trial::MoveOutcome> moves);
 
 /// `jerks` are the rows of the table of jerks from `first` on, of a study with `moves` moves. Within a trial
 /// they must be in the order of their onsets, move by move.
-void validate_jerks(const layout::TableIo& table, std::int64_t moves, std::int64_t first,
+void validate_jerks(const layout::TableReader& table, std::int64_t moves, std::int64_t first,
                     std::span<const layout::JerkRecord> jerks);
 
 /// `jerks` are those that the outcomes count, in order of trials and moves.
 /// @param rows of the trials @param outcomes [trial][move] @param jerks as many as `outcomes` count
-void validate_jerk_counts(const layout::TableIo& table, std::span<const std::int64_t> rows,
+void validate_jerk_counts(const layout::TableReader& table, std::span<const std::int64_t> rows,
                           std::span<const trial::MoveOutcome> outcomes,
                           std::span<const layout::JerkRecord> jerks);
 

@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "core/failure/failure.hpp"
-#include "results/hdf5/chunk_transfer.hpp"
+#include "results/hdf5/encoded_rows.hpp"
+#include "results/hdf5/fetched_rows.hpp"
 #include "results/layout/row_range.hpp"
 #include "results/layout/table_io.hpp"
+#include "results/reading/shard_file.hpp"
 
 namespace zerocount::shards {
 namespace {
@@ -28,13 +30,22 @@ std::int64_t elements_of_row(const layout::Table& table, std::int64_t width) {
   return table.last ? width * std::ssize(table.last->values) : width;
 }
 
+/// The table in a shard, or in a part: then `file` has it as long as it is read.
+layout::TableReader open_table(const std::filesystem::path& path, const layout::Table& table,
+                               std::int64_t width, std::optional<hdf5::File>& file) {
+  if (reading::is_shard(path))
+    return reading::ShardFile(path, layout::Checksum::not_yet).open(table, table.second ? width : 1);
+  file.emplace(hdf5::File::open_to_read(path));
+  return layout::TableReader::open(*file, table);
+}
+
 std::vector<Source> find_sources(const layout::Table& table, std::span<const ShardInfo> shards,
                                  std::int64_t width) {
   std::vector<Source> sources;
   std::int64_t next = 0;
   for (const ShardInfo& shard : shards) {
-    const hdf5::File file = hdf5::File::open_to_read(shard.path);
-    const layout::TableIo io = layout::TableIo::open_axes(file, table);
+    std::optional<hdf5::File> file;
+    const layout::TableReader io = open_table(shard.path, table, width, file);
     if (io.width() != elements_of_row(table, width))
       io.row_scale().fail("its trials have another number of moves than the study");
     sources.push_back({shard.path, {next, io.rows()}});
@@ -49,9 +60,10 @@ using Block = std::vector<std::vector<std::byte>>;
 /// The tables of the shards. The last one read stays open, because the next rows are mostly in it, too.
 class Sources {
  public:
-  /// @param chunk rows in a chunk of the table written
-  Sources(const layout::Table& table, std::vector<Source> sources, std::int64_t chunk)
-      : table_(table), sources_(std::move(sources)), chunk_(chunk) {}
+  /// @param width size of the second dimension @param chunk rows in a chunk of the table written
+  Sources(const layout::Table& table, std::span<const ShardInfo> shards, std::int64_t width,
+          std::int64_t chunk)
+      : table_(table), sources_(find_sources(table, shards, width)), width_(width), chunk_(chunk) {}
 
   std::int64_t rows() const { return sources_.empty() ? 0 : sources_.back().rows.end(); }
 
@@ -61,14 +73,14 @@ class Sources {
     const std::size_t index = index_of(wanted.first);
     const Source& source = sources_[index];
     if (!may_be_chunks_of(source, wanted)) return false;
-    const layout::TableIo& io = open(index);
-    std::vector<hdf5::RowsToCopy> columns;
-    for (std::size_t column = 0; column < table_.columns.size(); ++column) {
-      columns.push_back({&out.column(column), wanted.first, wanted.count, &io.column(column),
-                         wanted.first - source.rows.first});
-    }
-    if (!std::all_of(columns.begin(), columns.end(), hdf5::have_same_chunks)) return false;
-    hdf5::copy_rows(columns, timeline);
+    const std::vector<hdf5::FetchedRows> fetched =
+        layout::fetch_columns(open(index), wanted.first - source.rows.first, wanted.count);
+    for (std::size_t column = 0; column < fetched.size(); ++column)
+      if (fetched[column].chunks.empty() || out.column(column).chunk_shape() != fetched[column].shape)
+        return false;
+    const std::vector<hdf5::EncodedRows> stored = hdf5::stored_rows(fetched, timeline);
+    for (std::size_t column = 0; column < stored.size(); ++column)
+      out.column(column).write(wanted.first, stored[column]);
     return true;
   }
 
@@ -79,23 +91,21 @@ class Sources {
     return may_be_chunks_of(sources_[index], wanted);
   }
 
-  void read(layout::RowRange wanted, std::int64_t width, Block& block, timeline::Timeline* timeline) {
+  /// The rows of all columns.
+  Block read(layout::RowRange wanted, timeline::Timeline* timeline) {
+    Block block(table_.columns.size());
     for (std::size_t index = index_of(wanted.first);
          index < sources_.size() && sources_[index].rows.first < wanted.end(); ++index) {
       const Source& source = sources_[index];
       const std::int64_t first = std::max(source.rows.first, wanted.first);
       const std::int64_t count = std::min(source.rows.end(), wanted.end()) - first;
       if (count <= 0) continue;
-      const layout::TableIo& io = open(index);
-      std::vector<hdf5::RowsToRead> columns;
-      for (std::size_t column = 0; column < table_.columns.size(); ++column) {
-        const auto offset = static_cast<std::size_t>((first - wanted.first) * width) *
-                            hdf5::size_of(table_.columns[column].element);
-        columns.push_back(
-            {&io.column(column), first - source.rows.first, count, block[column].data() + offset});
-      }
-      hdf5::read_rows(columns, timeline);
+      const Block some =
+          hdf5::decode_rows(layout::fetch_columns(open(index), first - source.rows.first, count), timeline);
+      for (std::size_t column = 0; column < block.size(); ++column)
+        block[column].insert(block[column].end(), some[column].begin(), some[column].end());
     }
+    return block;
   }
 
  private:
@@ -109,24 +119,23 @@ class Sources {
     return next_;
   }
 
-  const layout::TableIo& open(std::size_t index) {
+  const layout::TableReader& open(std::size_t index) {
     if (open_ != index) {
-      open_.reset();
-      io_.reset();
-      file_.emplace(hdf5::File::open_to_read(sources_[index].path));
-      io_.emplace(layout::TableIo::open(*file_, table_));
+      reader_.reset();
+      reader_.emplace(open_table(sources_[index].path, table_, width_, file_));
       open_ = index;
     }
-    return *io_;
+    return *reader_;
   }
 
   const layout::Table& table_;
   std::vector<Source> sources_;
+  std::int64_t width_;
   std::int64_t chunk_;
   std::size_t next_{0};  ///< index of the first source whose rows are needed
   std::optional<std::size_t> open_;
   std::optional<hdf5::File> file_;
-  std::optional<layout::TableIo> io_;
+  std::optional<layout::TableReader> reader_;
 };
 
 void renumber_trials(const layout::Table& table, const Renumbering& renumber, Block& block) {
@@ -179,20 +188,15 @@ void concatenate(hdf5::File& file, const layout::Table& table, std::span<const S
   const Renumbering& renumber = options.renumber;
   const std::int64_t elements = elements_of_row(table, width);
   const std::int64_t chunk = layout::chunk_rows(elements);
-  Sources sources(table, find_sources(table, shards, width), chunk);
+  Sources sources(table, shards, width, chunk);
   layout::TableIo out = layout::TableIo::create(file, table, sources.rows(), width);
   if (first_number) out.number_rows(*first_number, options.timeline);
-  Block block(table.columns.size());
   for (layout::RowRange wanted; wanted.first < sources.rows(); wanted.first = wanted.end()) {
     if (options.stop.stop_requested())
       throw Failure(ExitCode::interrupted, "interrupted while the shards were joined; they are kept");
     wanted = next_rows(sources, wanted.first, chunk, !renumber);
     if (!renumber && wanted.count <= chunk && sources.copy_chunks(wanted, out, options.timeline)) continue;
-    for (std::size_t index = 0; index < block.size(); ++index) {
-      block[index].resize(static_cast<std::size_t>(wanted.count * elements) *
-                          hdf5::size_of(table.columns[index].element));
-    }
-    sources.read(wanted, elements, block, options.timeline);
+    Block block = sources.read(wanted, options.timeline);
     if (renumber) renumber_trials(table, renumber, block);
     write_block(out, wanted, block, options.timeline);
   }

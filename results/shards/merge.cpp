@@ -33,7 +33,8 @@ std::vector<fs::path> expand(std::span<const fs::path> inputs) {
       continue;
     }
     const std::vector<fs::path> found = shard_files(input);
-    if (found.empty()) fail(ExitCode::bad_input, input, "no shards (*.h5) in this directory");
+    if (found.empty())
+      fail(ExitCode::bad_input, input, "no shards (*.shard) or parts (*.h5) in this directory");
     files.insert(files.end(), found.begin(), found.end());
   }
   if (files.empty())
@@ -77,7 +78,7 @@ void require_cover(std::span<const ShardInfo> shards, layout::RowRange rows, con
 layout::Provenance merged_provenance(std::span<const ShardInfo> shards, layout::Provenance provenance) {
   for (const ShardInfo& shard : shards) {
     if (layout::is_dirty(provenance)) break;
-    const layout::FileHeader header = layout::read_header(hdf5::File::open_to_read(shard.path));
+    const layout::FileHeader header = unchecked_header(shard.path);
     if (layout::is_dirty(header.provenance)) provenance.git_commit = header.provenance.git_commit;
   }
   return provenance;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
 
@@ -9,6 +10,7 @@
 
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
+#include "results/reading/shard_file.hpp"
 #include "results/shards/encoded_shard.hpp"
 #include "results/shards/trial_columns.hpp"
 #include "results/storage/checksum_trailer.hpp"
@@ -26,15 +28,14 @@ void require_fit(const study::Study& study, std::span<const TrialResult> trials)
   }
 }
 
-/// The regular files in `directory` whose names end in `extension`, in order of names.
-std::vector<fs::path> files_in(const fs::path& directory, const char* extension) {
+/// The regular files in `directory` whose names end in one of the extensions, in order of names.
+std::vector<fs::path> files_in(const fs::path& directory, std::initializer_list<const char*> extensions) {
   std::vector<fs::path> files;
   std::error_code error;
   for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
     std::error_code unknown;  // ignored: a vanished entry or a broken link is not a regular file
-    if (entry->path().extension() == extension && entry->is_regular_file(unknown)) {
+    if (std::ranges::count(extensions, entry->path().extension()) > 0 && entry->is_regular_file(unknown))
       files.push_back(entry->path());
-    }
   }
   if (error) storage::fail_with(directory, "read the directory", error.value());
   std::sort(files.begin(), files.end());
@@ -44,7 +45,7 @@ std::vector<fs::path> files_in(const fs::path& directory, const char* extension)
 }  // namespace
 
 fs::path shard_path(const fs::path& directory, layout::RowRange rows) {
-  return directory / fmt::format("trials-{:012}-{:012}.h5", rows.first, rows.end() - 1);
+  return directory / fmt::format("trials-{:012}-{:012}.shard", rows.first, rows.end() - 1);
 }
 
 void write_shard(const fs::path& path, const study::Study& study, layout::RowRange rows,
@@ -53,18 +54,21 @@ void write_shard(const fs::path& path, const study::Study& study, layout::RowRan
   require_fit(study, trials);
   const layout::MeasureTable& measures =
       options.measures != nullptr ? *options.measures : layout::measure_table(study.features);
-  const StoredShard stored = store_shard(
-      path, study,
-      encode_shard(study, rows, columns_of(study, measures, trials), {sums.begin(), sums.end()}, options));
-  flush_shard(stored);
-  publish_shard(stored);
+  store_shard(path, encode_shard(study, rows, columns_of(study, measures, trials), {sums.begin(), sums.end()},
+                                 options));
 }
 
 void finish_results(const fs::path& path, const storage::WrittenBytes& written) {
   storage::publish_compared(path, written.require_in(storage::part_of(path)));
 }
 
+layout::FileHeader unchecked_header(const fs::path& path) {
+  if (reading::is_shard(path)) return reading::ShardFile(path, layout::Checksum::not_yet).header();
+  return layout::read_header(hdf5::File::open_to_read(path));
+}
+
 layout::FileHeader inspect_header(const fs::path& path, layout::Checksum checksum) {
+  if (reading::is_shard(path)) return reading::ShardFile(path, checksum).header();
   layout::FileHeader header = layout::read_header(layout::open_results(path, checksum));
   if (header.finished) return header;
   throw Failure(ExitCode::bad_data, fmt::format("{}: damaged: it was never finished", path.string()));
@@ -75,7 +79,7 @@ bool keeps_every_trial(const fs::path& path) {
 }
 
 std::vector<fs::path> shard_files(const fs::path& directory) {
-  return files_in(directory, ".h5");
+  return files_in(directory, {".h5", ".shard"});
 }
 
 void sort_by_rows(std::vector<ShardInfo>& shards) {
@@ -96,7 +100,7 @@ ShardSurvey list_shards(const fs::path& directory, const study::Study& study) {
   const bool exists = fs::exists(directory, error);
   if (error) storage::fail_with(directory, "read the directory", error.value());
   if (!exists) return survey;
-  survey.unfinished = files_in(directory, ".part");
+  survey.unfinished = files_in(directory, {".part"});
   for (const fs::path& path : shard_files(directory)) {
     try {
       survey.shards.push_back(checked_shard(path, study));

@@ -73,7 +73,7 @@ struct ShardSurvey {
   std::vector<std::filesystem::path> unfinished;  ///< *.part, left by a killed process; safe to remove
 };
 
-/// The regular files *.h5 in `directory`, sorted by name.
+/// The regular files *.shard and *.h5 (parts) in `directory`, sorted by name.
 /// @throws Failure (machine_failed) if the directory cannot be read.
 std::vector<std::filesystem::path> shard_files(const std::filesystem::path& directory);
 
@@ -82,6 +82,10 @@ std::vector<std::filesystem::path> shard_files(const std::filesystem::path& dire
 /// @throws as open_results and read_header do
 layout::FileHeader inspect_header(const std::filesystem::path& path,
                                   layout::Checksum checksum = layout::Checksum::required);
+
+/// The header of a shard or part, without a check of its contents and its end.
+/// @throws as inspect_header does
+layout::FileHeader unchecked_header(const std::filesystem::path& path);
 
 /// Whether the file has every trial; otherwise it has sums. @throws as inspect_header does
 bool keeps_every_trial(const std::filesystem::path& path);

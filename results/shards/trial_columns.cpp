@@ -97,16 +97,14 @@ void append(std::vector<std::byte>& whole, std::vector<std::byte>& part) {
 }  // namespace
 
 std::vector<ShardTable> shard_tables(const study::Study& study, const layout::MeasureTable& measures) {
-  using Rows = ShardTable::Rows;
   const study::StudyFeatures& features = study.features;
-  std::vector<ShardTable> tables;
-  tables.push_back({layout::trial_table(study.columns.inputs), 1, Rows::trials, true});
-  tables.push_back({layout::outcome_table(features, measures), study.moves, Rows::trials});
-  tables.push_back({layout::band_table(features.bands), study.moves, Rows::shared});
+  std::vector<ShardTable> tables{{layout::trial_table(study.columns.inputs)},
+                                 {layout::outcome_table(features, measures), study.moves},
+                                 {layout::band_table(features.bands), study.moves}};
   if (features.tolerances.count > 0)
-    tables.push_back({layout::tolerance_table(features.tolerances), study.moves, Rows::shared});
-  tables.push_back({layout::jerk_table(), 1, Rows::counted});
-  if (!study.retained_trials.empty()) tables.push_back({layout::trace_table(features), 1, Rows::counted});
+    tables.push_back({layout::tolerance_table(features.tolerances), study.moves});
+  tables.push_back({layout::jerk_table()});
+  if (!study.retained_trials.empty()) tables.push_back({layout::trace_table(features)});
   return tables;
 }
 

@@ -15,12 +15,6 @@ namespace zerocount::shards {
 struct ShardTable {
   layout::Table table;
   std::int64_t second{1};  ///< size of the second dimension
-  /// What numbers its rows: the trials, a scale that an earlier table has written, or nothing but their
-  /// order.
-  enum class Rows { trials, shared, counted } rows{Rows::trials};
-  /// Whether it says what its columns are, as every table of a results file does: in a shard, only the
-  /// inputs, which differ between studies.
-  bool described{false};
 };
 
 /// The tables of trials in a shard of the study, in the order of the file.

@@ -21,10 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view trailer_start = "zerocount-seal sha256 ";
-std::string trailer_of(const hash::Sha256& checksum) {
-  return fmt::format("{}{}\n", trailer_start, hash::hexadecimal(checksum));
-}
-
 /// The last bytes of the file, as many as a trailer has.
 std::string read_trailer(const fs::path& path, const FileDescriptor& file) {
   std::string found(checksum_trailer_length, '\0');
@@ -66,10 +62,14 @@ bool has_newer_format(const fs::path& path) {
 
 }  // namespace
 
+std::string checksum_trailer(const hash::Sha256& checksum) {
+  return fmt::format("{}{}\n", trailer_start, hash::hexadecimal(checksum));
+}
+
 void append_checksum(const fs::path& path) {
   const FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
   if (!file.valid()) fail_with(path, "open for writing", errno);
-  const std::string text = trailer_of(sha256_of(path, file, size_of_file(path, file)));
+  const std::string text = checksum_trailer(sha256_of(path, file, size_of_file(path, file)));
   write_all(path, file, text);
   synchronise(path, file);
 }
@@ -80,7 +80,7 @@ ChecksumState check_checksum(const fs::path& path) {
   const std::size_t size = size_of_file(path, file);
   std::string expected;
   if (size > checksum_trailer_length)
-    expected = trailer_of(sha256_of(path, file, size - checksum_trailer_length));
+    expected = checksum_trailer(sha256_of(path, file, size - checksum_trailer_length));
   const std::string found = read_trailer(path, file);
   if (!found.starts_with(trailer_start)) return ChecksumState::missing;
   return found == expected ? ChecksumState::valid : ChecksumState::wrong;
@@ -107,7 +107,7 @@ void publish_compared(const fs::path& path, const hash::Sha256& checksum) {
     const FileDescriptor file(::open(part.c_str(), O_RDWR | O_CLOEXEC));
     if (!file.valid()) fail_with(part, "open for writing", errno);
     if (::lseek(file.get(), 0, SEEK_END) < 0) fail_with(part, "write", errno);
-    const std::string text = trailer_of(checksum);
+    const std::string text = checksum_trailer(checksum);
     write_all(part, file, text);
     synchronise(part, file);
     if (read_trailer(part, file) != text) fail_read_back(part, "the checksum at its end differs");

@@ -12,6 +12,9 @@ namespace zerocount::storage {
 /// line feed.
 inline constexpr std::size_t checksum_trailer_length = 22 + 64 + 1;
 
+/// The trailer of contents with this checksum.
+std::string checksum_trailer(const hash::Sha256& checksum);
+
 /// Appends the checksum trailer, the SHA-256 of all bytes before it, to a finished file and flushes the file
 /// to the disk. HDF5 reads the end of its data from its own header and ignores the trailer.
 ///

@@ -133,13 +133,6 @@ void synchronise(const fs::path& path, const FileDescriptor& file) {
   ::posix_fadvise(file.get(), 0, 0, POSIX_FADV_DONTNEED);  // only a hint; some file systems ignore it
 }
 
-void synchronise(const fs::path& path) {
-  const FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
-  if (!file.valid()) fail_with(path, "open for writing", errno);
-  synchronise(path, file);
-  ::posix_fadvise(file.get(), 0, 0, POSIX_FADV_WILLNEED);  // in large pieces, before it is read in small ones
-}
-
 void write_all(const fs::path& path, const FileDescriptor& file, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(file.get(), text.data(), text.size());

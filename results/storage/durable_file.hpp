@@ -51,8 +51,6 @@ void publish(const std::filesystem::path& path);
 /// disk.
 /// @throws Failure (machine_failed) with the path and the system's reason.
 void synchronise(const std::filesystem::path& path, const FileDescriptor& file);
-/// The same of a closed file.
-void synchronise(const std::filesystem::path& path);
 
 /// Writes all of `text` at the file's position; `path` is its name in messages.
 /// @throws Failure (machine_failed) with the path and the system's reason.

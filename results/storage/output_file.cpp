@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "core/failure/failure.hpp"
+#include "results/storage/checksum_trailer.hpp"
 #include "results/storage/file_contents.hpp"
 
 namespace zerocount::storage {
@@ -44,6 +45,13 @@ void OutputFile::finish() {
   const bool same =
       size_of_file(part_, file_) == size_ && sha256_of(part_, file_, size_) == written_.digest();
   if (!same) fail_read_back(part_, "its bytes differ");
+}
+
+void OutputFile::finish_with_checksum() {
+  flush();
+  hash::Sha256Hash contents = written_;  // a digest ends a hash
+  write(checksum_trailer(contents.digest()));
+  finish();
 }
 
 void OutputFile::publish() {

@@ -57,8 +57,7 @@ double bytes_of_trials(const study::Study& study, const TrialSample& sample) {
       const double elements =
           static_cast<double>(values.size()) / static_cast<double>(hdf5::size_of(described[i].element));
       const bool repeats = t == 0 && !layout::has_sums(study.retention);
-      const bool of_trials =
-          tables[t].rows != shards::ShardTable::Rows::counted && !layout::has_sums(study.retention);
+      const bool of_trials = tables[t].table.rows.name == "trial" && !layout::has_sums(study.retention);
       const double period =
           of_trials ? static_cast<double>(study.trials) * elements / static_cast<double>(trials.size()) : 0.0;
       bytes += stored_bytes({described[i].element, values, period}, scale * elements,

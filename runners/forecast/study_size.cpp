@@ -124,8 +124,8 @@ std::vector<shards::TrialResult> traced_trials(const study::Study& study) {
 
 /// Bytes that the sums take on the disk, of a byte in memory; measured.
 constexpr double compressed_sums = 0.2;
-/// Bytes of a dataset of a shard without values: its header, attributes and index.
-constexpr double bytes_of_shard_dataset = 2500.0;
+/// Bytes of a column of a shard without values: its name and the sizes of its chunks.
+constexpr double bytes_of_shard_column = 60.0;
 
 double bytes_of_row(const layout::Table& table) {
   double bytes = 0.0;
@@ -151,17 +151,17 @@ double bytes_of_records(const study::Study& study) {
   return trials * trials::samples_per_trial(study) * bytes_of_row(layout::trace_table(study.features));
 }
 
-/// Bytes of the datasets of a shard without their values.
+/// Bytes of the columns of a shard without their values.
 double bytes_of_descriptions(const study::Study& study) {
-  double datasets = 10.0;  // but for those of the trials
+  double columns = 10.0;  // but for those of the trials
   if (layout::has_trials(study.retention)) {
-    datasets += static_cast<double>(study.columns.inputs.size());
+    columns += static_cast<double>(study.columns.inputs.size());
     for (const layout::Table& table :
          {layout::outcome_table(study.features), layout::jerk_table(),
           study.retained_trials.empty() ? layout::Table{} : layout::trace_table(study.features)})
-      datasets += static_cast<double>(table.columns.size());
+      columns += static_cast<double>(table.columns.size());
   }
-  return bytes_of_shard_dataset * datasets;
+  return bytes_of_shard_column * columns;
 }
 
 /// Numbers in the sums of a point, of trials that are numbered from 0.

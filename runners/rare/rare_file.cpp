@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/failure/failure.hpp"
-#include "results/hdf5/chunk_transfer.hpp"
+#include "results/hdf5/encoded_rows.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"

@@ -27,7 +27,7 @@ void write_summed(shards::MergedFile& file, const study::Study& study, layout::R
         if (file.is_whole()) points.push_back(std::move(point.statistics));
       });
   for (const shards::ShardInfo& shard : file.shards())
-    accumulator.add(reading::ResultsFile(shard.path, reading::Require::any_part));
+    accumulator.add(reading::ResultsFile(shard.path, reading::Require::any_part, nullptr, &study));
   accumulator.finish();
   file.write_sums(sums);
   if (!file.is_whole()) return;

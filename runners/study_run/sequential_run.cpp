@@ -25,7 +25,7 @@ class Successes {
       : study_(study), by_block_(static_cast<std::size_t>(study::point_count(study))) {}
 
   void add(const shards::ShardInfo& shard) {
-    const reading::AllTrialsFile file(shard.path, reading::Require::any_part);
+    const reading::AllTrialsFile file(shard.path, reading::Require::any_part, nullptr, &study_);
     const std::vector<trial::MoveOutcome> outcomes = file.outcomes(file.rows());
     for (std::int64_t i = 0; i < file.rows().count; ++i) {
       const auto first = outcomes.begin() + i * study_.moves;

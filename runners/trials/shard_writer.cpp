@@ -157,7 +157,7 @@ void ShardWriter::write(ShardContents&& contents) {
     try {
       write_shard(std::move(*shared));
     } catch (...) {
-      const std::lock_guard lock(library_);
+      const std::lock_guard lock(mutex_);
       if (!failure_) failure_ = std::current_exception();
       has_failed_ = true;
     }
@@ -176,27 +176,19 @@ void ShardWriter::wait() {
   if (failure_) std::rethrow_exception(failure_);
 }
 
-/// Any thread; what calls the library, one thread at a time.
+/// Any thread.
 void ShardWriter::write_shard(ShardContents&& contents) {
-  const std::int64_t trials = contents.rows.count;
-  const auto timed = [&](std::string_view name, timeline::Work work, const auto& step) {
-    const timeline::TimeSpan span(timeline_, name, work, trials);
+  const layout::RowRange rows = contents.rows;
+  const auto timed = [&](std::string_view name, const auto& step) {
+    const timeline::TimeSpan span(timeline_, name, timeline::Work::parallel, rows.count);
     return step();
   };
-  using timeline::Work;
-  shards::StoredShard stored;
-  {
-    const shards::EncodedShard shard =
-        timed("encode", Work::parallel, [&] { return encoded(study_, provenance_, std::move(contents)); });
-    const std::lock_guard lock(library_);
-    stored = timed("store", Work::serial, [&] {
-      return shards::store_shard(shards::shard_path(directory_, shard.rows), study_, shard);
-    });
-  }
-  timed("flush", Work::parallel, [&] { shards::flush_shard(stored); });
-  timed("read back", Work::parallel, [&] { shards::publish_shard(stored, timeline_); });
-  const std::lock_guard lock(library_);
-  written_.push_back({stored.path, stored.rows});
+  const shards::EncodedShard shard =
+      timed("encode", [&] { return encoded(study_, provenance_, std::move(contents)); });
+  const std::filesystem::path path = shards::shard_path(directory_, rows);
+  timed("store", [&] { shards::store_shard(path, shard); });
+  const std::lock_guard lock(mutex_);
+  written_.push_back({path, rows});
 }
 
 }  // namespace zerocount::trials

@@ -115,9 +115,6 @@ class ShardWriter {
   /// Waits for all shards. @returns them in order of rows. @throws as write()
   std::vector<shards::ShardInfo> finish();
 
-  /// Locked while the library of the files is called.
-  std::mutex& library() { return library_; }
-
  private:
   void write_shard(ShardContents&& contents);
   /// For all tasks. @throws the first failure
@@ -127,11 +124,11 @@ class ShardWriter {
   const std::filesystem::path& directory_;
   timeline::Timeline* timeline_;
   layout::Provenance provenance_;
-  std::mutex library_;
-  std::vector<shards::ShardInfo> written_;  ///< with the library
-  std::atomic<int> in_work_{0};             ///< by tasks
-  std::atomic<bool> has_failed_{false};     ///< a task
-  std::exception_ptr failure_;              ///< the first one of a task
+  std::mutex mutex_;  ///< for what follows
+  std::vector<shards::ShardInfo> written_;
+  std::atomic<int> in_work_{0};          ///< by tasks
+  std::atomic<bool> has_failed_{false};  ///< a task
+  std::exception_ptr failure_;           ///< the first one of a task
   /// Shards that have begun are written when the run ends with an exception.
   oneapi::tbb::task_group_context context_{oneapi::tbb::task_group_context::isolated};
   oneapi::tbb::task_group tasks_{context_};

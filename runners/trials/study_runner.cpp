@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -101,12 +100,11 @@ class ShardPipeline {
     for (ShardContents& contents : collector_.ended()) writer_.write(std::move(contents));
   }
 
-  /// Tells of the finished trials unless a shard is being written: a page that shows the run reads shards.
+  /// Tells of the finished trials.
   void report() {
-    const std::unique_lock lock(writer_.library(), std::try_to_lock);
-    if (!lock || !settings_.finished) return;
-    // A thread that waits there must not begin another task meanwhile, such as one that needs the lock.
-    oneapi::tbb::this_task_arena::isolate([&] { settings_.finished(std::exchange(unreported_, 0)); });
+    // A thread that waits there must not begin another task meanwhile.
+    if (settings_.finished)
+      oneapi::tbb::this_task_arena::isolate([&] { settings_.finished(std::exchange(unreported_, 0)); });
   }
 
   const study::Study& study_;

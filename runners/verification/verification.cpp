@@ -193,7 +193,7 @@ void verify_folder(const fs::path& folder, const VerifySettings& settings,
   const std::vector<fs::path> paths = shards::shard_files(folder);
   if (paths.empty()) {
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: no results files (*.h5) in this directory", folder.string()));
+                  fmt::format("{}: no results files (*.h5) or shards in this directory", folder.string()));
   }
   std::vector<OpenedFile> files;
   std::vector<ShardHeader> shards;

@@ -76,7 +76,7 @@ std::uint64_t number_of(const Edit& edit) {
 
 /// One of some texts that files have, or the value's bytes.
 std::string text_of(const Edit& edit) {
-  static const std::array<std::string_view, 40> texts{"",
+  static const std::array<std::string_view, 39> texts{"",
                                                       "rad",
                                                       "m",
                                                       "1",
@@ -84,7 +84,6 @@ std::string text_of(const Edit& edit) {
                                                       "axis",
                                                       "statistic",
                                                       "zerocount-study",
-                                                      "zerocount-shard",
                                                       "batch",
                                                       "reference",
                                                       "/trial",

@@ -1,4 +1,5 @@
-// Feeds a shard with changes (see file_edits.hpp) to what resuming, `status` and `merge` read of shards.
+// Feeds a part with changes (see file_edits.hpp) to what resuming, `status` and `merge` read of finished
+// trials.
 
 #include "results/shards/shard.hpp"
 

@@ -1,4 +1,5 @@
-// Writes a shard with all trials of a manifest: write_shard OUTPUT MANIFEST [KEY=VALUE...]
+// Writes a part with all trials of a manifest but the last, as the shards of a run hold them: write_shard
+// OUTPUT MANIFEST [KEY=VALUE...]
 
 #include <cstdio>
 #include <exception>
@@ -7,7 +8,7 @@
 #include <vector>
 
 #include "experiments/manifest/load_study.hpp"
-#include "results/layout/header.hpp"
+#include "runners/study_run/assembly.hpp"
 #include "runners/trials/study_runner.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -19,9 +20,9 @@ int main(int count, char** words) {
         manifest::load_study(arguments.at(1), {arguments.begin() + 2, arguments.end()});
     const std::filesystem::path output = arguments.at(0);
     const testing::TemporaryFolder folder;
-    const std::vector<layout::RowRange> all{layout::all_rows(study)};
-    const auto shards = trials::run_trials(study, all, folder.path(), {}, {}).shards;
-    std::filesystem::copy_file(shards.at(0).path, output, std::filesystem::copy_options::overwrite_existing);
+    const std::vector<layout::RowRange> rows{{0, study::trial_count(study) - 1}};
+    const auto shards = trials::run_trials(study, rows, folder.path(), {}, {}).shards;
+    study_run::assemble(shards, study, output, rows.front());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "write_shard: %s\n", error.what());
     return 1;

@@ -90,7 +90,7 @@ class Batch(unittest.TestCase):
 
 class Contract(Batch):
     def has_shard(self, output):
-        return lambda: any((self.folder / f"{output}.shards").glob("*.h5"))
+        return lambda: any((self.folder / f"{output}.shards").glob("*.shard"))
 
     def test_a_killed_part_goes_on_here_or_elsewhere(self):
         """After SIGKILL the part is absent, its shards are whole, and the same command runs only what is missing, also where the folder

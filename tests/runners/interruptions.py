@@ -47,9 +47,9 @@ class Runs(unittest.TestCase):
     def interrupted(self, output, kind, manifest="long.yaml"):
         """The exit code of a run that gets a signal once it has written a shard."""
         shards = self.folder / f"{output}.shards"
-        before = set(shards.glob("*.h5"))
+        before = set(shards.glob("*.shard"))
         process = subprocess.Popen([PROGRAM, "run", manifest, "-o", output, "--threads", "1", "-q"], cwd=self.folder, stderr=subprocess.DEVNULL)
-        while set(shards.glob("*.h5")) <= before:
+        while set(shards.glob("*.shard")) <= before:
             self.assertIsNone(process.poll())
             time.sleep(0.01)
         process.send_signal(kind)
@@ -76,10 +76,10 @@ class Interruptions(Runs):
                                        LONG.replace("0.3}", "0.30}").replace("4.0e-5", "0.00004"),
                                        "".join(sorted(LONG.splitlines(keepends=True), reverse=True))]):
             (self.folder / "same.yaml").write_text(text, newline="")
-            before = sorted((self.folder / "out.h5.shards").glob("*.h5"))
+            before = sorted((self.folder / "out.h5.shards").glob("*.shard"))
             with self.subTest(number):
                 self.assertEqual(self.interrupted("out.h5", signal.SIGTERM, "same.yaml"), 130)
-                self.assertLessEqual(set(before), set((self.folder / "out.h5.shards").glob("*.h5")))
+                self.assertLessEqual(set(before), set((self.folder / "out.h5.shards").glob("*.shard")))
 
     def test_a_manifest_with_other_values_is_refused_by_their_names(self):
         self.assertEqual(self.interrupted("out.h5", signal.SIGTERM), 130)

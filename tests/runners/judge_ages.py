@@ -262,7 +262,7 @@ class Runs(Files):
         self.write("long.yaml", self.study(36000))
         shards = self.folder / "resumed.h5.shards"
         process = subprocess.Popen([PROGRAM, "run", "long.yaml", "-o", "resumed.h5", "--threads", "1", "-q"], cwd=self.folder)
-        while process.poll() is None and not list(shards.glob("*.h5")):
+        while process.poll() is None and not list(shards.glob("*.shard")):
             time.sleep(0.005)
         process.send_signal(signal.SIGTERM)
         self.assertIn(process.wait(), (0, 130))

@@ -76,7 +76,7 @@ void RunningProgram::send(int signal) const {
 std::ptrdiff_t shards_in(const fs::path& folder) {
   if (!fs::exists(folder)) return 0;
   return std::count_if(fs::directory_iterator(folder), fs::directory_iterator(),
-                       [](const fs::directory_entry& file) { return file.path().extension() == ".h5"; });
+                       [](const fs::directory_entry& file) { return file.path().extension() == ".shard"; });
 }
 
 void RunningProgram::wait_for_shards(const fs::path& folder, std::ptrdiff_t number) const {

@@ -73,7 +73,7 @@ class Arrays(unittest.TestCase):
 
     def wait_for_shards(self):
         """Until some trials are finished and others are not."""
-        self.cluster.wait_for("shards", lambda: any((self.folder / "study.h5.parts").glob("*.shards/*.h5")))
+        self.cluster.wait_for("shards", lambda: any((self.folder / "study.h5.parts").glob("*.shards/*.shard")))
 
     def require_same_as_local_run(self):
         self.cluster.wait_for_jobs()

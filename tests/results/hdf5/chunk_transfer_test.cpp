@@ -1,5 +1,4 @@
 // Chunks whose filters we apply are those of the HDF5 library: it reads ours, and we read its.
-#include "results/hdf5/chunk_transfer.hpp"
 
 #include <oneapi/tbb/global_control.h>
 
@@ -106,12 +105,12 @@ void copy(const fs::path& from, const fs::path& to, const Sample& sample) {
   hdf5::File target = hdf5::File::create(to);
   {
     hdf5::Dataset value = target.create_dataset("value", sample.storage);
-    const hdf5::RowsToCopy all{&value, 0, sample.rows(), &from_value, 0};
-    if (!hdf5::have_same_chunks(all)) {  // a chunk has a part of the rows' width
+    const hdf5::FetchedRows fetched = from_value.fetch(0, sample.rows());
+    if (fetched.chunks.empty()) {  // a chunk has a part of the rows' width
       EXPECT_NE(sample.storage.chunk.back(), sample.storage.extent.back());
       return value.write(0, sample.rows(), sample.elements.data());
     }
-    hdf5::copy_rows({&all, 1});
+    value.write(0, hdf5::stored_rows({&fetched, 1}).front());
   }
   target.close().require_in(to);
 }

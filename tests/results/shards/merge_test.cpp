@@ -92,9 +92,9 @@ TEST(Merge, StoresTheSameBytesWhetherChunksAreCopiedOrEncoded) {
   expect_same_datasets(merged(directory / "whole.h5", study, whole), expected);
 
   std::string bytes = read_bytes(copied[0].path);
-  bytes[chunk_address(copied[0].path, "outcome/settling_time") + 100] ^= 1;
+  bytes[bytes.size() / 2] ^= 1;
   write_bytes(copied[0].path, bytes);
-  expect_failure(ExitCode::bad_data, "settling_time: its values cannot be read or their checksum is wrong",
+  expect_failure(ExitCode::bad_data, ": its values cannot be read or their checksum is wrong",
                  [&] { merged(directory / "damaged.h5", study, copied); });
   EXPECT_FALSE(fs::exists(directory / "damaged.h5"));
 }
@@ -316,12 +316,15 @@ TEST(Merge, RefusesShardsOfAnotherStudyOrFormat) {
   const study::Study study = sample_study();
   study::Study other = study;
   other.study_sha256 = "another";
-  const std::vector<fs::path> inputs{write_sample_shard(directory.path(), study, {0, 120}).path};
+  const std::vector<fs::path> inputs{write_sample_file(directory.path(), study)};
   expect_failure(ExitCode::bad_data, "of another study", [&] { shards::merge_inputs(inputs, other); });
   replace_attribute(inputs[0], "format_version", layout::format_version + 1);
   expect_failure(ExitCode::bad_data, "newer than the 4", [&] { shards::merge_inputs(inputs, study); });
   replace_attribute(inputs[0], "format_version", 3);
   expect_failure(ExitCode::bad_data, "reads version 4", [&] { shards::merge_inputs(inputs, study); });
+  replace_attribute(inputs[0], "format", "zerocount-shard");  // as earlier builds wrote them
+  expect_failure(ExitCode::bad_data, "that zerocount can finish the run",
+                 [&] { shards::merge_inputs(inputs, study); });
   const std::vector<fs::path> nothing{directory / "nothing.h5"};
   expect_failure(ExitCode::bad_input, "nothing.h5: no such file",
                  [&] { shards::merge_inputs(nothing, study); });

@@ -4,8 +4,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 #include "results/shards/merge.hpp"
+#include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
 #include "tests/results/equality.hpp"
 #include "tests/results/failures.hpp"
@@ -17,12 +19,21 @@
 namespace zerocount::testing {
 namespace {
 
+/// The shard with another version of its format, and a right checksum.
+void replace_version(const std::filesystem::path& path, int version) {
+  std::string bytes = read_bytes(path);
+  bytes.resize(bytes.size() - storage::checksum_trailer_length);
+  const std::string start = "zerocount-shard ";
+  write_bytes(path, start + std::to_string(version) + bytes.substr(bytes.find(' ', start.size())));
+  storage::append_checksum(path);
+}
+
 TEST(Shard, ReadsBackWhatWasWritten) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
   const layout::RowRange rows{35, 50};
   const shards::ShardInfo shard = write_sample_shard(directory.path(), study, rows);
-  const reading::AllTrialsFile file(shard.path, reading::Require::any_part);
+  const reading::AllTrialsFile file(shard.path, reading::Require::any_part, nullptr, &study);
   EXPECT_EQ(file.rows(), rows);
   EXPECT_EQ(file.header().manifest, study.manifest.text);
   EXPECT_EQ(file.header().overrides, study.manifest.overrides);
@@ -34,6 +45,42 @@ TEST(Shard, ReadsBackWhatWasWritten) {
     std::vector<layout::JerkRecord> jerks;
     for (const trial::Jerk& jerk : expected.jerks) jerks.push_back({jerk, row});
     expect_equal_records(layout::jerk_fields(), file.jerks({row, 1}), jerks);
+  }
+}
+
+/// Any change of a bit is found before a value is used, and a shard that is cut short by its checksum.
+TEST(Shard, IsRefusedIfAnyByteDiffers) {
+  const TemporaryFolder directory;
+  const study::Study study = sample_study();
+  const shards::ShardInfo shard = write_sample_shard(directory.path(), study, {0, 20});
+  const std::string bytes = read_bytes(shard.path);
+  std::mt19937 random(3);
+  for (int i = 0; i < 60; ++i) {
+    std::string damaged = bytes;
+    damaged[random() % bytes.size()] ^= static_cast<char>(1 << random() % 8);
+    if (i % 3 == 0) damaged = bytes.substr(0, random() % bytes.size());
+    write_bytes(shard.path, damaged);
+    EXPECT_THROW(shards::checked_shard(shard.path, study), Failure);
+  }
+}
+
+/// Without its checksum, as `status` reads it, a damaged head is refused and does not crash.
+TEST(Shard, HasAHeadThatIsReadWithCare) {
+  const TemporaryFolder directory;
+  const study::Study study = sample_study();
+  const shards::ShardInfo shard = write_sample_shard(directory.path(), study, {0, 20});
+  const std::string bytes = read_bytes(shard.path);
+  std::mt19937 random(4);
+  for (int i = 0; i < 400; ++i) {
+    std::string damaged = bytes.substr(0, i % 2 == 0 ? bytes.size() : random() % 3000);
+    for (int k = 0; k < 4; ++k)
+      damaged[random() % std::min<std::size_t>(damaged.size(), 2000)] = static_cast<char>(random());
+    write_bytes(shard.path, damaged);
+    try {
+      shards::unchecked_header(shard.path);
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.code(), ExitCode::bad_data) << failure.what();
+    }
   }
 }
 
@@ -67,22 +114,21 @@ TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
   const std::vector<shards::ShardInfo> good = write_sample_shards(directory.path(), study, {0, 30}, 10);
   study::Study other = sample_study(3, 40);
   other.study_sha256 = "0";
-  write_bytes(directory / "text.h5", "no HDF5 at all");
-  shards::write_shard(directory / "other.h5", other, {40, 5}, sample_results(other, {40, 5}));
-  shards::write_shard(directory / "newer.h5", study, {50, 5}, sample_results(study, {50, 5}));
-  replace_attribute(directory / "newer.h5", "format_version", 99);
-  shards::write_shard(directory / "unmarked.h5", study, {60, 5}, sample_results(study, {60, 5}));
-  remove_attribute(directory / "unmarked.h5", "finished");
+  write_bytes(directory / "text.shard", "no shard at all");
+  shards::write_shard(directory / "other.shard", other, {40, 5}, sample_results(other, {40, 5}));
+  shards::write_shard(directory / "newer.shard", study, {50, 5}, sample_results(study, {50, 5}));
+  replace_version(directory / "newer.shard", 99);
   layout::Provenance another = layout::current_provenance();
   another.zerocount_version = "0.0.9";
-  shards::write_shard(directory / "earlier.h5", study, {70, 5}, sample_results(study, {70, 5}), {},
+  shards::write_shard(directory / "earlier.shard", study, {70, 5}, sample_results(study, {70, 5}), {},
                       {another});
   another = layout::current_provenance();
   another.git_commit = std::string(40, '0');
-  shards::write_shard(directory / "commit.h5", study, {75, 5}, sample_results(study, {75, 5}), {}, {another});
+  shards::write_shard(directory / "commit.shard", study, {75, 5}, sample_results(study, {75, 5}), {},
+                      {another});
   const std::string whole = read_bytes(good[0].path);
-  write_bytes(directory / "short.h5", whole.substr(0, whole.size() / 2));
-  write_bytes(directory / "trials-000000000077-000000000078.h5.part", whole.substr(0, 1000));
+  write_bytes(directory / "short.shard", whole.substr(0, whole.size() / 2));
+  write_bytes(directory / "trials-000000000077-000000000078.shard.part", whole.substr(0, 1000));
 
   const shards::ShardSurvey survey = shards::list_shards(directory.path(), study);
   ASSERT_EQ(survey.shards.size(), good.size());
@@ -94,13 +140,12 @@ TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
     Kind kind;
   };
   const std::vector<Expected> expected{
-      {"commit.h5", "(commit 0000000000000000000000000000000000000000), and this is", Kind::foreign},
-      {"earlier.h5", "run by zerocount 0.0.9", Kind::foreign},
-      {"newer.h5", "wrote it in format version 99, newer", Kind::foreign},
-      {"other.h5", "of another study", Kind::foreign},
-      {"short.h5", "checksum at its end is missing", Kind::damaged},
-      {"text.h5", "not in the HDF5 format", Kind::damaged},
-      {"unmarked.h5", "never finished", Kind::damaged}};
+      {"commit.shard", "(commit 0000000000000000000000000000000000000000), and this is", Kind::foreign},
+      {"earlier.shard", "run by zerocount 0.0.9", Kind::foreign},
+      {"newer.shard", "a shard in format version 99, and this program reads version 4", Kind::foreign},
+      {"other.shard", "of another study", Kind::foreign},
+      {"short.shard", "checksum at its end is missing", Kind::damaged},
+      {"text.shard", "not in the HDF5 format", Kind::damaged}};
   ASSERT_EQ(survey.problems.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const shards::ShardProblem& found = survey.problems[i];
@@ -117,9 +162,9 @@ TEST(ShardSurvey, LeavesAloneWhatIsNoShardByItsName) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
   const shards::ShardInfo shard = write_sample_shard(directory.path(), study, {0, 5});
-  std::filesystem::copy_file(shard.path, directory / "trials.h5.damaged");
+  std::filesystem::copy_file(shard.path, directory / "trials.shard.damaged");
   directory.write("notes.txt", "mine");
-  std::filesystem::create_directory(directory / "folder.h5");
+  std::filesystem::create_directory(directory / "folder.shard");
   std::filesystem::create_directory(directory / "folder.part");
   const shards::ShardSurvey survey = shards::list_shards(directory.path(), study);
   EXPECT_EQ(survey.shards.size(), 1U);
@@ -131,8 +176,8 @@ TEST(ShardSurvey, DoesNotTakeAFailureToReadForDamage) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
   // To read the memory of a process at address 0 is an I/O error, for root too.
-  std::filesystem::create_symlink("/proc/self/mem", directory / "unreadable.h5");
-  expect_failure(ExitCode::machine_failed, "unreadable.h5: cannot read: Input/output error",
+  std::filesystem::create_symlink("/proc/self/mem", directory / "unreadable.shard");
+  expect_failure(ExitCode::machine_failed, "unreadable.shard: cannot read: Input/output error",
                  [&] { shards::list_shards(directory.path(), study); });
 }
 

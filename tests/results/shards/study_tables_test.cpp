@@ -75,7 +75,8 @@ TEST(RigTables, APartHasTheRigsAndNoCounts) {
   const reading::AllTrialsFile part(path, reading::Require::any_part);
   EXPECT_EQ(part.groups("rig").value().count, 8);
   EXPECT_TRUE(part.groups("rig").value().success.empty());
-  EXPECT_EQ(reading::AllTrialsFile(shards[0].path, reading::Require::any_part).groups("rig"), std::nullopt);
+  EXPECT_EQ(reading::AllTrialsFile(shards[0].path, reading::Require::any_part, nullptr, &study).groups("rig"),
+            std::nullopt);
 }
 
 TEST(RigTables, AreNoneWithoutRigs) {
@@ -167,8 +168,9 @@ TEST(WorldTables, OfAPartHaveNoCounts) {
   EXPECT_EQ(stored.count, 7);
   EXPECT_EQ(stored.inputs[0].size(), 7U);
   EXPECT_TRUE(stored.success.empty());
-  EXPECT_FALSE(
-      reading::AllTrialsFile(shards[0].path, reading::Require::any_part).groups("world").has_value());
+  EXPECT_FALSE(reading::AllTrialsFile(shards[0].path, reading::Require::any_part, nullptr, &study)
+                   .groups("world")
+                   .has_value());
 }
 
 TEST(WorldTables, AreNoneWithoutWorlds) {

@@ -107,26 +107,6 @@ TEST_F(KeptStatistics, OfARunThatWasInterruptedAreTheSame) {
   EXPECT_TRUE(says(program({"run", "study.yaml", "-o", "out.h5"}).err, "already complete"));
 }
 
-/// The first of the elements that is `number`. @param bytes of the elements
-std::size_t index_of(std::int64_t number, const std::string& bytes) {
-  std::vector<std::int64_t> numbers(bytes.size() / sizeof number);
-  std::memcpy(numbers.data(), bytes.data(), bytes.size());
-  return static_cast<std::size_t>(std::find(numbers.begin(), numbers.end(), number) - numbers.begin());
-}
-
-// As by a faulty memory before the checksum was computed: the checksum is right, and a number of trials in
-// the sums is not.
-TEST_F(KeptStatistics, OfAnEarlierShardThatCannotBeAreComputedAgain) {
-  folder_.write("study.yaml", small_manifest(40, "keep: statistics\n"));
-  run("whole.h5");
-  fs::create_directory(at("out.h5.shards"));
-  run("out.h5.shards/wrong.h5", {"--shard", "1/2"});
-  change_element(at("out.h5.shards/wrong.h5"), "/sums/whole",
-                 index_of(40, *elements_of(at("out.h5.shards/wrong.h5"), "/sums/whole")));
-  EXPECT_TRUE(says(refusal({"run", "study.yaml", "-o", "out.h5"}, 0), "wrong.h5"));
-  expect_same_datasets(at("out.h5"), at("whole.h5"));
-}
-
 TEST_F(KeptStatistics, TakeAsMuchRoomForAnyNumberOfTrials) {
   const auto bytes = [&](int trials) {
     folder_.write("study.yaml", small_manifest(trials, "keep: statistics\n"));

@@ -90,7 +90,7 @@ TEST_F(Run, LosesLittleWhenItIsKilled) {
   running.wait();
   std::int64_t kept = 0;
   for (const auto& entry : fs::directory_iterator(at("killed.h5.shards"))) {
-    if (entry.path().extension() == ".h5")
+    if (entry.path().extension() == ".shard")
       kept += reading::AllTrialsFile(entry.path(), reading::Require::any_part).rows().count;
   }
   EXPECT_GT(kept, 0);

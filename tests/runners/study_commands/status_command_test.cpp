@@ -146,8 +146,7 @@ TEST_F(TimelineOfRun, HasEveryTrialInEachStage) {
   const ProgramResult run = program({"run", "study.yaml", "-o", "study.h5", "--timeline", "time.json"});
   ASSERT_EQ(run.code, 0) << run.err;
   std::map<std::string, std::int64_t> trials = trials_of_stages("time.json");
-  for (const char* stage : {"compute", "encode", "flush", "merge", "sum"})
-    EXPECT_EQ(trials[stage], 300) << stage;
+  for (const char* stage : {"compute", "encode", "merge", "sum"}) EXPECT_EQ(trials[stage], 300) << stage;
   EXPECT_EQ(trials["store"], 600);  // the shards, and the file
   EXPECT_EQ(trials["read back"], 600);
 }

@@ -158,17 +158,17 @@ TEST_F(Verify, ChecksPartsOfAStudy) {
 TEST_F(Verify, ChecksThatTheShardsOfAFolderHoldEachTrialOnce) {
   const fs::path shards = make_shards("out", verified_manifest, 4);
   EXPECT_EQ(problems("out.h5.shards"), "");
-  const fs::path second = shards / "trials-000000000008-000000000015.h5";
-  fs::copy_file(second, shards / "twice.h5");
+  const fs::path second = shards / "trials-000000000008-000000000015.shard";
+  fs::copy_file(second, shards / "twice.shard");
   EXPECT_TRUE(
-      says(problems("out.h5.shards"), "twice.h5 holds trials 8 to 15, which overlap those of trials-"));
-  fs::remove(shards / "twice.h5");
+      says(problems("out.h5.shards"), "twice.shard holds trials 8 to 15, which overlap those of trials-"));
+  fs::remove(shards / "twice.shard");
   fs::remove(second);
 }
 
 TEST_F(Verify, OfAnUnfinishedRunSaysHowManyTrialsAreMissing) {
   const fs::path shards = make_shards("out", verified_manifest, 4);
-  fs::remove(shards / "trials-000000000008-000000000015.h5");
+  fs::remove(shards / "trials-000000000008-000000000015.shard");
   const ProgramResult result = program({"verify", "out.h5.shards"});
   EXPECT_EQ(result.code, 0) << result.out << result.err;
   EXPECT_TRUE(says(result.out,
@@ -178,12 +178,14 @@ TEST_F(Verify, OfAnUnfinishedRunSaysHowManyTrialsAreMissing) {
 TEST_F(Verify, NamesAShardOfAnotherStudyAndOneThatIsDamaged) {
   const fs::path shards = make_shards("out", verified_manifest, 4);
   const fs::path foreign = make_shards("other", std::string(verified_manifest) + "description: other\n", 4);
-  const std::string name = "trials-000000000008-000000000015.h5";
+  const std::string name = "trials-000000000008-000000000015.shard";
   fs::copy_file(foreign / name, shards / name, fs::copy_options::overwrite_existing);
-  change_element(shards / "trials-000000000024-000000000031.h5", "/outcome/creep", 3);
+  fs::remove(shards / "trials-000000000024-000000000031.shard");
+  make("out.h5.shards/part.h5", {"--shard", "4/4"});
+  change_element(shards / "part.h5", "/outcome/creep", 3);
   const std::string found = problems("out.h5.shards");
   EXPECT_TRUE(says(found, "shards: " + name + " is of another study ('verified') than most",
-                   "trials-000000000024-000000000031.h5: trials run again: point 1, trial 9: move 1: creep"));
+                   "part.h5: trials run again: point 1, trial 9: move 1: creep"));
 }
 
 TEST_F(Verify, AnswersInJson) {

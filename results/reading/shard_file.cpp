@@ -1,0 +1,208 @@
+#include "results/reading/shard_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <string_view>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/failure/failure.hpp"
+#include "core/text/utf8.hpp"
+#include "results/hdf5/encoded_rows.hpp"
+#include "results/hdf5/fetched_rows.hpp"
+#include "results/storage/checksum_trailer.hpp"
+#include "results/storage/durable_file.hpp"
+#include "results/storage/file_contents.hpp"
+
+// What a head is written as: these fields, by their names.
+namespace zerocount::layout {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Provenance, zerocount_version, git_commit, compiler, cpu, created)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RowRange, first, count)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FileHeader, retention, name, provenance, engine, seed, trials, points,
+                                   rows, manifest, overrides, manifest_sha256, study_sha256)
+
+}  // namespace zerocount::layout
+
+namespace zerocount::reading {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShardHead::Column, path, rows, chunks)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ShardHead, header, compression, columns)
+
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr std::string_view signature = "zerocount-shard ";
+
+[[noreturn]] void fail_at(const fs::path& path, std::string_view place, std::string_view problem) {
+  throw Failure(ExitCode::bad_data,
+                text::printable_lines(fmt::format("{}: damaged: {}{}{}", path.string(), place,
+                                                  place.empty() ? "" : ": ", problem)));
+}
+
+/// The rows of a column of a shard.
+class ShardColumn final : public hdf5::RowSource {
+ public:
+  ShardColumn(fs::path path, std::shared_ptr<const storage::FileDescriptor> file,
+              const ShardHead::Column& column, std::uint64_t begin, hdf5::Element element,
+              const hdf5::ChunkShape& shape)
+      : path_(std::move(path)),
+        file_(std::move(file)),
+        name_(column.path),
+        rows_(column.rows),
+        element_(element),
+        shape_(shape) {
+    for (const std::uint64_t size : column.chunks)
+      chunks_.push_back({std::exchange(begin, begin + size), size});
+    if (std::ssize(chunks_) != (rows_ + shape.rows - 1) / shape.rows)
+      fail("its chunks are not those of its rows");
+  }
+
+  hdf5::Element element() const override { return element_; }
+
+  hdf5::FetchedRows fetch(std::int64_t first, std::int64_t rows) const override {
+    if (first < 0 || rows < 0 || first + rows > rows_)
+      fail(fmt::format("it has {} rows; rows {} to {} were expected", rows_, first, first + rows));
+    hdf5::FetchedRows fetched{this, first, rows, shape_.row_size, shape_, {}, {}};
+    if (rows == 0) return fetched;
+    const auto begin = chunks_.begin() + first / shape_.rows;
+    fetched.chunks.assign(begin, chunks_.begin() + (first + rows - 1) / shape_.rows + 1);
+    return fetched;
+  }
+
+  std::vector<std::byte> bytes_of(hdf5::StoredChunk&& chunk) const override {
+    std::vector<std::byte> bytes(chunk.size);
+    storage::read_at(path_, *file_, chunk.address, bytes);
+    return bytes;
+  }
+
+ private:
+  void fail_with(std::string_view problem) const override { fail_at(path_, "/" + name_, problem); }
+
+  fs::path path_;
+  std::shared_ptr<const storage::FileDescriptor> file_;
+  std::string name_;
+  std::int64_t rows_;
+  hdf5::Element element_;
+  hdf5::ChunkShape shape_;
+  std::vector<hdf5::StoredChunk> chunks_;
+};
+
+/// The head of a shard, and where its chunks begin.
+std::pair<ShardHead, std::uint64_t> read_head(const fs::path& path, const storage::FileDescriptor& file) {
+  constexpr std::size_t max_line = 64;
+  const std::size_t size = storage::size_of_file(path, file);
+  std::string line(std::min(size, max_line), '\0');
+  storage::read_at(path, file, 0, std::as_writable_bytes(std::span(line)));
+  std::int64_t version = 0;
+  std::size_t length = 0;
+  const char* const end = line.data() + line.size();
+  const auto after_version =
+      std::from_chars(line.data() + std::min(signature.size(), line.size()), end, version);
+  const std::size_t begin = line.find('\n') + 1;
+  if (begin > 0 && after_version.ptr != end) std::from_chars(after_version.ptr + 1, end, length);
+  if (begin > 0 && version != layout::format_version)
+    throw layout::ForeignFile(path,
+                              fmt::format("a shard in format version {}, and this program reads version "
+                                          "{}: the zerocount that began the run can finish it",
+                                          version, layout::format_version));
+  if (length == 0 || begin == 0 || length > size - begin) fail_at(path, "", "its head is cut short");
+  std::string bytes(length, '\0');
+  storage::read_at(path, file, begin, std::as_writable_bytes(std::span(bytes)));
+  ShardHead head;
+  try {
+    const Json json = Json::from_msgpack(bytes);
+    head = json.get<ShardHead>();
+    if (json.contains("plugin"))
+      head.header.plugin = layout::plugin_from_json(json["plugin"].get<std::string>());
+    if (json.contains("samples")) head.header.samples = json["samples"].get<std::string>();
+  } catch (const Json::exception&) {
+    fail_at(path, "", "its head cannot be read");
+  }
+  head.header.kind = layout::FileKind::shard;
+  head.header.finished = true;
+  if (!layout::has_possible_numbers(head.header) || head.header.retention > study::Retention::statistics ||
+      head.header.engine > study::Engine::reference)
+    fail_at(path, "", "its head has impossible numbers");
+  return {std::move(head), begin + length};
+}
+
+}  // namespace
+
+std::string bytes_of(const ShardHead& head) {
+  Json json = head;
+  if (head.header.plugin) json["plugin"] = layout::plugin_as_json(*head.header.plugin);
+  if (head.header.samples) json["samples"] = *head.header.samples;
+  const std::vector<std::uint8_t> bytes = Json::to_msgpack(json);
+  return fmt::format("{}{} {}\n{}", signature, layout::format_version, bytes.size(),
+                     std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+bool is_shard(const fs::path& path) {
+  return storage::bytes_at(path, 0, signature.size()) == signature;
+}
+
+ShardFile::ShardFile(const fs::path& path, layout::Checksum checksum)
+    : path_(path),
+      file_(std::make_shared<const storage::FileDescriptor>(::open(path.c_str(), O_RDONLY | O_CLOEXEC))) {
+  if (!file_->valid()) storage::fail_with(path, "read", errno);
+  if (checksum == layout::Checksum::required) storage::require_valid_checksum(path);
+  auto [head, begin] = read_head(path, *file_);
+  head_ = std::move(head);
+  begins_.push_back(begin);
+  for (const ShardHead::Column& column : head_.columns) {
+    std::uint64_t end = begins_.back();
+    for (const std::uint64_t size : column.chunks) end += size;
+    begins_.push_back(end);
+  }
+  if (begins_.back() > storage::size_of_file(path, *file_)) fail("its end is missing");
+}
+
+void ShardFile::fail(const std::string& problem) const {
+  fail_at(path_, "", problem);
+}
+
+const ShardHead::Column* ShardFile::find(const std::string& path) const {
+  const auto found = std::ranges::find(head_.columns, path, &ShardHead::Column::path);
+  return found == head_.columns.end() ? nullptr : &*found;
+}
+
+layout::TableReader::Column ShardFile::column(const layout::Table& table, const layout::Column& column,
+                                              std::int64_t second) const {
+  const ShardHead::Column* const found = find(table.group + "/" + column.name);
+  if (found == nullptr || found->rows < 0)
+    fail(fmt::format("the column '{}/{}' is missing", table.group, column.name));
+  const bool is_scale = column.name == table.rows.name;
+  const bool of_sums = table.group == layout::sums_table().group;  // always compressed
+  const hdf5::Storage storage =
+      is_scale ? layout::scale_storage(column, found->rows)
+               : layout::column_storage(table, column, found->rows, second,
+                                        of_sums ? hdf5::Compression::deflate : head_.compression);
+  return std::make_shared<const ShardColumn>(path_, file_, *found,
+                                             begins_[static_cast<std::size_t>(found - head_.columns.data())],
+                                             column.element, hdf5::chunk_shape_of(storage).value());
+}
+
+layout::TableReader ShardFile::open(const layout::Table& table, std::int64_t second) const {
+  std::vector<layout::TableReader::Column> columns;
+  std::int64_t rows = 0;
+  for (const layout::Column& one : table.columns) {
+    columns.push_back(column(table, one, second));
+    const std::int64_t own = find(table.group + "/" + one.name)->rows;
+    if (columns.size() > 1 && own != rows)
+      fail(fmt::format("the columns of '{}' differ in size", table.group));
+    rows = own;
+  }
+  const bool has_scale = find(table.group + "/" + table.rows.name) != nullptr;
+  layout::TableReader::Column scale = has_scale ? column(table, table.rows, 1) : columns.front();
+  const std::int64_t width = (table.second ? second : 1) * (table.last ? std::ssize(table.last->values) : 1);
+  return {rows, width, std::move(scale), std::move(columns)};
+}
+
+}  // namespace zerocount::reading

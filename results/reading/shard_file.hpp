@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "results/hdf5/element.hpp"
+#include "results/layout/header.hpp"
+#include "results/layout/layout.hpp"
+#include "results/layout/table_io.hpp"
+#include "results/storage/file_descriptor.hpp"
+
+/// A shard: finished trials of a run that has not ended. Only the build that wrote it reads it, so that it
+/// does not say what its columns mean:
+///
+///     "zerocount-shard V N\n"   version of the layout, bytes of the head
+///     head                      ShardHead, as MessagePack
+///     chunks                    of one column after the other, as a results file stores them
+///     (chunk_filters.hpp) checksum trailer          SHA-256 of all bytes before it (checksum_trailer.hpp)
+namespace zerocount::reading {
+
+struct ShardHead {
+  struct Column {
+    std::string path;  ///< of the dataset that it becomes a part of
+    std::int64_t rows{0};
+    std::vector<std::uint64_t> chunks;  ///< bytes of each
+  };
+  layout::FileHeader header;
+  hdf5::Compression compression{hdf5::Compression::none};
+  std::vector<Column> columns;
+};
+
+/// What a shard has before its chunks.
+std::string bytes_of(const ShardHead& head);
+
+/// Whether a file begins as a shard does; false also for what cannot be read.
+bool is_shard(const std::filesystem::path& path);
+
+/// A shard, open to be read.
+class ShardFile {
+ public:
+  /// @throws ForeignFile for a shard of another version; Failure (bad_data) for damage, (machine_failed) if
+  /// it cannot be read
+  explicit ShardFile(const std::filesystem::path& path,
+                     layout::Checksum checksum = layout::Checksum::required);
+
+  const layout::FileHeader& header() const { return head_.header; }
+  /// Columns of the table, which may stay longer than this. The scale of its rows has the trials, if those
+  /// are its rows.
+  /// @param second size of the second dimension, 1 if the table has none
+  /// @throws Failure (bad_data) if a column is missing or its size differs from that of the others
+  layout::TableReader open(const layout::Table& table, std::int64_t second) const;
+
+ private:
+  layout::TableReader::Column column(const layout::Table& table, const layout::Column& column,
+                                     std::int64_t second) const;
+  const ShardHead::Column* find(const std::string& path) const;
+  [[noreturn]] void fail(const std::string& problem) const;
+
+  std::filesystem::path path_;
+  std::shared_ptr<const storage::FileDescriptor> file_;
+  ShardHead head_;
+  std::vector<std::uint64_t> begins_;  ///< [column] address of its first chunk; one more for the end
+};
+
+}  // namespace zerocount::reading

@@ -18,6 +18,11 @@ locale.setlocale(locale.LC_ALL, "")
 assert locale.localeconv()["decimal_point"] == os.environ.get("ZEROCOUNT_DECIMAL_POINT", locale.localeconv()["decimal_point"])
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """What the marks of tests mean."""
+    config.addinivalue_line("markers", "long: takes more than some seconds; run every night")
+
+
 @pytest.fixture(scope="session")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
     """Where the results of the session are."""

@@ -36,6 +36,7 @@ def test_updates_say_what_the_log_says(tmp_path: pathlib.Path) -> None:
     assert zc.monitor(before, moves, alarm=1e-4).alarm_at > answer.alarm_at
 
 
+@pytest.mark.long
 def test_results_are_a_baseline(small: zc.Results) -> None:
     moves = {"settling_time": [10.0, None, 10.0] * 5}
     answer = zc.monitor(small, moves, point=0)

@@ -83,6 +83,7 @@ def test_options_of_the_other_kind_of_run_are_refused(axis: zc.Study, client: An
         axis.run(tmp_path / "r.h5", client=client, watch=tmp_path / "r.html")
 
 
+@pytest.mark.long
 def test_a_killed_worker_costs_only_its_parts(
     long: zc.Study, alone: pathlib.Path, client: Any, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -127,6 +128,7 @@ def test_an_interrupted_call_goes_on_with_the_parts_that_are_missing(
     assert lines[0].startswith("2 of 6 parts")
 
 
+@pytest.mark.long
 def test_force_discards_what_is_there(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
     """Parts, shards and results of another study are replaced only with force."""
     few = axis.set(rigs=2, trials=4)
@@ -186,6 +188,7 @@ def program_of_workers(client: Any, path: str) -> Iterator[None]:
         client.run(use_program, os.environ["ZEROCOUNT_PROGRAM"])
 
 
+@pytest.mark.long
 def test_a_failure_of_the_workers_is_one_of_the_machine(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
     """A part that fails on every worker ends the run with what the package says there."""
     few = axis.set(rigs=2, trials=4)

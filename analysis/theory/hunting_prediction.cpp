@@ -69,7 +69,7 @@ bool is_cycle(const trial::MoveOutcome& move, double amplitude_before, const tri
 
 std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& trial) {
   if (!trial.command.torque.levels.empty() || !friction::has_friction(trial.friction.model) ||
-      trial.command.profile.shape == loop::ReferenceShape::sine)
+      loop::moves_for_ever(trial.command.profile.shape))
     return std::nullopt;
   const TargetStep move = std::ranges::max(target_steps(trial.command), {}, &TargetStep::length);
   trial::TrialParameters p = trial_of_move(trial, move);

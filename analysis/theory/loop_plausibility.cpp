@@ -34,7 +34,7 @@ struct Travel {
 
 Travel travel_of(const trial::TrialParameters& p) {
   Travel travel;
-  if (p.command.profile.shape == loop::ReferenceShape::sine || is_outside_theory(p)) return travel;
+  if (loop::moves_for_ever(p.command.profile.shape) || is_outside_theory(p)) return travel;
   for (const TargetStep& step : target_steps(p.command))
     travel.move = std::max(travel.move, static_cast<double>(step.length()));
   const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);

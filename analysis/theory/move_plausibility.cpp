@@ -154,7 +154,7 @@ std::vector<MoveOfTrial> moves_of(const GoalOfTrial& of) {
   constexpr std::size_t max_moves = 20;
   const trial::CommandParameters& command = of.trial.command;
   std::vector<MoveOfTrial> moves;
-  if (command.profile.shape == loop::ReferenceShape::sine) return moves;
+  if (loop::moves_for_ever(command.profile.shape)) return moves;
   double before = 0.0;
   for (std::size_t i = 0; i < command.targets.size() && moves.size() < max_moves; ++i) {
     const double target = command.exact_targets.empty() ? static_cast<double>(command.targets[i]) *

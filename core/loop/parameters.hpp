@@ -225,7 +225,19 @@ enum class ReferenceShape {
   step,         ///< the reference is the target from the first sample of the move
   trapezoidal,  ///< velocity rises and falls linearly
   s_curve,      ///< so does the acceleration
-  sine          ///< the reference oscillates about the target, from the first sample of the move
+  sine,         ///< the reference oscillates about the target, from the first sample of the move
+  record        ///< the reference follows a record, from the first sample of the move
+};
+
+/// Whether the reference reaches no target: what is judged is how it is followed.
+constexpr bool moves_for_ever(ReferenceShape shape) {
+  return shape == ReferenceShape::sine || shape == ReferenceShape::record;
+}
+
+/// A recorded path of the reference, straight between its rows.
+struct ReferenceRecord {
+  std::vector<double> time;      ///< s, increasing, at least two rows, the first at 0
+  std::vector<double> position;  ///< [time], rad
 };
 
 /// Path of the reference from one target to the next, or about the target.
@@ -236,6 +248,7 @@ struct ReferenceProfile {
   double jerk_limit{1.0e4};          ///< of an s_curve: limit of the rate of the acceleration, rad/s³
   double amplitude{1.0e-3};          ///< of a sine, rad
   double frequency{1.0};             ///< of a sine, Hz
+  std::shared_ptr<const ReferenceRecord> record{};  ///< of a record
 };
 
 }  // namespace zerocount::loop

@@ -9,12 +9,55 @@
 
 namespace zerocount::loop {
 
+namespace {
+
+double position_of(const ReferenceRecord& record, std::size_t row) {
+  return record.position[row];
+}
+
+/// The mean velocity between two rows, rad/s.
+double velocity_between(const ReferenceRecord& record, std::size_t a, std::size_t b) {
+  return (record.position[b] - record.position[a]) / (record.time[b] - record.time[a]);
+}
+
+double velocity_of(const ReferenceRecord& record, std::size_t row) {
+  return velocity_between(record, row > 0 ? row - 1 : row, std::min(row + 1, record.time.size() - 1));
+}
+
+double acceleration_of(const ReferenceRecord& record, std::size_t row) {
+  if (row == 0 || row + 1 == record.time.size()) return 0.0;
+  const double change = velocity_between(record, row, row + 1) - velocity_between(record, row - 1, row);
+  return 2.0 * change / (record.time[row + 1] - record.time[row - 1]);
+}
+
+/// The value at the time t (s) of a quantity of the rows, straight between them.
+template <class OfRow>
+double between_rows(const ReferenceRecord& record, double t, OfRow of_row) {
+  const auto after = std::upper_bound(record.time.begin(), record.time.end(), t) - record.time.begin();
+  if (after == 0) return of_row(record, 0);
+  const auto row = static_cast<std::size_t>(after) - 1;
+  if (row + 1 == record.time.size()) return of_row(record, row);
+  const double part = (t - record.time[row]) / (record.time[row + 1] - record.time[row]);
+  return of_row(record, row) + part * (of_row(record, row + 1) - of_row(record, row));
+}
+
+}  // namespace
+
+double record_duration(std::span<const double> times) {
+  return times.size() < 2 ? 0.0 : 2.0 * times.back() - times[times.size() - 2];
+}
+
 Reference::Reference(const ReferenceProfile& profile, std::int64_t from, std::int64_t to, double resolution)
     : from_(from),
       to_(to),
       resolution_(resolution),
       counts_(std::abs(static_cast<double>(to) - static_cast<double>(from))),
-      travel_(counts_ * resolution) {
+      travel_(counts_ * resolution),
+      record_(profile.shape == ReferenceShape::record ? profile.record : nullptr) {
+  if (record_) {
+    duration_ = std::numeric_limits<double>::infinity();
+    return;
+  }
   if (profile.shape == ReferenceShape::sine) {
     amplitude_ = profile.amplitude;
     angular_frequency_ = 2.0 * std::numbers::pi * profile.frequency;
@@ -59,6 +102,7 @@ void Reference::plan_s_curve(const ReferenceProfile& limits) {
 }
 
 std::int64_t Reference::at(double t) const {
+  if (record_) return static_cast<std::int64_t>(std::rint(exact_at(t)));
   if (is_sine()) return to_ + std::llround(amplitude_ / resolution_ * numerics::sin(angular_frequency_ * t));
   if (t >= duration_) return to_;
   if (t <= 0.0) return from_;
@@ -70,6 +114,7 @@ std::int64_t Reference::at(double t) const {
 }
 
 double Reference::exact_at(double t) const {
+  if (record_) return between_rows(*record_, t, position_of) / resolution_;
   if (is_sine())
     return static_cast<double>(to_) + amplitude_ / resolution_ * numerics::sin(angular_frequency_ * t);
   if (t >= duration_) return static_cast<double>(to_);
@@ -81,7 +126,7 @@ double Reference::exact_at(double t) const {
 }
 
 double Reference::travel_time() const {
-  return is_sine() ? std::numeric_limits<double>::quiet_NaN() : duration_;
+  return moves_for_ever() ? std::numeric_limits<double>::quiet_NaN() : duration_;
 }
 
 /// The angle (rad) covered since the start at the time t (s), in the first half.
@@ -98,6 +143,7 @@ double Reference::distance(double t) const {
 }
 
 ReferenceMotion Reference::motion_at(double t) const {
+  if (record_) return {between_rows(*record_, t, velocity_of), between_rows(*record_, t, acceleration_of)};
   if (is_sine()) {
     const double velocity = amplitude_ * angular_frequency_;
     return {velocity * numerics::cos(angular_frequency_ * t),

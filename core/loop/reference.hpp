@@ -1,11 +1,17 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
 
 #include "core/loop/controller/control_block.hpp"
 #include "core/loop/parameters.hpp"
 
 namespace zerocount::loop {
+
+/// The time (s) after which a record with rows at these times (s) says nothing: its last row lasts as long as
+/// the one before.
+double record_duration(std::span<const double> times);
 
 /// The reference in counts during a move from rest to rest between two targets, in the least time that the
 /// limits of the profile allow:
@@ -15,7 +21,9 @@ namespace zerocount::loop {
 ///   where the velocity limit is not reached;
 /// - s_curve: trapezoidal with limited jerk, up to seven segments of constant jerk. The acceleration
 ///   rises and falls at the jerk limit, and stays at its own limit in between where it reaches it;
-/// - sine: amplitude·sin(2π·frequency·t) about the new target, without end.
+/// - sine: amplitude·sin(2π·frequency·t) about the new target, without end;
+/// - a record: its position, and its last one after its end. ṙ and r̈ are central differences of its rows, on
+///   one side or 0 at its ends, and straight between them.
 ///
 /// The second half of a move between two targets is the first one backwards. Source: Biagiotti & Melchiorri,
 /// "Trajectory Planning for Automatic Machines and Robots", Springer 2008, sections 3.2 and 3.4.
@@ -27,8 +35,8 @@ class Reference {
   Reference(const ReferenceProfile& profile, std::int64_t from, std::int64_t to, double resolution);
 
   /// The reference (counts) at the time t (s) from the move's start: the nearest whole count, and where two
-  /// are as near, the one towards that end of the move which is nearer in time, and of a sine the one away
-  /// from the target. `from` before the start, `to` from the end on.
+  /// are as near, the one towards that end of the move which is nearer in time, of a sine the one away from
+  /// the target, and of a record the even one. `from` before the start, `to` from the end on.
   std::int64_t at(double t) const;
 
   /// ṙ and r̈ at the time t, before r is rounded to counts; from the end of the move on, and of a step, 0.
@@ -39,10 +47,12 @@ class Reference {
   /// The reference (counts) before it is rounded.
   double exact_at(double t) const;
 
-  double duration() const { return duration_; }  ///< s; infinite for a sine
+  double duration() const { return duration_; }  ///< s; infinite for a sine and a record
 
-  double travel_time() const;  ///< s; NaN for a sine, which does not end
+  double travel_time() const;  ///< s; NaN for a sine and a record, which are not at rest in the end
   bool is_sine() const { return angular_frequency_ > 0.0; }
+  /// Whether it is no move between two targets.
+  bool moves_for_ever() const { return is_sine() || record_ != nullptr; }
 
  private:
   void plan_trapezoidal(const ReferenceProfile& limits);
@@ -69,6 +79,7 @@ class Reference {
 
   double amplitude_{0.0};          ///< of a sine, rad
   double angular_frequency_{0.0};  ///< of a sine, rad/s; 0 for another shape
+  std::shared_ptr<const ReferenceRecord> record_{};
 };
 
 }  // namespace zerocount::loop

@@ -31,7 +31,7 @@ void MotionMeasures::add(const MotionSample& sample, const loop::Reference& refe
   const double t = static_cast<double>(sample.number) * sample_time_;
   const double position = -true_error(0, sample.theta, resolution_, phase_);
   const double followed = reference.exact_at(t) - position;
-  add_to_rest(sample, reference.is_sine() ? followed : target_ - position);
+  add_to_rest(sample, reference.moves_for_ever() ? followed : target_ - position);
   if (t < reference.duration()) add_to_following(t, followed, reference);
   if (sample.number >= samples_ - window_) position_sum_ += position - target_;
 }

@@ -26,7 +26,7 @@ void PositionError::start_move(std::size_t number) {
 
 void PositionError::add(std::int64_t k, double theta, const loop::Reference& reference) {
   const double t = static_cast<double>(k) / p_.controller.sample_rate;
-  add_error(k, theta, reference.is_sine() ? reference.exact_at(t) * resolution_ : target_);
+  add_error(k, theta, reference.moves_for_ever() ? reference.exact_at(t) * resolution_ : target_);
 }
 
 void PositionError::add_at_target(std::int64_t k, double theta) {

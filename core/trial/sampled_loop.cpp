@@ -29,7 +29,7 @@ SampledLoop::Decision SampledLoop::decide(std::int64_t k, std::int64_t i, const 
                                           double theta) {
   const double t = static_cast<double>(i) * sample_time_;
   const std::int64_t reference = reference_->at(t);
-  const std::int64_t target = reference_->is_sine() ? reference : target_;
+  const std::int64_t target = reference_->moves_for_ever() ? reference : target_;
   const bool runs = clock_.runs(k);
   if (runs) {
     loop::ReferenceMotion motion = reference_->motion_at(t);

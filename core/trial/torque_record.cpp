@@ -16,9 +16,4 @@ double torque_at(const TorqueRecord& record, double time) {
   return record.torque[row];
 }
 
-double duration(const TorqueRecord& record) {
-  const std::size_t rows = record.time.size();
-  return rows < 2 ? 0.0 : 2.0 * record.time[rows - 1] - record.time[rows - 2];
-}
-
 }  // namespace zerocount::trial

@@ -14,7 +14,4 @@ struct TorqueRecord {
 /// before a row counts as the row's: k·T and a written time differ by rounding.
 double torque_at(const TorqueRecord& record, double time);
 
-/// The time (s) after which the record says nothing: its last row lasts as long as the one before.
-double duration(const TorqueRecord& record);
-
 }  // namespace zerocount::trial

@@ -254,8 +254,14 @@ Shape observed_shape(Shape key) {
 std::span<const Shape> general_keys() {
   constexpr const char* ages = "ages: {at: [0, 1.0e+5, 1.0e+6], unit: cycles}";
   constexpr const char* samples = "the name of a file, or {file: posterior.csv, per: rig}";
-  constexpr const char* torque_record =
-      "the name of a table, or a list of at least two pairs [time in s, torque], by ascending time from 0 on";
+  const auto record = [](Shape key, const char* expected, const char* pair) {
+    return of(Form::one_of, std::move(key), expected,
+              {of(Form::line),
+               of(Form::list, {.min_count = 2, .max_count = max_record_rows, .order = Shape::Order::rising},
+                  expected,
+                  {of(Form::tuple, {}, pair,
+                      {shapes::real(numerics::at_least(0)), shapes::real(numerics::all_numbers())})})});
+  };
   constexpr const char* pair_of_parameters = "[first parameter, second parameter, coefficient]";
   static const std::vector<Shape> keys{
       shapes::whole(manifest_version, manifest_version,
@@ -425,17 +431,25 @@ std::span<const Shape> general_keys() {
        "list of torques that vary in time: {amplitude, frequency, phase}, amplitude*sin(2*pi*frequency*t + "
        "phase); or {spectrum: [[frequency, density], ...], lines: 100}, a random vibration with this "
        "one-sided power spectral density, (N m)^2/Hz, drawn anew in each trial"},
-      of(Form::one_of,
-         {"command.torque.file",
-          "open loop: a recorded torque in place of levels, as one move: a table with the columns t [s] and "
-          "torque [N m] (force [N] on a linear axis), each value held until the next; or a list of such "
-          "pairs"},
-         torque_record,
-         {of(Form::line),
-          of(Form::list, {.min_count = 2, .max_count = max_record_rows, .order = Shape::Order::rising},
-             torque_record,
-             {of(Form::tuple, {}, "a pair [time in s, torque]",
-                 {shapes::real(numerics::at_least(0)), shapes::real(numerics::all_numbers())})})}),
+      record(
+          {"command.torque.file",
+           "open loop: a recorded torque in place of levels, as one move: a table with the columns t [s] and "
+           "torque [N m] (force [N] on a linear axis), each value held until the next; or a list of such "
+           "pairs"},
+          "the name of a table, or a list of at least two pairs [time in s, torque], by ascending time from "
+          "0 on",
+          "a pair [time in s, torque]"),
+      record(
+          {"command.reference.file",
+           "a recorded reference in place of targets, as one move from the trial's start: a table with the "
+           "columns t [s] and reference [rad] ([m] on a linear axis), straight between its rows; or a list "
+           "of such pairs",
+           "the name of a table"},
+          "the name of a table, or a list of at least two pairs [time in s, position], by ascending time "
+          "from 0 on",
+          "a pair [time in s, position]"),
+      of(Form::line, {"command.reference.column", "name of the column of the table (default reference)"},
+         "the name of a column"),
       label({"command.units",
              "unit of targets and overrun: counts (default) of the fine encoder; or si: rad (m on a linear "
              "axis), of which each trial takes the nearest count of its encoder"},

@@ -29,7 +29,7 @@ const shapes::Shape& spectrum_shape();
 constexpr std::string_view required_section = "command";
 
 /// The keys of `command` that define the moves: a study has exactly one of them.
-inline constexpr std::array<std::string_view, 3> command_forms{"targets", "torque", "sequence"};
+inline constexpr std::array<std::string_view, 4> command_forms{"targets", "reference", "torque", "sequence"};
 
 /// The keys allowed in the map with this dotted path (empty: the top level): parameters, general keys and
 /// maps that contain them. In the order of the table of parameters; at the top level general keys come first.

@@ -43,7 +43,7 @@ struct PlanPlaces {
   std::vector<yaml::Place> base;               ///< [slot]; for a default the manifest's first line
   std::vector<bool> written;                   ///< [slot] whether the base value is written in the manifest
   std::vector<std::vector<yaml::Place>> axes;  ///< [axis][assignment]
-  yaml::Place torque_record{};                 ///< of command.torque.file
+  yaml::Place record{};                        ///< of command.torque.file or command.reference.file
 };
 
 /// Reports realised profiles that leave the range of their parameter somewhere on a rotor.

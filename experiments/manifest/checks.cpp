@@ -129,8 +129,9 @@ void check_values(Checking& c) {
         if (reported.size() < max_reported && reported.insert({slots.front(), fault.what}).second) {
           const FaultPlace at = place_of_fault(c.places, c.plan(), slots, point);
           const std::string_view name = c.plan().table.rows[rule.once ? at.slot : slots.front()].name;
-          tell(c, rule.of_record ? c.places.torque_record : at.place,
-               rule.of_record ? "command.torque.file" : name, fault.what, fault.expected, rule.warn_only);
+          tell(c, rule.of_record ? c.places.record : at.place,
+               rule.of_record ? rules::record_key(c.plan()) : name, fault.what, fault.expected,
+               rule.warn_only);
           if (rule.once) return false;
         }
       }

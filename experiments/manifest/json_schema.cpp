@@ -171,6 +171,7 @@ Json section_schema(const std::string& path) {
       if (always && path != keys::required_section) required.push_back(key);
     } else if (const shapes::Shape* general = keys::find_general_key(name)) {
       properties[key] = schema_of(*general);
+      if (general->required()) required.push_back(key);
     } else {
       properties[key] = section_or_value_schema(name);
     }

@@ -75,8 +75,10 @@ study::Study read_study(std::string text, std::string_view source,
   std::vector<std::string> overrides = given_overrides;
   if (root) {
     const std::vector<std::string> tables = sections::table_overrides(*root, companions.samples, problems);
-    root = with_place_of_name(manifest_text::apply_overrides(root, tables, override_sources, problems), *root,
-                              "command.torque.file", problems);
+    const yaml::YamlPointer named = root;
+    root = manifest_text::apply_overrides(root, tables, override_sources, problems);
+    for (const char* const record : {"command.torque.file", "command.reference.file"})
+      root = with_place_of_name(root, *named, record, problems);
     overrides.insert(overrides.end(), tables.begin(), tables.end());
   }
   const yaml::YamlPointer written = root;

@@ -52,6 +52,7 @@ class Motions {
       motions.push_back(to_target(trial, move, count));
     const loop::ReferenceProfile& profile = trial.parameters.command.profile;
     if (profile.shape == loop::ReferenceShape::sine) motions.push_back(sine(profile.amplitude, count));
+    if (profile.shape == loop::ReferenceShape::record) motions.push_back(record(*profile.record, count));
     return motions;
   }
 
@@ -96,6 +97,15 @@ class Motions {
     if (std::llround(amplitude / count) == 0)
       motion.unseen = fmt::format("a sine of {:.6g} {} is less than half a count of {:.6g} {}", amplitude,
                                   unit_, count, unit_);
+    return motion;
+  }
+
+  Motion record(const loop::ReferenceRecord& record, double count) const {
+    const auto [lowest, highest] = std::ranges::minmax(record.position);
+    Motion motion{shape_, shape_, is_judged_in_counts(0)};
+    if (std::rint(lowest / count) == std::rint(highest / count))
+      motion.unseen = fmt::format("a record from {:.6g} to {:.6g} {} stays at one count of {:.6g} {}", lowest,
+                                  highest, unit_, count, unit_);
     return motion;
   }
 

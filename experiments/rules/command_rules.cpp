@@ -154,22 +154,20 @@ ValueRule range_of_the_converter(const std::string& unit) {
           true};
 }
 
-ValueRule length_of_the_record(const trial::TorqueRecord& record) {
-  return {
-      {"command.hold"}, false, [length = trial::duration(record)](Limits l, Limits) -> Faults {
-        constexpr double rounding = 1e-9;
-        if (!std::isfinite(l[0].high) || l[0].high <= length * (1.0 + rounding)) return {};
-        return {{fmt::format("the record of command.torque.file lasts {:.9g} s, and the move can take {} s",
-                             length, l[0].high),
-                 "at most the record"}};
-      }};
+ValueRule length_of_the_record(double length, std::string_view key) {
+  return {{"command.hold"}, false, [length, key](Limits l, Limits) -> Faults {
+            constexpr double rounding = 1e-9;
+            if (!std::isfinite(l[0].high) || l[0].high <= length * (1.0 + rounding)) return {};
+            return {{fmt::format("the record of {} lasts {:.9g} s, and the move can take {} s", key, length,
+                                 l[0].high),
+                     "at most the record"}};
+          }};
 }
 
-// As of a level between the lowest and the highest torque of the record.
-ValueRule range_for_the_record(const trial::TorqueRecord& record, const std::string& unit) {
-  const auto [lowest, highest] = std::minmax_element(record.torque.begin(), record.torque.end());
-  const std::vector<study::ValueLimits> levels{{.low = *lowest, .high = *highest}};
-  ValueRule rule = range_of_the_converter(unit);
+// The rule of a list, as of one value between the lowest and the highest of the record.
+ValueRule of_the_record(ValueRule rule, std::span<const double> record) {
+  const auto [lowest, highest] = std::ranges::minmax(record);
+  const std::vector<study::ValueLimits> levels{{.low = lowest, .high = highest}};
   rule.whole_list = false;
   rule.of_record = true;
   rule.find_faults = [levels, of_levels = rule.find_faults](Limits l, Limits) {
@@ -180,6 +178,14 @@ ValueRule range_for_the_record(const trial::TorqueRecord& record, const std::str
   return rule;
 }
 
+ValueRule shape_of_the_reference(bool has_record) {
+  return {{"command.profile.shape"}, false, [has_record](Limits l, Limits) -> Faults {
+            const bool is_record = l[0].low == static_cast<double>(loop::ReferenceShape::record);
+            if (is_record == has_record) return {};
+            if (has_record) return {{"command.reference defines the path of the reference", "no shape"}};
+            return {{"there is no record", "command.reference: {file: ...} in place of targets"}};
+          }};
+}
 ValueRule order_of_targets(const std::string& unit) {
   return {{}, true, [unit](Limits, Limits targets) -> Faults {
             Faults faults;
@@ -268,7 +274,8 @@ ValueRule time_of_travel(const study::StudyPlan& plan) {
   rule.find_faults = [units, sequence](Limits l, Limits targets) -> Faults {
     loop::ReferenceProfile slowest;
     slowest.shape = static_cast<loop::ReferenceShape>(static_cast<int>(l[shape].low));
-    if (slowest.shape == loop::ReferenceShape::step) return {};
+    if (slowest.shape == loop::ReferenceShape::step || slowest.shape == loop::ReferenceShape::record)
+      return {};
     if (slowest.shape == loop::ReferenceShape::sine) {
       if (2.0 <= l[frequency].low * l[hold].low) return {};
       return {{fmt::format("a hold of {} s is less than two periods of a sine reference of {} Hz",
@@ -301,6 +308,10 @@ ValueRule time_of_travel(const study::StudyPlan& plan) {
 
 }  // namespace
 
+std::string_view record_key(const study::StudyPlan& plan) {
+  return plan.open_loop ? "command.torque.file" : "command.reference.file";
+}
+
 std::vector<ValueRule> command_rules(const study::StudyPlan& plan) {
   std::vector<ValueRule> rules{
       highest_value("command.hold", "a distribution of the hold with a highest value"),
@@ -314,15 +325,20 @@ std::vector<ValueRule> command_rules(const study::StudyPlan& plan) {
     add({limits_of_torque_levels(), lowest_rate_of_torque(), samples_of_torque_levels(),
          range_of_the_converter(parameters::unit_on(plan.units.axis, "N m"))});
     if (const auto& record = plan.common.command.torque.record)
-      add({length_of_the_record(*record),
-           range_for_the_record(*record, parameters::unit_on(plan.units.axis, "N m"))});
+      add({length_of_the_record(loop::record_duration(record->time), record_key(plan)),
+           of_the_record(range_of_the_converter(parameters::unit_on(plan.units.axis, "N m")),
+                         record->torque)});
   } else if (!plan.sequence) {
     add({samples_of_targets(static_cast<double>(listed)), time_of_travel(plan)});
   } else {
     add({samples_of_targets(static_cast<double>(study::sequence_move_count(*plan.sequence, listed))),
          order_of_targets(unit_of_targets(plan.units)), time_of_travel(plan)});
   }
-  if (si) {
+  if (!plan.open_loop) add({shape_of_the_reference(plan.common.command.profile.record != nullptr)});
+  if (const auto& record = plan.common.command.profile.record) {
+    add({length_of_the_record(loop::record_duration(record->time), record_key(plan)),
+         of_the_record(reach_of_positions(plan, false), record->position)});
+  } else if (si) {
     add({limits_of_positions(), reach_of_positions(plan, plan.sequence.has_value())});
   } else if (plan.sequence) {
     add({reach_of_the_overrun()});

@@ -29,7 +29,7 @@ struct ValueRule {
       find_faults;  ///< from the limits of the parameters in their order, and of the list if whole_list
   bool warn_only{false};
   bool once{false};       ///< only the first fault is reported, at the parameter of the rule that is given
-  bool of_record{false};  ///< the message is about command.torque.file, which is not a parameter
+  bool of_record{false};  ///< the message is about record_key(), which is not a parameter
 };
 
 /// A rule of the limits of these parameters, which `find_faults` takes as arguments of its own in their
@@ -50,6 +50,9 @@ inline ValueRule warning(ValueRule rule) {
   rule.warn_only = true;
   return rule;
 }
+
+/// The key of the record that stands in place of levels or targets.
+std::string_view record_key(const study::StudyPlan& plan);
 
 /// The rules between the values of the list and the parameters of the command: the number of samples of a
 /// trial; of a sequence, the order of its targets; with a profile, the time that the reference travels; of

@@ -26,22 +26,30 @@ struct FoundColumn {
   double si;  ///< one of its unit in SI units
 };
 
-/// The table of a torque, on a rotary or linear axis.
-struct TorqueTable {
+/// What a record is of.
+struct Recorded {
+  std::string_view what;             ///< in the plural
+  std::vector<std::string> columns;  ///< names of its column, of which the table has one
+  text::Dimension dimension;
+  std::string_view units;  ///< such as its column can have
+  std::string header;      ///< such as the table can have
+};
+
+/// The table of a record.
+struct RecordTable {
   const yaml::Field& field;
   const tables::TextTable& table;
-  bool linear;
+  const Recorded& recorded;
   yaml::Problems& problems;
 
   /// The column with one of these names. Reports its absence, and a unit of another dimension.
-  std::optional<FoundColumn> column(const std::vector<std::string_view>& names, text::Dimension dimension,
+  std::optional<FoundColumn> column(const std::vector<std::string>& names, text::Dimension dimension,
                                     std::string_view units) const {
     const auto name =
-        std::ranges::find_if(names, [&](std::string_view one) { return table.find(one) < table.columns(); });
+        std::ranges::find_if(names, [&](const auto& one) { return table.find(one) < table.columns(); });
     if (name == names.end()) {
       add_fault(field, table.header_line(), fmt::format("the table has no column {}", names.front()),
-                fmt::format("a header such as {}", linear ? "t [s], force [N]" : "t [s], torque [N m]"),
-                problems);
+                fmt::format("a header such as {}", recorded.header), problems);
       return std::nullopt;
     }
     const std::string unit = table.unit(*name);
@@ -53,21 +61,19 @@ struct TorqueTable {
     return std::nullopt;
   }
 
-  /// Times from 0 on (s) and torques (N m or N); none after a report.
+  /// Times from 0 on (s) and values in SI units; none after a report.
   Pairs pairs() const {
     const auto time = column({"t", "time"}, text::Dimension::time, "s, ms or us");
     if (!time) return {};
-    const auto torque =
-        linear ? column({"force", "drive_force", "torque"}, text::Dimension::force, "N, mN or kN")
-               : column({"torque", "drive_torque"}, text::Dimension::torque, "N m or mN m");
-    if (!torque) return {};
+    const auto value = column(recorded.columns, recorded.dimension, recorded.units);
+    if (!value) return {};
     Pairs found;
     double first = 0.0;
     for (std::size_t row = 0; row < table.rows(); ++row) {
-      for (const FoundColumn& one : {*time, *torque}) {
+      for (const FoundColumn& one : {*time, *value}) {
         if (std::isfinite(table.number(row, one.index))) continue;
         add_fault(field, table.line(row), fmt::format("'{}' is not a number", table.cell(row, one.index)),
-                  "a finite number for the time and for the torque", problems);
+                  "a finite number for the time and for the value", problems);
         return {};
       }
       const double at = table.number(row, time->index) * time->si;
@@ -79,7 +85,7 @@ struct TorqueTable {
                   "increasing times", problems);
         return {};
       }
-      found.emplace_back(at - first, table.number(row, torque->index) * torque->si);
+      found.emplace_back(at - first, table.number(row, value->index) * value->si);
     }
     return found;
   }
@@ -134,27 +140,59 @@ void add_spectra_below(const yaml::Field& disturbance, const SamplesReader& read
   }
 }
 
-void add_torque_record(const yaml::Field& root, const SamplesReader& read, yaml::Problems& problems,
-                       std::vector<std::string>& overrides) {
+Recorded torques(bool linear) {
+  if (linear)
+    return {"forces",
+            {"force", "drive_force", "torque"},
+            text::Dimension::force,
+            "N, mN or kN",
+            "t [s], force [N]"};
+  return {
+      "torques", {"torque", "drive_torque"}, text::Dimension::torque, "N m or mN m", "t [s], torque [N m]"};
+}
+
+Recorded positions(bool linear, const std::string& column) {
+  return {"positions",
+          {column},
+          linear ? text::Dimension::length : text::Dimension::angle,
+          linear ? "m, mm or um" : "rad, mrad or deg",
+          fmt::format("t [s], {} [{}]", column, linear ? "m" : "rad")};
+}
+
+/// @param field the key that names the file @param command the section in which it is
+void add_record(const yaml::Field& field, const Recorded& recorded, const yaml::Field& command,
+                const SamplesReader& read, yaml::Problems& problems, std::vector<std::string>& overrides) {
+  const std::string expected =
+      fmt::format("a header such as {}, and 2 to {} rows of numbers", recorded.header, keys::max_record_rows);
+  const auto table = named_table(field, recorded.what, expected, read, problems);
+  if (!table) return;
+  if (table->rows() < 2 || table->rows() > keys::max_record_rows)
+    return add_fault(field, 1, fmt::format("the table has {} rows", table->rows()), expected, problems);
+  const Pairs pairs = RecordTable{field, *table, recorded, problems}.pairs();
+  if (pairs.empty()) return;
+  overrides.push_back(override_of(field.path, pairs));
+  if (!yaml::find_field(command, "hold"))
+    overrides.push_back(
+        fmt::format("command.hold={}", 2.0 * pairs.back().first - pairs[pairs.size() - 2].first));
+}
+
+void add_records(const yaml::Field& root, const SamplesReader& read, yaml::Problems& problems,
+                 std::vector<std::string>& overrides) {
   const auto command = yaml::find_field(root, "command");
-  const auto torque = command ? yaml::find_field(*command, "torque") : std::nullopt;
-  const auto field = torque ? yaml::find_field(*torque, "file") : std::nullopt;
+  if (!command) return;
   const auto axis = yaml::find_field(root, "axis");
   const bool linear =
       axis && axis->node->kind == yaml::YamlNode::Kind::scalar && axis->node->text == "linear";
-  const std::string expected =
-      fmt::format("a header such as {}, and 2 to {} rows of numbers",
-                  linear ? "t [s], force [N]" : "t [s], torque [N m]", keys::max_record_rows);
-  const auto table = named_table(field, "torques", expected, read, problems);
-  if (!table) return;
-  if (table->rows() < 2 || table->rows() > keys::max_record_rows)
-    return add_fault(*field, 1, fmt::format("the table has {} rows", table->rows()), expected, problems);
-  const Pairs pairs = TorqueTable{*field, *table, linear, problems}.pairs();
-  if (pairs.empty()) return;
-  overrides.push_back(override_of(field->path, pairs));
-  if (!yaml::find_field(*command, "hold"))
-    overrides.push_back(
-        fmt::format("command.hold={}", 2.0 * pairs.back().first - pairs[pairs.size() - 2].first));
+  const auto torque = yaml::find_field(*command, "torque");
+  if (const auto file = torque ? yaml::find_field(*torque, "file") : std::nullopt)
+    add_record(*file, torques(linear), *command, read, problems, overrides);
+  const auto reference = yaml::find_field(*command, "reference");
+  if (const auto file = reference ? yaml::find_field(*reference, "file") : std::nullopt) {
+    const auto column = yaml::find_field(*reference, "column");
+    const bool is_named = column && column->node->kind == yaml::YamlNode::Kind::scalar;
+    add_record(*file, positions(linear, is_named ? column->node->text : "reference"), *command, read,
+               problems, overrides);
+  }
 }
 
 }  // namespace
@@ -169,22 +207,41 @@ std::optional<tables::TextTable> read_table(const yaml::Field& field, std::strin
   }
 }
 
+namespace {
+
+/// The columns of the list of pairs that a record is; nothing after errors, which it reports. The name of a
+/// file is still there if its table could not be read, which is reported.
+std::optional<std::pair<std::vector<double>, std::vector<double>>> read_record(const yaml::Field& list,
+                                                                               yaml::Problems& problems) {
+  if (!shapes::read(list, keys::shape_of(list.path), problems) ||
+      list.node->kind != yaml::YamlNode::Kind::list)
+    return std::nullopt;
+  std::pair<std::vector<double>, std::vector<double>> record;
+  for (const yaml::Field& pair : shapes::items_of(list)) {
+    record.first.push_back(shapes::number_of(yaml::item_of(pair, 0)));
+    record.second.push_back(shapes::number_of(yaml::item_of(pair, 1)));
+  }
+  if (record.first.front() == 0.0) return record;
+  problems.add(yaml::item_of(list, 0), fmt::format("found the time {} s", record.first.front()), "0");
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::shared_ptr<const trial::TorqueRecord> read_torque_record(const yaml::Field& list,
                                                               yaml::Problems& problems) {
-  // The name of a file is still there if its table could not be read, which is reported.
-  if (!shapes::read(list, keys::shape_of("command.torque.file"), problems) ||
-      list.node->kind != yaml::YamlNode::Kind::list)
-    return nullptr;
-  trial::TorqueRecord record;
-  for (const yaml::Field& pair : shapes::items_of(list)) {
-    record.time.push_back(shapes::number_of(yaml::item_of(pair, 0)));
-    record.torque.push_back(shapes::number_of(yaml::item_of(pair, 1)));
-  }
-  if (record.time.front() != 0.0) {
-    problems.add(yaml::item_of(list, 0), fmt::format("found the time {} s", record.time.front()), "0");
-    return nullptr;
-  }
-  return std::make_shared<const trial::TorqueRecord>(std::move(record));
+  auto record = read_record(list, problems);
+  if (!record) return nullptr;
+  return std::make_shared<const trial::TorqueRecord>(
+      trial::TorqueRecord{std::move(record->first), std::move(record->second)});
+}
+
+std::shared_ptr<const loop::ReferenceRecord> read_reference_record(const yaml::Field& list,
+                                                                   yaml::Problems& problems) {
+  auto record = read_record(list, problems);
+  if (!record) return nullptr;
+  return std::make_shared<const loop::ReferenceRecord>(
+      loop::ReferenceRecord{std::move(record->first), std::move(record->second)});
 }
 
 bool is_spectrum(const yaml::Field& element) {
@@ -213,7 +270,7 @@ std::vector<std::string> table_overrides(const yaml::YamlNode& root, const Sampl
     if (const auto load = yaml::find_field(*disturbance, "load"))
       add_spectra_below(*load, read, problems, overrides);
   }
-  add_torque_record({&root, ""}, read, problems, overrides);
+  add_records({&root, ""}, read, problems, overrides);
   return overrides;
 }
 

@@ -25,6 +25,10 @@ std::optional<tables::TextTable> read_table(const yaml::Field& field, std::strin
 std::shared_ptr<const trial::TorqueRecord> read_torque_record(const yaml::Field& list,
                                                               yaml::Problems& problems);
 
+/// Likewise command.reference.file, whose positions are in rad (m on a linear axis).
+std::shared_ptr<const loop::ReferenceRecord> read_reference_record(const yaml::Field& list,
+                                                                   yaml::Problems& problems);
+
 /// Whether an element of disturbance.vibration or disturbance.load.vibration is {spectrum: [[frequency,
 /// density], …], lines: 100}.
 bool is_spectrum(const yaml::Field& element);
@@ -33,13 +37,14 @@ bool is_spectrum(const yaml::Field& element);
 std::shared_ptr<const trial::SpectrumParameters> read_spectrum(const yaml::Field& element,
                                                                yaml::Problems& problems);
 
-/// Overrides that put pairs in place of the files that command.torque.file and spectra name, such as
-/// "disturbance.vibration.0.spectrum=[[1, 1e-10], [100, 1e-12]]", and command.hold as long as the recorded
-/// torque where the manifest gives none. With them a study is whole without these files.
+/// Overrides that put pairs in place of the files that command.torque.file, command.reference.file and
+/// spectra name, such as "disturbance.vibration.0.spectrum=[[1, 1e-10], [100, 1e-12]]", and command.hold as
+/// long as the record where the manifest gives none. With them a study is whole without these files.
 ///
-/// The table of a torque has a header: a column t or time, and torque or drive_torque, on a linear axis also
-/// force or drive_force, each with its unit in brackets or else in SI units; its first time becomes 0. Other
-/// columns are not read. The table of a spectrum has the columns frequency and density, under any names.
+/// The table of a record has a header: a column t or time, and torque or drive_torque, on a linear axis also
+/// force or drive_force; of a reference the one that command.reference.column names, else `reference`. Each
+/// has its unit in brackets or else is in SI units; the first time becomes 0. Other columns are not read. The
+/// table of a spectrum has the columns frequency and density, under any names.
 std::vector<std::string> table_overrides(const yaml::YamlNode& root, const SamplesReader& read,
                                          yaml::Problems& problems);
 

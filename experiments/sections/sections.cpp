@@ -19,6 +19,7 @@ struct SectionReading {
   const yaml::Field& root;
   keys::Reading& reading;
   keys::PlanPlaces& places;
+  std::string form{};  ///< the key of `command` that defines the moves
 
   yaml::Problems& problems() { return reading.problems; }
   study::StudyPlan& plan() { return reading.plan; }
@@ -59,22 +60,30 @@ void read_list(SectionReading& s, const yaml::Field& field, std::size_t row) {
   for (std::size_t i = 0; i < count; ++i) read_slot(s, yaml::item_of(field, i), values.first + i);
 }
 
-// Gives a study whose manifest lacks the list of moves one with an unreadable value; that of a recorded
-// torque the level 0.
+// Gives a study whose manifest lacks the list of moves one with an unreadable value; that of a record the
+// level or the target 0.
 void complete_moves(SectionReading& s) {
   study::RowGroup& list = s.plan().list;
   if (list.count > 0) return;
   list = study::add_list(s.plan().table, list.row, 1);
   add_slots(s);
-  if (s.plan().common.command.torque.record) s.plan().base[list.first] = study::Value{};
+  const trial::CommandParameters& command = s.plan().common.command;
+  if (command.torque.record || command.profile.record) s.plan().base[list.first] = study::Value{};
 }
 
-// Reads the torque that command.torque.file has in place of levels. A name that is still there is that of a
-// table whose problems are reported already; see table_overrides().
-void read_recorded_torque(SectionReading& s, const yaml::Field& field) {
-  s.places.torque_record = field.node->place;
-  if (field.node->kind != yaml::YamlNode::Kind::scalar || s.problems().empty())
-    s.plan().common.command.torque.record = read_torque_record(field, s.problems());
+// Reads the record that command.torque.file or command.reference.file has in place of levels or targets. A
+// name that is still there is that of a table whose problems are reported already; see table_overrides().
+void read_record(SectionReading& s, const yaml::Field& field) {
+  s.places.record = field.node->place;
+  if (field.node->kind == yaml::YamlNode::Kind::scalar && !s.problems().empty()) return;
+  trial::CommandParameters& command = s.plan().common.command;
+  if (s.plan().open_loop) {
+    command.torque.record = read_torque_record(field, s.problems());
+    return;
+  }
+  command.profile.record = read_reference_record(field, s.problems());
+  const std::size_t shape = study::find_slots("command.profile.shape", s.plan().table).value().first;
+  s.plan().base[shape] = {.number = static_cast<double>(loop::ReferenceShape::record)};
 }
 
 void read_parameter(SectionReading& s, const yaml::Field& field, std::size_t row) {
@@ -206,8 +215,8 @@ void read_plugin_parameters(SectionReading& s, const yaml::Field& map) {
 // Reads the keys of sections that are not parameters. controller.units and command.units are read earlier,
 // before all values.
 void read_general_key(SectionReading& s, const yaml::Field& field, const shapes::Shape& key) {
-  if (field.path == "command.torque.file") {
-    read_recorded_torque(s, field);
+  if (field.path == "command.torque.file" || field.path == "command.reference.file") {
+    read_record(s, field);
   } else if (!field.path.ends_with(".units")) {
     shapes::read(field, key, s.problems(), &s.reading);
   }
@@ -220,8 +229,7 @@ bool is_form(std::string_view key) {
 // Whether the path belongs to a second form of the command. Its contents are not read: it is reported as one
 // form too many.
 bool is_form_too_many(SectionReading& s, const yaml::Field& section, const std::string& key) {
-  return section.path == keys::required_section && is_form(key) &&
-         !keys::is_within(parameters::parameter_table()[s.plan().list.row].name, section.path + "." + key);
+  return section.path == keys::required_section && is_form(key) && key != s.form;
 }
 
 // Whether the key of a section stands in short for one of its parameters: its value is a number or a
@@ -291,23 +299,23 @@ void choose_form(SectionReading& s, const yaml::Field& command) {
                      fmt::format("{} already defines the moves", yaml::entry_of(command, *given[0]).path),
                      expected);
   }
-  const std::string& form = given.front()->key;
-  s.plan().open_loop = form == "torque";
-  if (form == "sequence") s.plan().sequence.emplace();
-  const std::string_view list = form == "torque"     ? "command.torque.levels"
-                                : form == "sequence" ? "command.sequence.targets"
-                                                     : "command.targets";
+  s.form = given.front()->key;
+  s.plan().open_loop = s.form == "torque";
+  if (s.form == "sequence") s.plan().sequence.emplace();
+  const std::string_view list = s.form == "torque"     ? "command.torque.levels"
+                                : s.form == "sequence" ? "command.sequence.targets"
+                                                       : "command.targets";
   s.plan().list.row = parameters::find_parameter(list).value();
 }
 
 // Reports the keys of the form chosen that are missing.
 void check_form_complete(SectionReading& s, const yaml::Field& command) {
-  if (!s.plan().open_loop && !s.plan().sequence) return;
-  const auto form = yaml::find_field(command, s.plan().open_loop ? "torque" : "sequence");
-  if (!form || form->node->kind != yaml::YamlNode::Kind::map) return;
-  if (s.plan().open_loop && yaml::find_field(*form, "file")) return;  // in place of levels
+  const auto form = yaml::find_field(command, s.form);
+  if (!form || form->node->kind != yaml::YamlNode::Kind::map || yaml::find_field(*form, "file")) return;
   for (const std::string& key : keys::keys_below(form->path)) {
     const std::string name = fmt::format("{}.{}", form->path, key);
+    if (const shapes::Shape* const general = keys::find_general_key(name); general && general->required())
+      s.problems().add_missing(form->node->place, name, general->if_missing);
     const auto row = parameters::find_parameter(name);
     if (!row || parameters::has_default(parameters::parameter_table()[*row]) || yaml::find_field(*form, key))
       continue;

@@ -20,8 +20,11 @@ bool is_shape(const ValueLimits& limits, loop::ReferenceShape shape) {
 bool is_sine(const ValueLimits& shape) {
   return is_shape(shape, loop::ReferenceShape::sine);
 }
+bool moves_for_ever(const ValueLimits& shape) {
+  return is_sine(shape) || is_shape(shape, loop::ReferenceShape::record);
+}
 bool has_an_end(const ValueLimits& shape) {
-  return !is_sine(shape);
+  return !moves_for_ever(shape);
 }
 bool is_travel(const ValueLimits& shape) {
   return is_shape(shape, loop::ReferenceShape::trapezoidal) || is_shape(shape, loop::ReferenceShape::s_curve);
@@ -77,16 +80,16 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
   features.load_count = closes_at(false);
   features.motor_count = closes_at(true);
   features.own_controller = plan.plugin != nullptr;
-  const bool has_sine = closed_loop && holds_somewhere(plan, "command.profile.shape", is_sine);
-  features.final_error = features.own_controller || features.travel || has_sine || features.phases ||
+  const bool follows = closed_loop && holds_somewhere(plan, "command.profile.shape", moves_for_ever);
+  features.final_error = features.own_controller || features.travel || follows || features.phases ||
                          holds_somewhere(plan, "controller.ki", has_zero) ||
                          holds_somewhere(plan, "controller.deadband.enter", can_be_positive) ||
                          holds_somewhere(plan, "friction.model", causes_hunting);
   features.stopping = closed_loop && holds_somewhere(plan, "verdict.stop", can_be_positive);
   features.motion = closed_loop && holds_somewhere(plan, "verdict.motion", can_be_positive);
-  features.following = features.motion && (features.travel || has_sine);
+  features.following = features.motion && (features.travel || follows);
   features.steps = features.motion && holds_somewhere(plan, "command.profile.shape", has_an_end);
-  features.reversals = features.motion && has_sine;
+  features.reversals = features.motion && holds_somewhere(plan, "command.profile.shape", is_sine);
   features.dependent_trials = study.design == Design::saltelli;
   features.bands = plan.common.verdict.bands;
   features.tolerances = plan.common.verdict.tolerances;

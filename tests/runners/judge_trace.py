@@ -31,6 +31,7 @@ DEFAULTS = {
     "amplifier": {"limit": None},
 }
 draw = random.Random(15)
+record_draw = random.Random(5)  # apart: other manifests stay as they are
 
 
 def log_uniform(low, high):
@@ -127,8 +128,17 @@ def merged(base, keys):
     for key, value in keys.items():
         if key == "deadband" and not isinstance(value, dict):
             value = {"enter": value}
-        result[key] = merged(result[key], value) if isinstance(value, dict) else value
+        result[key] = merged(result.get(key, {}), value) if isinstance(value, dict) else value
     return result
+
+
+def recorded_reference(hold):
+    """A command that follows a path of some hundred counts, whose rows are no samples."""
+    times = [0.0]
+    while times[-1] < hold:
+        times.append(times[-1] + record_draw.uniform(1e-3, 3e-2))
+    rows = [[t, 4e-4 * math.sin(9.0 * t) + record_draw.gauss(0.0, 2e-5)] for t in times]
+    return {"reference": {"file": rows}, "hold": hold}
 
 
 def manifest_of(kinds, two_phases):
@@ -151,6 +161,8 @@ def manifest_of(kinds, two_phases):
                               "acceleration_limit": log_uniform(0.5, 10.0)}
         if command["profile"]["shape"] == "s_curve":
             command["profile"]["jerk_limit"] = log_uniform(50, 1000)
+        if not two_phases and record_draw.random() < 0.5:
+            command = recorded_reference(command["hold"])
     return {"zerocount": 1, "name": "judged", "seed": draw.randrange(2**32), "trials": 1, "controller": controller,
             "amplifier": {"limit": log_uniform(1e-2, 1.0)}, "command": command, "verdict": {"dwell": 0.01, "window": 0.01}}
 

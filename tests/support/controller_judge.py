@@ -67,6 +67,24 @@ class Motion:
                 self.direction * (a + j * s))
 
 
+class Record:
+    """A recorded reference: straight between its rows, its rates central differences of them."""
+
+    duration = math.inf
+
+    def __init__(self, rows, dx):
+        self.times, positions = np.transpose(rows)
+        between = np.diff(positions) / np.diff(self.times)
+        span = self.times[2:] - self.times[:-2]
+        velocity = np.concatenate([between[:1], (positions[2:] - positions[:-2]) / span, between[-1:]])
+        acceleration = np.concatenate([[0.0], 2 * np.diff(between) / span, [0.0]])
+        self.values = positions / dx, velocity, acceleration
+
+    def at(self, t, _nearly):
+        """Position in counts, velocity and acceleration at t."""
+        return tuple(float(np.interp(t, self.times, values)) for values in self.values)
+
+
 class Filter:
     """y = b/a·x, past values 0."""
 
@@ -309,16 +327,19 @@ def codes_of(parameters, samples):
     command = parameters["command"]
     length = math.floor(command["hold"] * parameters["controller"]["sample_rate"] + 0.5)
     result = []
-    motion = None
+    motion = record = Record(command["reference"]["file"], controller.dx) if "reference" in command else None
     for k, (target, count, coarse_count, other_count) in enumerate(samples):
-        if k % length == 0:
+        if k % length == 0 and not record:
             start = 0 if k == 0 else command["targets"][k // length - 1]
             motion = Motion(command["profile"], start, target, controller.dx)
         t = (k % length) * controller.T
         position, velocity, acceleration = motion.at(t, 1e-6 * controller.T)
         # Half a count goes to the end of the move that is nearer in time.
         nearest = round(position)
-        if abs(abs(position - math.floor(position)) - 0.5) < 1e-6:
+        if record:  # what is judged is how it is followed; its target stays
+            assert target == nearest, f"sample {k}: the reference {target}, judged {position}"
+            target = 0
+        elif abs(abs(position - math.floor(position)) - 0.5) < 1e-6:
             towards = start if t < motion.duration / 2 else target
             nearest = math.floor(position) if towards < position else math.ceil(position)
         wanted = controller.decide(nearest, velocity, acceleration, count, coarse_count, target,

@@ -60,7 +60,7 @@ std::vector<double> errors_of(const ReplayedTrial& replayed, bool of_position) {
   std::vector<double> errors;
   for (const trial::SampleRecord& sample : replayed.samples) {
     errors.push_back(static_cast<double>(sample.error) * resolution);
-    if (!of_position || p.command.profile.shape == loop::ReferenceShape::sine) continue;
+    if (!of_position || loop::moves_for_ever(p.command.profile.shape)) continue;
     const auto move =
         static_cast<std::size_t>(std::ranges::upper_bound(starts, sample.k) - starts.begin() - 1);
     const double target = p.command.exact_targets.empty() ? static_cast<double>(sample.target) * resolution

@@ -2,6 +2,7 @@
 // against the seven segments integrated one after the other.
 #include "core/loop/reference.hpp"
 
+#include "tests/support/draws.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::loop {
@@ -293,6 +294,51 @@ TEST(Reference, HugeTravelIsCountedToItsEnd) {
     const double v = 2.0 / paper_resolution;  // counts/s, after 0.03 s
     EXPECT_NEAR(static_cast<double>(std::abs(reference.at(1000.0) + to)), v * (1000.0 - 0.015), 1.0);
   }
+}
+
+// A record is straight between its rows, and lasts after its last one; its rates are central differences.
+TEST(Reference, ARecordIsStraightBetweenItsRows) {
+  testing::Draws draw(8);
+  for (int i = 0; i < 300; ++i) {
+    ReferenceRecord record;
+    for (int row = 0; row < 12; ++row) {
+      record.time.push_back(row == 0 ? 0.0 : record.time.back() + draw.uniform(1e-3, 2e-3));
+      record.position.push_back(draw.uniform(-1e-2, 1e-2));
+    }
+    ReferenceProfile profile;
+    profile.shape = ReferenceShape::record;
+    profile.record = std::make_shared<const ReferenceRecord>(record);
+    const Reference reference(profile, 0, 0, paper_resolution);
+    EXPECT_TRUE(reference.moves_for_ever());
+    const auto row = static_cast<std::size_t>(draw.integer(1, 9));
+    const double t0 = record.time[row], t1 = record.time[row + 1];
+    const double x0 = record.position[row], x1 = record.position[row + 1];
+    const double t = draw.uniform(t0, t1);
+    const double exact = (x0 + (x1 - x0) * (t - t0) / (t1 - t0)) / paper_resolution;
+    EXPECT_NEAR(reference.exact_at(t), exact, 1e-9 * std::abs(exact) + 1e-9);
+    EXPECT_NEAR(static_cast<double>(reference.at(t)), exact, 0.5 + 1e-6);
+    const double before = record.time[row - 1], xb = record.position[row - 1];
+    const ReferenceMotion motion = reference.motion_at(t0);
+    EXPECT_NEAR(motion.velocity, (x1 - xb) / (t1 - before), 1e-9 * std::abs(motion.velocity));
+    const double bend = (x1 - x0) / (t1 - t0) - (x0 - xb) / (t0 - before);
+    EXPECT_NEAR(motion.acceleration, 2.0 * bend / (t1 - before), 1e-9 * std::abs(motion.acceleration));
+    EXPECT_EQ(reference.exact_at(9.0), record.position.back() / paper_resolution);
+  }
+}
+
+TEST(Reference, TheLastRowOfARecordLastsAsLongAsTheOneBefore) {
+  EXPECT_EQ(record_duration(std::vector{0.0, 0.5, 0.75}), 1.0);
+}
+
+// Half a count goes to the even one: with a count of 1 rad, 0.5 is 0 and 1.5 is 2.
+TEST(Reference, ARecordIsRoundedHalfToEven) {
+  ReferenceProfile profile{.shape = ReferenceShape::record};
+  profile.record =
+      std::make_shared<const ReferenceRecord>(ReferenceRecord{{0.0, 1.0, 2.0}, {0.5, 1.5, -2.5}});
+  const Reference reference(profile, 0, 0, 1.0);
+  EXPECT_EQ(reference.at(0.0), 0);
+  EXPECT_EQ(reference.at(1.0), 2);
+  EXPECT_EQ(reference.at(2.0), -2);
 }
 
 }  // namespace

@@ -115,6 +115,8 @@ def judge_extended(validator, extended):
         (["command"], targets | {"sequence": sequence}),
         (["command"], {"sequence": sequence, "torque": {"levels": [0.1]}}),
         (["command"], {"torque": {"rate": 1}}),
+        (["command"], {"reference": {"column": "r"}}),
+        (["command"], targets | {"reference": {"file": "r.csv"}}),
         (["command"], {"torque": {"levels": []}}),
         (["command"], {"torque": {"levels": 0.1}}),
         (["command"], {"torque": {"levels": [0.1], "rate": 0}}),

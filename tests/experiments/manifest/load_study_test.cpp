@@ -115,7 +115,8 @@ TEST(Study, UnderstandsWhatCanBeSwitchedOn) {
 TEST(Study, EnumerationsAmongTheInputsAreTheNumbersOfTheirWords) {
   const study::Study study = study_of(extended_manifest());
   const std::size_t shape = column_of(study, "command.profile.shape");
-  EXPECT_TRUE(study.columns.inputs[shape].meaning.ends_with(" (0 step, 1 trapezoidal, 2 s_curve, 3 sine)"));
+  EXPECT_TRUE(
+      study.columns.inputs[shape].meaning.ends_with(" (0 step, 1 trapezoidal, 2 s_curve, 3 sine, 4 record)"));
   EXPECT_EQ(study::study_trial(study, 0, 0).inputs[shape], 0);
   EXPECT_EQ(study::study_trial(study, 1, 0).inputs[shape], 2);
 }

@@ -125,7 +125,8 @@ TEST(ParameterTable, ASectionHasInItWhatItsNameLeadsTo) {
 
 TEST(ParameterTable, SectionsHaveTheKeysOfTheirRowsAndSections) {
   using Keys = std::vector<std::string>;
-  EXPECT_EQ(keys::keys_below("command"), (Keys{"targets", "torque", "sequence", "hold", "profile", "units"}));
+  EXPECT_EQ(keys::keys_below("command"),
+            (Keys{"targets", "torque", "sequence", "hold", "profile", "reference", "units"}));
   EXPECT_EQ(keys::keys_below("command.sequence"), (Keys{"targets", "overrun", "cycles", "approach"}));
   EXPECT_EQ(keys::keys_below("encoder"), (Keys{"fine", "coarse", "resolution", "coarse_resolution", "load",
                                                "fine_errors", "coarse_errors"}));

@@ -1,0 +1,69 @@
+// A recorded reference in a manifest: as a table, and as a list of pairs.
+#include "tests/experiments/manifest_texts.hpp"
+
+namespace zerocount::sections {
+namespace {
+
+std::string followed(const std::string& reference, const std::string& more = "") {
+  return "zerocount: 1\nname: followed\nseed: 1\ntrials: 1\ncommand: {reference: " + reference + more +
+         "}\nverdict: {motion: true}\n";
+}
+
+study::Study followed_study(const std::string& manifest, const std::string& table = "") {
+  Companions companions;
+  companions.samples = [&table](const std::string&, std::string_view) { return table; };
+  return manifest::parse_study(manifest, "followed.yaml", {}, companions);
+}
+
+std::string refusal(const std::string& manifest, const std::string& table = "") {
+  return refusal_by([&] { followed_study(manifest, table); });
+}
+
+TEST(ReferenceOfAFile, IsOneMoveAsLongAsTheRecord) {
+  const study::Study study = followed_study(followed("{file: r.csv, column: axis 2}"),
+                                            "time [ms];axis 2 [mrad]\n100;0\n200;2\n500;-1\n");
+  EXPECT_FALSE(study.open_loop);
+  EXPECT_EQ(study.moves, 1);
+  const trial::TrialParameters trial = study::study_trial(study, 0, 0).parameters;
+  EXPECT_EQ(trial.command.targets, std::vector<std::int64_t>{0});
+  EXPECT_EQ(trial.command.profile.shape, loop::ReferenceShape::record);
+  ASSERT_NE(trial.command.profile.record, nullptr);
+  const loop::ReferenceRecord& record = *trial.command.profile.record;
+  ASSERT_EQ(record.time.size(), 3u);
+  EXPECT_NEAR(record.time[2], 0.4, 1e-12);
+  EXPECT_DOUBLE_EQ(record.position[1], 0.002);
+  EXPECT_NEAR(trial.command.hold, 0.7, 1e-12);
+  EXPECT_TRUE(study.features.following);
+  EXPECT_FALSE(study.features.reversals) << "those of a sine";
+  EXPECT_FALSE(study.features.steps);
+  const study::Study again =
+      manifest::parse_study(study.manifest.text, "followed.yaml", study.manifest.overrides, {});
+  EXPECT_EQ(again.study_sha256, study.study_sha256) << "the study is whole without the file";
+}
+
+TEST(ReferenceOfAFile, FaultsHaveTheirPlace) {
+  const std::string table = "t,reference\n0,0\n0.1,0.01\n";
+  EXPECT_TRUE(says(refusal(followed("{file: r.csv}"), "t,position\n0,1\n1,2\n"),
+                   "r.csv:1:1: command.reference.file: the table has no column reference; expected a header "
+                   "such as t [s], reference [rad]"));
+  EXPECT_TRUE(says(refusal(followed("{file: r.csv}"), "t,reference [mm]\n0,1\n1,2\n"),
+                   "r.csv:1:1: command.reference.file: the column reference has the unit 'mm'; expected rad, "
+                   "mrad or deg"));
+  EXPECT_TRUE(says(refusal(followed("{file: r.csv}", ", hold: 1"), table),
+                   "command.hold: the record of command.reference.file lasts 0.2 s, and the move can take 1 "
+                   "s; expected at most the record"));
+  EXPECT_TRUE(says(refusal(followed("{file: r.csv}", ", profile: {shape: step}"), table),
+                   "command.profile: command.reference defines the path of the reference"));
+  EXPECT_TRUE(says(refusal(followed("{file: r.csv}", ", targets: [1]"), table),
+                   "command.targets: command.reference already defines the moves"));
+  EXPECT_TRUE(says(refusal(followed("{column: x}")), "command.reference.file"));
+  EXPECT_TRUE(says(refusal(followed("{file: [[0, 0], [1, 1e12]]}")),
+                   "command.reference.file: the command can reach"));
+  EXPECT_TRUE(says(refusal("zerocount: 1\nname: n\nseed: 1\ntrials: 1\ncommand: {targets: [1], profile: "
+                           "{shape: record}}\n"),
+                   "command.profile.shape: there is no record; expected command.reference"));
+  EXPECT_TRUE(says(refusal(followed("{file: [[0, 0], [1, 1.0e-9]]}")), "stays at one count"));
+}
+
+}  // namespace
+}  // namespace zerocount::sections

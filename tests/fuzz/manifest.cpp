@@ -18,8 +18,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t place = input.find(mark);
   const std::string table(place == std::string_view::npos ? "" : input.substr(place + mark.size()));
   fuzz::require_clear_refusal([&] {
-    const study::Study study = manifest::parse_study(std::string(input.substr(0, place)), "study.yaml", {},
-                                                     {.samples = [&](const std::string&) { return table; }});
+    const study::Study study =
+        manifest::parse_study(std::string(input.substr(0, place)), "study.yaml", {},
+                              {.samples = [&](const std::string&, std::string_view) { return table; }});
     fuzz::use_study(study);
     fuzz::use_theory(study);
   });

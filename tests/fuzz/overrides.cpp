@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study.hpp"
 #include "tests/fuzz/expectation.hpp"
 #include "tests/fuzz/sample_files.hpp"
 #include "tests/fuzz/study_use.hpp"

@@ -171,7 +171,7 @@ endfunction()
 
 # zerocount_test(<name> [THREADED] SOURCES ... [ALONE ...] LINKS ...): one GoogleTest executable; each of its suites is a CTest test,
 # <suite>, or <suite>.<name> where another executable has a suite of that name. A suite is one process, because most tests take less
-# time than a start of the program; it prints what fails. Tests named DISABLED_, the long versions of others, are together the long
+# time than a start of the program; it prints what fails. Tests named DISABLED_, which take long, are together the long
 # test Long.<name>. THREADED: the thread sanitizer runs them too; the target threaded_tests builds them.
 function(zerocount_test name)
   cmake_parse_arguments(ARG "THREADED" "" "SOURCES;ALONE;LINKS" ${ARGN})

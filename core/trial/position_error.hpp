@@ -13,8 +13,8 @@ namespace zerocount::trial {
 ///
 ///   ε_k = (r + ½ − encoder_phase)·Δx − θ_k,
 ///
-/// r the target in counts before rounding, of a sine the reference at t_k, and θ of the rotor, or of the load
-/// where the encoder is there. They do not depend on what the encoder reads.
+/// r the target in counts before rounding, of a sine or record that at t_k, and θ of the rotor, or of the
+/// load where the encoder is there. They do not depend on what the encoder reads.
 class PositionError {
  public:
   /// @param resolution Δx of the fine encoder, rad.

@@ -7,6 +7,7 @@
 #include "core/loop/encoder.hpp"
 #include "experiments/manifest/checks.hpp"
 #include "experiments/rules/plausibility.hpp"
+#include "experiments/rules/value_rules.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study_trial.hpp"
 
@@ -187,8 +188,10 @@ void check_unseen_motions(const study::Study& study, const keys::PlanPlaces& pla
                                         1e2 * static_cast<double>(count) / static_cast<double>(trials));
       const std::string what = fmt::format("{}{}{}: the encoder does not see this motion", motion.unseen,
                                            proportion, point_text(study, point, different));
-      const yaml::Place place = place_of_fault(places, plan, motions.involved(motion), point).place;
-      const std::string_view path = plan.table.rows[motion.slot].name;
+      const bool of_record = plan.common.command.profile.record != nullptr;
+      const yaml::Place place =
+          of_record ? places.record : place_of_fault(places, plan, motions.involved(motion), point).place;
+      const std::string_view path = of_record ? rules::record_key(plan) : plan.table.rows[motion.slot].name;
       constexpr const char* expected = "motions of a count or more, or a finer encoder";
       if (count == trials && motion.judged_in_counts && !reading.recorded) {
         reading.problems.add(place, path, what, expected);

@@ -112,7 +112,7 @@ std::vector<EffectRule> rules_of_the_kind(const study::StudyPlan& plan) {
   std::vector<EffectRule> rules;
   if (plan.open_loop) {
     constexpr const char* open = "the loop is open with command.torque";
-    constexpr const char* closed = "command.targets or command.sequence";
+    constexpr const char* closed = "command.targets, reference or sequence";
     rules.push_back(
         except({"controller.sample_rate", "controller.delay", "controller.jitter", "controller.parameters"},
                idle({"controller", "command.profile", "verdict"}, no_effect(open), closed)));
@@ -157,9 +157,9 @@ std::vector<EffectRule> rules_of_the_reference() {
 /// What acts only on a reference that moves.
 EffectRule with_a_moving_reference(Keys keys) {
   using Shape = loop::ReferenceShape;
-  return unless_zero(
-      only_with(one_of("command.profile.shape", {Shape::trapezoidal, Shape::s_curve, Shape::sine}),
-                std::move(keys), "the reference is a step at every point"));
+  return unless_zero(only_with(
+      one_of("command.profile.shape", {Shape::trapezoidal, Shape::s_curve, Shape::sine, Shape::record}),
+      std::move(keys), "the reference is a step at every point"));
 }
 
 // The other parameters of an effect act only with it.

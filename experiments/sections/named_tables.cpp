@@ -159,9 +159,9 @@ Recorded positions(bool linear, const std::string& column) {
           fmt::format("t [s], {} [{}]", column, linear ? "m" : "rad")};
 }
 
-/// @param field the key that names the file @param command the section in which it is
-void add_record(const yaml::Field& field, const Recorded& recorded, const yaml::Field& command,
-                const SamplesReader& read, yaml::Problems& problems, std::vector<std::string>& overrides) {
+/// @param field the key that names the file
+void add_record(const yaml::Field& field, const Recorded& recorded, const SamplesReader& read,
+                yaml::Problems& problems, std::vector<std::string>& overrides) {
   const std::string expected =
       fmt::format("a header such as {}, and 2 to {} rows of numbers", recorded.header, keys::max_record_rows);
   const auto table = named_table(field, recorded.what, expected, read, problems);
@@ -169,11 +169,7 @@ void add_record(const yaml::Field& field, const Recorded& recorded, const yaml::
   if (table->rows() < 2 || table->rows() > keys::max_record_rows)
     return add_fault(field, 1, fmt::format("the table has {} rows", table->rows()), expected, problems);
   const Pairs pairs = RecordTable{field, *table, recorded, problems}.pairs();
-  if (pairs.empty()) return;
-  overrides.push_back(override_of(field.path, pairs));
-  if (!yaml::find_field(command, "hold"))
-    overrides.push_back(
-        fmt::format("command.hold={}", 2.0 * pairs.back().first - pairs[pairs.size() - 2].first));
+  if (!pairs.empty()) overrides.push_back(override_of(field.path, pairs));
 }
 
 void add_records(const yaml::Field& root, const SamplesReader& read, yaml::Problems& problems,
@@ -185,13 +181,13 @@ void add_records(const yaml::Field& root, const SamplesReader& read, yaml::Probl
       axis && axis->node->kind == yaml::YamlNode::Kind::scalar && axis->node->text == "linear";
   const auto torque = yaml::find_field(*command, "torque");
   if (const auto file = torque ? yaml::find_field(*torque, "file") : std::nullopt)
-    add_record(*file, torques(linear), *command, read, problems, overrides);
+    add_record(*file, torques(linear), read, problems, overrides);
   const auto reference = yaml::find_field(*command, "reference");
   if (const auto file = reference ? yaml::find_field(*reference, "file") : std::nullopt) {
     const auto column = yaml::find_field(*reference, "column");
     const bool is_named = column && column->node->kind == yaml::YamlNode::Kind::scalar;
-    add_record(*file, positions(linear, is_named ? column->node->text : "reference"), *command, read,
-               problems, overrides);
+    add_record(*file, positions(linear, is_named ? column->node->text : "reference"), read, problems,
+               overrides);
   }
 }
 

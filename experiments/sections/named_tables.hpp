@@ -38,8 +38,8 @@ std::shared_ptr<const trial::SpectrumParameters> read_spectrum(const yaml::Field
                                                                yaml::Problems& problems);
 
 /// Overrides that put pairs in place of the files that command.torque.file, command.reference.file and
-/// spectra name, such as "disturbance.vibration.0.spectrum=[[1, 1e-10], [100, 1e-12]]", and command.hold as
-/// long as the record where the manifest gives none. With them a study is whole without these files.
+/// spectra name, such as "disturbance.vibration.0.spectrum=[[1, 1e-10], [100, 1e-12]]". With them a study
+/// is whole without these files.
 ///
 /// The table of a record has a header: a column t or time, and torque or drive_torque, on a linear axis also
 /// force or drive_force; of a reference the one that command.reference.column names, else `reference`. Each

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/loop/reference.hpp"
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/keys/aging.hpp"
 #include "experiments/keys/manifest_keys.hpp"
@@ -61,14 +62,20 @@ void read_list(SectionReading& s, const yaml::Field& field, std::size_t row) {
 }
 
 // Gives a study whose manifest lacks the list of moves one with an unreadable value; that of a record the
-// level or the target 0.
+// level or the target 0, and a hold as long as the record.
 void complete_moves(SectionReading& s) {
   study::RowGroup& list = s.plan().list;
   if (list.count > 0) return;
   list = study::add_list(s.plan().table, list.row, 1);
   add_slots(s);
   const trial::CommandParameters& command = s.plan().common.command;
-  if (command.torque.record || command.profile.record) s.plan().base[list.first] = study::Value{};
+  if (!command.torque.record && !command.profile.record) return;
+  s.plan().base[list.first] = study::Value{};
+  const std::size_t hold = study::find_slots("command.hold", s.plan().table).value().first;
+  if (s.places.written[hold]) return;
+  const std::vector<double>& times =
+      command.torque.record ? command.torque.record->time : command.profile.record->time;
+  s.plan().base[hold].number = loop::record_duration(times);
 }
 
 // Reads the record that command.torque.file or command.reference.file has in place of levels or targets. A

@@ -94,6 +94,43 @@ class ShardColumn final : public hdf5::RowSource {
   std::vector<hdf5::StoredChunk> chunks_;
 };
 
+/// Finds MessagePack that is deeper than a head, before anything recurses through it.
+class DepthLimit final : public nlohmann::json_sax<Json> {
+ public:
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(std::int64_t) override { return true; }
+  bool number_unsigned(std::uint64_t) override { return true; }
+  bool number_float(double, const std::string&) override { return true; }
+  bool string(std::string&) override { return true; }
+  bool binary(Json::binary_t&) override { return true; }
+  bool key(std::string&) override { return true; }
+  bool start_object(std::size_t) override { return ++depth_ <= most; }
+  bool start_array(std::size_t) override { return ++depth_ <= most; }
+  bool end_object() override { return --depth_ >= 0; }
+  bool end_array() override { return --depth_ >= 0; }
+  bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }
+
+ private:
+  static constexpr int most = 8;
+  int depth_{0};
+};
+
+bool has_known_words(const ShardHead& head) {
+  const auto is_known = [](auto word, auto last) {
+    return static_cast<int>(word) >= 0 && static_cast<int>(word) <= static_cast<int>(last);
+  };
+  return is_known(head.header.retention, study::Retention::statistics) &&
+         is_known(head.header.engine, study::Engine::reference) &&
+         is_known(head.compression, hdf5::Compression::none);
+}
+
+bool has_possible_rows(const ShardHead& head) {
+  constexpr std::int64_t most = std::int64_t{1} << 53;
+  return std::ranges::all_of(head.columns,
+                             [](const auto& column) { return column.rows >= 0 && column.rows <= most; });
+}
+
 /// The head of a shard, and where its chunks begin.
 std::pair<ShardHead, std::uint64_t> read_head(const fs::path& path, const storage::FileDescriptor& file) {
   constexpr std::size_t max_line = 64;
@@ -115,20 +152,23 @@ std::pair<ShardHead, std::uint64_t> read_head(const fs::path& path, const storag
   if (length == 0 || begin == 0 || length > size - begin) fail_at(path, "", "its head is cut short");
   std::string bytes(length, '\0');
   storage::read_at(path, file, begin, std::as_writable_bytes(std::span(bytes)));
+  DepthLimit limit;
+  if (!Json::sax_parse(bytes, &limit, Json::input_format_t::msgpack))
+    fail_at(path, "", "its head cannot be read");
   ShardHead head;
   try {
     const Json json = Json::from_msgpack(bytes);
     head = json.get<ShardHead>();
     if (json.contains("plugin"))
       head.header.plugin = layout::plugin_from_json(json["plugin"].get<std::string>());
+    if (json.contains("plugin") && !head.header.plugin) fail_at(path, "", "its plugin cannot be read");
     if (json.contains("samples")) head.header.samples = json["samples"].get<std::string>();
   } catch (const Json::exception&) {
     fail_at(path, "", "its head cannot be read");
   }
   head.header.kind = layout::FileKind::shard;
   head.header.finished = true;
-  if (!layout::has_possible_numbers(head.header) || head.header.retention > study::Retention::statistics ||
-      head.header.engine > study::Engine::reference)
+  if (!layout::has_possible_numbers(head.header) || !has_known_words(head) || !has_possible_rows(head))
     fail_at(path, "", "its head has impossible numbers");
   return {std::move(head), begin + length};
 }
@@ -155,13 +195,16 @@ ShardFile::ShardFile(const fs::path& path, layout::Checksum checksum)
   if (checksum == layout::Checksum::required) storage::require_valid_checksum(path);
   auto [head, begin] = read_head(path, *file_);
   head_ = std::move(head);
+  const std::uint64_t size = storage::size_of_file(path, *file_);
   begins_.push_back(begin);
   for (const ShardHead::Column& column : head_.columns) {
     std::uint64_t end = begins_.back();
-    for (const std::uint64_t size : column.chunks) end += size;
+    for (const std::uint64_t chunk : column.chunks) {
+      if (chunk > size - end) fail("its end is missing");
+      end += chunk;
+    }
     begins_.push_back(end);
   }
-  if (begins_.back() > storage::size_of_file(path, *file_)) fail("its end is missing");
 }
 
 void ShardFile::fail(const std::string& problem) const {
@@ -190,6 +233,11 @@ layout::TableReader::Column ShardFile::column(const layout::Table& table, const 
 }
 
 layout::TableReader ShardFile::open(const layout::Table& table, std::int64_t second) const {
+  const layout::Provenance& writer = head_.header.provenance;
+  if (!layout::same_build(writer, layout::current_provenance()))
+    throw layout::ForeignFile(path_, fmt::format("a shard of zerocount {} (commit {}), which alone reads its "
+                                                 "trials and finishes the run",
+                                                 writer.zerocount_version, writer.git_commit));
   std::vector<layout::TableReader::Column> columns;
   std::int64_t rows = 0;
   for (const layout::Column& one : table.columns) {

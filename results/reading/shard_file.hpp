@@ -18,7 +18,8 @@
 ///     "zerocount-shard V N\n"   version of the layout, bytes of the head
 ///     head                      ShardHead, as MessagePack
 ///     chunks                    of one column after the other, as a results file stores them
-///     (chunk_filters.hpp) checksum trailer          SHA-256 of all bytes before it (checksum_trailer.hpp)
+///                               (chunk_filters.hpp)
+///     checksum trailer          SHA-256 of all bytes before it (checksum_trailer.hpp)
 namespace zerocount::reading {
 
 struct ShardHead {
@@ -50,7 +51,8 @@ class ShardFile {
   /// Columns of the table, which may stay longer than this. The scale of its rows has the trials, if those
   /// are its rows.
   /// @param second size of the second dimension, 1 if the table has none
-  /// @throws Failure (bad_data) if a column is missing or its size differs from that of the others
+  /// @throws ForeignFile for a shard of another build; Failure (bad_data) if a column is missing or its size
+  /// differs from that of the others
   layout::TableReader open(const layout::Table& table, std::int64_t second) const;
 
  private:

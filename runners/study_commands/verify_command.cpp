@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* verify_help =
     "Checks the integrity of results files. FILE is a results file, a part of a study or a\n"
-    "shard; of a folder, all its files *.h5 are checked. One line per check, ok or FAILED:\n"
+    "shard; of a folder, all its files *.h5 and *.shard. One line per check, ok or FAILED:\n"
     "checksum: no byte has changed since the file was written;\n"
     "statistics: the attributes are those of the manifest; inputs, measures and jerks are in their\n"
     "ranges; and the file, made again from its manifest and its trials, has the same datasets, units\n"

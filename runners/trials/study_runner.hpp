@@ -57,9 +57,7 @@ struct FinishedTrials {
 /// A shard that has ended passes through these beside the blocks that follow (ShardWriter):
 ///
 ///     encode     any thread: filter its columns
-///     store      one thread at a time, as the library of the files wants it: write the file
-///     flush      any thread: bring it to the disk
-///     read back  any thread: compare the file with what was written; checksum, name
+///     store      any thread: write the file, bring it to the disk, compare it with what was written, name it
 FinishedTrials run_trials(const study::Study& study, std::span<const layout::RowRange> ranges,
                           const std::filesystem::path& directory, const RunSettings& settings,
                           const std::stop_token& stop);

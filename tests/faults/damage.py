@@ -94,11 +94,11 @@ def foreign_shard(bench, name, replaces, seed):
         chosen.unlink()
     chosen = chosen.with_name("other.h5")
     shutil.copy(bench.foreign, chosen)
-    before = {path: path.read_bytes() for path in shards_of(folder)}
+    before = {path: path.read_bytes() for path in chosen.parent.iterdir()}
     ended = bench.run(RUN, folder)
     if ended.code != 2 or chosen.parent.name not in ended.err:
         raise Lost(f"exit code {ended.code}: {ended.err.strip()[-300:]}")
-    if {path: path.read_bytes() for path in shards_of(folder)} != before:
+    if {path: path.read_bytes() for path in chosen.parent.iterdir()} != before:
         raise Lost("a shard was changed or removed")
     chosen.unlink()
     bench.require_going_on("long", folder)

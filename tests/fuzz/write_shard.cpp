@@ -1,4 +1,4 @@
-// Writes a part with all trials of a manifest but the last, as the shards of a run hold them: write_shard
+// Writes a part with all trials of a manifest but the last: write_shard
 // OUTPUT MANIFEST [KEY=VALUE...]
 
 #include <cstdio>

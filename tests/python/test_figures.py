@@ -188,7 +188,6 @@ def test_the_map_has_a_cell_for_each_point(results_of: ResultsOf) -> None:
     assert cells.get_clim() == (0, 1)
 
 
-@pytest.mark.long
 def test_a_figure_is_saved_in_every_form(small: zc.Results, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """SVG, PNG, HTML and JSON are written, in place of an existing file, and are those of the program."""
     monkeypatch.chdir(tmp_path)

@@ -41,6 +41,23 @@ TEST(ReferenceOfAFile, IsOneMoveAsLongAsTheRecord) {
   EXPECT_EQ(again.study_sha256, study.study_sha256) << "the study is whole without the file";
 }
 
+TEST(ReferenceOfAFile, OfPairsLastsAsLongAsTheyDoUnlessAHoldIsGiven) {
+  const auto hold_of = [](const std::string& more) {
+    const study::Study study = followed_study(followed("{file: [[0, 0], [2, 0.001], [5, 0]]}", more));
+    return study::study_trial(study, 0, 0).parameters.command.hold;
+  };
+  EXPECT_EQ(hold_of(""), 8.0);
+  EXPECT_EQ(hold_of(", hold: 3"), 3.0);
+}
+
+TEST(ReferenceOfAFile, IsAMovingReferenceWhoseHoldMayBeSwept) {
+  const std::string moving =
+      "controller: {feedforward: {velocity: 0.1}}\nsweep: {grid: {command.hold: [0.4, 0.2]}}\n";
+  const study::Study study =
+      followed_study(followed("{file: r.csv}") + moving, "t,reference\n0,0\n0.5,0.01\n");
+  EXPECT_EQ(study::study_trial(study, 1, 0).parameters.command.hold, 0.2);
+}
+
 TEST(ReferenceOfAFile, FaultsHaveTheirPlace) {
   const std::string table = "t,reference\n0,0\n0.1,0.01\n";
   EXPECT_TRUE(says(refusal(followed("{file: r.csv}"), "t,position\n0,1\n1,2\n"),
@@ -62,7 +79,8 @@ TEST(ReferenceOfAFile, FaultsHaveTheirPlace) {
   EXPECT_TRUE(says(refusal("zerocount: 1\nname: n\nseed: 1\ntrials: 1\ncommand: {targets: [1], profile: "
                            "{shape: record}}\n"),
                    "command.profile.shape: there is no record; expected command.reference"));
-  EXPECT_TRUE(says(refusal(followed("{file: [[0, 0], [1, 1.0e-9]]}")), "stays at one count"));
+  EXPECT_TRUE(says(refusal(followed("{file: [[0, 0], [1, 1.0e-9]]}")),
+                   "command.reference.file: a record from 0 to 1e-09 rad stays at one count"));
 }
 
 }  // namespace

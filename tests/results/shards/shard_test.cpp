@@ -84,6 +84,29 @@ TEST(Shard, HasAHeadThatIsReadWithCare) {
   }
 }
 
+TEST(Shard, WhoseHeadNestsDeeplyIsRefused) {
+  const TemporaryFolder directory;
+  const std::filesystem::path path = directory.path() / "deep.shard";
+  write_bytes(path, "zerocount-shard " + std::to_string(layout::format_version) + " 1000000\n" +
+                        std::string(1000000, '\x91'));
+  EXPECT_THROW(shards::unchecked_header(path), Failure);
+}
+
+/// Its columns may mean something else.
+TEST(Shard, OfAnotherBuildGivesNoTrials) {
+  const TemporaryFolder directory;
+  const study::Study study = sample_study();
+  const shards::ShardInfo shard = write_sample_shard(directory.path(), study, {0, 20});
+  std::string bytes = read_bytes(shard.path);
+  bytes.resize(bytes.size() - storage::checksum_trailer_length);
+  bytes[bytes.find(layout::current_provenance().git_commit)] ^= 1;
+  write_bytes(shard.path, bytes);
+  storage::append_checksum(shard.path);
+  EXPECT_NO_THROW(shards::unchecked_header(shard.path));
+  EXPECT_THROW(reading::AllTrialsFile(shard.path, reading::Require::any_part, nullptr, &study),
+               layout::ForeignFile);
+}
+
 TEST(Shard, HasItsNameOnlyWhenItIsWhole) {
   const TemporaryFolder directory;
   const shards::ShardInfo shard = write_sample_shard(directory.path(), sample_study(), {0, 5});

@@ -155,13 +155,13 @@ ValueRule range_of_the_converter(const std::string& unit) {
 }
 
 ValueRule length_of_the_record(double length, std::string_view key) {
-  return {{"command.hold"}, false, [length, key](Limits l, Limits) -> Faults {
-            constexpr double rounding = 1e-9;
-            if (!std::isfinite(l[0].high) || l[0].high <= length * (1.0 + rounding)) return {};
-            return {{fmt::format("the record of {} lasts {:.9g} s, and the move can take {} s", key, length,
-                                 l[0].high),
-                     "at most the record"}};
-          }};
+  return between({"command.hold"}, [length, key](const auto& hold) -> Faults {
+    constexpr double rounding = 1e-9;
+    if (!std::isfinite(hold.high) || hold.high <= length * (1.0 + rounding)) return {};
+    return {
+        {fmt::format("the record of {} lasts {:.9g} s, and the move can take {} s", key, length, hold.high),
+         "at most the record"}};
+  });
 }
 
 // The rule of a list, as of one value between the lowest and the highest of the record.
@@ -179,13 +179,14 @@ ValueRule of_the_record(ValueRule rule, std::span<const double> record) {
 }
 
 ValueRule shape_of_the_reference(bool has_record) {
-  return {{"command.profile.shape"}, false, [has_record](Limits l, Limits) -> Faults {
-            const bool is_record = l[0].low == static_cast<double>(loop::ReferenceShape::record);
-            if (is_record == has_record) return {};
-            if (has_record) return {{"command.reference defines the path of the reference", "no shape"}};
-            return {{"there is no record", "command.reference: {file: ...} in place of targets"}};
-          }};
+  return between({"command.profile.shape"}, [has_record](const auto& shape) -> Faults {
+    const bool is_record = shape.low == static_cast<double>(loop::ReferenceShape::record);
+    if (is_record == has_record) return {};
+    if (has_record) return {{"command.reference defines the path of the reference", "no shape"}};
+    return {{"there is no record", "command.reference: {file: ...} in place of targets"}};
+  });
 }
+
 ValueRule order_of_targets(const std::string& unit) {
   return {{}, true, [unit](Limits, Limits targets) -> Faults {
             Faults faults;

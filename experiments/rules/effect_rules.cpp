@@ -154,7 +154,7 @@ std::vector<EffectRule> rules_of_the_reference() {
                 "the reference is never an s_curve")};
 }
 
-/// What acts only on a reference that moves.
+/// The keys act only where the reference moves.
 EffectRule with_a_moving_reference(Keys keys) {
   using Shape = loop::ReferenceShape;
   return unless_zero(only_with(

@@ -224,7 +224,7 @@ std::vector<ValueRule> rules_of_the_clock() {
                   })};
 }
 
-/// What ends at an |error| of at least that with which it began. @param text of both, by which they are below
+/// A state must end at an |error| of at least that with which it begins. @param text with both, the end first
 ValueRule order_of(std::string_view end, std::string_view begin, const char* text, const char* expected) {
   return between({end, begin}, [text, expected](const auto& of_end, const auto& of_begin) -> Faults {
     if (of_end.high < 0.0 || of_end.low >= of_begin.high) return {};

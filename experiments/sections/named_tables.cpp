@@ -26,9 +26,9 @@ struct FoundColumn {
   double si;  ///< one of its unit in SI units
 };
 
-/// What a record is of.
+/// The quantity of a record, and how its table names it.
 struct Recorded {
-  std::string_view what;             ///< in the plural
+  std::string_view quantity;         ///< in the plural
   std::vector<std::string> columns;  ///< names of its column, of which the table has one
   text::Dimension dimension;
   std::string_view units;  ///< such as its column can have
@@ -108,11 +108,11 @@ Pairs points_of(const yaml::Field& field, const tables::TextTable& table, std::s
   return points;
 }
 
-std::string override_of(std::string_view path, const Pairs& pairs) {
+std::string list_of(const Pairs& pairs) {
   std::string list;
   for (const auto& [first, second] : pairs)
     list += fmt::format("{}[{}, {}]", list.empty() ? "" : ", ", first, second);
-  return fmt::format("{}=[{}]", path, list);
+  return "[" + list + "]";
 }
 
 /// The file that the field names in place of a list of pairs, and its text.
@@ -136,7 +136,7 @@ void add_spectra_below(const yaml::Field& disturbance, const SamplesReader& read
     const auto field = yaml::find_field(element, "spectrum");
     const auto table = named_table(field, "spectra", expected, read, problems);
     const Pairs points = table ? points_of(*field, *table, expected, problems) : Pairs{};
-    if (!points.empty()) overrides.push_back(override_of(field->path, points));
+    if (!points.empty()) overrides.push_back(fmt::format("{}={}", field->path, list_of(points)));
   }
 }
 
@@ -159,17 +159,37 @@ Recorded positions(bool linear, const std::string& column) {
           fmt::format("t [s], {} [{}]", column, linear ? "m" : "rad")};
 }
 
-/// @param field the key that names the file
-void add_record(const yaml::Field& field, const Recorded& recorded, const SamplesReader& read,
-                yaml::Problems& problems, std::vector<std::string>& overrides) {
+/// The record in the file that the field names; empty without one and after a report.
+Pairs pairs_in(const std::optional<yaml::Field>& field, const Recorded& recorded, const SamplesReader& read,
+               yaml::Problems& problems) {
   const std::string expected =
       fmt::format("a header such as {}, and 2 to {} rows of numbers", recorded.header, keys::max_record_rows);
-  const auto table = named_table(field, recorded.what, expected, read, problems);
-  if (!table) return;
-  if (table->rows() < 2 || table->rows() > keys::max_record_rows)
-    return add_fault(field, 1, fmt::format("the table has {} rows", table->rows()), expected, problems);
-  const Pairs pairs = RecordTable{field, *table, recorded, problems}.pairs();
-  if (!pairs.empty()) overrides.push_back(override_of(field.path, pairs));
+  const auto table = named_table(field, recorded.quantity, expected, read, problems);
+  if (!table) return {};
+  if (table->rows() >= 2 && table->rows() <= keys::max_record_rows)
+    return RecordTable{*field, *table, recorded, problems}.pairs();
+  add_fault(*field, 1, fmt::format("the table has {} rows", table->rows()), expected, problems);
+  return {};
+}
+
+void add_torque(const yaml::Field& torque, bool linear, const SamplesReader& read, yaml::Problems& problems,
+                std::vector<std::string>& overrides) {
+  const Pairs pairs = pairs_in(yaml::find_field(torque, "file"), torques(linear), read, problems);
+  if (!pairs.empty()) overrides.push_back(fmt::format("{}.file={}", torque.path, list_of(pairs)));
+}
+
+void add_reference(const yaml::Field& reference, bool linear, const SamplesReader& read,
+                   yaml::Problems& problems, std::vector<std::string>& overrides) {
+  const auto file = yaml::find_field(reference, "file");
+  const auto column = yaml::find_field(reference, "column");
+  if (column && file && file->node->kind == yaml::YamlNode::Kind::list)
+    return problems.add(*column, "it has no effect: the record is a list of pairs",
+                        "the name of a table in command.reference.file, or the key left out");
+  const bool is_named = column && column->node->kind == yaml::YamlNode::Kind::scalar;
+  const Pairs pairs =
+      pairs_in(file, positions(linear, is_named ? column->node->text : "reference"), read, problems);
+  // The column goes with the table.
+  if (!pairs.empty()) overrides.push_back(fmt::format("{}={{file: {}}}", reference.path, list_of(pairs)));
 }
 
 void add_records(const yaml::Field& root, const SamplesReader& read, yaml::Problems& problems,
@@ -179,16 +199,10 @@ void add_records(const yaml::Field& root, const SamplesReader& read, yaml::Probl
   const auto axis = yaml::find_field(root, "axis");
   const bool linear =
       axis && axis->node->kind == yaml::YamlNode::Kind::scalar && axis->node->text == "linear";
-  const auto torque = yaml::find_field(*command, "torque");
-  if (const auto file = torque ? yaml::find_field(*torque, "file") : std::nullopt)
-    add_record(*file, torques(linear), read, problems, overrides);
-  const auto reference = yaml::find_field(*command, "reference");
-  if (const auto file = reference ? yaml::find_field(*reference, "file") : std::nullopt) {
-    const auto column = yaml::find_field(*reference, "column");
-    const bool is_named = column && column->node->kind == yaml::YamlNode::Kind::scalar;
-    add_record(*file, positions(linear, is_named ? column->node->text : "reference"), read, problems,
-               overrides);
-  }
+  if (const auto torque = yaml::find_field(*command, "torque"))
+    add_torque(*torque, linear, read, problems, overrides);
+  if (const auto reference = yaml::find_field(*command, "reference"))
+    add_reference(*reference, linear, read, problems, overrides);
 }
 
 }  // namespace
@@ -205,39 +219,34 @@ std::optional<tables::TextTable> read_table(const yaml::Field& field, std::strin
 
 namespace {
 
-/// The columns of the list of pairs that a record is; nothing after errors, which it reports. The name of a
-/// file is still there if its table could not be read, which is reported.
-std::optional<std::pair<std::vector<double>, std::vector<double>>> read_record(const yaml::Field& list,
-                                                                               yaml::Problems& problems) {
+/// Reads the list of pairs of a record; null after errors, which it reports. The name of a file is still
+/// there if its table could not be read, which is reported.
+template <class Record>
+std::shared_ptr<const Record> read_record(const yaml::Field& list, yaml::Problems& problems) {
   if (!shapes::read(list, keys::shape_of(list.path), problems) ||
       list.node->kind != yaml::YamlNode::Kind::list)
-    return std::nullopt;
-  std::pair<std::vector<double>, std::vector<double>> record;
+    return nullptr;
+  Record record;
+  auto& [times, values] = record;
   for (const yaml::Field& pair : shapes::items_of(list)) {
-    record.first.push_back(shapes::number_of(yaml::item_of(pair, 0)));
-    record.second.push_back(shapes::number_of(yaml::item_of(pair, 1)));
+    times.push_back(shapes::number_of(yaml::item_of(pair, 0)));
+    values.push_back(shapes::number_of(yaml::item_of(pair, 1)));
   }
-  if (record.first.front() == 0.0) return record;
-  problems.add(yaml::item_of(list, 0), fmt::format("found the time {} s", record.first.front()), "0");
-  return std::nullopt;
+  if (times.front() == 0.0) return std::make_shared<const Record>(std::move(record));
+  problems.add(yaml::item_of(list, 0), fmt::format("found the time {} s", times.front()), "0");
+  return nullptr;
 }
 
 }  // namespace
 
 std::shared_ptr<const trial::TorqueRecord> read_torque_record(const yaml::Field& list,
                                                               yaml::Problems& problems) {
-  auto record = read_record(list, problems);
-  if (!record) return nullptr;
-  return std::make_shared<const trial::TorqueRecord>(
-      trial::TorqueRecord{std::move(record->first), std::move(record->second)});
+  return read_record<trial::TorqueRecord>(list, problems);
 }
 
 std::shared_ptr<const loop::ReferenceRecord> read_reference_record(const yaml::Field& list,
                                                                    yaml::Problems& problems) {
-  auto record = read_record(list, problems);
-  if (!record) return nullptr;
-  return std::make_shared<const loop::ReferenceRecord>(
-      loop::ReferenceRecord{std::move(record->first), std::move(record->second)});
+  return read_record<loop::ReferenceRecord>(list, problems);
 }
 
 bool is_spectrum(const yaml::Field& element) {

@@ -25,7 +25,7 @@ std::optional<tables::TextTable> read_table(const yaml::Field& field, std::strin
 std::shared_ptr<const trial::TorqueRecord> read_torque_record(const yaml::Field& list,
                                                               yaml::Problems& problems);
 
-/// Likewise command.reference.file, whose positions are in rad (m on a linear axis).
+/// Reads the key command.reference.file likewise; its positions are in rad (m on a linear axis).
 std::shared_ptr<const loop::ReferenceRecord> read_reference_record(const yaml::Field& list,
                                                                    yaml::Problems& problems);
 

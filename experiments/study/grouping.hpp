@@ -17,8 +17,8 @@ enum class DrawLevel : std::uint8_t {
   contact  ///< friction only: at t = 0 and at each re-stick of a trial
 };
 
-/// What trials of a design point can have in common, so that results can be told apart by it. Groups of one
-/// grouping are numbered from 0.
+/// How trials of a design point fall into groups, by which results are told apart. Groups of one grouping are
+/// numbered from 0.
 enum class Grouping : std::uint8_t { rig, world, condition, age };
 
 struct GroupingTraits {

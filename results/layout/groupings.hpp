@@ -27,7 +27,7 @@ const Grouping& grouping_named(std::string_view name);
 
 /// @param unit of ages; of other groupings "1"
 Column group_scale(const Grouping& grouping, const std::string& unit);
-/// What is known of each group: [group].
+/// The table of the groups of a grouping, with what is drawn for each: [group].
 Table group_table(const Grouping& grouping, const std::vector<study::InputColumn>& inputs,
                   const std::string& unit);
 /// Trials of the groups at the design points, and further statistics: [point, group]. It shares the HDF5

@@ -77,7 +77,7 @@ class TableReader {
  public:
   using Column = std::shared_ptr<const hdf5::RowSource>;
 
-  /// Of the table in a file. @throws Failure (bad_data) as TableIo::open
+  /// Opens the table of a file. @throws Failure (bad_data) as TableIo::open
   static TableReader open(const hdf5::Group& root, const Table& table);
   /// @param width elements of a row @param scale of the rows
   TableReader(std::int64_t rows, std::int64_t width, Column scale, std::vector<Column> columns)

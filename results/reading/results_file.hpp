@@ -37,8 +37,8 @@ struct StoredProfile {
   std::string theta_unit{"rad"};
 };
 
-/// What a results file has of the groups of a grouping (layout::groupings): its rigs, worlds, conditions or
-/// ages. Counts and statistics are [point][group], flattened, and empty in a part.
+/// The groups of a grouping in a results file (layout::groupings): its rigs, worlds, conditions or ages.
+/// Counts and statistics are [point][group], flattened, and empty in a part.
 struct StoredGroups {
   std::int64_t count{0};
   std::vector<study::InputColumn> columns;  ///< what is drawn for each of them

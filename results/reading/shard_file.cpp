@@ -18,7 +18,7 @@
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_contents.hpp"
 
-// What a head is written as: these fields, by their names.
+// A head is written as these fields, by their names.
 namespace zerocount::layout {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Provenance, zerocount_version, git_commit, compiler, cpu, created)

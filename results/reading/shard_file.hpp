@@ -33,7 +33,7 @@ struct ShardHead {
   std::vector<Column> columns;
 };
 
-/// What a shard has before its chunks.
+/// The bytes before the chunks of a shard: the first line and the head.
 std::string bytes_of(const ShardHead& head);
 
 /// Whether a file begins as a shard does; false also for what cannot be read.

@@ -7,7 +7,7 @@
 #include "results/layout/groupings.hpp"
 #include "results/layout/layout.hpp"
 
-/// What a results file says of its study beside the trials.
+/// The tables of a results file that describe its study, not its trials.
 namespace zerocount::shards {
 
 /// Writes the realised profiles of a study to /profile: of its one rotor, or of every rig.

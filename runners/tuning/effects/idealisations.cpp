@@ -283,7 +283,7 @@ Change without_constant_disturbance(const ValueLimits& load) {
     const double torque = std::abs(p.disturbance.torque);
     if (torque > 0.0 && std::abs(std::abs(p.initial.preload) - torque) <= rounding * torque)
       p.initial.preload = 0.0;
-    // What acts on a second mass stays, and so must what holds it.
+    // Torques on a second mass stay, and must be held at the start as before.
     if (!motion::has_load(p.plant)) p.initial.holding = false;
     p.disturbance.torque = 0.0;
   };

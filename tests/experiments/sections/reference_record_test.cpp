@@ -73,6 +73,8 @@ TEST(ReferenceOfAFile, FaultsHaveTheirPlace) {
                    "command.profile: command.reference defines the path of the reference"));
   EXPECT_TRUE(says(refusal(followed("{file: r.csv}", ", targets: [1]"), table),
                    "command.targets: command.reference already defines the moves"));
+  EXPECT_TRUE(says(refusal(followed("{file: [[0, 0], [1, 0.01]], column: x}")),
+                   "command.reference.column: it has no effect: the record is a list of pairs"));
   EXPECT_TRUE(says(refusal(followed("{column: x}")), "command.reference.file"));
   EXPECT_TRUE(says(refusal(followed("{file: [[0, 0], [1, 1e12]]}")),
                    "command.reference.file: the command can reach"));

@@ -12,11 +12,21 @@
 
 namespace zerocount::records {
 
+DatasetFile::DatasetFile(const std::filesystem::path& path)
+    : name_(path.string()),
+      file_(is_mat_file(path) && !hdf5::is_hdf5_with_user_block(path)
+                ? decltype(file_)(std::in_place_type<MatFile>, path)
+                : decltype(file_)(std::in_place_type<hdf5::ArrayFile>, path)) {}
+
+std::optional<std::vector<hdf5::Size>> DatasetFile::lengths_of(const std::string& path) const {
+  return std::visit([&](const auto& file) { return file.lengths(path); }, file_);
+}
+
 std::string DatasetFile::columns_text() const {
   constexpr std::size_t max_listed = 20;
   std::vector<std::string> texts;
-  for (const std::string& path : file_.arrays()) {
-    const std::vector<hdf5::Size> lengths = *file_.lengths(path);
+  for (const std::string& path : std::visit([](const auto& file) { return file.arrays(); }, file_)) {
+    const std::vector<hdf5::Size> lengths = *lengths_of(path);
     texts.push_back(fmt::format("{} ({})", text::printable(path),
                                 lengths.empty() ? "1" : fmt::format("{}", fmt::join(lengths, "×"))));
   }
@@ -37,7 +47,7 @@ DatasetFile::Vector DatasetFile::find(std::string_view column) const {
     if (error != std::errc{} || stop != end || number == 0) return {};
   }
   Vector vector{std::string(column.substr(0, hash))};
-  const std::optional<std::vector<hdf5::Size>> lengths = file_.lengths(vector.path);
+  const std::optional<std::vector<hdf5::Size>> lengths = lengths_of(vector.path);
   if (!lengths || lengths->empty() || lengths->size() > 2) return {};
   const std::size_t rows = lengths->front();
   const std::size_t columns = lengths->size() == 2 ? lengths->back() : 1;
@@ -54,7 +64,8 @@ DatasetFile::Vector DatasetFile::find(std::string_view column) const {
 
 std::vector<double> DatasetFile::numbers(std::string_view column) const {
   const Vector vector = find(column);
-  const std::vector<double> all = file_.values(vector.path);
+  const std::vector<double> all =
+      std::visit([&](const auto& file) { return file.values(vector.path); }, file_);
   std::vector<double> values;
   values.reserve(vector.count);
   for (std::size_t k = 0; k < vector.count; ++k) {

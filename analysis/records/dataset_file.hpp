@@ -2,21 +2,24 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
+#include "analysis/records/mat_file.hpp"
 #include "experiments/tables/text_table.hpp"
 #include "results/hdf5/array_file.hpp"
 
 namespace zerocount::records {
 
-/// The datasets of an HDF5 file, or of a MAT file of version 7.3, as columns. A column is the path of a
+/// The datasets of an HDF5 file, or of a MAT file of version 5 to 7.3, as columns. A column is the path of a
 /// vector, or PATH#NUMBER: the vector with that number, from 1, of a matrix, along its longer dimension.
 class DatasetFile : public tables::ColumnSource {
  public:
   /// @throws Failure: bad_data if the file is damaged; machine_failed if it cannot be read.
-  explicit DatasetFile(const std::filesystem::path& path) : name_(path.string()), file_(path) {}
+  explicit DatasetFile(const std::filesystem::path& path);
 
   const std::string& name() const override { return name_; }
   bool has(std::string_view column) const override { return find(column).count > 0; }
@@ -35,9 +38,10 @@ class DatasetFile : public tables::ColumnSource {
     std::size_t count{0};  ///< 0: there is no such vector
   };
   Vector find(std::string_view column) const;
+  std::optional<std::vector<hdf5::Size>> lengths_of(const std::string& path) const;
 
   std::string name_;
-  hdf5::ArrayFile file_;
+  std::variant<hdf5::ArrayFile, MatFile> file_;
 };
 
 }  // namespace zerocount::records

@@ -47,7 +47,7 @@ constexpr const char* identify_help =
     "with factors *NUMBER and /NUMBER that convert it, such as *0.87 for 0.87 N m/A.\n"
     "Quantities are time, torque or force, drive_torque or drive_force, angle or position, and\n"
     "repetition. COLUMN is a name in the header, #NUMBER, or the path of a dataset in an HDF5 or\n"
-    "MAT v7.3 file. A new repetition of the tests begins where the column of the repetition\n"
+    "MAT file. A new repetition of the tests begins where the column of the repetition\n"
     "changes, or the time starts again.\n"
     "A results file has the traces of the trials that its manifest retains, of which all points\n"
     "of one axis are taken, unless --point chooses; the encoder's counts are used. At its first\n"

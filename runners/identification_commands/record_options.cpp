@@ -25,26 +25,16 @@
 namespace zerocount::identification_commands {
 namespace {
 
-/// MAT files of versions 5 to 7 begin with a text.
-bool is_old_mat_file(const std::string& path) {
-  constexpr std::string_view beginning = "MATLAB 5.0 MAT-file";
-  return storage::bytes_at(path, 0, beginning.size()) == beginning;
-}
-
 /// The kind of a file with records.
 enum class RecordFile { table, datasets, results };
 
 /// By its signature, or by its name (the signature may be damaged). An HDF5 file holds datasets if columns
 /// are chosen, and is a results file otherwise.
-/// @throws Failure (bad_input) for a MAT file before version 7.3.
 RecordFile record_file(const std::string& path, const records::SeriesChoice& choice) {
   const std::filesystem::path extension = std::filesystem::path(path).extension();
   if (extension != ".h5" && yaml::is_stream(path)) return RecordFile::table;
   const bool is_hdf5 = hdf5::is_hdf5_with_user_block(path);
-  if (!is_hdf5 && is_old_mat_file(path)) {
-    throw Failure(ExitCode::bad_input,
-                  path + ": a MAT file before version 7.3; expected version 7.3: save('-v7.3', …)");
-  }
+  if (!is_hdf5 && records::is_mat_file(path)) return RecordFile::datasets;
   if (!is_hdf5 && extension != ".h5") return RecordFile::table;
   return choice.columns.empty() ? RecordFile::results : RecordFile::datasets;
 }

@@ -88,13 +88,11 @@ TEST_F(IdentifyRefusals, ColumnsAreRefusedWithTheReason) {
     return result.err;
   };
   folder_.write("log.txt", "a b c\n1 2 3\n");
-  folder_.write("old.mat", std::string("MATLAB 5.0 MAT-file, Platform: GLNXA64\n"));
   EXPECT_NE(refusal({"log.txt", "--column", "speed=a"}).find("QUANTITY one of time"), std::string::npos);
   EXPECT_NE(refusal({"log.txt", "--column", "time=a", "--column", "time=b"}).find("given twice"),
             std::string::npos);
   EXPECT_NE(refusal({"log.txt", "--sample-time", "0"}).find("not a positive number"), std::string::npos);
   EXPECT_NE(refusal({"log.txt", "--separator", "dot"}).find("comma, semicolon, tab"), std::string::npos);
-  EXPECT_NE(refusal({"old.mat"}).find("version 7.3"), std::string::npos);
 }
 
 /// A table of a motor that turns, with its time in ms and its angle in the unit of `angle`.

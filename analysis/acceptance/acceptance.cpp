@@ -74,13 +74,16 @@ std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log
   for (std::size_t row = 0; row < static_cast<std::size_t>(log.moves); ++row)
     asked.push_back(is_asked(goal, log, row, file.moves()));
   const std::vector<double>& times = values_of(log, settling_measure_of(goal), file.axis());
+  // Without profiles' ends that the goal counts from no log needs them.
+  const std::vector<double> travels = goal.within.after_profile ? values_of(log, "travel_time", file.axis())
+                                                                : std::vector<double>(times.size(), 0.0);
   std::vector<const std::vector<double>*> limited;
   for (const study::GoalLimit& limit : goal.limits)
     limited.push_back(&values_of(log, limit.measure, file.axis()));
   std::vector<bool> met;
   for (std::size_t row = 0; row < times.size(); ++row) {
     if (!asked[row]) continue;
-    bool all = times[row] <= measures::latest({.within = goal.within});
+    bool all = measures::is_in_time(times[row], goal.within.from_start(travels[row]));
     for (std::size_t i = 0; i < limited.size(); ++i)
       all = all && std::abs((*limited[i])[row]) <= goal.limits[i].largest;
     met.push_back(all);

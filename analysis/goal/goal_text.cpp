@@ -127,6 +127,10 @@ std::string together_text(const Question& question, const measures::PointSummary
 
 }  // namespace
 
+std::string after_text(const study::TimeLimit& limit, const std::string& time) {
+  return limit.after_profile ? time + " after the profile" : "after " + time;
+}
+
 std::string goal_sentence(const study::Goal& goal) {
   const std::string on = moves_text(goal);
   const std::string moves = on.empty() ? "the moves" : "the repetitions of " + on;
@@ -134,9 +138,9 @@ std::string goal_sentence(const study::Goal& goal) {
       goal.machines
           ? fmt::format("{} of at least {} of machines", moves, text::percent(*goal.machines))
           : (on.empty() ? std::string("all moves") : "all repetitions of " + on) + " of all machines";
-  return fmt::format("{}{} for good after {:.4g} s{} in at least {} of {}, with {} confidence",
-                     name_text(goal), band_text(goal), goal.within, limits_text(goal),
-                     text::percent(goal.moves), machines, text::percent(goal.confidence));
+  return fmt::format("{}{} for good {}{} in at least {} of {}, with {} confidence", name_text(goal),
+                     band_text(goal), after_text(goal.within, fmt::format("{:.4g} s", goal.within.time)),
+                     limits_text(goal), text::percent(goal.moves), machines, text::percent(goal.confidence));
 }
 
 std::string claim_sentence(const Question& question) {
@@ -153,8 +157,9 @@ std::string question_sentence(const Question& question) {
 std::string missing_text(const Question& question) {
   if (!question.claim()) return "does not end at zero counts";
   if (has_several(question)) return "misses a goal";
-  return fmt::format("misses the goal: {} for good after {} s{}", band_text(*question.claim()),
-                     question.claim()->within, limits_text(*question.claim()));
+  return fmt::format("misses the goal: {} for good {}{}", band_text(*question.claim()),
+                     after_text(question.claim()->within, fmt::format("{} s", question.claim()->within.time)),
+                     limits_text(*question.claim()));
 }
 
 std::string ending_text(const Question& question, std::span<const trial::MoveOutcome> moves) {

@@ -11,6 +11,9 @@
 
 namespace zerocount::goal {
 
+/// "after 0.05 s", "0.25 s after the profile". @param time with its unit
+std::string after_text(const study::TimeLimit& limit, const std::string& time);
+
 /// "|error| ≤ 1 count for good after 0.05 s in at least 99 % of the moves of at least 99 % of machines, with
 /// 95 % confidence".
 std::string goal_sentence(const study::Goal& goal);

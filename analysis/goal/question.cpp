@@ -61,11 +61,6 @@ constexpr QuestionWords words_of_success{
     .rig_meaning = "proportion of machines all of whose trials ended at zero error",
     .falls_short = "are shown to succeed less often than the median world"};
 
-/// A time that is never reached is later than any other.
-double lateness(double time) {
-  return std::isnan(time) ? std::numeric_limits<double>::infinity() : time;
-}
-
 /// The name of the settling time that a goal is about, or of a statistic of it.
 std::string name_of_settling(const study::Goal& goal, std::string_view statistic) {
   return goal.tolerance
@@ -164,7 +159,7 @@ double settling_time(const Question& question, std::span<const trial::MoveOutcom
   for (const trial::MoveOutcome& move : moves) {
     for (const JudgedPart& part : question.parts)
       if (measures::asks(part.counted, move))
-        latest = std::max(latest, lateness(measures::settling_time(part.counted, move)));
+        latest = std::max(latest, measures::lateness(measures::settling_time(part.counted, move)));
   }
   return latest;
 }
@@ -209,15 +204,18 @@ std::vector<GoalTimes> goal_times(const Question& question, const measures::Poin
   std::vector<GoalTimes> all;
   for (std::size_t i = 0; i < question.parts.size(); ++i) {
     const JudgedPart& part = question.parts[i];
-    const auto add = [&](std::size_t condition, const measures::MeasureStatistics& times) {
-      all.push_back({i, condition, &times, lateness(times.p95.value) / part.claim->within});
-    };
     const bool has_own =
         part.number < point.goal_settling.size() && !point.goal_settling[part.number].empty();
-    if (!has_own) add(0, measures::named(point, name_of_settling(*part.claim, "")));
-    for (std::size_t condition = 0; has_own && condition < point.goal_settling[part.number].size();
-         ++condition)
-      add(condition, point.goal_settling[part.number][condition]);
+    if (!has_own) {
+      const measures::MeasureStatistics& times = measures::named(point, name_of_settling(*part.claim, ""));
+      const double within = part.claim->within.time;
+      all.push_back({i, 0, &times, within, measures::lateness(times.p95.value) / within});
+      continue;
+    }
+    for (const measures::SettlingTimes& own : point.goal_settling[part.number]) {
+      const auto condition = static_cast<std::size_t>(&own - point.goal_settling[part.number].data());
+      all.push_back({i, condition, &own.times, own.allowed, own.share});
+    }
   }
   return all;
 }
@@ -247,7 +245,7 @@ std::string settling_statistic(const Question& question) {
 std::vector<double> merits_of(const Question& question, const measures::PointSummary& point) {
   if (!question.claim()) {
     return {statistics::rate(point.outcomes.zero_count, point.trials),
-            -lateness((settling_of(question, point).*settling_quantile(question)).value)};
+            -measures::lateness((settling_of(question, point).*settling_quantile(question)).value)};
   }
   const Verdict verdict = verdict_on(question, point);
   double met = 0.0;

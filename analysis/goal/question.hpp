@@ -124,7 +124,8 @@ struct GoalTimes {
   std::size_t part{0};       ///< of the question
   std::size_t condition{0};  ///< 0 without conditions
   const measures::MeasureStatistics* statistics{nullptr};
-  double share{statistics::unknown};  ///< 95 % quantile / Goal::within; infinite where it is never reached
+  double allowed{statistics::unknown};  ///< s from the start of a move, the longest of those it asks
+  double share{statistics::unknown};  ///< 95 % quantile of time / allowed time; infinite where never reached
 };
 /// Those of each goal under each condition, of the moves that it asks. @param question with a claim
 std::vector<GoalTimes> goal_times(const Question& question, const measures::PointSummary& point);

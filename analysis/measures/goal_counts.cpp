@@ -74,7 +74,7 @@ std::vector<CountedGoal> asked_of_moves(const study::Study& study) {
 
 bool meets(const CountedGoal& goal, const trial::MoveOutcome& move) {
   if (!goal.slot && !goal.tolerance) return trial::is_success(move.outcome);
-  if (!(settling_time(goal, move) <= latest(goal))) return false;  // or NaN
+  if (!is_in_time(settling_time(goal, move), allowed_time(goal, move))) return false;
   return std::ranges::all_of(
       goal.limits, [&](const CountedLimit& limit) { return std::abs(limit.value(move)) <= limit.largest; });
 }
@@ -87,33 +87,49 @@ std::int64_t count_moves(CellCounts& counts, const CountedGoal& goal, std::int64
   return met;
 }
 
-GoalSettling::GoalSettling(const CountedGoal& goal, const Shape& shape) : rigs_(shape.rigs) {
-  if (goal.on.empty() && shape.conditions == 0) return;
+GoalSettling::GoalSettling(const CountedGoal& goal, const Shape& shape)
+    : rigs_(shape.rigs), within_(goal.within) {
+  if (goal.on.empty() && shape.conditions == 0 && !within_.after_profile) return;
   times_.assign(static_cast<std::size_t>(std::max<std::int64_t>(shape.conditions, 1)),
                 statistics::TrialClusters(shape.rigs));
+  if (!within_.after_profile) return;
+  shares_ = times_;
+  allowed_.assign(times_.size(), 0.0);
 }
 
 void GoalSettling::add(std::int64_t trial, const CountedGoal& goal,
                        std::span<const trial::MoveOutcome> moves) {
   if (times_.empty()) return;
-  values_.clear();
-  for (const trial::MoveOutcome& move : moves) {
-    if (!asks(goal, move)) continue;
-    const double time = settling_time(goal, move);
-    if (!std::isnan(time)) values_.push_back(time);
-  }
   const study::TrialTurns turns{std::max<std::int64_t>(rigs_, 1), std::ssize(times_)};
-  times_[static_cast<std::size_t>(turns.condition_of(trial))].add_trial(turns.draw_of(trial), values_,
-                                                                        asked_moves(goal, std::ssize(moves)));
+  const auto condition = static_cast<std::size_t>(turns.condition_of(trial));
+  const auto add_to = [&](statistics::TrialClusters& clusters, auto value) {
+    values_.clear();
+    for (const trial::MoveOutcome& move : moves)
+      if (asks(goal, move) && !std::isnan(settling_time(goal, move))) values_.push_back(value(move));
+    clusters.add_trial(turns.draw_of(trial), values_, asked_moves(goal, std::ssize(moves)));
+  };
+  add_to(times_[condition], [&](const trial::MoveOutcome& move) { return settling_time(goal, move); });
+  if (shares_.empty()) return;
+  add_to(shares_[condition], [&](const trial::MoveOutcome& move) {
+    return settling_time(goal, move) / allowed_time(goal, move);
+  });
+  for (const trial::MoveOutcome& move : moves)
+    if (asks(goal, move)) allowed_[condition] = std::max(allowed_[condition], allowed_time(goal, move));
 }
 
 GoalSettling& GoalSettling::operator+=(const GoalSettling& next) {
   for (std::size_t i = 0; i < times_.size(); ++i) times_[i] += next.times_[i];
+  for (std::size_t i = 0; i < shares_.size(); ++i) {
+    shares_[i] += next.shares_[i];
+    allowed_[i] = std::max(allowed_[i], next.allowed_[i]);
+  }
   return *this;
 }
 
 bool GoalSettling::is_valid(std::int64_t moves) const {
   std::int64_t sum = 0;
+  for (std::size_t i = 0; i < shares_.size(); ++i)
+    if (shares_[i].size() != times_[i].size()) return false;
   for (const statistics::TrialClusters& times : times_) {
     if (times.size() < 0 || times.size() > moves - sum) return false;
     sum += times.size();
@@ -121,17 +137,21 @@ bool GoalSettling::is_valid(std::int64_t moves) const {
   return times_.empty() || sum == moves;
 }
 
-std::vector<MeasureStatistics> GoalSettling::statistics(double confidence) const {
-  std::vector<MeasureStatistics> all;
-  for (const statistics::TrialClusters& times : times_) {
-    const statistics::ClusteredSample sample = times.sample();
-    MeasureStatistics& one = all.emplace_back();
+std::vector<SettlingTimes> GoalSettling::statistics(double confidence) const {
+  std::vector<SettlingTimes> all;
+  for (std::size_t i = 0; i < times_.size(); ++i) {
+    const statistics::ClusteredSample sample = times_[i].sample();
+    MeasureStatistics& one = all.emplace_back().times;
     one.n = sample.observed().size;
     one.moves = sample.size();
     one.min = statistics::smallest(sample.observed());
     one.max = statistics::largest(sample.observed());
     one.median = statistics::clustered_quantile(sample, 0.5, confidence);
     one.p95 = statistics::clustered_quantile(sample, 0.95, confidence);
+    all.back().allowed = allowed_.empty() ? within_.time : allowed_[i];
+    all.back().share = lateness(
+        shares_.empty() ? one.p95.value / within_.time
+                        : statistics::clustered_quantile(shares_[i].sample(), 0.95, confidence).value);
   }
   return all;
 }
@@ -164,7 +184,7 @@ double lateness_of(const MoveEvent& event, const trial::MoveOutcome& move) {
     if (event.goals.size() == 1) return settling_time(goal, move);
     const double time = settling_time(goal, move);
     if (std::isnan(time)) return time;
-    latest = std::max(latest, time / goal.within);
+    latest = std::max(latest, time / allowed_time(goal, move));
   }
   return latest;
 }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,7 +34,7 @@ struct CountedLimit {
 /// limits; or to succeed (end at zero counts).
 struct CountedGoal {
   std::optional<std::size_t> slot{};       ///< of the band, in MoveOutcome::bands
-  double within{0.0};                      ///< s; of a band or a tolerance
+  study::TimeLimit within{0.0};            ///< of a band or a tolerance
   std::optional<std::size_t> tolerance{};  ///< in MoveOutcome::tolerance_settling_times. Neither: it succeeds
   std::vector<std::int64_t> on{};          ///< the moves that are asked, rising; empty: all
   std::vector<CountedLimit> limits{};
@@ -55,10 +57,20 @@ inline bool asks(const CountedGoal& goal, const trial::MoveOutcome& move) {
   return goal.on.empty() || std::ranges::binary_search(goal.on, move.number);
 }
 
-/// The latest time in time, s: a sample at the very end is, although k·T may be rounded up.
-inline double latest(const CountedGoal& goal) {
-  constexpr double rounding = 1.0 + 1e-12;
-  return goal.within * rounding;
+/// The time that a goal allows this move, s from its start.
+inline double allowed_time(const CountedGoal& goal, const trial::MoveOutcome& move) {
+  return goal.within.from_start(move.travel_time);
+}
+
+/// A time that is never reached is later than any other.
+inline double lateness(double time) {
+  return std::isnan(time) ? std::numeric_limits<double>::infinity() : time;
+}
+
+/// Whether a time is in time, both in s: a sample at the very end is, although k·T may be rounded up.
+constexpr double rounding_of_times = 1.0 + 1e-12;
+inline bool is_in_time(double time, double allowed) {
+  return time <= allowed * rounding_of_times;  // not NaN
 }
 
 /// When the move is within the goal's band, or tolerance, for good, or has arrived (of success), s; NaN if
@@ -81,9 +93,16 @@ inline bool all_meet(const CountedGoal& goal, std::span<const trial::MoveOutcome
 std::int64_t count_moves(CellCounts& counts, const CountedGoal& goal, std::int64_t trial,
                          std::span<const trial::MoveOutcome> moves);
 
+/// The settling times of the moves that one goal asks, beside the times that it allows them.
+struct SettlingTimes {
+  MeasureStatistics times;              ///< number of moves, their extremes, median and 95 % quantile, s
+  double allowed{statistics::unknown};  ///< s from the start of a move, the longest of all
+  double share{statistics::unknown};  ///< 95 % quantile of time / allowed time; infinite where never reached
+};
+
 /// Collects the settling times of the moves that one goal asks, under each condition. A goal on all moves of
-/// a study without conditions needs no times of its own: they are those of its band (or tolerance), which is
-/// a measure of the study.
+/// a study without conditions that allows all the same time needs no times of its own: they are those of its
+/// band (or tolerance), which is a measure of the study.
 class GoalSettling {
  public:
   GoalSettling(const CountedGoal& goal, const Shape& shape);
@@ -92,21 +111,25 @@ class GoalSettling {
   void add(std::int64_t trial, const CountedGoal& goal, std::span<const trial::MoveOutcome> moves);
   /// Adds other trials, of the same goal.
   GoalSettling& operator+=(const GoalSettling& next);
-  /// [condition, or 0 without conditions] the number of moves, their extremes, median and 95 % quantile, s;
-  /// empty where it collects nothing.
-  std::vector<MeasureStatistics> statistics(double confidence) const;
+  /// [condition, or 0 without conditions]; empty where it collects nothing.
+  std::vector<SettlingTimes> statistics(double confidence) const;
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
     for (auto& times : self.times_) archive(times);
+    for (auto& shares : self.shares_) archive(shares);
+    for (auto& allowed : self.allowed_) archive(allowed);
   }
   /// Whether restored times can be those of so many moves.
   bool is_valid(std::int64_t moves) const;
 
  private:
   std::int64_t rigs_;
-  std::vector<statistics::TrialClusters> times_{};  ///< [condition]
-  std::vector<double> values_{};                    ///< of the current trial
+  study::TimeLimit within_;
+  std::vector<double> values_{};                     ///< of the current trial
+  std::vector<statistics::TrialClusters> times_{};   ///< [condition]
+  std::vector<statistics::TrialClusters> shares_{};  ///< [condition] of moves with times of their own
+  std::vector<double> allowed_{};                    ///< [condition] the longest, s, likewise
 };
 
 /// An event of a move: it misses what is asked of it, or a measure of it is beyond a limit.

@@ -122,7 +122,7 @@ struct PointSummary : StatisticsOfMeasures, PointCounts {
   std::vector<CellCounts> goals;                     ///< [goal] moves that meet it
   /// [goal][condition, or 0 without conditions] settling times of the moves that it asks; empty for a goal on
   /// all moves of a study without conditions, of which the measure of its band is
-  std::vector<std::vector<MeasureStatistics>> goal_settling;
+  std::vector<std::vector<SettlingTimes>> goal_settling;
   std::optional<GroupTrials> trials_of_groups;  ///< of a study with targets, and with worlds or conditions
   std::vector<LevelStatistics> levels;          ///< [move] in an open-loop study, otherwise empty
 

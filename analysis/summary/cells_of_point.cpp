@@ -66,7 +66,6 @@ void judge(CellOfPoint& cell, const goal::Question& question, const goal::ClaimV
   cell.rate = verdict.moves;
   cell.judged = goal.machines ? verdict.machines : verdict.moves;
   if (goal.machines) cell.machines = verdict.machines;
-  cell.within = goal.within;
   cell.status = verdict.status;
 }
 
@@ -117,6 +116,7 @@ std::vector<CellOfPoint> claims_of_point(const StudySummary& summary, std::int64
     claim.moves = counts.moves;
     claim.met = counts.met;
     claim.settling_time_p95 = known(times.statistics->p95.value);
+    claim.within = times.allowed;
   }
   return claims;
 }
@@ -236,7 +236,9 @@ document::Description<CellOfPoint> cell_description(const goal::Question& questi
                 .optional = true},
                &CellOfPoint::settling_time_p95);
   if (claims)
-    cell.value({"within", "allowed", "settling time that the goal allows", "s"}, &CellOfPoint::within);
+    cell.value({"within", "allowed",
+                "time from the start of a move that the goal allows, the longest of its moves", "s"},
+               &CellOfPoint::within);
   if (with_goal)
     cell.value({.key = "status",
                 .heading = "verdict",

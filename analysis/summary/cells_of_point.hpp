@@ -30,8 +30,8 @@ struct CellOfPoint {
   std::optional<goal::BoundedProportion> machines{};  ///< that meet the goal; none if it is not on machines
   std::optional<goal::BoundedProportion> living{};    ///< rigs that meet it at every age up to this one
   std::optional<double> settling_time_p95{};          ///< s, of the slowest goal; none: not within the hold
-  double within{0.0};                                 ///< s, that the goal allows
-  goal::Status status{goal::Status::undecided};       ///< of the worst goal and condition
+  double within{0.0};  ///< s from the start, that the goal allows; the longest of its moves
+  goal::Status status{goal::Status::undecided};  ///< of the worst goal and condition
 };
 
 /// By what cells differ.

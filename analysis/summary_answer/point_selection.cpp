@@ -291,8 +291,9 @@ void count_goal(StudySummary& summary, const reading::AllTrialsFile& file, const
     const std::vector<double> times = file.measure(name, {first, count});
     for (std::int64_t i = 0; i < count; ++i) {
       const auto begin = times.begin() + i * file.moves();
-      const std::int64_t met = std::count_if(begin, begin + file.moves(),
-                                             [&](double time) { return time <= measures::latest(counted); });
+      const std::int64_t met = std::count_if(begin, begin + file.moves(), [&](double time) {
+        return measures::is_in_time(time, counted.within.time);
+      });
       summary.points[static_cast<std::size_t>((first + i) / study.trials)].goals.front().add(
           (first + i) % study.trials, static_cast<std::int64_t>(moves), met);
     }
@@ -301,7 +302,7 @@ void count_goal(StudySummary& summary, const reading::AllTrialsFile& file, const
 
 /// Whether more than the settling times of all moves is asked.
 bool needs_outcomes(const measures::CountedGoal& goal) {
-  return !goal.on.empty() || !goal.limits.empty() || goal.tolerance;
+  return !goal.on.empty() || !goal.limits.empty() || goal.tolerance || goal.within.after_profile;
 }
 
 /// Reads the statistics of all points by which they are compared. Returns false if the file does not store

@@ -160,15 +160,16 @@ struct GoalTest {
   bool needs_goal{true};
   bool holds_for_any_controller{false};
 };
-constexpr std::array<GoalTest, 9> goal_tests{{{zero_counts_are_wider},
-                                              {noise_leaves_the_band},
-                                              {noise_moves_the_axis},
-                                              {code_leaves_the_band},
-                                              {band_is_half_a_step},
-                                              {nullptr, reference_is_on_its_way, true, true},
-                                              {nullptr, torque_is_too_small_for_the_move, false, true},
-                                              {nullptr, torque_is_too_small_at_the_target, false},
-                                              {nullptr, encoder_misplaces_the_target, true, true}}};
+constexpr std::array<GoalTest, 10> goal_tests{{{zero_counts_are_wider},
+                                               {noise_leaves_the_band},
+                                               {noise_moves_the_axis},
+                                               {code_leaves_the_band},
+                                               {band_is_half_a_step},
+                                               {nullptr, hold_ends_before_the_goal},
+                                               {nullptr, reference_is_on_its_way, true, true},
+                                               {nullptr, torque_is_too_small_for_the_move, false, true},
+                                               {nullptr, torque_is_too_small_at_the_target, false},
+                                               {nullptr, encoder_misplaces_the_target, true, true}}};
 
 /// Out of reach of whole trials: in each of those examined.
 std::optional<Doubt> doubt_of_trials(const GoalTest& test, const study::Study& study, const study::Goal& goal,

@@ -121,7 +121,9 @@ double GoalOfTrial::width() const {
 }
 
 double GoalOfTrial::samples_within() const {
-  const double from = std::floor(goal.within * trial.controller.sample_rate);
+  double allowed = goal.within.from_start(0.0);
+  for (const MoveOfTrial& move : moves_of(*this)) allowed = std::max(allowed, move.allowed());
+  const double from = std::floor(allowed * trial.controller.sample_rate);
   return std::max(static_cast<double>(trial::samples_of_move(trial, 0)) - from, 1.0);
 }
 
@@ -146,8 +148,20 @@ double MoveOfTrial::distance() const {
   return std::abs(to - from);
 }
 
+loop::Reference MoveOfTrial::reference() const {
+  const double resolution = loop::fine_resolution(of.trial.encoder);
+  const auto counts = [&](double angle) {
+    return static_cast<std::int64_t>(std::llround(angle / resolution));
+  };
+  return {of.trial.command.profile, counts(from), counts(to), resolution};
+}
+
+double MoveOfTrial::allowed() const {
+  return of.goal.within.from_start(reference().travel_time());
+}
+
 double MoveOfTrial::within() const {
-  return std::min(of.goal.within, of.trial.command.hold);
+  return std::min(allowed(), of.trial.command.hold);
 }
 
 std::vector<MoveOfTrial> moves_of(const GoalOfTrial& of) {
@@ -184,17 +198,25 @@ Doubt band_is_half_a_step(const GoalOfTrial& of) {
   return worst;
 }
 
+Doubt hold_ends_before_the_goal(const MoveOfTrial& move) {
+  const double hold = move.of.trial.command.hold;
+  constexpr double rounding = 1.0 + 1e-9;
+  if (!move.of.goal.within.after_profile) return {};
+  return {
+      move.allowed() / (hold * rounding),
+      fmt::format("{} takes {:.4g} s by its profile, and with the {:.4g} s of the goal after it more than "
+                  "its hold of {:.4g} s, at whose end it is judged; expected command.hold of at least "
+                  "{:.4g} s, or higher limits of the profile",
+                  move.name(), move.reference().duration(), move.of.goal.within.time, hold, move.allowed())};
+}
+
 Doubt reference_is_on_its_way(const MoveOfTrial& move) {
-  const trial::TrialParameters& p = move.of.trial;
-  const double resolution = loop::fine_resolution(p.encoder);
-  const auto counts = [&](double angle) {
-    return static_cast<std::int64_t>(std::llround(angle / resolution));
-  };
-  const loop::Reference reference(p.command.profile, counts(move.from), counts(move.to), resolution);
-  const double within = move.of.goal.within;
+  const double resolution = loop::fine_resolution(move.of.trial.encoder);
+  const loop::Reference reference = move.reference();
+  const double within = move.allowed();
   if (!(within < reference.duration())) return {};
   const double left =
-      std::abs(static_cast<double>(counts(move.to)) - reference.exact_at(within)) * resolution;
+      std::abs(reference.exact_at(reference.duration()) - reference.exact_at(within)) * resolution;
   return {left / (0.5 * move.of.width()),
           fmt::format("{} takes {:.4g} s by its profile, and after the {:.4g} s of the goal the reference is "
                       "still {} from its end, beyond {}; expected `within` of at least {:.4g} s, or higher "

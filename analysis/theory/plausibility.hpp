@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/loop/reference.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/study/goal.hpp"
 #include "experiments/study/study_fwd.hpp"
@@ -41,7 +42,9 @@ struct MoveOfTrial {
 
   double distance() const;
   double direction() const { return to < from ? -1.0 : 1.0; }
-  double within() const;  ///< s from its start, by goal and hold
+  loop::Reference reference() const;
+  double allowed() const;  ///< s from its start, by goal
+  double within() const;   ///< s from its start, by goal and hold
   std::string name() const { return "move " + std::to_string(number); }
 };
 
@@ -62,6 +65,9 @@ struct Doubt {
 
 /// A tolerance or band of half of a step or more: the move is within it on its way.
 Doubt band_is_half_a_step(const GoalOfTrial& of);
+
+/// What the goal allows the move after its profile is longer than its hold: it is judged when that ends.
+Doubt hold_ends_before_the_goal(const MoveOfTrial& move);
 
 /// At `within` the reference of the move is still farther from its end than the band or tolerance.
 Doubt reference_is_on_its_way(const MoveOfTrial& move);

@@ -82,6 +82,8 @@ void store(Value& value, const Shape& shape, const yaml::Field* field) {
     value = field->node->text == "true";
   } else if constexpr (std::is_enum_v<Value>) {
     value = static_cast<Value>(std::ranges::find(shape.labels, field->node->text) - shape.labels.begin());
+  } else if constexpr (std::is_same_v<Value, study::TimeLimit>) {
+    value = {shapes::number_of(*field), shape.name == "after_profile"};
   } else if constexpr (std::is_same_v<Value, double>) {
     value = shapes::number_of(*field);
   } else if constexpr (std::is_integral_v<Value>) {
@@ -172,8 +174,11 @@ Shape limits_shape() {
 std::vector<Shape> keys_of_goal() {
   return {whole({"band"}, 0, max_band, &study::Goal::band),
           real({"tolerance"}, numerics::above(0), &study::Goal::tolerance),
-          real({"within", "", "the time, s, after which the error stays within the band"}, numerics::above(0),
-               &study::Goal::within),
+          real({.name = "within",
+                .if_missing = "the time, s, after which the error stays within the band, or `after_profile`",
+                .in_its_place = "after_profile"},
+               numerics::above(0), &study::Goal::within),
+          real({"after_profile"}, numerics::above(0), &study::Goal::within),
           real({"moves", "", "the proportion of the moves that meet it, between 0 and 1"}, open_unit,
                &study::Goal::moves),
           real({"machines"}, open_unit, &study::Goal::machines),
@@ -343,7 +348,8 @@ std::span<const Shape> general_keys() {
           "0.95}: the error is within 1 count for good after 0.05 s in at least 99 % of the moves of at "
           "least 99 % of the machines, claimed with 95 % confidence; without `machines` (which needs "
           "`rigs`) in at least 99 % of all moves; default band 0, confidence 0.95; `tolerance` (rad) in "
-          "place of band: the position error itself stays within it; on: [0, 1]: the moves that it is about "
+          "place of band: the position error itself stays within it; `after_profile` (s) in place of within: "
+          "from the end of each move's profile; on: [0, 1]: the moves that it is about "
           "(default all); limits: {overshoot: 200, peak_torque: 45}: largest values of measures of a move"},
          "goal: {band: 1, within: 0.05, moves: 0.99}", keys_of_goal()),
       goals_shape(

@@ -56,7 +56,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 25> synonyms
      {"controller.velocity", "controller.cascade"},
      {"Tn", "controller.cascade.ki"},
      {"goal.overshoot", "goal.limits"},
-     {"settle_after_profile", "goal.within"}}};
+     {"settle_after_profile", "goal.after_profile"}}};
 
 std::string_view named_otherwise(std::string_view key, std::string_view path) {
   const auto found = std::find_if(synonyms.begin(), synonyms.end(),

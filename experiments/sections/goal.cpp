@@ -146,8 +146,9 @@ void measure_for(const yaml::Field& field, const study::Goal& goal, keys::Readin
 
 /// Checks a goal, and adds its band, or its tolerance, to those of the plan.
 void check_goal(const yaml::Field& field, study::Goal& goal, keys::Reading& reading) {
-  if (const auto within = yaml::find_field(field, "within"))
-    check_within(*within, goal.within, reading.plan, reading.problems);
+  for (const char* const key : {"within", "after_profile"})
+    if (const auto within = yaml::find_field(field, key))
+      check_within(*within, goal.within.time, reading.plan, reading.problems);
   std::ranges::sort(goal.on);
   measure_for(field, goal, reading);
 }

@@ -166,7 +166,7 @@ bool Reader::keys(const yaml::Field& map, std::span<const Shape> keys) {
   for (const Shape& key : keys) {
     if (const auto field = yaml::find_field(map, key.name)) {
       sound = value(*field, key) && sound;
-    } else if (key.required()) {
+    } else if (key.required() && !yaml::find_field(map, key.in_its_place)) {
       sound = false;
       problems.add_missing(
           map.node->place,

@@ -50,6 +50,7 @@ struct Shape {
   std::string_view meaning{};  ///< empty for a key of a map, which that of the map explains
   std::string_view
       if_missing{};  ///< what a manifest without a required key lacks; empty: the key is optional
+  std::string_view in_its_place{};  ///< a key of the same map that may stand in place of a required one
   Form form{Form::own};
   numerics::Interval range{};                  ///< of a number; of a whole number closed
   std::span<const std::string_view> labels{};  ///< of a label, in the order of its enumeration

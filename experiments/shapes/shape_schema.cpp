@@ -44,11 +44,18 @@ Json list_schema(const Shape& shape, const OwnSchema& own) {
 Json map_schema(const Shape& shape, const OwnSchema& own) {
   Json properties = Json::object();
   Json required = Json::array();
+  Json one_of_two;
   for (const Shape& key : shape.parts) {
     properties[std::string(key.name)] = schema_of(key, own);
-    if (key.required()) required.push_back(key.name);
+    if (!key.in_its_place.empty()) {
+      one_of_two = {{{"required", {key.name}}}, {{"required", {key.in_its_place}}}};
+    } else if (key.required()) {
+      required.push_back(key.name);
+    }
   }
-  return object_of(std::move(properties), std::move(required));
+  Json schema = object_of(std::move(properties), std::move(required));
+  if (!one_of_two.is_null()) schema["oneOf"] = std::move(one_of_two);
+  return schema;
 }
 
 Json entries_schema(const Shape& shape, const OwnSchema& own) {

@@ -15,6 +15,18 @@ struct GoalLimit {
   double largest{0.0};  ///< in the measure's unit
 };
 
+/// The time that a goal allows a move: from its start (`within`), or from the end of its profile
+/// (`after_profile`), which each move has its own of.
+struct TimeLimit {
+  double time{1.0};  ///< s
+  bool after_profile{false};
+
+  constexpr TimeLimit() = default;
+  constexpr TimeLimit(double of_move, bool after = false) : time(of_move), after_profile(after) {}
+  /// s from the start of a move whose profile takes so long (MoveOutcome::travel_time).
+  constexpr double from_start(double travel_time) const { return after_profile ? travel_time + time : time; }
+};
+
 /// A goal of a study (`goal`, `goals`). A move meets it if its error is within the band for good after
 /// `within` at the latest (BandOutcome::settling_time). The goal is a claim about all axes that the manifest
 /// describes, one-sided, with this confidence:
@@ -28,8 +40,8 @@ struct Goal {
   std::int64_t band{0};               ///< counts; one of StudyFeatures::bands; not used with a tolerance
   std::optional<double> tolerance{};  ///< rad, or m; one of StudyFeatures::tolerances
   parameters::AxisKind axis{};        ///< of the study: it determines the units
-  double within{1.0};                 ///< s from the start of the move
-  std::vector<std::int64_t> on{};     ///< moves of a trial that it is about, rising; empty: all
+  TimeLimit within{};
+  std::vector<std::int64_t> on{};  ///< moves of a trial that it is about, rising; empty: all
   std::vector<GoalLimit> limits{};
   double moves{0.99};
   std::optional<double> machines{};

@@ -133,21 +133,20 @@ Json inputs_json(const std::vector<study::InputColumn>& columns) {
 
 Json goals_json(const study::Study& study) {
   Json goals = Json::array();
-  const std::vector<measures::CountedGoal> counted = measures::counted_goals(study);
-  for (std::size_t i = 0; i < counted.size(); ++i) {
-    const study::Goal& goal = study.goals[i];
+  for (const study::Goal& goal : study.goals) {
     Json limits = Json::object();
     for (const study::GoalLimit& limit : goal.limits) limits[limit.measure] = limit.largest;
     goals.push_back({{"name", goal.name},
                      {"band", goal.tolerance ? Json() : Json(goal.band)},
                      {"tolerance", json_of(goal.tolerance)},
-                     {"within", goal.within},
+                     {"within", goal.within.after_profile ? Json() : Json(goal.within.time)},
+                     {"after_profile", goal.within.after_profile ? Json(goal.within.time) : Json()},
                      {"moves", goal.moves},
                      {"machines", json_of(goal.machines)},
                      {"confidence", goal.confidence},
                      {"on", goal.on},
                      {"limits", limits},
-                     {"latest", measures::latest(counted[i])}});
+                     {"rounding", measures::rounding_of_times}});
   }
   return goals;
 }

@@ -77,7 +77,7 @@ std::string refusal_of_edit(const study::Study& study, const study::PointEdit& e
   for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
     const study::ValueLimits hold = edit.limits("command.hold", condition);
     for (const study::Goal& goal : study.goals) {
-      for (const auto& fault : rules::longer_than_the_move(goal.within, hold))
+      for (const auto& fault : rules::longer_than_the_move(goal.within.time, hold))
         if (refusal.empty()) refusal = fmt::format("goal: {}; expected {}", fault.what, fault.expected);
     }
   }

@@ -105,9 +105,9 @@ Proof proof_of(study::Study study, const trials::Replicates& units, std::span<co
   Proof proof{std::move(study), verdict};
   proof.claims = summary::claims_of_point(summary::summarise(file), 0, correction);
   proof.criterion = judged.criterion;
-  proof.late_limit = late_value(results, claim_at(proof.study, {verdict.goal, verdict.condition}),
-                                proof.study.goals[verdict.goal].moves) *
-                     criteria_of(proof.study)[verdict.goal].scale;
+  const std::size_t claim = claim_at(proof.study, {verdict.goal, verdict.condition});
+  proof.late_limit = late_value(results, claim, proof.study.goals[verdict.goal].moves) *
+                     (is_proportion_of_allowed(proof.study) ? proof.claims[claim].within : 1.0);
   proof.worst = worst_machine(proof.study, units.point, results);
   proof.moves = summary::behaviour_in(file, proof.study);
   if (verdict.status == goal::Status::undecided)

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/goal/goal_text.hpp"
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/statistics/spread_over.hpp"
 #include "analysis/statistics/sums/histogram.hpp"
@@ -60,9 +61,12 @@ std::vector<SettledMoves> settled_by_world(const ReportedStudy& reported, std::i
   return settled;
 }
 
+/// The time counts from where the goal's own does.
 SettlingTime time_in(const measures::CountedGoal& goal) {
-  return [&goal](const trial::MoveOutcome& move) {
-    return measures::asks(goal, move) ? std::optional(measures::settling_time(goal, move)) : std::nullopt;
+  return [&goal](const trial::MoveOutcome& move) -> std::optional<double> {
+    if (!measures::asks(goal, move)) return std::nullopt;
+    const double time = measures::settling_time(goal, move);
+    return goal.within.after_profile ? std::max(time - move.travel_time, 0.0) : time;  // NaN stays
   };
 }
 
@@ -229,7 +233,7 @@ bool add_settled(FigureData& data, const ReportedStudy& reported, const SettledS
     end = std::max(end, end_of(settled.back()));
   }
   if (end == 0.0) return false;
-  if (subject.claim) end = std::max(end, subject.claim->within);
+  if (subject.claim) end = std::max(end, subject.claim->within.time);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::size_t first = data.rows.size();
     add_curve(data, has_conditions(reported) ? parts[i].condition : subject.name, settled[i],
@@ -244,14 +248,15 @@ void add_goals(Figure& figure, const std::vector<SettledSubject>& subjects) {
   FigureData goals{"goals",
                    {{"within", "within", "s"}, {"moves", "proportion of moves", "1"}, {"subject", "", ""}}};
   for (const SettledSubject& one : subjects)
-    if (one.claim) goals.rows.push_back({one.claim->within, one.claim->moves, one.name});
+    if (one.claim) goals.rows.push_back({one.claim->within.time, one.claim->moves, one.name});
   if (!goals.rows.empty()) figure.data.push_back(std::move(goals));
 }
 
 /// "large: ±10 nm after 30 ms in 95 % of the moves".
 std::string goal_text(const SettledSubject& subject) {
-  return fmt::format("{}{}±{} after {} in {} of the moves", subject.name, subject.name.empty() ? "" : ": ",
-                     subject.precision, text::quantity_text(subject.claim->within, "s"),
+  const study::TimeLimit& within = subject.claim->within;
+  return fmt::format("{}{}±{} {} in {} of the moves", subject.name, subject.name.empty() ? "" : ": ",
+                     subject.precision, goal::after_text(within, text::quantity_text(within.time, "s")),
                      text::percent(subject.claim->moves));
 }
 
@@ -277,6 +282,8 @@ std::optional<Figure> settled_figure(const ReportedStudy& reported) {
   if (with_claim) caption += "The dashed lines are the goal: the curve must pass above their crossing. ";
   if (with_claim && subjects.size() == 1) caption += fmt::format("It asks {}. ", goal_text(subjects.front()));
   if (!with_claim) caption += "Shortly before the end there is little time left to leave a band in. ";
+  if (std::ranges::any_of(subjects, [](const auto& one) { return one.counted.within.after_profile; }))
+    caption += "Where a goal counts from the end of the profile, so do the times. ";
   if (with_limits) caption += "The limits of the goal are not in it. ";
   if (reported.study.worlds > 0) caption += "It is an average over the worlds. ";
   Figure figure =
@@ -326,7 +333,7 @@ std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds:
   const measures::CountedGoal goal = question.claim() ? question.counted() : measures::CountedGoal{.slot = 0};
   const std::vector<SettledMoves> moves = settled_by_world(
       reported, reported.chosen.point, static_cast<std::size_t>(reported.study.worlds), time_in(goal));
-  double end = question.claim() ? question.claim()->within : 0.0;
+  double end = question.claim() ? question.claim()->within.time : 0.0;
   for (const SettledMoves& one : moves) end = std::max(end, end_of(one));
   const bool colours = !inputs.empty();
   const std::size_t input = leading_input(point);
@@ -357,7 +364,8 @@ std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds:
           moves.size() > max_world_curves ? fmt::format("; shown are the first {}", max_world_curves) : ""),
       {std::move(data)});
   if (question.claim())
-    figure.parameters["asked"] = {{{"within", question.claim()->within}, {"moves", question.claim()->moves}}};
+    figure.parameters["asked"] = {
+        {{"within", question.claim()->within.time}, {"moves", question.claim()->moves}}};
   return figure;
 }
 

@@ -77,8 +77,9 @@ double half_width(const std::optional<study::Goal>& goal, double resolution) {
   return (static_cast<double>(goal ? goal->band : 0) + 0.5) * resolution;
 }
 
-/// Goals as boxes, one for each move that they are about, from `within` to its end.
-FigureData boxes_of(const goal::Question& question, const trial::TrialParameters& parameters) {
+/// Goals as boxes, one for each move that they are about, from the time that they allow to its end.
+FigureData boxes_of(const goal::Question& question, const ReplayedTrial& replayed) {
+  const trial::TrialParameters& parameters = replayed.parameters;
   FigureData data{"goals",
                   {{"goal", "goal", ""},
                    {"from", "from", "s"},
@@ -93,10 +94,11 @@ FigureData boxes_of(const goal::Question& question, const trial::TrialParameters
     for (std::size_t move = 0; move + 1 < starts.size(); ++move) {
       if (!on.empty() && std::ranges::find(on, static_cast<std::int64_t>(move)) == on.end()) continue;
       const double start = static_cast<double>(starts[move]) / parameters.controller.sample_rate;
-      data.rows.push_back({part.claim ? part.claim->name : "",
-                           datum(start + (part.claim ? part.claim->within : 0.0)),
-                           datum(static_cast<double>(starts[move + 1]) / parameters.controller.sample_rate),
-                           datum(-half), datum(half)});
+      data.rows.push_back(
+          {part.claim ? part.claim->name : "",
+           datum(start + measures::allowed_time(part.counted, replayed.result.outcome.moves[move])),
+           datum(static_cast<double>(starts[move + 1]) / parameters.controller.sample_rate), datum(-half),
+           datum(half)});
     }
   }
   return data;
@@ -183,7 +185,7 @@ std::vector<Figure> response_figures(const ReportedStudy& reported, const Replay
           question.claim() ? "The goal asks that the error stay in the shaded boxes."
                            : "The shaded box is zero counts.",
           course + "."),
-      {std::move(data), boxes_of(question, parameters)});
+      {std::move(data), boxes_of(question, replayed.front())});
   for (const SampleTrial& trial : trials)
     figure.parameters["titles"][trial.name] = fmt::format("{} {}", trial.name, subject);
   figure.parameters["error_scale"] = error_scale(smallest, largest);

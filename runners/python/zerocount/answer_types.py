@@ -472,7 +472,7 @@ class SummaryAnswer(Answer):
           - ``machines_high``: upper bound
           - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; none where it
             is not within the hold, s
-          - ``within``: settling time that the goal allows, s
+          - ``within``: time from the start of a move that the goal allows, the longest of its moves, s
           - ``status``: verdict on the goal
         - ``conditions``: the point under each condition
           - ``condition``: what every machine bears
@@ -1161,7 +1161,7 @@ class JudgeAnswer(Answer):
         - ``machines_high``: upper bound
         - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; none where it is
           not within the hold, s
-        - ``within``: settling time that the goal allows, s
+        - ``within``: time from the start of a move that the goal allows, the longest of its moves, s
         - ``status``: verdict on the goal
 
     met_until : float or None
@@ -1565,7 +1565,7 @@ class TuneAnswer(Answer):
         - ``machines_high``: upper bound
         - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; none where it is
           not within the hold, s
-        - ``within``: settling time that the goal allows, s
+        - ``within``: time from the start of a move that the goal allows, the longest of its moves, s
         - ``status``: verdict on the goal
 
     obstacles : list[str]

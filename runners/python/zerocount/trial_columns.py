@@ -90,9 +90,12 @@ class TrialColumns:
     def meets_goal(self, goal: Mapping[str, Any], outcome: Mapping[str, Column]) -> Array | None:
         """[trial, move] whether each move meets a goal, or it is not about the move; None where it cannot be told."""
         times = outcome.get(self.settling_time(goal))
-        if times is None or any(measure not in outcome for measure in goal["limits"]):
+        after = goal["after_profile"]
+        needed = [*goal["limits"], *(["travel_time"] if after is not None else [])]
+        if times is None or any(measure not in outcome for measure in needed):
             return None
-        met: Array = times.values <= goal["latest"]  # not where it is NaN
+        allowed = goal["within"] if after is None else outcome["travel_time"].values + after
+        met: Array = times.values <= allowed * goal["rounding"]  # not where it is NaN
         for measure, largest in goal["limits"].items():
             met &= np.abs(outcome[measure].values.astype(float)) <= largest
         if goal["on"]:

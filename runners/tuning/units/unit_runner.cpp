@@ -35,7 +35,8 @@ using Block = std::vector<UnitOfEntry>;
 
 double value_of(const Criterion& criterion, const trial::MoveOutcome& move) {
   const double value = measures::counted_value(*criterion.measure, move);
-  return std::isnan(value) ? std::numeric_limits<double>::infinity() : value / criterion.scale;
+  const double scale = criterion.scale ? criterion.scale->from_start(move.travel_time) : 1.0;
+  return measures::lateness(value / scale);
 }
 
 /// Adds the moves of a trial to the result of its unit.

@@ -34,9 +34,9 @@ std::vector<std::string> overrides_of(std::span<const study::FreeParameter> free
 struct Criterion {
   const layout::Measure* measure{nullptr};
   double quantile{0.95};
-  /// By which the values are divided: of several goals that are compared by their settling times the time
-  /// that each allows, else 1.
-  double scale{1.0};
+  /// What the goal allows a move, by which its value is divided where several goals are compared by their
+  /// settling times.
+  std::optional<study::TimeLimit> scale{};
 };
 
 /// [goal]; one of success without a goal. The criterion of a candidate is the largest of all goals and

@@ -29,11 +29,12 @@ constexpr std::size_t stages = stage_trials.size();
 constexpr std::size_t race_part = 4;  // one of so many goes on to the next stage
 constexpr std::int64_t raced_at_once = 64;
 
-/// A time beyond any that matters, s: ten times that of the goal, or the hold of a move. Of several goals as
-/// a proportion of what each allows.
+/// A time beyond any that matters, s: ten times that of the goal, or the hold of a move, also where the goal
+/// counts from the end of a profile. Of several goals as a proportion of what each allows.
 double late_time(const study::Study& study, std::int64_t point) {
   if (study.goals.size() > 1) return 10.0;
-  if (study::first_goal(study)) return study::first_goal(study)->within * 10.0;
+  const auto* const goal = study::first_goal(study);
+  if (goal != nullptr && !goal->within.after_profile) return goal->within.time * 10.0;
   return study::study_trial(study, point, 0).parameters.command.hold;
 }
 

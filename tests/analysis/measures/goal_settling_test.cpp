@@ -24,26 +24,35 @@ struct GoalSettlingTimes {
     for (std::int64_t move = 0; move < moves; ++move)
       if (draws.chance(0.5)) goal.on.push_back(move);
     if (goal.on.empty()) goal.on.push_back(0);
+    goal.within = {draws.uniform(0.01, 0.2), draws.chance(0.5)};
     for (std::int64_t trial = 0; trial < trials; ++trial) {
       std::vector<trial::MoveOutcome>& outcomes = of_trials.emplace_back(moves);
       for (std::int64_t move = 0; move < moves; ++move) {
         trial::MoveOutcome& outcome = outcomes[static_cast<std::size_t>(move)];
         outcome.number = move;
+        outcome.travel_time = draws.uniform(0.0, 0.3);
         outcome.bands[0].settling_time = draws.chance(0.2) ? std::numeric_limits<double>::quiet_NaN()
                                                            : 0.01 * static_cast<double>(draws.integer(0, 20));
       }
     }
   }
 
-  /// The times of the asked moves under a condition, in order; infinite where a move never settles.
-  std::vector<double> times_under(std::int64_t condition) const {
+  double allowed(const trial::MoveOutcome& move) const {
+    return goal.within.after_profile ? move.travel_time + goal.within.time : goal.within.time;
+  }
+
+  /// The times of the asked moves under a condition, in order, each divided by `scale` of its move; infinite
+  /// where a move never settles.
+  template <class Scale>
+  std::vector<double> times_under(std::int64_t condition, Scale scale) const {
     const study::TrialTurns turns{std::max<std::int64_t>(rigs, 1), conditions};
     std::vector<double> times;
     for (std::int64_t trial = 0; trial < trials; ++trial) {
       if (turns.condition_of(trial) != condition) continue;
       for (const std::int64_t move : goal.on) {
-        const double time =
-            of_trials[static_cast<std::size_t>(trial)][static_cast<std::size_t>(move)].bands[0].settling_time;
+        const trial::MoveOutcome& outcome =
+            of_trials[static_cast<std::size_t>(trial)][static_cast<std::size_t>(move)];
+        const double time = outcome.bands[0].settling_time / scale(outcome);
         times.push_back(std::isnan(time) ? std::numeric_limits<double>::infinity() : time);
       }
     }
@@ -84,15 +93,28 @@ void expect_same(double found, double expected) {
 }
 
 TEST_EACH_SEED(GoalSettlingTimes, AreOfTheMovesThatItAsksUnderEachCondition) {
-  const std::vector<MeasureStatistics> found = of(0, trials).statistics(0.95);
+  const std::vector<SettlingTimes> found = of(0, trials).statistics(0.95);
   ASSERT_EQ(std::ssize(found), conditions);
   for (std::int64_t condition = 0; condition < conditions; ++condition) {
-    const std::vector<double> times = times_under(condition);
-    const MeasureStatistics& one = found[static_cast<std::size_t>(condition)];
+    const std::vector<double> times = times_under(condition, [](const auto&) { return 1.0; });
+    const MeasureStatistics& one = found[static_cast<std::size_t>(condition)].times;
     EXPECT_EQ(one.moves, std::ssize(times));
     EXPECT_EQ(one.n, std::ranges::count_if(times, [](double time) { return std::isfinite(time); }));
     expect_same(one.median.value, quantile_of(times, 0.5));
     expect_same(one.p95.value, quantile_of(times, 0.95));
+    const std::vector<double> shares =
+        times_under(condition, [&](const trial::MoveOutcome& move) { return allowed(move); });
+    const double share = quantile_of(shares, 0.95);
+    EXPECT_DOUBLE_EQ(found[static_cast<std::size_t>(condition)].share,
+                     std::isnan(share) ? std::numeric_limits<double>::infinity() : share);
+    double longest = goal.within.after_profile ? 0.0 : goal.within.time;
+    const study::TrialTurns turns{std::max<std::int64_t>(rigs, 1), conditions};
+    for (std::int64_t trial = 0; trial < trials; ++trial)
+      for (const std::int64_t move : goal.on)
+        if (turns.condition_of(trial) == condition)
+          longest = std::max(
+              longest, allowed(of_trials[static_cast<std::size_t>(trial)][static_cast<std::size_t>(move)]));
+    EXPECT_EQ(found[static_cast<std::size_t>(condition)].allowed, longest);
   }
 }
 
@@ -110,9 +132,11 @@ TEST_EACH_SEED(GoalSettlingTimes, DoNotDependOnHowTrialsAreDivided) {
   EXPECT_FALSE(restored.is_valid(trials * asked_moves(goal, moves) + 1));
   const auto expected = whole.statistics(0.95), found = restored.statistics(0.95);
   for (std::size_t condition = 0; condition < expected.size(); ++condition) {
-    expect_same(found[condition].p95.value, expected[condition].p95.value);
-    expect_same(found[condition].p95.low, expected[condition].p95.low);
-    expect_same(found[condition].max, expected[condition].max);
+    expect_same(found[condition].times.p95.value, expected[condition].times.p95.value);
+    expect_same(found[condition].times.p95.low, expected[condition].times.p95.low);
+    expect_same(found[condition].times.max, expected[condition].times.max);
+    EXPECT_EQ(found[condition].share, expected[condition].share);
+    EXPECT_EQ(found[condition].allowed, expected[condition].allowed);
   }
 }
 

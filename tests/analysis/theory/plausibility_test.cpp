@@ -289,7 +289,8 @@ bool is_told(const study::Study& study, const std::string& what) {
 /// Whether the last move of a trial is within the tolerance for good in time.
 bool meets(const study::Study& study, std::int64_t trial = 0) {
   const trial::TrialOutcome outcome = trial::run_trial(study::study_trial(study, 0, trial).parameters);
-  return outcome.moves.back().tolerance_settling_times[0] <= study.goals.front().within;
+  const trial::MoveOutcome& last = outcome.moves.back();
+  return last.tolerance_settling_times[0] <= study.goals.front().within.from_start(last.travel_time);
 }
 
 constexpr std::array<const char*, 7> words_of_laws{"none", "coulomb", "presliding", "spring",
@@ -413,6 +414,25 @@ TEST(MovePlausibility, AGoalLeavesTheProfileItsTime) {
     }
   }
   EXPECT_GT(told, 10);
+}
+
+TEST(MovePlausibility, TheHoldLastsUntilTheTimeAfterTheProfile) {
+  testing::RandomBlocks draw(13);
+  for (int i = 0; i < 40; ++i) {
+    const double after = draw.uniform(0.05, 0.4);
+    const double travel = 0.03 / 0.2 + 0.2 / 5.0;  // s, of the longer move
+    EXPECT_EQ(
+        is_told(
+            slide(fmt::format("dac: {{bits: 24, range: 500}}\n"
+                              "command: {{units: si, targets: [0.02, 0.05], hold: 0.45, profile: {{shape: "
+                              "trapezoidal, velocity_limit: 0.2, acceleration_limit: 5}}}}\n"
+                              "goal: {{tolerance: 2.0e-5, after_profile: {:.6g}, moves: 0.9, \"on\": [1]}}\n",
+                              after),
+                  "lugre", 5.0),
+            "more than its hold of 0.45 s"),
+        travel + after > 0.45)
+        << after;
+  }
 }
 
 TEST(MovePlausibility, ABandIsLessThanHalfAStep) {

@@ -26,11 +26,17 @@ TEST(Goal, HasADefaultForBandAndConfidence) {
   const study::Study study = study_of(minimal_manifest("goal: {within: 0.1, moves: 0.9}"));
   ASSERT_EQ(study.goals.size(), 1U);
   EXPECT_EQ(study.goals[0].band, 0);
-  EXPECT_EQ(study.goals[0].within, 0.1);
+  EXPECT_EQ(study.goals[0].within.time, 0.1);
+  EXPECT_FALSE(study.goals[0].within.after_profile);
   EXPECT_EQ(study.goals[0].moves, 0.9);
   EXPECT_FALSE(study.goals[0].machines);
   EXPECT_EQ(study.goals[0].confidence, 0.95);
   EXPECT_TRUE(study_of(minimal_manifest()).goals.empty());
+}
+
+TEST(Goal, CountsFromTheEndOfTheProfile) {
+  const study::Study study = study_of(minimal_manifest("goal: {after_profile: 0.1, moves: 0.9}"));
+  EXPECT_DOUBLE_EQ(study.goals[0].within.from_start(0.25), 0.35);
 }
 
 TEST(Goal, AddsItsBandInOrder) {
@@ -111,6 +117,10 @@ INSTANTIATE_TEST_SUITE_P(
         GoalRefusal{"goal: 3", "6:7: goal | '3'"},
         GoalRefusal{"goal: {within: 0.1}", "6:7: goal.moves | missing"},
         GoalRefusal{"goal: {moves: 0.9}", "6:7: goal.within | missing"},
+        GoalRefusal{"goal: {within: 0.1, after_profile: 0.1, moves: 0.9}", "6:36: goal.after_profile | too"},
+        GoalRefusal{"goal: {after_profile: 9, moves: 0.9}",
+                    "6:23: goal.after_profile | longer than the hold"},
+        GoalRefusal{"goal: {after_profile: 0, moves: 0.9}", "6:23: goal.after_profile | '0'"},
         GoalRefusal{"goal: {within: 0.1, moves: 1}", "6:28: goal.moves | '1'"},
         GoalRefusal{"goal: {within: 9, moves: 0.9}", "6:16: goal.within | longer than the hold"},
         GoalRefusal{"goal: {within: 0.1, moves: 0.9, machines: 0.9}",

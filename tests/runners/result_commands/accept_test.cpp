@@ -51,6 +51,16 @@ TEST_F(Accept, JudgesTheMachinesByTheGoalAndThePrediction) {
   EXPECT_EQ(accepted({"few.csv", "--these"}, 3)["status"], "undecided");
 }
 
+TEST_F(Accept, CountsFromTheEndOfTheProfilesInTheLog) {
+  run_study("rigs: 40\ngoal: {band: 1, after_profile: 0.03, moves: 0.9}\n");
+  std::ofstream(folder_.path() / "log.csv")
+      << "band_settling_time[1] [ms],travel_time [ms]\n49,20\n51,20\n29,0\n,20\n";
+  const Json judged = json_of({"accept", "study.h5", "log.csv", "--these"});
+  EXPECT_EQ(judged["goals"][0]["met"], 2);
+  write_log("short.csv", 5, 0);
+  EXPECT_TRUE(says(refusal({"accept", "study.h5", "short.csv"}), "has no column travel_time"));
+}
+
 // That 9 in 10 moves of all machines meet the goal is shown by 29 machines without a miss, and by no fewer.
 TEST_F(Accept, JudgesTheClaimOnAllMachines) {
   std::vector<std::string> logs;

@@ -4,6 +4,7 @@
 #include "analysis/report/figures/report_figures.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
+#include "tests/support/draws.hpp"
 
 namespace zerocount::testing {
 namespace {
@@ -54,6 +55,70 @@ TEST_F(Judge, StatisticsDoNotDependOnWhatTheFileKeeps) {
   EXPECT_EQ(point["bands"][0]["settling_time"]["median"], point["final_settling_time"]["median"]);
   EXPECT_EQ(point["bands"][0]["entry_time"]["p95"], point["settling_time"]["p95"]);
   EXPECT_EQ(point["bands"][0]["exits"]["total"], point["jerk_count"]["total"]);
+}
+
+/// Random moves along trapezoids, and how long those take, by their closed form.
+struct ProfiledMoves {
+  explicit ProfiledMoves(unsigned seed) : draws(seed) {}
+  Draws draws;
+  double velocity{draws.uniform(0.01, 0.04)};
+  double acceleration{draws.uniform(0.3, 2.0)};
+  double allowed{draws.uniform(0.01, 0.06)};
+
+  double duration(double counts) const {
+    const double angle = counts * 2.0 * std::numbers::pi / 1'620'000.0;
+    const double peak = std::min(velocity, std::sqrt(acceleration * angle));
+    return angle / peak + peak / acceleration;
+  }
+  std::string manifest(const std::string& targets, const std::string& goal) const {
+    return fmt::format(
+        "zerocount: 1\nname: profiled\nseed: 3\ntrials: 60\nrigs: 6\n"
+        "friction: {{k1: {{uniform: [70, 150]}}, alpha: 0.5}}\ncontroller: {{sample_rate: 2000, ki: "
+        "4.0e-5}}\n"
+        "command: {{targets: {}, hold: 0.4, profile: {{shape: trapezoidal, velocity_limit: {}, "
+        "acceleration_limit: {}}}}}\ngoal: {{band: 1, {}, moves: 0.9}}\n",
+        targets, velocity, acceleration, goal);
+  }
+};
+
+TEST_F(Judge, TimeAfterTheProfileIsThatOfEachMove) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    ProfiledMoves moves(seed);
+    const std::int64_t first = moves.draws.integer(20, 300), second = moves.draws.integer(20, 300);
+    folder_.write("study.yaml", moves.manifest(fmt::format("[{}, {}]", first, first + second),
+                                               fmt::format("after_profile: {}", moves.allowed)));
+    ASSERT_EQ(program({"run", "study.yaml", "-o", "out.h5", "--force"}).code, 0);
+    const reading::AllTrialsFile file(folder_.path() / "out.h5");
+    const std::vector<double> times = file.measure("band_settling_time[1]", file.rows());
+    std::vector<double> allowed;
+    for (const std::int64_t counts : {first, second})
+      allowed.push_back(moves.duration(static_cast<double>(counts)) + moves.allowed);
+    std::int64_t met = 0;
+    for (std::size_t i = 0; i < times.size(); ++i) met += times[i] <= allowed[i % 2] + 1e-9;
+    const Json claim = json_of({"judge", "out.h5"})["claims"][0];
+    EXPECT_EQ(claim["met"], met) << seed;
+    EXPECT_NEAR(claim["within"].get<double>(), std::ranges::max(allowed), 1e-9);
+  }
+}
+
+// Of moves of one length the goal is that with the time from their start, in whatever is said of it.
+TEST_F(Judge, TimeAfterTheProfilesOfMovesAlikeIsOneFromTheirStart) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    ProfiledMoves moves(seed);
+    const std::int64_t counts = moves.draws.integer(20, 300);
+    const double whole = moves.duration(static_cast<double>(counts)) + moves.allowed;
+    const auto answers = [&](const std::string& time) {
+      folder_.write("study.yaml", moves.manifest(fmt::format("[{}, 0, {}]", counts, -counts), time));
+      EXPECT_EQ(program({"run", "study.yaml", "-o", "out.h5", "--force"}).code, 0);
+      Json judged = json_of({"judge", "out.h5"}), summary = json_of({"summary", "out.h5"});
+      judged.erase("goal");
+      judged["claims"][0]["within"] = std::round(judged["claims"][0]["within"].get<double>() * 1e9);
+      summary.erase("goal");
+      return std::pair(judged, summary["points"]);
+    };
+    EXPECT_EQ(answers(fmt::format("after_profile: {}", moves.allowed)),
+              answers(fmt::format("within: {:.17g}", whole)));
+  }
 }
 
 TEST_F(Judge, EndsWithTheCodeOfTheVerdict) {
